@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rational: the exact number of stiction, and numbers as text.
+
+#ifndef STICTION_CORPUS_RATIONAL_H_
+#define STICTION_CORPUS_RATIONAL_H_
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "solver/published.h"
+
+namespace stiction {
+
+// GMP's rational, always in lowest terms. It is CGAL::Exact_rational too (asserted in certify).
+using Rational = mpq_class;
+
+// Reads `-?\d+/\d+` or `-?\d+(\.\d+)?([eE][+-]?\d+)?` exactly. Empty if the text does not match, if the
+// denominator is zero, or if the exponent exceeds 10,000 in magnitude.
+std::optional<Rational> ParseRational(std::string_view text);
+
+// "-3/4", "7": the form that ParseRational reads back to the same number.
+std::string ToString(const Rational& x);
+
+// The double nearest to x (to even on ties); infinite beyond the range of doubles.
+double ToDouble(const Rational& x);
+
+// Bits of the longer of numerator and denominator.
+std::int64_t Bits(const Rational& x);
+
+template <>
+struct BitLength<Rational> {
+  static std::int64_t Of(const Rational& x) { return Bits(x); }
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RATIONAL_H_

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scalars: what the algorithms ask of a number type.
+//
+// One algorithm runs over float, double, long double and exact rationals. A Scalar has + - * /,
+// comparisons, and construction from int. Branches look at signs only, through Sign(x, tol). Over
+// exact scalars the tolerance is ignored: there it is zero by construction, not by convention.
+
+#ifndef STICTION_SOLVER_SCALAR_H_
+#define STICTION_SOLVER_SCALAR_H_
+
+#include <type_traits>
+
+namespace stiction {
+
+// True for number types without rounding. Floating-point types are the only inexact ones.
+template <class Scalar>
+inline constexpr bool kIsExact = !std::is_floating_point_v<Scalar>;
+
+// -1, 0 or 1. Not-a-number has sign 0: callers of inexact runs test for it where it can arise.
+template <class Scalar>
+int Sign(const Scalar& x) {
+  return (x > 0) - (x < 0);
+}
+
+// The sign of x, where abs(x) <= tol counts as zero over inexact scalars.
+template <class Scalar>
+int Sign(const Scalar& x, const Scalar& tol) {
+  if constexpr (kIsExact<Scalar>) {
+    return Sign(x);
+  } else {
+    return (x > tol) - (x < -tol);
+  }
+}
+
+template <class Scalar>
+Scalar Abs(const Scalar& x) {
+  if (Sign(x) < 0) return Scalar(-x);
+  return x;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SCALAR_H_
