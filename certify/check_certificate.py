@@ -5,21 +5,21 @@
 Letters are those of [Baraff94] (D. Baraff, Fast contact force computation for
 nonpenetrating rigid bodies, SIGGRAPH 1994), section 5:
 
-  a = A f + b   forces f and accelerations a, one row per variable
-  fN, aN        normal force and acceleration of a contact; variable N1, N2, ...
-  fF, aF        friction force and tangential acceleration; variable F1, F2, ...
-  mu            coefficient of friction, abs(fF) <= mu fN
-  df, da, s     a step of length s adds s df to f and s da to a, da = A df
+  a = A f + b       forces f and accelerations a, one row per variable
+  fN, aN            normal force and acceleration of a contact: variables N1, N2, ...
+  fF, aF            friction force, tangential acceleration: variables F1, F2, ...
+  mu                coefficient of friction, abs(fF) <= mu fN
+  df, da, s         a step of length s adds s df to f and s da to a; da = A df
   C NC CF NC- NC+   the index sets of sections 4.1 and 5.3
 
-Every number is a fractions.Fraction and every comparison is exact: there is no
-tolerance. For `cycle` and `stall` the published algorithm is run here, from f = 0,
-under each policy named, and compared with the certificate step by step. What a run
-is, switch by switch, is written in solver/readings.md, and this file follows its
-sections; the certificate format is in certify/README.md.
+All numbers are fractions.Fraction and all comparisons exact: there is no tolerance.
+For `cycle` and `stall` the published algorithm is run here, from f = 0, under every
+policy named, and the certificate must agree with that run step by step. What a run
+is, switch by switch, is fixed in solver/readings.md, whose sections this file
+follows; the certificate format is in certify/README.md.
 
-Trusted: Python, its json and fractions modules, and this file. It was written from
-the documents named above and shares no code or tables with the C++.
+Trusted: Python, its json and fractions modules, and this file, which was written
+from those documents and shares no code or tables with the C++.
 """
 
 import argparse
@@ -28,9 +28,9 @@ import re
 import sys
 from collections import namedtuple
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 
-sys.set_int_max_str_digits(0)  # numerators may have more than 4300 digits
+sys.set_int_max_str_digits(0)  # numbers may have more than 4300 digits
 
 
 # --- Reading: strict, nothing is guessed or repaired -------------------------------
@@ -39,69 +39,61 @@ class Rejected(Exception):
     """The certificate does not prove its claim; the text says where and why."""
 
 
-class Repeated(dict):
-    """A JSON object that has `key` twice: refused where it is used."""
+def brief(value):
+    kind = {dict: "an object", list: "a list"}.get(type(value))
+    text = kind or (str(value) if isinstance(value, Fraction) else json.dumps(value))
+    return text if len(text) <= 100 else f"{text[:80]}... ({len(text)} characters)"
 
 
-def unique_keys(pairs):
-    keys = [key for key, _ in pairs]
-    if len(set(keys)) == len(keys):
-        return dict(pairs)
-    result = Repeated(pairs)
-    result.key = next(key for i, key in enumerate(keys) if key in keys[:i])
+def need(ok, place, found, expected, meaning=""):
+    if not ok:
+        expected = brief(expected) if isinstance(expected, Fraction) else expected
+        raise Rejected(f"{place}: found {brief(found)}, expected {expected}{meaning}")
+
+
+def object_of(pairs):
+    """A JSON object. A repeated key gets a name that fields() refuses."""
+    result = {}
+    for key, value in pairs:
+        result[f"{key} (a second time)" if key in result else key] = value
     return result
 
 
 def refuse_constant(text):
-    raise ValueError(f"{text} is not JSON")
+    raise ValueError(f"{text} is no JSON")
 
 
 def load(path):
     with open(path, encoding="utf-8") as file:
-        return json.load(file, object_pairs_hook=unique_keys, parse_constant=refuse_constant)
+        return json.load(file, object_pairs_hook=object_of, parse_constant=refuse_constant)
 
 
-def shown(value):
-    if isinstance(value, Fraction):
-        text = str(value)
-    else:
-        text = json.dumps(value, default=str)
-    return text if len(text) <= 100 else f"{text[:90]}... ({len(text)} characters)"
-
-
-def need(ok, place, found, expected):
-    if not ok:
-        raise Rejected(f"{place}: found {shown(found)}, expected {expected}")
-
-
-def fields(value, place, *required, optional=()):
-    """The object `value`, which must have the required keys and no unknown one."""
-    need(isinstance(value, dict), place, value, "an object")
-    need(type(value) is dict, place, getattr(value, "key", None), "each key once")
+def fields(value, place, *keys):
+    """The object `value`, which must have exactly these keys."""
+    need(type(value) is dict, place, value, "an object")
     for key in value:
-        need(key in required or key in optional, place, key,
-             f"no keys but {', '.join((*required, *optional)) or 'none at all'}")
-    for key in required:
-        need(key in value, place, sorted(value), f"a key {key}")
+        need(key in keys, place, key, f"no key but {', '.join(keys)}" if keys else "no key")
+    for key in keys:
+        need(key in value, place, tuple(value), f"a key {key} as well")
     return value
 
 
 def items(value, place, length=None):
-    """(place, item) for each item of a list, of the length given."""
+    """(place, item) for each item of the list `value`."""
     need(type(value) is list, place, value, "a list")
-    need(length is None or len(value) == length, place, f"{len(value)} items", f"{length}")
+    need(length in (None, len(value)), place, len(value), f"{length} items")
     return [(f"{place}[{i}]", item) for i, item in enumerate(value)]
 
 
 def one_of(value, place, allowed):
-    need(type(value) is str and value in allowed, place, value, f"one of {' '.join(allowed)}")
+    need(type(value) is str and value in allowed, place, value, f"one of {', '.join(allowed)}")
     return value
 
 
-def integer(value, place, least, below=None):
-    """A JSON integer; true and 1.0 are none."""
-    need(type(value) is int and value >= least and (below is None or value < below), place, value,
-         f"an integer >= {least}" + (f" and < {below}" if below is not None else ""))
+def integer(value, place, least, below):
+    """A JSON integer with least <= value < below; true and 1.0 are none."""
+    need(type(value) is int and least <= value < below, place, value,
+         f"an integer >= {least} and < {below}")
     return value
 
 
@@ -116,7 +108,7 @@ def exact(value, place):
         need(int(ratio[1]) != 0, place, value, "a denominator that is not zero")
     else:
         decimal = DECIMAL.fullmatch(value)
-        need(decimal is not None, place, value, 'a number such as "-3/2", "7" or "1.5e-3"')
+        need(decimal, place, value, "an exact number such as -3/2, 7 or 1.5e-3")
         need(abs(int(decimal[1] or 0)) <= 10000, place, value, "an exponent within 10000")
     return Fraction(value)
 
@@ -130,102 +122,87 @@ def rows(value, place, size):
 
 
 def matrix(value, place, size):
-    """A: dense rows, or entries [i, j, "v"], where one below the diagonal stands for both
-    unless the one above is listed as well."""
+    """Dense rows; or entries [i, j, "v"], one below the diagonal standing for its mirror
+    image too unless that is listed as well."""
     if type(value) is list:
         return rows(value, place, size)
+    need(type(value) is dict, place, value, "rows, or an object of size and entries")
     fields(value, place, "size", "entries")
-    need(integer(value["size"], place + ".size", 0) == size, place + ".size", value["size"], size)
+    integer(value["size"], place + ".size", size, size + 1)
     entries = {}
     for at, item in items(value["entries"], place + ".entries"):
         items(item, at, 3)
         i, j = (integer(item[k], f"{at}[{k}]", 0, size) for k in (0, 1))
-        need((i, j) not in entries, at, [i, j], "each entry once")
+        need((i, j) not in entries, at, (i, j), "each entry once")
         entries[i, j] = exact(item[2], at + "[2]")
-    A = [[Fraction(0)] * size for _ in range(size)]
-    for (i, j), v in entries.items():
-        need(i >= j or (j, i) in entries, place + ".entries", [i, j],
-             "an entry above the diagonal only beside the one below")
-        A[i][j] = v
-        if (j, i) not in entries:
-            A[j][i] = v
-    return A
+    for i, j in entries:
+        need(i >= j or (j, i) in entries, place + ".entries", (i, j), f"{[j, i]} as well")
+    return [[entries.get((i, j), entries.get((max(i, j), min(i, j)), Fraction(0)))
+             for j in range(size)] for i in range(size)]
 
 
 # --- The problem -------------------------------------------------------------------
 
 Contact = namedtuple("Contact", "kind mu slip")
-# A planar variable: its name, its contact (from 0), the rows of the contact's normal and
-# of its friction (None on a frictionless contact), and mu.
+# A planar variable; contact counts from 0; normal and friction are the rows of the
+# contact's two variables, friction None on a frictionless contact and never row 0.
 Variable = namedtuple("Variable", "name contact normal friction mu")
 
 
 class Problem:
     def __init__(self, dimension, contacts, A, b):
         self.dimension, self.contacts, self.A, self.b = dimension, contacts, A, b
-        self.directions = {}  # remembered by direction()
 
     @cached_property
     def variables(self):
-        """One per row. Planar static and frictionless contacts only."""
-        need(self.dimension == 2, "$.problem.dimension", self.dimension,
-             "2: other dimensions are not supported by this checker for this claim")
+        """One per row; planar static and frictionless contacts only."""
+        unsupported = "others are not supported by this checker for this claim"
+        need(self.dimension == 2, "$.problem.dimension", self.dimension, f"2: {unsupported}")
         result = []
-        for i, contact in enumerate(self.contacts):
-            need(contact.kind in ("static", "frictionless"), f"$.problem.contacts[{i}].kind",
-                 contact.kind,
-                 "static or frictionless: other kinds are not supported by this checker "
-                 "for this claim")
+        for i, (kind, mu, _) in enumerate(self.contacts):
+            need(kind in ("static", "frictionless"), f"$.problem.contacts[{i}].kind", kind,
+                 f"static or frictionless: {unsupported}")
             normal = len(result)
-            friction = normal + 1 if contact.kind == "static" else None
-            result.append(Variable(f"N{i + 1}", i, normal, friction, contact.mu))
-            if friction is not None:
-                result.append(Variable(f"F{i + 1}", i, normal, friction, contact.mu))
+            friction = normal + 1 if kind == "static" else None
+            result += [Variable(f"{letter}{i + 1}", i, normal, friction, mu)
+                       for letter in ("NF" if kind == "static" else "N")]
         return result
 
-    @cached_property
-    def names(self):
-        return [x.name for x in self.variables]
 
-
-def read_slip(value, place, dimension):
-    """The direction of sliding: a sign, or a rational unit vector in three dimensions."""
-    if dimension == 2:
-        return Fraction(one_of(value, place, ("1", "-1")))
-    slip = vector(value, place, 2)
-    need(sum(x * x for x in slip) == 1, place, value, "a unit vector")
-    return slip
+KEYS = {"bilateral": ("kind",), "frictionless": ("kind",), "static": ("kind", "mu"),
+        "sliding": ("kind", "mu", "slip")}
 
 
 def read_contact(value, place, dimension):
-    fields(value, place, "kind", optional=("mu", "slip"))
-    kind = one_of(value["kind"], place + ".kind", ("bilateral", "frictionless", "static", "sliding"))
-    keys = {"static": ("kind", "mu"), "sliding": ("kind", "mu", "slip")}.get(kind, ("kind",))
-    fields(value, place, *keys)
+    need(type(value) is dict and "kind" in value, place, value, "an object with a key kind")
+    kind = one_of(value["kind"], place + ".kind", KEYS)
+    fields(value, place, *KEYS[kind])
     mu = slip = None
-    if "mu" in keys:
+    if "mu" in value:
         mu = exact(value["mu"], place + ".mu")
         need(mu >= 0, place + ".mu", mu, "mu >= 0")
-    if "slip" in keys:
-        slip = read_slip(value["slip"], place + ".slip", dimension)
+    if "slip" in value and dimension == 2:
+        slip = one_of(value["slip"], place + ".slip", ("1", "-1"))
+    elif "slip" in value:
+        slip = vector(value["slip"], place + ".slip", 2)
+        need(dot(slip, slip) == 1, place + ".slip", value["slip"], "a unit vector")
     return Contact(kind, mu, slip)
 
 
 def read_problem(value, place="$.problem"):
-    """The problem of a certificate; rows in contact order, normal first."""
+    """The problem of a certificate; rows follow contacts, normal first."""
     fields(value, place, "format", "version", "dimension", "contacts", "A", "b")
     one_of(value["format"], place + ".format", ("stiction-problem",))
     integer(value["version"], place + ".version", 1, 2)
     dimension = integer(value["dimension"], place + ".dimension", 2, 4)
     contacts = [read_contact(item, at, dimension)
                 for at, item in items(value["contacts"], place + ".contacts")]
-    size = sum(dimension if c.kind in ("static", "sliding") else 1 for c in contacts)
+    size = sum(dimension if "mu" in KEYS[contact.kind] else 1 for contact in contacts)
     return Problem(dimension, contacts, matrix(value["A"], place + ".A", size),
                    vector(value["b"], place + ".b", size))
 
 
-# --- Claims about A and b, and a solution ------------------------------------------
-# Each takes the problem and the witness, and returns the facts to print.
+# --- Claims on A and b, and a solution: each check returns the facts to print -------
 
 def dot(x, y):
     return sum((u * v for u, v in zip(x, y) if u and v), Fraction(0))
@@ -237,22 +214,21 @@ def times(A, x):
 
 def equal(found, expected, place, meaning):
     for i, (x, y) in enumerate(zip(found, expected)):
-        need(x == y, f"{place}[{i}]", x, f"{shown(y)} ({meaning})")
+        need(x == y, f"{place}[{i}]", x, y, f" ({meaning})")
 
 
 def check_symmetric(problem, witness):
     fields(witness, "$.witness")
-    A, n = problem.A, len(problem.b)
-    for i in range(n):
-        equal(A[i], [A[j][i] for j in range(n)], f"$.problem.A[{i}]", "A symmetric")
-    return f"{n} rows"
+    for i, (row, column) in enumerate(zip(problem.A, zip(*problem.A))):
+        equal(row, column, f"$.problem.A[{i}]", "a symmetric matrix")
+    return f"{len(problem.b)} rows"
 
 
 def check_not_symmetric(problem, witness):
     fields(witness, "$.witness", "i", "j")
     i, j = (integer(witness[k], f"$.witness.{k}", 0, len(problem.b)) for k in "ij")
-    need(problem.A[i][j] != problem.A[j][i], "$.witness", [i, j], "A_ij to differ from A_ji")
-    return f"A[{i}][{j}] = {shown(problem.A[i][j])}, A[{j}][{i}] = {shown(problem.A[j][i])}"
+    need(problem.A[i][j] != problem.A[j][i], "$.witness", (i, j), "A_ij to differ from A_ji")
+    return f"i = {i}, j = {j}"
 
 
 def check_psd(problem, witness):
@@ -260,17 +236,14 @@ def check_psd(problem, witness):
     fields(witness, "$.witness", "L", "D")
     n = len(problem.b)
     L, D = rows(witness["L"], "$.witness.L", n), vector(witness["D"], "$.witness.D", n)
-    for i in range(n):
-        need(D[i] >= 0, f"$.witness.D[{i}]", D[i], "D >= 0")
-        for j in range(i, n):
-            need(L[i][j] == (i == j), f"$.witness.L[{i}][{j}]", L[i][j],
-                 "a lower triangle with unit diagonal")
     check_symmetric(problem, {})
     for i in range(n):
-        scaled = [L[i][k] * D[k] for k in range(i + 1)]
-        equal([dot(scaled, L[j]) for j in range(n)], problem.A[i], f"$.witness.(L D L')[{i}]",
-              "the entry of A")
-    return f"{n} rows, rank {sum(d > 0 for d in D)}"
+        need(D[i] >= 0, f"$.witness.D[{i}]", D[i], "D >= 0")
+        equal(L[i][i:], [1] + [0] * (n - i - 1), f"$.witness.L[{i}][{i}:]",
+              "a lower triangle with unit diagonal")
+        scaled = [x * y for x, y in zip(L[i], D)]
+        equal(times(L, scaled), problem.A[i], f"$.witness (L diag(D) L')[{i}]", "A")
+    return f"{n} rows"
 
 
 def check_not_psd(problem, witness):
@@ -278,57 +251,54 @@ def check_not_psd(problem, witness):
     x = vector(witness["x"], "$.witness.x", len(problem.b))
     value = exact(witness["value"], "$.witness.value")
     need(value < 0, "$.witness.value", value, "a value < 0")
-    equal([value], [dot(x, times(problem.A, x))], "$.witness.value", "x'Ax")
-    return f"x'Ax = {shown(value)}"
+    xAx = dot(x, times(problem.A, x))
+    need(value == xAx, "$.witness.value", value, xAx, " (x'Ax)")
+    return f"{len(x)} rows"
 
 
 def check_in_range(problem, witness):
     fields(witness, "$.witness", "x")
     x = vector(witness["x"], "$.witness.x", len(problem.b))
-    equal(times(problem.A, x), problem.b, "$.witness.(A x)", "b")
+    equal(times(problem.A, x), problem.b, "$.witness (A x)", "b")
     return f"{len(x)} rows"
 
 
 def check_not_in_range(problem, witness):
     fields(witness, "$.witness", "y", "value")
-    n = len(problem.b)
-    y = vector(witness["y"], "$.witness.y", n)
+    y = vector(witness["y"], "$.witness.y", len(problem.b))
     value = exact(witness["value"], "$.witness.value")
-    need(value != 0, "$.witness.value", value, "a value /= 0")
-    equal(times(zip(*problem.A), y), [Fraction(0)] * n, "$.witness.(y'A)", "y'A = 0")
-    equal([value], [dot(y, problem.b)], "$.witness.value", "y'b")
-    return f"y'b = {shown(value)}"
+    need(value != 0, "$.witness.value", value, "a value other than 0")
+    yb = dot(y, problem.b)
+    need(value == yb, "$.witness.value", value, yb, " (y'b)")
+    equal(times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")
+    return f"{len(y)} rows"
 
 
-def normal_holds(fN, aN):
-    """Normal conditions (15)."""
-    return fN >= 0 and aN >= 0 and fN * aN == 0
-
-
-def friction_holds(mu, fN, fF, aF):
-    """Friction conditions (16)."""
-    return abs(fF) <= mu * fN and aF * fF <= 0 and aF * (mu * fN - abs(fF)) == 0
+def violated(problem, f, a, row):
+    """A normal that fails (15), or a friction variable that fails (16) while (15) holds."""
+    x = problem.variables[row]
+    fN, aN = f[x.normal], a[x.normal]
+    holds = fN >= 0 and aN >= 0 and fN * aN == 0
+    if row == x.normal or not holds:
+        return row == x.normal and not holds
+    fF, aF, bound = f[row], a[row], x.mu * fN
+    return not (abs(fF) <= bound and aF * fF <= 0 and aF * (bound - abs(fF)) == 0)
 
 
 def check_solution(problem, witness):
     fields(witness, "$.witness", "f", "a")
-    variables, n = problem.variables, len(problem.b)
-    f, a = (vector(witness[k], f"$.witness.{k}", n) for k in "fa")
+    f, a = (vector(witness[k], f"$.witness.{k}", len(problem.b)) for k in "fa")
+    variables = problem.variables
     equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")
     for row, x in enumerate(variables):
-        pair = f"f = {f[row]}, a = {a[row]}"
-        if row == x.normal:
-            need(normal_holds(f[row], a[row]), f"$.witness.f[{row}]", pair,
-                 f"the normal conditions (15) of {x.name}")
-        else:
-            need(friction_holds(x.mu, f[x.normal], f[row], a[row]), f"$.witness.f[{row}]", pair,
-                 f"the friction conditions (16) of {x.name}")
+        need(not violated(problem, f, a, row), f"$.witness.f[{row}]", f[row],
+             f"a force that meets {'(15)' if row == x.normal else '(16)'} with a = {a[row]}")
     return f"{len(problem.contacts)} contacts"
 
 
-# --- The published algorithm, sections 4.3 and 5.5, as solver/readings.md fixes it --
+# --- The published algorithm: sections 4.1-4.3 and 5.2-5.5, as solver/readings.md ---
 
-SWITCHES = {  # the reference policy `paper` first
+SWITCHES = {  # the value of the reference policy `paper` first
     "scan": ("lowest", "normals-first", "most-violated", "highest"),
     "resume": ("restart", "round"),
     "admit": ("lazy", "eager"),
@@ -339,36 +309,29 @@ SWITCHES = {  # the reference policy `paper` first
     "ties": ("sets", "contacts"),
     "apex": ("kept", "suspended"),
 }
-NORMAL_SETS = ("none", "C", "NC")
-FRICTION_SETS = ("none", "CF", "NC-", "NC+", "suspended")
 TIE_ORDER = ("C", "NC", "CF", "NC-", "NC+")
 
-# A run: outcome cycle, stall, solved, singular, ray or limit; start, period and state of a
-# repetition; every step from f = 0. Pivots and state have the keys of the certificate.
+# outcome: cycle, stall, solved, singular, ray or limit; start, period and state of what
+# recurs; every step from f = 0. Pivots and state have the keys of a certificate.
 Run = namedtuple("Run", "outcome start period pivots state")
-Limit = namedtuple("Limit", "s rank variable into")
 
 
 class Ended(Exception):
-    """The run ends inside a drive."""
+    """The run ends inside a drive: outcome, start, period, state."""
 
 
 def read_policy(text, place="policy"):
-    """A policy, written canonically, as a value for every switch."""
+    """A value for every switch, from a policy written canonically."""
+    need(type(text) is str, place, text, "a policy")
     policy = {switch: values[0] for switch, values in SWITCHES.items()}
-    for part in [] if text == "paper" else one_line(text, place).split(","):
+    for part in text.split(",") if text != "paper" else []:
         switch, _, value = part.partition("=")
-        need(value in SWITCHES.get(switch, ()), place, text, "switches and values of a planar policy")
+        need(value in SWITCHES.get(switch, ()), place, text, "switches of a planar policy")
         policy[switch] = value
     canonical = ",".join(f"{switch}={value}" for switch, value in policy.items()
                          if value != SWITCHES[switch][0]) or "paper"
-    need(text == canonical, place, text, f"the canonical form {canonical}")
+    need(text == canonical, place, text, f"it written canonically: {canonical}")
     return policy
-
-
-def one_line(value, place):
-    need(type(value) is str, place, value, "a string")
-    return value
 
 
 def sign(x):
@@ -376,9 +339,9 @@ def sign(x):
 
 
 def solve(M):
-    """x with M x = r for rows [M | r]; an unknown whose column depends on the columns
-    before it is zero; None if there is no solution."""
-    M, n, pivots = [row[:] for row in M], len(M), []
+    """x with M x = r, given rows [M | r]. An unknown whose column depends linearly on the
+    columns before it is zero. None if the system is inconsistent."""
+    M, n, pivots = list(M), len(M), []
     for c in range(n):
         top = len(pivots)
         p = next((i for i in range(top, n) if M[i][c]), None)
@@ -398,46 +361,38 @@ def solve(M):
     return x
 
 
-def direction(problem, sets, driven, rate):
-    """(df, da) while the driven force changes at `rate`, or None: fdirection of 5.5."""
-    key = (tuple(sets), driven, rate)
-    if key not in problem.directions:
-        problem.directions[key] = fdirection(problem, sets, driven, rate)
-    return problem.directions[key]
-
-
+@lru_cache(maxsize=1 << 16)
 def fdirection(problem, sets, driven, rate):
-    def alone(row, change):
-        """df if this force changes and only friction at its limit follows: dfF = +-mu dfN."""
+    """(df, da) while the driven force changes at `rate`; None if there is none."""
+    def following(row, change):
+        """df if this force changes, and with a normal its friction in NC+ or NC-."""
         df, x = [Fraction(0)] * len(sets), problem.variables[row]
         df[row] = Fraction(change)
-        if row == x.normal and x.friction is not None and sets[x.friction] in ("NC+", "NC-"):
+        if row == x.normal and x.friction and sets[x.friction] in ("NC+", "NC-"):
             df[x.friction] = change * (x.mu if sets[x.friction] == "NC+" else -x.mu)
         return df
 
-    unknown = [row for row, where in enumerate(sets) if where in ("C", "CF") and row != driven]
-    parts = [alone(row, 1) for row in unknown] + [alone(driven, rate)]
-    effects = [times(problem.A, df) for df in parts]
-    equations = [[da[row] for da in effects] for row in unknown]
-    x = solve([row[:-1] + [-row[-1]] for row in equations])
+    unknown = [row for row, where in enumerate(sets) if where in ("C", "CF")]
+    forces = [following(row, 1) for row in unknown] + [following(driven, rate)]
+    effects = [times(problem.A, df) for df in forces]
+    x = solve([[da[row] for da in effects[:-1]] + [-effects[-1][row]] for row in unknown])
     if x is None:
         return None
-    x.append(Fraction(1))
-    return [dot(x, column) for column in zip(*parts)], [dot(x, column) for column in zip(*effects)]
+    return times(zip(*forces), x + [1]), times(zip(*effects), x + [1])
 
 
 def zero_at(value, rate):
-    """The step at which a quantity >= 0 that falls at this rate is zero; None if it does not."""
+    """The step after which a quantity >= 0 is zero, if it falls; otherwise None."""
     return value / -rate if rate < 0 else None
 
 
 class Published:
-    """The published algorithm under one policy: its state, and the pivots made so far."""
+    """The published algorithm under one policy: its state, and the steps made so far."""
 
     def __init__(self, problem, policy, max_steps):
-        self.problem, self.variables, self.policy = problem, problem.variables, policy
-        self.max_steps = max_steps
-        self.f, self.a = [Fraction(0)] * len(problem.b), list(problem.b)
+        self.problem, self.variables = problem, problem.variables
+        self.policy, self.max_steps = policy, max_steps
+        self.f, self.a = [Fraction(0)] * len(problem.b), problem.b
         self.sets = ["none"] * len(problem.b)
         self.last = None  # the contact driven last
         self.drives, self.pivots = 0, []
@@ -447,11 +402,9 @@ class Published:
     def compute_forces(self):
         seen = {}
         while True:
-            state = (*self.sets, *self.f, self.last if self.policy["resume"] == "round" else None)
-            if state in seen:
-                start = seen[state]
+            start = seen.setdefault((*self.sets, *self.f, self.remembered()), self.drives)
+            if start < self.drives:
                 return Run("cycle", start, self.drives - start, self.pivots, self.outer_state())
-            seen[state] = self.drives
             self.sweep()
             v = self.scan()
             if v is None:
@@ -459,7 +412,18 @@ class Published:
             try:
                 self.establish(v)
             except Ended as end:
-                return Run(*end.args[:3], self.pivots, end.args[3])
+                outcome, start, period, state = end.args
+                return Run(outcome, start, period, self.pivots, state)
+
+    def remembered(self):
+        return self.last if self.policy["resume"] == "round" else None
+
+    def outer_state(self):
+        state = {"sets": self.named(self.sets), "f": self.f}
+        return state if self.remembered() is None else {**state, "contact": self.last + 1}
+
+    def named(self, values):
+        return {x.name: value for x, value in zip(self.variables, values) if value is not None}
 
     def establish(self, v):
         if v == self.variables[v].normal or self.f[v] == 0:
@@ -469,21 +433,17 @@ class Published:
             self.drive(v, "establish")
 
     def violated(self, row):
-        x, f, a = self.variables[row], self.f, self.a
-        normal = normal_holds(f[x.normal], a[x.normal])
-        if row == x.normal:
-            return not normal
-        return normal and not friction_holds(x.mu, f[x.normal], f[row], a[row])
+        return violated(self.problem, self.f, self.a, row)
 
     def sweep(self):
         for row, x in enumerate(self.variables):
+            fN = self.f[x.normal]
             if self.sets[row] != "none":
                 continue
-            fN = self.f[x.normal]
             if row == x.normal:
                 if self.policy["admit"] == "eager" and fN == 0 and self.a[row] >= 0:
                     self.sets[row] = "NC"
-            elif self.policy["file"] == "yes" and not self.violated(x.normal) and not self.violated(row):
+            elif self.policy["file"] == "yes" and not any(map(self.violated, (x.normal, row))):
                 if fN > 0:
                     self.sets[row] = self.filed(row)
                 elif self.sets[x.normal] == "NC":
@@ -495,29 +455,26 @@ class Published:
     def scan(self):
         """The next violated variable, or None."""
         if self.policy["scan"] != "most-violated":
-            return next((row for row in self.order() if self.violated(row)), None)
-        violated = [row for row in range(len(self.f)) if self.violated(row)]
-        normals = [row for row in violated if row == self.variables[row].normal]
-        return max(normals or violated, key=lambda row: abs(self.a[row]), default=None)
+            return next(filter(self.violated, self.scan_order()), None)
+        found = list(filter(self.violated, range(len(self.f))))
+        normals = [row for row in found if row == self.variables[row].normal]
+        if normals:
+            return max(normals, key=lambda row: -self.a[row])
+        return max(found, key=lambda row: abs(self.a[row]), default=None)
 
-    def order(self):
+    def scan_order(self):
         count, down = len(self.problem.contacts), self.policy["scan"] == "highest"
-        first = count - 1 if down else 0
-        if self.policy["resume"] == "round" and self.last is not None:
-            first = self.last
+        first = self.remembered()
+        if first is None:
+            first = count - 1 if down else 0
         turn = {(first - k if down else first + k) % count: k for k in range(count)}
 
         def key(row):
-            contact, friction = turn[self.variables[row].contact], row != self.variables[row].normal
-            return (friction, contact) if self.policy["scan"] == "normals-first" else (contact, friction)
+            x = self.variables[row]
+            key = turn[x.contact], row != x.normal
+            return key[::-1] if self.policy["scan"] == "normals-first" else key
 
         return sorted(range(len(self.f)), key=key)
-
-    def outer_state(self):
-        state = {"sets": dict(zip(self.problem.names, self.sets)), "f": self.f}
-        if self.policy["resume"] == "round" and self.last is not None:
-            state["contact"] = self.last + 1
-        return state
 
     # Drive (readings, section 3).
 
@@ -527,105 +484,91 @@ class Published:
         self.left = [None] * len(self.f)  # the set each variable last left in this drive
         zero = False                      # whether the last step had length zero
         friction = self.variables[v].friction
-        if v != friction and friction is not None and self.sets[friction] == "suspended":
+        if friction and self.sets[friction] == "suspended":
             self.enter(friction, self.filed(friction))
-        seen = {}
-        while True:
+        seen, j = {}, None
+        while j != v:
             self.end_if_repeated(seen, zero)
-            s, _, j, into = self.step(v, goal)
+            s, _, j, into = self.take_step(v, goal)
             before = self.sets[j]
             self.move(j, into, v, zero, s == 0)
             zero = s == 0
             self.pivots.append({
                 "drive": self.drives, "driven": self.variables[v].name, "goal": goal, "step": s,
                 "limiting": self.variables[j].name, "from": before, "to": self.sets[j]})
-            if j == v:
-                return
 
     def end_if_repeated(self, seen, zero):
-        state, made = (*self.sets, *self.f, *self.left, zero), len(self.pivots)
-        if state in seen:
-            names = self.problem.names
-            raise Ended("stall", seen[state], made - seen[state], {
-                "sets": dict(zip(names, self.sets)), "f": self.f,
-                "left": {name: left for name, left in zip(names, self.left) if left}, "zero": zero})
-        seen[state] = made
-        if made == self.max_steps:
+        steps = len(self.pivots)
+        start = seen.setdefault((*self.sets, *self.f, *self.left, zero), steps)
+        if start < steps:
+            raise Ended("stall", start, steps - start,
+                        {"sets": self.named(self.sets), "f": self.f,
+                         "left": self.named(self.left), "zero": zero})
+        if steps == self.max_steps:
             raise Ended("limit", None, None, None)
 
-    def step(self, v, goal):
-        """Goes as far as is legal, and returns what limited the step."""
-        rate = 1
-        if v != self.variables[v].normal:
-            rate = -sign(self.a[v] if goal == "establish" else self.f[v])
-        change = direction(self.problem, self.sets, v, rate)
+    def take_step(self, v, goal):
+        """Goes as far as is legal; returns the step, its rank, what limits it, and the set
+        that wants into."""
+        rate = -sign(self.a[v] if goal == "establish" else self.f[v])
+        if v == self.variables[v].normal:
+            rate = 1
+        change = fdirection(self.problem, tuple(self.sets), v, rate)
         if change is None:
             raise Ended("singular", None, None, None)
-        df, da = change
-        limits = [limit for limit in self.limits(v, goal, df, da) if limit.s is not None]
+        limits = [limit for limit in self.limits(v, goal, *change) if limit[0] is not None]
         if not limits:
             raise Ended("ray", None, None, None)
-        first = min(limits, key=lambda limit: limit[:2])  # of equals, the one listed first
-        self.f = [x + first.s * y for x, y in zip(self.f, df)]
-        self.a = [x + first.s * y for x, y in zip(self.a, da)]
+        first = min(limits, key=lambda limit: limit[:2])  # of equals the one found first
+        self.f, self.a = ([x + first[0] * y for x, y in zip(now, rates)]
+                          for now, rates in zip((self.f, self.a), change))
         return first
 
     def limits(self, v, goal, df, da):
-        """maxstep of 5.5: for each variable the step to its limit, and the set it wants into."""
+        """maxstep: (s, rank among ties, variable, set it wants into); s None: no limit."""
         f, a = self.f, self.a
 
-        def bounds(row):
+        def at_bound(row):
             x = self.variables[row]
-            bound, grows = x.mu * f[x.normal], x.mu * df[x.normal]
-            return [(zero_at(bound - f[row], grows - df[row]), "NC+"),
-                    (zero_at(bound + f[row], grows + df[row]), "NC-")]
+            bound, growth = x.mu * f[x.normal], x.mu * df[x.normal]
+            return [(zero_at(bound - f[row], growth - df[row]), "NC+"),
+                    (zero_at(bound + f[row], growth + df[row]), "NC-")]
 
+        def driven():
+            if v == self.variables[v].normal:
+                return [(zero_at(-a[v], -da[v]), "C")]
+            if goal == "zero":
+                return [(abs(f[v]), "none")]  # it falls at rate 1
+            return [(zero_at(abs(a[v]), sign(a[v]) * da[v]), "CF")] + at_bound(v)
+
+        found = {
+            "C": lambda row: [(zero_at(f[row], df[row]), "NC")],
+            "NC": lambda row: [(zero_at(a[row], da[row]), "C")],
+            "CF": at_bound,
+            "NC-": lambda row: [(zero_at(a[row], da[row]), "CF")],
+            "NC+": lambda row: [(zero_at(-a[row], -da[row]), "CF")],
+        }
+        yield from ((s, (-1, v), v, into) for s, into in driven())
         for row, where in enumerate(self.sets):
-            rank = (1, TIE_ORDER.index(where) if where in TIE_ORDER else 0, row)
-            if self.policy["ties"] == "contacts":
-                rank = (1, row)
-            if row == v:
-                rank, found = (0,), self.goal_reached(v, goal, df, da, bounds)
-            elif where == "C":
-                found = [(zero_at(f[row], df[row]), "NC")]
-            elif where == "NC":
-                found = [(zero_at(a[row], da[row]), "C")]
-            elif where == "CF":
-                found = bounds(row)
-            elif where == "NC-":
-                found = [(zero_at(a[row], da[row]), "CF")]
-            elif where == "NC+":
-                found = [(zero_at(-a[row], -da[row]), "CF")]
-            else:
-                continue
-            for s, into in found:
-                yield Limit(s, rank, row, into)
-
-    def goal_reached(self, v, goal, df, da, bounds):
-        f, a = self.f[v], self.a[v]
-        if v == self.variables[v].normal:
-            return [(zero_at(-a, -da[v]), "C")]
-        if goal == "zero":
-            return [(zero_at(abs(f), sign(f) * df[v]), "none")]
-        return [(zero_at(abs(a), sign(a) * da[v]), "CF")] + bounds(v)
+            if where in found:
+                by_set = TIE_ORDER.index(where) if self.policy["ties"] == "sets" else 0
+                yield from ((s, (by_set, row), row, into) for s, into in found[where](row))
 
     def move(self, j, into, v, zero_before, zero_now):
         """j enters the set it wants into, or is given up (5.4, 5.5)."""
-        gives_up = {"first": zero_now, "previous": zero_before, "second": zero_before and zero_now}
-        x = self.variables[j]
-        partner = x.friction if j == x.normal and x.friction != v else None
-        if j != v and self.left[j] == into and gives_up[self.policy["give-up"]]:
+        give_up = {"first": zero_now, "previous": zero_before, "second": zero_before and zero_now}
+        friction = self.variables[j].friction if j == self.variables[j].normal else None
+        if self.left[j] == into and give_up[self.policy["give-up"]]:
             self.enter(j, "none")
-            if partner is not None and self.policy["drop"] == "contact":
-                self.enter(partner, "none")
+            if friction and friction != v and self.policy["drop"] == "contact":
+                self.enter(friction, "none")
             return
         self.enter(j, into)
-        if partner is None or j == v:
-            return
-        if into == "NC" and self.policy["apex"] == "suspended" and self.sets[partner] != "none":
-            self.enter(partner, "suspended")
-        elif into == "C" and self.sets[partner] == "suspended":
-            self.enter(partner, self.filed(partner))
+        where = self.sets[friction] if friction else None
+        if into == "NC" and self.policy["apex"] == "suspended" and where in ("CF", "NC-", "NC+"):
+            self.enter(friction, "suspended")
+        elif into == "C" and where == "suspended":
+            self.enter(friction, self.filed(friction))
 
     def enter(self, row, into):
         if self.sets[row] != into:
@@ -633,120 +576,63 @@ class Published:
 
 
 def run(problem, policy, max_steps):
-    """The run of the published algorithm from f = 0 under a policy (its canonical text);
-    outcome `limit` if it has not ended after max_steps steps."""
+    """The run from f = 0 under a policy (its canonical text); outcome `limit` if it has
+    not ended after max_steps steps."""
     return Published(problem, read_policy(policy), max_steps).compute_forces()
 
 
 # --- The claims cycle and stall ----------------------------------------------------
 
-def read_set(value, place, name):
-    return one_of(value, place, NORMAL_SETS if name[0] == "N" else FRICTION_SETS)
-
-
-def read_pivot(value, place, names):
-    keys = ("drive", "driven", "goal", "step", "limiting", "from", "to")
-    pivot = dict(fields(value, place, *keys))
-    integer(pivot["drive"], place + ".drive", 1)
-    for key in ("driven", "limiting"):
-        one_of(pivot[key], f"{place}.{key}", names)
-    one_of(pivot["goal"], place + ".goal", ("establish", "zero"))
-    for key in ("from", "to"):
-        read_set(pivot[key], f"{place}.{key}", pivot["limiting"])
-    pivot["step"] = exact(pivot["step"], place + ".step")
-    return pivot
-
-
-def read_state(value, place, claim, names):
-    if claim == "cycle":
-        state = dict(fields(value, place, "sets", "f", optional=("contact",)))
-        if "contact" in state:
-            integer(state["contact"], place + ".contact", 1)
+def same(value, computed, place, policy):
+    """What the certificate states must be what was computed: keys, lengths, types, values."""
+    if type(computed) is dict:
+        fields(value, place, *computed)
+        for key in computed:
+            same(value[key], computed[key], f"{place}.{key}", policy)
+    elif type(computed) is list:
+        for (at, item), expected in zip(items(value, place, len(computed)), computed):
+            same(item, expected, at, policy)
+    elif type(computed) is Fraction:
+        need(exact(value, place) == computed, place, value, computed, f" under {policy}")
     else:
-        state = dict(fields(value, place, "sets", "f", "left", "zero"))
-        need(type(state["zero"]) is bool, place + ".zero", state["zero"], "true or false")
-        for name, where in fields(state["left"], place + ".left", optional=names).items():
-            read_set(where, f"{place}.left.{name}", name)
-    for name, where in fields(state["sets"], place + ".sets", *names).items():
-        read_set(where, f"{place}.sets.{name}", name)
-    state["f"] = vector(state["f"], place + ".f", len(names))
-    return state
+        need(type(value) is type(computed) and value == computed, place, value,
+             json.dumps(computed), f" under {policy}")
 
 
-def read_run(value, place, claim, names):
-    """(policies, Run) as the certificate states them."""
-    fields(value, place, "policies", "start", "period", "pivots", "state")
-    policies = items(value["policies"], place + ".policies")
-    need(policies, place + ".policies", [], "at least one policy")
-    for at, policy in policies:
-        read_policy(policy, at)
-    start = integer(value["start"], place + ".start", 0)
-    period = integer(value["period"], place + ".period", 1)
-    pivots = [read_pivot(item, at, names) for at, item in items(value["pivots"], place + ".pivots")]
-    state = read_state(value["state"], place + ".state", claim, names)
-    return policies, Run(claim, start, period, pivots, state)
-
-
-def same(stated, computed, place, policy):
-    """Objects and lists must agree key by key and item by item; values exactly."""
-    if isinstance(stated, dict) and isinstance(computed, dict):
-        for key in stated.keys() | computed.keys():
-            need(key in computed, place, key, f"no such key under {policy}")
-            need(key in stated, place, sorted(stated), f"a key {key} under {policy}")
-            same(stated[key], computed[key], f"{place}.{key}", policy)
-    elif isinstance(stated, list) and isinstance(computed, list):
-        for i, (x, y) in enumerate(zip(stated, computed)):
-            same(x, y, f"{place}[{i}]", policy)
-        need(len(stated) == len(computed), place, f"{len(stated)} items",
-             f"{len(computed)} under {policy}")
-    else:
-        need(stated == computed, place, stated, f"{shown(computed)} under {policy}")
-
-
-def compare(stated, computed, place, policy):
-    if stated == computed:
-        return
-    steps = len(computed.pivots)
-    same(stated.pivots[:steps], computed.pivots, place + ".pivots", policy)
-    if computed.outcome == "limit":
-        need(False, place + ".pivots", f"{steps} steps", f"a repetition, but under {policy} "
-             "no state recurs in so many")
-    need(stated.outcome == computed.outcome, place, stated.outcome,
-         f"{computed.outcome} after {steps} steps, the outcome under {policy}")
-    for key in ("pivots", "start", "period", "state"):
-        same(getattr(stated, key), getattr(computed, key), f"{place}.{key}", policy)
+def check_policy(claim, problem, stated, place, policy):
+    """Runs the policy for as many steps as stated; returns the run if it is the one stated."""
+    steps = items(stated["pivots"], place + ".pivots")
+    found = run(problem, policy, len(steps))
+    for (at, pivot), computed in zip(steps, found.pivots):
+        same(pivot, computed, at, policy)
+    outcome = found.outcome if found.outcome != "limit" else "no repetition yet"
+    need(outcome == claim, place, claim, f"{outcome} after {len(found.pivots)} steps",
+         f" under {policy}")
+    for key in ("start", "period", "pivots", "state"):
+        same(stated[key], getattr(found, key), f"{place}.{key}", policy)
+    return found
 
 
 def check_runs(claim, problem, witness):
     fields(witness, "$.witness", "runs")
-    places = items(witness["runs"], "$.witness.runs")
-    need(places, "$.witness.runs", [], "at least one run")
-    runs = [(at, *read_run(item, at, claim, problem.names)) for at, item in places]
-    first = {}
-    for _, policies, _ in runs:
+    first, runs = {}, []
+    for place, stated in items(witness["runs"], "$.witness.runs"):
+        fields(stated, place, "policies", "start", "period", "pivots", "state")
+        policies = items(stated["policies"], place + ".policies")
+        need(policies, place + ".policies", [], "at least one policy")
         for at, policy in policies:
-            need(policy not in first, at, policy, f"no policy twice (see {first.get(policy)})")
+            read_policy(policy, at)
+            need(policy not in first, at, policy, f"no policy twice, see {first.get(policy)}")
             first[policy] = at
-    for k, (at, _, stated) in enumerate(runs):
-        twin = next((other for other, _, earlier in runs[:k] if earlier == stated), None)
-        need(twin is None, at, "the same run again", f"one that differs from {twin}")
-    for at, policies, stated in runs:
-        for _, policy in policies:
-            compare(stated, run(problem, policy, len(stated.pivots)), at, policy)
-    return facts(runs, "drives" if claim == "cycle" else "steps")
-
-
-def facts(runs, unit):
-    def span(values):
-        low, high = min(values), max(values)
-        return f"{low}" if low == high else f"{low} to {high}"
-
-    policies = sum(len(policies) for _, policies, _ in runs)
-    return (f"{policies} {'policy' if policies == 1 else 'policies'}, "
-            f"{len(runs)} {'run' if len(runs) == 1 else 'runs'}, "
-            f"start {span([stated.start for _, _, stated in runs])}, "
-            f"period {span([stated.period for _, _, stated in runs])} {unit}, "
-            f"{span([len(stated.pivots) for _, _, stated in runs])} steps")
+            found = check_policy(claim, problem, stated, place, policy)
+        need(found not in runs, place, "a run listed before", "no two runs the same")
+        runs.append(found)
+    need(runs, "$.witness.runs", [], "at least one run")
+    facts = [f"policies {len(first)}", f"runs {len(runs)}"]
+    for key in ("start", "period"):
+        values = sorted({getattr(found, key) for found in runs})
+        facts.append(f"{key} {' '.join(map(str, values))}")
+    return ", ".join(facts)
 
 
 # --- The program -------------------------------------------------------------------
@@ -765,45 +651,53 @@ CLAIMS = {
 
 
 def check(certificate):
-    """(claim, facts) of a certificate that is right; otherwise Rejected is raised."""
+    """The claim, and facts about it, of a certificate that proves it; or raises Rejected."""
     fields(certificate, "$", "format", "version", "claim", "problem", "witness")
     one_of(certificate["format"], "$.format", ("stiction-certificate",))
     integer(certificate["version"], "$.version", 1, 2)
     claim = one_of(certificate["claim"], "$.claim", CLAIMS)
-    return claim, CLAIMS[claim](read_problem(certificate["problem"]), certificate["witness"])
+    facts = CLAIMS[claim](read_problem(certificate["problem"]), certificate["witness"])
+    return f"{claim} ({facts})"
 
 
 def check_file(path):
-    """Prints the verdict on one file and returns its exit status."""
+    """Prints the verdict on one file; returns its exit status."""
     try:
         certificate = load(path)
     except (OSError, ValueError, RecursionError) as error:
         print(f"{path}: unreadable: {error}", file=sys.stderr)
         return 2
     try:
-        claim, found = check(certificate)
+        print(f"{path}: accepted: {check(certificate)}")
+        return 0
     except Rejected as reason:
         print(f"{path}: REJECTED: {reason}")
         return 1
-    print(f"{path}: accepted: {claim} ({found})")
-    return 0
 
 
-def main(arguments=None):
+EPILOG = """claims:
+  symmetric, psd, in-range, and these with not- before
+                   for every valid problem
+  solution-exists, cycle, stall
+                   for planar problems of static and frictionless contacts;
+                   cycle and stall run the published algorithm again, from
+                   f = 0, under every policy that the certificate names
+
+exit status:
+  0  every certificate was accepted
+  1  one was rejected; its line says where and why
+  2  a file could not be read or is no JSON; bad usage
+"""
+
+
+def main():
     parser = argparse.ArgumentParser(
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Checks stiction certificates (version 1) in exact rational arithmetic.\n"
-                    "Prints one line per file: what was proved, or where the proof fails.",
-        epilog="claims:  " + "\n         ".join(
-                   [" ".join(list(CLAIMS)[:7]), "cycle stall (the published algorithm is run "
-                    "again under every policy named)"]) +
-               "\n         solution-exists, cycle and stall: planar problems of static and\n"
-               "         frictionless contacts only; the others: every valid problem\n"
-               "exit:    0 all accepted, 1 some rejected, 2 a file unreadable or no JSON, or bad usage")
+        description="Check stiction certificates in exact rational arithmetic, one line for each.",
+        epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("certificates", nargs="+", metavar="CERT", help="a certificate file")
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="backslashreplace")
-    return max([check_file(path) for path in parser.parse_args(arguments).certificates])
+    return max([check_file(path) for path in parser.parse_args().certificates])
 
 
 if __name__ == "__main__":

@@ -4,49 +4,55 @@
 // Numbers: a string is exact ("-3/4", "2.5e-3"), a JSON number is taken at its IEEE double value; an
 // integer literal that is no exact double is refused. Nothing is guessed or repaired: a wrong file is an
 // InputError with file, JSON path, what was found and what was expected.
+//
+// A may be {"size": n, "entries": [[i, j, "v"], ...]}, zero-based, each entry once; what is not listed is
+// zero. An entry (i, j) below the diagonal stands for (j, i) too, unless (j, i) is listed as well: then each
+// stands for itself. An entry above the diagonal without the one below is refused, since it could mean
+// either a symmetric matrix or not. So a symmetric A is its lower triangle, and whatever is not symmetric
+// is visible as a pair of entries.
 
 #ifndef STICTION_CORPUS_PROBLEM_FILE_H_
 #define STICTION_CORPUS_PROBLEM_FILE_H_
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "corpus/input_error.h"
+#include "corpus/json_text.h"
 #include "corpus/rational.h"
 #include "solver/problem.h"
 
 namespace stiction {
 
 using ExactProblem = ContactProblem<Rational>;
-using Json = nlohmann::ordered_json;
 
 struct ProblemFile {
   std::string name;
   ExactProblem problem;
-  std::optional<Json> scene;
+  std::optional<Json> scene;                  // any value, kept as it is
   std::optional<Json> origin;                 // generator, seed, parent, what was rounded or symmetrized
-  std::map<std::string, std::string> expect;  // policy as written -> outcome
+  std::map<std::string, std::string> expect;  // policy as written, or "*" for the grid -> outcome
 };
 
-// `source` names the text in errors.
+// `source` names the text in errors. No policy may stand twice in `expect`, however it is written.
 ProblemFile ParseProblem(std::string_view text, const std::string& source);
 ProblemFile ReadProblem(const std::filesystem::path& file);
 
-// Parses JSON and refuses what nlohmann lets pass: duplicate keys. Integers that no double holds survive
-// as their text (see json_text.h).
-// The problem alone, as certificates embed it: format, version, dimension, contacts, A, b; exact strings.
+// Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
+// InternalError. Every number of the problem is an exact string, A is in dense rows.
+//
+// The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
 Json ProblemToJson(const ExactProblem& problem);
-// Everything; A in dense rows.
+// Everything.
 Json ToJson(const ProblemFile& file);
-// One row of A a line, so that a person can read it.
+// Everything as text. One contact and one row of A a line, so that a person can read it.
 std::string Print(const ProblemFile& file);
 
-// The problem at key path `path` of an already parsed document (certificates). `strict` allows exactly
-// the keys that ProblemToJson writes, and strings only.
+// The problem at key path `path` of a document that ParseJson read (certificates). `strict` allows exactly
+// the keys that ProblemToJson writes, and strings for numbers; otherwise the keys of a file may stand beside.
 ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path, bool strict);
 
 }  // namespace stiction

@@ -36,7 +36,10 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
   const int rows = problem.rows();
   problem_ = &problem;
   trace_ = trace;
-  if (trace_ != nullptr) *trace_ = {};
+  if (trace_ != nullptr) {
+    trace_->pivots.clear();
+    trace_->consulted = 0;
+  }
   layout_.Assign(problem.contacts);
   scale_ = MakeScale(problem, options_.tolerances);
   direction_.Resize(rows);
@@ -330,9 +333,11 @@ std::uint64_t PublishedAlgorithm<Scalar, Rows>::RoundedHash() const {
   };
   for (int row = 0; row < problem_->rows(); ++row) {
     // The offset keeps numbers that are round in the problem's scale away from the edges of the grains.
-    const Scalar grains = state_.f[row] * scale_.inverse_grain + Scalar(0.318309886);
-    const bool fits = Abs(grains) < Scalar(9e18);
-    const auto rounded = fits ? static_cast<std::int64_t>(grains) : std::int64_t{0};
+    std::int64_t rounded = 0;
+    if constexpr (!kIsExact<Scalar>) {
+      const Scalar grains = state_.f[row] * scale_.inverse_grain + Scalar(0.318309886);
+      if (Abs(grains) < Scalar(9e18)) rounded = static_cast<std::int64_t>(grains);
+    }
     mix(static_cast<std::uint64_t>(rounded) * 8 + static_cast<std::uint64_t>(state_.sets[row]));
   }
   return hash;
@@ -408,7 +413,7 @@ bool PublishedAlgorithm<Scalar, Rows>::BudgetSpent() {
 template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::Record(int driven, DriveGoal goal, const Step<Scalar>& step,
                                               IndexSet from, bool gave_up) {
-  if (trace_ == nullptr) return;
+  if (trace_ == nullptr || !trace_->keep_pivots) return;
   Pivot<Scalar>& pivot = trace_->pivots.emplace_back();
   pivot.drive = static_cast<int>(verdict_.statistics.drives);
   pivot.driven = driven;

@@ -80,6 +80,7 @@ struct Pivot {
 // The history of a run, kept only where asked for.
 template <class Scalar>
 struct Trace {
+  bool keep_pivots = true;
   std::vector<Pivot<Scalar>> pivots;
   // Switches whose values would have acted differently somewhere in this run. Policies that agree on
   // them run alike.

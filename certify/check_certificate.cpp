@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checking certificates: structure to the letter, then the claim from the problem alone.
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <set>
+
+#include "certify/certificate.h"
+#include "certify/properties.h"
+#include "certify/verify_solution.h"
+
+namespace stiction {
+namespace {
+
+struct Rejected {
+  std::string path, found, expected;
+};
+
+std::string Shortened(const Json& json) {
+  std::string text = json.dump();
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
+// An object with exactly these keys, in any order.
+void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
+  if (!json.is_object()) throw Rejected{path, Shortened(json), "an object"};
+  for (const auto& [key, value] : json.items()) {
+    if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", fmt::format("{}", fmt::join(keys, ", "))};
+  }
+  for (const std::string& key : keys) {
+    if (!json.contains(key)) throw Rejected{path, "no key '" + key + "'", fmt::format("{}", fmt::join(keys, ", "))};
+  }
+}
+
+Rational ReadNumber(const Json& json, const std::string& path) {
+  if (json.is_string()) {
+    if (const auto value = ParseRational(json.get_ref<const std::string&>())) return *value;
+  }
+  throw Rejected{path, Shortened(json), "an exact number as a string"};
+}
+
+std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
+  if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
+  throw Rejected{path, Shortened(json), fmt::format("an integer >= {}", least)};
+}
+
+ExactVector ReadVector(const Json& json, const std::string& path, int size) {
+  if (!json.is_array() || static_cast<int>(json.size()) != size) {
+    throw Rejected{path, Shortened(json), fmt::format("a list of {} numbers", size)};
+  }
+  ExactVector values(size);
+  for (int i = 0; i < size; ++i) values[i] = ReadNumber(json[i], fmt::format("{}[{}]", path, i));
+  return values;
+}
+
+void RequireEqual(const Rational& found, const Rational& expected, const std::string& path) {
+  if (found != expected) throw Rejected{path, ToString(found), ToString(expected)};
+}
+
+// ---- Claims about a solution and about A and b -----------------------------------------------
+
+Json CheckSolution(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "f"});
+  if (!PublishedHandles(problem)) {
+    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts", "those"};
+  }
+  const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
+  const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
+  const ExactVector answer = Accelerations(problem, f);
+  for (int i = 0; i < problem.rows(); ++i) RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));
+  if (const auto violation = FindViolation(problem, f)) throw Rejected{"witness.f", *violation, "a solution"};
+  return Json::object();
+}
+
+Json CheckSymmetric(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {});
+  if (const auto pair = FindAsymmetry(problem.A)) {
+    throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror", "A = A'"};
+  }
+  return Json::object();
+}
+
+Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"i", "j"});
+  const std::int64_t i = ReadInteger(witness["i"], "witness.i", 0), j = ReadInteger(witness["j"], "witness.j", 0);
+  if (i >= problem.rows() || j >= problem.rows()) throw Rejected{"witness", Shortened(witness), "indices of A"};
+  if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", "different entries"};
+  return Json::object();
+}
+
+Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L"});
+  const int rows = problem.rows();
+  const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
+  if (!witness["L"].is_array() || static_cast<int>(witness["L"].size()) != rows) {
+    throw Rejected{"witness.L", Shortened(witness["L"]), fmt::format("{} rows", rows)};
+  }
+  ExactMatrix L(rows, rows);
+  for (int i = 0; i < rows; ++i) {
+    L.row(i) = ReadVector(witness["L"][i], fmt::format("witness.L[{}]", i), rows).transpose();
+    if (D[i] < 0) throw Rejected{fmt::format("witness.D[{}]", i), ToString(D[i]), "a number >= 0"};
+    for (int j = i; j < rows; ++j) RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
+  }
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      Rational entry = 0;
+      for (int k = 0; k <= std::min(i, j); ++k) entry += L(i, k) * D[k] * L(j, k);
+      RequireEqual(problem.A(i, j), entry, fmt::format("problem.A[{}][{}]", i, j));
+    }
+  }
+  return Json::object();
+}
+
+Json CheckNotSemidefinite(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"value", "x"});
+  const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
+  Rational curvature = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) curvature += x[i] * problem.A(i, j) * x[j];
+  }
+  RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");
+  if (curvature >= 0) throw Rejected{"witness.value", ToString(curvature), "x'Ax < 0"};
+  return Json::object();
+}
+
+Json CheckInRange(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"x"});
+  const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
+  for (int i = 0; i < problem.rows(); ++i) {
+    Rational image = 0;
+    for (int j = 0; j < problem.rows(); ++j) image += problem.A(i, j) * x[j];
+    RequireEqual(image, problem.b[i], fmt::format("(A x)[{}]", i));
+  }
+  return Json::object();
+}
+
+Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"value", "y"});
+  const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
+  Rational product = 0;
+  for (int j = 0; j < problem.rows(); ++j) {
+    Rational entry = 0;
+    for (int i = 0; i < problem.rows(); ++i) entry += y[i] * problem.A(i, j);
+    RequireEqual(entry, 0, fmt::format("(y'A)[{}]", j));
+    product += y[j] * problem.b[j];
+  }
+  RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
+  if (product == 0) throw Rejected{"witness.value", "0", "y'b /= 0"};
+  return Json::object();
+}
+
+// ---- Loops -----------------------------------------------------------------------------------
+
+Policy ReadPolicy(const Json& json, const std::string& path) {
+  if (!json.is_string()) throw Rejected{path, Shortened(json), "a policy"};
+  const std::string name = json.get<std::string>();
+  try {
+    const Policy policy = ParsePolicy(name);
+    if (PolicyName(policy) != name) throw Rejected{path, name, PolicyName(policy)};
+    return policy;
+  } catch (const std::invalid_argument& error) {
+    throw Rejected{path, Shortened(json), error.what()};
+  }
+}
+
+// The run that the certificate describes, against the run that the algorithm makes.
+void CompareRun(const ExactRun& run, const Json& described, const std::string& path, Outcome loop,
+                const std::vector<std::string>& names) {
+  if (run.verdict.outcome != loop) {
+    throw Rejected{path, fmt::format("outcome {} under {}", Name(run.verdict.outcome), PolicyName(run.policy)),
+                   std::string(Name(loop))};
+  }
+  const auto compare = [&path](const Json& found, const Json& expected, const std::string& where) {
+    const bool same_type = !expected.is_number_integer() || found.is_number_integer();
+    // nlohmann::json, unlike ordered_json, compares objects whatever the order of their keys.
+    if (!same_type || nlohmann::json(found) != nlohmann::json(expected)) {
+      throw Rejected{path + where, Shortened(found), Shortened(expected)};
+    }
+  };
+  const Json& pivots = described["pivots"];
+  if (!pivots.is_array()) throw Rejected{path + ".pivots", Shortened(pivots), "a list"};
+  for (std::size_t k = 0; k < std::min(pivots.size(), run.trace.pivots.size()); ++k) {
+    const std::string where = fmt::format("{}.pivots[{}]", path, k);
+    Json found = pivots[k];
+    RequireKeys(found, where, {"drive", "driven", "from", "goal", "limiting", "step", "to"});
+    RequireEqual(ReadNumber(found["step"], where + ".step"), run.trace.pivots[k].s, where + ".step");
+    ReadInteger(found["drive"], where + ".drive", 1);
+    found["step"] = ToString(run.trace.pivots[k].s);  // any spelling of the same number
+    compare(found, PivotToJson(run.trace.pivots[k], names), fmt::format(".pivots[{}]", k));
+  }
+  compare(pivots.size(), run.trace.pivots.size(), ".pivots: number");
+  compare(ReadInteger(described["start"], path + ".start", 0), run.verdict.start, ".start");
+  compare(ReadInteger(described["period"], path + ".period", 1), run.verdict.period, ".period");
+  const Json expected = LoopStateToJson(run, names);
+  std::set<std::string> keys;
+  for (const auto& [key, value] : expected.items()) keys.insert(key);
+  Json state = described["state"];
+  RequireKeys(state, path + ".state", keys);
+  const ExactVector f = ReadVector(state["f"], path + ".state.f", static_cast<int>(names.size()));
+  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.state.f[i], fmt::format("{}.state.f[{}]", path, i));
+  for (const std::string& key : keys) {
+    if (key == "f") continue;
+    compare(state[key], expected[key], ".state." + key);
+  }
+}
+
+Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
+  RequireKeys(witness, "witness", {"runs"});
+  if (!PublishedHandles(problem)) {
+    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts", "those"};
+  }
+  const Json& runs = witness["runs"];
+  if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shortened(runs), "at least one run"};
+  const std::vector<std::string> names = VariableNames(problem);
+  std::set<std::string> policies;
+  std::set<std::string> described;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const std::string path = fmt::format("witness.runs[{}]", k);
+    RequireKeys(runs[k], path, {"period", "pivots", "policies", "start", "state"});
+    if (!described.insert(nlohmann::json({runs[k]["pivots"], runs[k]["state"]}).dump()).second) {
+      throw Rejected{path, "a run that stands before", "different runs"};
+    }
+    const Json& named = runs[k]["policies"];
+    if (!named.is_array() || named.empty()) throw Rejected{path + ".policies", Shortened(named), "at least one policy"};
+    // A run of as many steps as the certificate describes is enough to confirm or refute it.
+    Limits limits;
+    limits.pivots = static_cast<std::int64_t>(runs[k]["pivots"].size()) + 1;
+    for (std::size_t p = 0; p < named.size(); ++p) {
+      const std::string where = fmt::format("{}.policies[{}]", path, p);
+      const Policy policy = ReadPolicy(named[p], where);
+      if (!policies.insert(PolicyName(policy)).second) throw Rejected{where, Shortened(named[p]), "each policy once"};
+      CompareRun(RunExact(problem, {policy, {}, limits}), runs[k], path, loop, names);
+    }
+  }
+  return {{"policies", policies.size()},
+          {"runs", runs.size()},
+          {"start", runs[0]["start"]},
+          {"period", runs[0]["period"]}};
+}
+
+using Checker = std::function<Json(const ExactProblem&, const Json&)>;
+
+const std::map<std::string, Checker>& Checkers() {
+  static const std::map<std::string, Checker> checkers = {
+      {"solution-exists", CheckSolution},
+      {"symmetric", CheckSymmetric},
+      {"not-symmetric", CheckNotSymmetric},
+      {"psd", CheckSemidefinite},
+      {"not-psd", CheckNotSemidefinite},
+      {"in-range", CheckInRange},
+      {"not-in-range", CheckNotInRange},
+      {"cycle", [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kCycle); }},
+      {"stall", [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kStall); }},
+  };
+  return checkers;
+}
+
+}  // namespace
+
+CheckReport CheckCertificate(const Json& certificate, const std::string& source) {
+  CheckReport report;
+  try {
+    RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
+    if (certificate["format"] != "stiction-certificate") {
+      throw Rejected{"format", Shortened(certificate["format"]), "\"stiction-certificate\""};
+    }
+    if (!certificate["version"].is_number_integer() || certificate["version"] != 1) {
+      throw Rejected{"version", Shortened(certificate["version"]), "1"};
+    }
+    if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
+    const auto checker = Checkers().find(report.claim);
+    if (checker == Checkers().end()) {
+      std::vector<std::string> claims;
+      for (const auto& [claim, check] : Checkers()) claims.push_back(claim);
+      throw Rejected{"claim", Shortened(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
+    }
+    const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
+    report.facts = checker->second(problem, certificate["witness"]);
+    report.accepted = true;
+  } catch (const Rejected& rejected) {
+    report.reason = rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;
+  } catch (const InputError& error) {
+    report.reason = error.what();
+  }
+  return report;
+}
+
+std::vector<Policy> CertifiedPolicies(const Json& loop_certificate) {
+  std::vector<Policy> policies;
+  for (const Json& run : loop_certificate["witness"]["runs"]) {
+    for (const Json& name : run["policies"]) policies.push_back(ParsePolicy(name.get<std::string>()));
+  }
+  return policies;
+}
+
+}  // namespace stiction

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact.h"
+
+#include <CGAL/Exact_rational.h>
+
+#include <type_traits>
+
+#include "solver/published.ipp"
+
+namespace stiction {
+
+static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
+
+template class PublishedAlgorithm<Rational>;
+
+ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
+  PublishedAlgorithm<Rational> algorithm(options);
+  ExactRun run;
+  run.policy = options.policy;
+  run.verdict = algorithm.Run(problem, &run.trace);
+  run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(), algorithm.last_left(),
+               algorithm.last_step_zero()};
+  run.a = algorithm.state().a;
+  if (run.verdict.outcome == Outcome::kRay) run.ray = algorithm.direction().df();
+  return run;
+}
+
+namespace {
+
+// Runs policies one by one and remembers which others each run speaks for.
+class GridRunner {
+ public:
+  GridRunner(const ExactProblem& problem, const Limits& limits) : problem_(problem) {
+    algorithm_.options().limits = limits;
+    trace_.keep_pivots = false;
+  }
+
+  const PolicyClass& Run(const Policy& policy) {
+    for (PolicyClass& known : classes_) {
+      if (!AgreeOn(known.consulted, known.policies.front(), policy)) continue;
+      known.policies.push_back(policy);
+      return known;
+    }
+    algorithm_.options().policy = policy;
+    const Verdict verdict = algorithm_.Run(problem_, &trace_);
+    return classes_.emplace_back(PolicyClass{{policy}, trace_.consulted, verdict});
+  }
+
+  std::vector<PolicyClass> Take() { return std::move(classes_); }
+
+ private:
+  const ExactProblem& problem_;
+  PublishedAlgorithm<Rational> algorithm_;
+  Trace<Rational> trace_;
+  std::vector<PolicyClass> classes_;
+};
+
+}  // namespace
+
+std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
+                                     const Limits& limits) {
+  GridRunner runner(problem, limits);
+  for (const Policy& policy : policies) runner.Run(policy);
+  return runner.Take();
+}
+
+bool AllEndIn(Outcome outcome, const ExactProblem& problem, const std::vector<Policy>& policies,
+              const Limits& limits) {
+  GridRunner runner(problem, limits);
+  for (const Policy& policy : policies) {
+    if (runner.Run(policy).verdict.outcome != outcome) return false;
+  }
+  return true;
+}
+
+std::string VariableName(const RowLayout<Eigen::Dynamic>& layout, int row) {
+  return (layout.IsNormal(row) ? "N" : "F") + std::to_string(layout.ContactOf(row) + 1);
+}
+
+std::vector<std::string> VariableNames(const ExactProblem& problem) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<std::string> names;
+  for (int row = 0; row < problem.rows(); ++row) names.push_back(VariableName(layout, row));
+  return names;
+}
+
+}  // namespace stiction

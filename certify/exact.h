@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm over rationals: one run, or the whole grid of policies.
+
+#ifndef STICTION_CERTIFY_EXACT_H_
+#define STICTION_CERTIFY_EXACT_H_
+
+#include <string>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "solver/published.h"
+
+namespace stiction {
+
+extern template class PublishedAlgorithm<Rational>;
+
+// What recurs in a loop, and where a run stands when it ends (readings.md, 2 and 3).
+struct ExactState {
+  std::vector<IndexSet> sets;
+  ExactProblem::Vector f;
+  int last_driven_contact = -1;
+  std::vector<IndexSet> last_left;  // in the last drive
+  bool last_step_zero = false;
+};
+
+struct ExactRun {
+  Policy policy;
+  Verdict verdict;
+  Trace<Rational> trace;
+  ExactState state;
+  ExactProblem::Vector a;
+  ExactProblem::Vector ray;  // df of a ray, otherwise empty
+};
+
+ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options);
+
+// Policies that take the same steps on a problem. The trace is that of the first of them.
+struct PolicyClass {
+  std::vector<Policy> policies;
+  SwitchMask consulted = 0;
+  Verdict verdict;
+};
+
+// Runs every policy of the list, but policies that agree on all switches that a run consulted only once:
+// a switch is consulted where its values would act differently, so these take the same steps.
+std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
+                                     const Limits& limits);
+
+// Whether every policy of the list ends in `outcome`; stops at the first that does not.
+bool AllEndIn(Outcome outcome, const ExactProblem& problem, const std::vector<Policy>& policies,
+              const Limits& limits);
+
+// "N1", "F1", "N2", ... by row.
+std::string VariableName(const RowLayout<Eigen::Dynamic>& layout, int row);
+std::vector<std::string> VariableNames(const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_H_

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON text: a document builder on nlohmann's SAX parser, and places in documents.
+
+#include "corpus/json_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <utility>
+
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+// Builds the document from the parser's events, so that every key and number literal is seen.
+class DocumentBuilder : public nlohmann::json_sax<Json> {
+ public:
+  explicit DocumentBuilder(const std::string& source) : source_(source) {}
+
+  Json TakeDocument() { return std::move(document_); }
+
+  bool null() override { return Add(nullptr); }
+  bool boolean(bool value) override { return Add(value); }
+  bool number_integer(number_integer_t value) override { return Add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return Add(value); }
+  bool string(string_t& value) override { return Add(std::move(value)); }
+  bool start_object(std::size_t) override { return Open(Json::object()); }
+  bool start_array(std::size_t) override { return Open(Json::array()); }
+  bool end_object() override { return Close(); }
+  bool end_array() override { return Close(); }
+  bool binary(binary_t&) override { return false; }  // JSON text has none
+
+  // An integer literal arrives here only if 64 bits do not hold it.
+  bool number_float(number_float_t value, const string_t& literal) override {
+    if (literal.find_first_not_of("-0123456789") == literal.npos && Rational(literal, 10) != Rational(value)) {
+      Refuse(PathOfNext(), Shortened(literal), "an integer that is a double exactly, or a string");
+    }
+    return Add(value);
+  }
+
+  bool key(string_t& key) override {
+    Frame& frame = frames_.back();
+    frame.key = key;
+    if (!frame.keys.insert(key).second) Refuse(PathOfNext(), "a duplicate key", "each key once");
+    return true;
+  }
+
+  bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override {
+    constexpr int kNumberOverflow = 406;
+    if (error.id == kNumberOverflow) Refuse(PathOfNext(), Shortened(token), "a finite number");
+    // "[...] parse error at line 1, column 2: syntax error while parsing ..."
+    const std::string_view text = error.what();
+    const std::size_t line = std::min(text.find("line "), text.size());
+    const std::size_t colon = std::min(text.find(": ", line), text.size());
+    const std::string reason(text.substr(std::min(colon + 2, text.size())));
+    throw InputError(source_, std::string(text.substr(line, colon - line)), Shortened(reason, 250),
+                     "JSON text");
+  }
+
+ private:
+  struct Frame {
+    Json* container;
+    std::string key;  // of the next value, in an object
+    std::set<std::string> keys;
+  };
+
+  [[noreturn]] void Refuse(const std::string& path, const std::string& found,
+                           const std::string& expected) const {
+    throw InputError(source_, path.empty() ? "$" : path, found, expected);
+  }
+
+  std::string PathOfNext() const {
+    std::string path;
+    for (const Frame& frame : frames_) {
+      // The open child of an array is its last element already; only the innermost has its next to come.
+      const std::size_t next = frame.container->size() - (&frame == &frames_.back() ? 0 : 1);
+      path = frame.container->is_array() ? ElementPath(path, next) : MemberPath(path, frame.key);
+    }
+    return path;
+  }
+
+  // Puts the value where the parser stands. A container stays where it is until it is closed: what
+  // contains it does not grow before.
+  Json* Put(Json value) {
+    if (frames_.empty()) return &(document_ = std::move(value));
+    Frame& frame = frames_.back();
+    if (frame.container->is_array()) {
+      auto& elements = frame.container->get_ref<Json::array_t&>();
+      elements.push_back(std::move(value));
+      return &elements.back();
+    }
+    auto& members = frame.container->get_ref<Json::object_t&>();
+    members.emplace_back(frame.key, std::move(value));  // emplace would search all keys again
+    return &members.back().second;
+  }
+
+  bool Add(Json value) {
+    Put(std::move(value));
+    return true;
+  }
+
+  bool Open(Json container) {
+    if (frames_.size() == kMaxJsonDepth) {
+      Refuse(PathOfNext(), "deeper nesting",
+             fmt::format("at most {} levels of arrays and objects", kMaxJsonDepth));
+    }
+    Json* place = Put(std::move(container));
+    frames_.push_back({place, {}, {}});
+    return true;
+  }
+
+  bool Close() {
+    frames_.pop_back();
+    return true;
+  }
+
+  const std::string& source_;
+  Json document_;
+  std::vector<Frame> frames_;
+};
+
+// nlohmann takes a NUL byte for the end of the text.
+void RefuseNul(std::string_view text, const std::string& source) {
+  const std::size_t at = text.find('\0');
+  if (at == text.npos) return;
+  const std::string_view before = text.substr(0, at);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t column = at - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+  throw InputError(source, fmt::format("line {}, column {}", line, column), "a NUL byte", "JSON text");
+}
+
+void CheckWritable(const Json& value) {
+  STICTION_CHECK(!value.is_binary() && !value.is_discarded(), "JSON text has no such value");
+  STICTION_CHECK(!value.is_number_float() || std::isfinite(value.get<double>()),
+                 "a number that is not finite cannot be written as JSON");
+  if (!value.is_structured()) return;
+  for (const Json& child : value) CheckWritable(child);
+}
+
+bool IsWord(const std::string& key) {
+  const auto is_word_character = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !key.empty() && std::all_of(key.begin(), key.end(), is_word_character);
+}
+
+}  // namespace
+
+Json ParseJson(std::string_view text, const std::string& source) {
+  RefuseNul(text, source);
+  DocumentBuilder builder(source);
+  const bool parsed = Json::sax_parse(text.begin(), text.end(), &builder);
+  STICTION_CHECK(parsed, "the JSON parser stopped without an error");
+  return builder.TakeDocument();
+}
+
+std::string ReadText(const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(file.string() + ": found nothing to read (" + reason + "), expected a file");
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) refuse("a directory");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(std::strerror(errno));
+  std::string text;
+  std::vector<char> buffer(1 << 16);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) refuse("reading failed");
+  return text;
+}
+
+std::string JsonText(const Json& value, int indent) {
+  CheckWritable(value);
+  try {
+    return value.dump(indent);
+  } catch (const Json::exception& error) {
+    throw InternalError(std::string("cannot be written as JSON: ") + error.what());
+  }
+}
+
+std::string Shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{}... ({} characters)", text.substr(0, end), text.size());
+}
+
+std::string Shown(const Json& value) {
+  return Shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+bool IsExactDouble(const Rational& x) {
+  const double nearest = ToDouble(x);
+  return std::isfinite(nearest) && Rational(nearest) == x;
+}
+
+std::string MemberPath(const std::string& path, const std::string& key) {
+  if (!IsWord(key)) return path + "[" + Shown(key) + "]";
+  return (path.empty() ? "" : path + ".") + Shortened(key);
+}
+
+std::string ElementPath(const std::string& path, std::size_t index) {
+  return fmt::format("{}[{}]", path, index);
+}
+
+void JsonPlace::Refuse(const std::string& found, const std::string& expected) const {
+  throw InputError(source_, path_.empty() ? "$" : path_, found, expected);
+}
+
+void JsonPlace::RequireObject() const {
+  if (!json_.is_object()) Refuse("an object");
+}
+
+void JsonPlace::AllowKeys(const std::vector<std::string>& keys) const {
+  RequireObject();
+  for (const auto& member : json_.items()) {
+    if (std::find(keys.begin(), keys.end(), member.key()) != keys.end()) continue;
+    Child(member.key(), member.value()).Refuse("an unknown key", fmt::format("only {}", fmt::join(keys, ", ")));
+  }
+}
+
+JsonPlace JsonPlace::Required(const std::string& key, const std::string& expected) const {
+  RequireObject();
+  const auto found = json_.find(key);
+  if (found == json_.end()) Child(key, json_).Refuse("nothing", expected);
+  return Child(key, *found);
+}
+
+std::optional<JsonPlace> JsonPlace::Optional(const std::string& key) const {
+  RequireObject();
+  const auto found = json_.find(key);
+  if (found == json_.end()) return std::nullopt;
+  return Child(key, *found);
+}
+
+JsonPlace JsonPlace::Child(const std::string& key, const Json& value) const {
+  return JsonPlace(value, source_, MemberPath(path_, key));
+}
+
+std::size_t JsonPlace::Size(const std::string& expected) const {
+  if (!json_.is_array()) Refuse(expected);
+  return json_.size();
+}
+
+JsonPlace JsonPlace::operator[](std::size_t index) const {
+  return JsonPlace(json_[index], source_, ElementPath(path_, index));
+}
+
+const std::string& JsonPlace::Text(const std::string& expected) const {
+  if (!json_.is_string()) Refuse(expected);
+  return json_.get_ref<const std::string&>();
+}
+
+std::int64_t JsonPlace::Integer(std::int64_t least, std::int64_t most, const std::string& expected) const {
+  const bool fits = json_.is_number_unsigned()
+                        ? json_.get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX)
+                        : json_.is_number_integer();
+  if (!fits) Refuse(expected);
+  const std::int64_t value = json_.get<std::int64_t>();
+  if (value < least || value > most) Refuse(expected);
+  return value;
+}
+
+}  // namespace stiction

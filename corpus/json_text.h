@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON text, read strictly and without loss, and places in it.
+//
+// What nlohmann lets pass is refused here: duplicate keys, integers that would silently be rounded to a
+// double, a NUL byte (which would end the text), and nesting deep enough to overflow the stack.
+
+#ifndef STICTION_CORPUS_JSON_TEXT_H_
+#define STICTION_CORPUS_JSON_TEXT_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "corpus/input_error.h"
+#include "corpus/rational.h"
+
+namespace stiction {
+
+using Json = nlohmann::ordered_json;
+
+// Arrays and objects within each other, the document included.
+inline constexpr std::size_t kMaxJsonDepth = 100;
+
+// The document; `source` names the text in errors. Syntax errors come with line and column (in bytes),
+// everything else with its JSON path. Integers of 64 bits are kept as they are; a longer one is refused
+// unless it is a double exactly. Other numbers become the nearest double; an infinite one is refused.
+Json ParseJson(std::string_view text, const std::string& source);
+
+// The bytes of a file; InputError if it cannot be read.
+std::string ReadText(const std::filesystem::path& file);
+
+// The text of `value`, on one line if `indent` is negative. A value that no JSON text stands for (infinity,
+// NaN, text that is not UTF-8) is an InternalError: nlohmann would write `null` for the first two.
+std::string JsonText(const Json& value, int indent = -1);
+
+// `value` on one line, cut if it is long: for messages only.
+std::string Shown(const Json& value);
+// `text` cut to `most` bytes, never inside a UTF-8 character.
+std::string Shortened(const std::string& text, std::size_t most = 60);
+
+bool IsExactDouble(const Rational& x);
+
+// Paths as errors write them: `contacts[0].mu`, `expect["ties=contacts"]`. The empty path is the document.
+std::string MemberPath(const std::string& path, const std::string& key);
+std::string ElementPath(const std::string& path, std::size_t index);
+
+// A value of a document that knows where it stands. Keeps references: the document and the source must
+// outlive it. Every accessor that is not satisfied throws InputError.
+class JsonPlace {
+ public:
+  JsonPlace(const Json& json, const std::string& source, std::string path)
+      : json_(json), source_(source), path_(std::move(path)) {}
+
+  const Json& json() const { return json_; }
+
+  [[noreturn]] void Refuse(const std::string& found, const std::string& expected) const;
+  // Found is the value itself.
+  [[noreturn]] void Refuse(const std::string& expected) const { Refuse(Shown(json_), expected); }
+
+  // Objects.
+  void RequireObject() const;
+  void AllowKeys(const std::vector<std::string>& keys) const;
+  JsonPlace Required(const std::string& key, const std::string& expected) const;
+  std::optional<JsonPlace> Optional(const std::string& key) const;
+  JsonPlace Child(const std::string& key, const Json& value) const;
+
+  // Arrays.
+  std::size_t Size(const std::string& expected) const;
+  JsonPlace operator[](std::size_t index) const;
+
+  const std::string& Text(const std::string& expected) const;
+  // An integer literal from `least` to `most`; 1.0 and true are none.
+  std::int64_t Integer(std::int64_t least, std::int64_t most, const std::string& expected) const;
+
+ private:
+  const Json& json_;
+  const std::string& source_;
+  std::string path_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_JSON_TEXT_H_

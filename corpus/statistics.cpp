@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/statistics.h"
+
+#include <algorithm>
+
+namespace stiction {
+namespace {
+
+Json ToJson(const Statistics& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+Statistics StatisticsFromJson(const Json& json) {
+  Statistics statistics;
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t& value) {
+    value = json.at(name).get<std::int64_t>();
+  });
+  return statistics;
+}
+
+// Trailing zeros left out.
+template <class Array>
+Json Trimmed(const Array& values) {
+  std::size_t size = values.size();
+  while (size > 0 && values[size - 1] == 0) --size;
+  return Json(std::vector<std::int64_t>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size)));
+}
+
+template <class Array>
+void Fill(Array& values, const Json& json) {
+  for (std::size_t i = 0; i < json.size(); ++i) values.at(i) = json[i].template get<std::int64_t>();
+}
+
+void AddTo(std::array<std::int64_t, kOutcomeCount>& sums, const std::array<std::int64_t, kOutcomeCount>& values) {
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
+}
+
+// Calls visit(mine, theirs) for every counter of two statistics.
+template <class Visit>
+void ForEachPair(Statistics& mine, Statistics theirs, Visit visit) {
+  std::array<std::int64_t*, 9> left;
+  std::size_t n = 0;
+  ForEachField(mine, [&](const char*, const char*, std::int64_t& value) { left.at(n++) = &value; });
+  n = 0;
+  ForEachField(theirs, [&](const char*, const char*, std::int64_t& value) { visit(*left.at(n++), value); });
+}
+
+}  // namespace
+
+void Tally::Merge(const Tally& other) {
+  problems += other.problems;
+  AddTo(outcomes, other.outcomes);
+  for (std::size_t i = 0; i < verdicts.size(); ++i) AddTo(verdicts[i], other.verdicts[i]);
+  audited += other.audited;
+  misjudged += other.misjudged;
+  wrong += other.wrong;
+  with_zero_steps += other.with_zero_steps;
+  with_give_ups += other.with_give_ups;
+  ForEachPair(sums, other.sums, [](std::int64_t& mine, std::int64_t theirs) { mine += theirs; });
+  ForEachPair(maxima, other.maxima, [](std::int64_t& mine, std::int64_t theirs) { mine = std::max(mine, theirs); });
+  for (int i = 0; i < kBins; ++i) steps[i] += other.steps[i];
+}
+
+Json ToJson(const Tally& tally) {
+  Json verdicts = Json::array();
+  for (const auto& row : tally.verdicts) verdicts.push_back(Trimmed(row));
+  return {{"problems", tally.problems},
+          {"outcomes", Trimmed(tally.outcomes)},
+          {"verdicts", verdicts},
+          {"audited", tally.audited},
+          {"misjudged", tally.misjudged},
+          {"wrong", tally.wrong},
+          {"with_zero_steps", tally.with_zero_steps},
+          {"with_give_ups", tally.with_give_ups},
+          {"sums", ToJson(tally.sums)},
+          {"maxima", ToJson(tally.maxima)},
+          {"steps", Trimmed(tally.steps)}};
+}
+
+Tally TallyFromJson(const Json& json) {
+  Tally tally;
+  tally.problems = json.at("problems").get<std::int64_t>();
+  Fill(tally.outcomes, json.at("outcomes"));
+  for (std::size_t i = 0; i < tally.verdicts.size(); ++i) Fill(tally.verdicts[i], json.at("verdicts").at(i));
+  tally.audited = json.at("audited").get<std::int64_t>();
+  tally.misjudged = json.at("misjudged").get<std::int64_t>();
+  tally.wrong = json.at("wrong").get<std::int64_t>();
+  tally.with_zero_steps = json.at("with_zero_steps").get<std::int64_t>();
+  tally.with_give_ups = json.at("with_give_ups").get<std::int64_t>();
+  tally.sums = StatisticsFromJson(json.at("sums"));
+  tally.maxima = StatisticsFromJson(json.at("maxima"));
+  Fill(tally.steps, json.at("steps"));
+  return tally;
+}
+
+void Record::Merge(const Record& other) {
+  for (const auto& [key, tally] : other.tallies) tallies[key].Merge(tally);
+  for (const auto& [signature, count] : other.signatures) signatures[signature] += count;
+}
+
+std::string Serialize(const Record& record) {
+  Json tallies = Json::array();
+  for (const auto& [key, tally] : record.tallies) {
+    Json json = {{"generator", key.generator},
+                 {"contacts", key.contacts},
+                 {"policy", key.policy},
+                 {"method", key.method},
+                 {"arithmetic", key.arithmetic}};
+    json.update(ToJson(tally));
+    tallies.push_back(std::move(json));
+  }
+  Json signatures = Json::object();
+  for (const auto& [signature, count] : record.signatures) signatures[signature] = count;
+  return Json{{"tallies", std::move(tallies)}, {"signatures", std::move(signatures)}}.dump();
+}
+
+Record ParseRecord(const std::string& text) {
+  const Json json = Json::parse(text);
+  Record record;
+  for (const Json& entry : json.at("tallies")) {
+    const TallyKey key{entry.at("generator").get<std::string>(), entry.at("contacts").get<int>(),
+                       entry.at("policy").get<std::string>(), entry.at("method").get<std::string>(),
+                       entry.at("arithmetic").get<std::string>()};
+    record.tallies[key] = TallyFromJson(entry);
+  }
+  for (const auto& [signature, count] : json.at("signatures").items()) {
+    record.signatures[signature] = count.get<std::int64_t>();
+  }
+  return record;
+}
+
+}  // namespace stiction

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statistics of a campaign: counters that merge by addition, in any order.
+
+#ifndef STICTION_CORPUS_STATISTICS_H_
+#define STICTION_CORPUS_STATISTICS_H_
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "corpus/problem_file.h"
+#include "solver/solution.h"
+
+namespace stiction {
+
+// What is counted together.
+struct TallyKey {
+  std::string generator;
+  int contacts = 0;
+  std::string policy;
+  std::string method = "baraff";
+  std::string arithmetic = "double";
+
+  auto operator<=>(const TallyKey&) const = default;
+};
+
+// Runs of one method in one inexact arithmetic, and what exact runs of the same problems said.
+struct Tally {
+  static constexpr int kBins = 64;  // of steps per problem: 0, 1, ..., 62, and 63 or more
+  using Outcomes = std::array<std::int64_t, kOutcomeCount>;
+
+  std::int64_t problems = 0;
+  Outcomes outcomes = {};                          // as the inexact run ended
+  std::array<Outcomes, kOutcomeCount> verdicts = {};  // [inexact][exact] of the problems run again exactly
+  std::int64_t audited = 0;    // run again exactly without a suspicion, as a sample
+  std::int64_t misjudged = 0;  // of these, with another exact outcome
+  std::int64_t wrong = 0;      // called solved with a natural residual above 1e-6, or not a number
+  std::int64_t with_zero_steps = 0;
+  std::int64_t with_give_ups = 0;
+  Statistics sums;
+  Statistics maxima;
+  std::array<std::int64_t, kBins> steps = {};
+
+  // One run; inline because it stands on the search's hot path.
+  void Count(const Verdict& verdict) {
+    const Statistics& s = verdict.statistics;
+    ++problems;
+    ++outcomes[static_cast<int>(verdict.outcome)];
+    with_zero_steps += s.zero_steps > 0;
+    with_give_ups += s.give_ups > 0;
+    ++steps[s.steps < kBins ? s.steps : kBins - 1];
+    Add(s);
+  }
+  void Merge(const Tally& other);
+  bool operator==(const Tally&) const = default;
+
+ private:
+  void Add(const Statistics& s) {
+    sums.drives += s.drives;
+    sums.steps += s.steps;
+    sums.pivots += s.pivots;
+    sums.zero_steps += s.zero_steps;
+    sums.longest_zero_run += s.longest_zero_run;
+    sums.bounces += s.bounces;
+    sums.give_ups += s.give_ups;
+    sums.singular_directions += s.singular_directions;
+    sums.outer_scans += s.outer_scans;
+    maxima.drives = std::max(maxima.drives, s.drives);
+    maxima.steps = std::max(maxima.steps, s.steps);
+    maxima.pivots = std::max(maxima.pivots, s.pivots);
+    maxima.zero_steps = std::max(maxima.zero_steps, s.zero_steps);
+    maxima.longest_zero_run = std::max(maxima.longest_zero_run, s.longest_zero_run);
+    maxima.bounces = std::max(maxima.bounces, s.bounces);
+    maxima.give_ups = std::max(maxima.give_ups, s.give_ups);
+    maxima.singular_directions = std::max(maxima.singular_directions, s.singular_directions);
+    maxima.outer_scans = std::max(maxima.outer_scans, s.outer_scans);
+  }
+};
+
+Json ToJson(const Tally& tally);
+Tally TallyFromJson(const Json& json);
+
+// All that a unit, a block or a whole campaign counts.
+struct Record {
+  std::map<TallyKey, Tally> tallies;
+  std::map<std::string, std::int64_t> signatures;  // findings by signature
+
+  void Merge(const Record& other);
+  bool operator==(const Record&) const = default;
+};
+
+// The same record always has the same text.
+std::string Serialize(const Record& record);
+Record ParseRecord(const std::string& text);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_STATISTICS_H_

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/store.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+constexpr const char* kFormat = "stiction-store";
+constexpr const char* kVersion = "1";
+constexpr const char* kTables = R"sql(
+CREATE TABLE IF NOT EXISTS campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS blocks (
+  shards INTEGER NOT NULL, shard INTEGER NOT NULL, block INTEGER NOT NULL, record TEXT NOT NULL,
+  PRIMARY KEY (shards, shard, block)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS units (
+  unit INTEGER PRIMARY KEY, shards INTEGER NOT NULL, shard INTEGER NOT NULL, block INTEGER NOT NULL,
+  record TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS findings (
+  signature TEXT PRIMARY KEY, kind TEXT NOT NULL, unit INTEGER NOT NULL, idx INTEGER NOT NULL,
+  generator TEXT NOT NULL, contacts INTEGER NOT NULL, policy TEXT NOT NULL,
+  inexact_outcome TEXT NOT NULL, exact_outcome TEXT NOT NULL, problem TEXT NOT NULL, done INTEGER NOT NULL,
+  certificate TEXT NOT NULL, minimized TEXT NOT NULL, minimized_certificate TEXT NOT NULL, facts TEXT NOT NULL)
+  WITHOUT ROWID;
+)sql";
+constexpr const char* kFindingColumns =
+    "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
+    "certificate, minimized, minimized_certificate, facts";
+
+// A prepared statement: parameters are bound in order, rows read by column.
+class Statement {
+ public:
+  Statement(sqlite3* db, const std::string& sql) : db_(db) {
+    if (sqlite3_prepare_v2(db, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) Fail();
+  }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+  ~Statement() { sqlite3_finalize(statement_); }
+
+  Statement& Bind(std::int64_t value) {
+    if (sqlite3_bind_int64(statement_, ++bound_, value) != SQLITE_OK) Fail();
+    return *this;
+  }
+  Statement& Bind(const std::string& text) {
+    const int size = static_cast<int>(text.size());
+    if (sqlite3_bind_text(statement_, ++bound_, text.data(), size, SQLITE_TRANSIENT) != SQLITE_OK) Fail();
+    return *this;
+  }
+  // False when there is no further row.
+  bool Step() {
+    const int status = sqlite3_step(statement_);
+    if (status != SQLITE_ROW && status != SQLITE_DONE) Fail();
+    return status == SQLITE_ROW;
+  }
+  std::int64_t Integer(int column) const { return sqlite3_column_int64(statement_, column); }
+  std::string Text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return {text == nullptr ? "" : text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+  }
+
+ private:
+  [[noreturn]] void Fail() const { throw InputError(fmt::format("store: {}", sqlite3_errmsg(db_))); }
+
+  sqlite3* db_;
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+};
+
+// Rolls back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(sqlite3* db) : db_(db) { Statement(db_, "BEGIN IMMEDIATE").Step(); }
+  ~Transaction() {
+    if (!committed_) sqlite3_exec(db_, "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  void Commit() {
+    Statement(db_, "COMMIT").Step();
+    committed_ = true;
+  }
+
+ private:
+  sqlite3* db_;
+  bool committed_ = false;
+};
+
+sqlite3* OpenDatabase(const std::filesystem::path& file, int flags) {
+  sqlite3* db = nullptr;
+  if (sqlite3_open_v2(file.c_str(), &db, flags | SQLITE_OPEN_NOMUTEX, nullptr) != SQLITE_OK) {
+    const std::string reason = db != nullptr ? sqlite3_errmsg(db) : "out of memory";
+    sqlite3_close(db);
+    throw InputError(fmt::format("{}: cannot be opened as a store: {}", file.string(), reason));
+  }
+  sqlite3_busy_timeout(db, 10000);
+  return db;
+}
+
+Finding ReadFinding(const Statement& row) {
+  Finding finding;
+  finding.signature = row.Text(0);
+  finding.kind = row.Text(1);
+  finding.unit = row.Integer(2);
+  finding.index = row.Integer(3);
+  finding.generator = row.Text(4);
+  finding.contacts = static_cast<int>(row.Integer(5));
+  finding.policy = row.Text(6);
+  finding.inexact_outcome = row.Text(7);
+  finding.exact_outcome = row.Text(8);
+  finding.problem = row.Text(9);
+  finding.done = row.Integer(10) != 0;
+  finding.certificate = row.Text(11);
+  finding.minimized = row.Text(12);
+  finding.minimized_certificate = row.Text(13);
+  finding.facts = row.Text(14);
+  return finding;
+}
+
+void WriteFinding(sqlite3* db, const Finding& finding) {
+  Statement(db, fmt::format("INSERT OR REPLACE INTO findings ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                            kFindingColumns))
+      .Bind(finding.signature)
+      .Bind(finding.kind)
+      .Bind(finding.unit)
+      .Bind(finding.index)
+      .Bind(finding.generator)
+      .Bind(static_cast<std::int64_t>(finding.contacts))
+      .Bind(finding.policy)
+      .Bind(finding.inexact_outcome)
+      .Bind(finding.exact_outcome)
+      .Bind(finding.problem)
+      .Bind(static_cast<std::int64_t>(finding.done))
+      .Bind(finding.certificate)
+      .Bind(finding.minimized)
+      .Bind(finding.minimized_certificate)
+      .Bind(finding.facts)
+      .Step();
+}
+
+std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted) {
+  const auto differ = [](const char* what, const std::string& there, const std::string& here) {
+    return fmt::format("its {} is {}, this campaign's is {}", what, there, here);
+  };
+  if (stored.seed != wanted.seed) return differ("seed", std::to_string(stored.seed), std::to_string(wanted.seed));
+  if (stored.build != wanted.build) return differ("build", stored.build, wanted.build);
+  if (stored.policies != wanted.policies) return differ("set of policies", stored.policies, wanted.policies);
+  return differ("definition", stored.definition, wanted.definition);
+}
+
+std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {
+  return (unit - shard.index) / shard.count / Store::kUnitsPerBlock;
+}
+
+}  // namespace
+
+void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
+
+Store::Store(std::unique_ptr<sqlite3, Close> db) : db_(std::move(db)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Store::Store(const std::filesystem::path& file, const CampaignIdentity& identity)
+    : db_(OpenDatabase(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)), identity_(identity) {
+  // A killed process loses nothing that was committed; synchronous=NORMAL gives up only the last commits of a
+  // machine that loses its power.
+  Execute("PRAGMA journal_mode = WAL");
+  Execute("PRAGMA synchronous = NORMAL");
+  Transaction transaction(db_.get());
+  CreateTables();
+  const auto stored = ReadIdentity();
+  if (!stored) {
+    WriteIdentity(identity);
+  } else if (*stored != identity) {
+    throw InputError(fmt::format(
+        "{}: holds another campaign: {}. Go on with the same options and build, or start a new store with "
+        "--store NEW_FILE",
+        file.string(), Difference(*stored, identity)));
+  }
+  transaction.Commit();
+}
+
+Store Store::OpenToRead(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such store", file.string()));
+  Store store{std::unique_ptr<sqlite3, Close>(OpenDatabase(file, SQLITE_OPEN_READWRITE))};
+  const auto identity = store.ReadIdentity();
+  if (!identity) throw InputError(fmt::format("{}: is no stiction store", file.string()));
+  store.identity_ = *identity;
+  return store;
+}
+
+void Store::Execute(const std::string& sql) const {
+  char* error = nullptr;
+  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, &error) == SQLITE_OK) return;
+  const std::string reason = error != nullptr ? error : "unknown";
+  sqlite3_free(error);
+  throw InputError("store: " + reason);
+}
+
+void Store::CreateTables() { Execute(kTables); }
+
+void Store::WriteIdentity(const CampaignIdentity& identity) {
+  const std::vector<std::pair<std::string, std::string>> rows = {
+      {"format", kFormat},          {"version", kVersion},
+      {"definition", identity.definition}, {"seed", std::to_string(identity.seed)},
+      {"policies", identity.policies},     {"build", identity.build}};
+  for (const auto& [key, value] : rows) {
+    Statement(db_.get(), "INSERT INTO campaign (key, value) VALUES (?, ?)").Bind(key).Bind(value).Step();
+  }
+}
+
+std::optional<CampaignIdentity> Store::ReadIdentity() const {
+  Statement table(db_.get(), "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'campaign'");
+  if (!table.Step()) return std::nullopt;
+  std::map<std::string, std::string> values;
+  Statement rows(db_.get(), "SELECT key, value FROM campaign");
+  while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
+  if (values.empty()) return std::nullopt;
+  if (values["format"] != kFormat || values["version"] != kVersion) {
+    throw InputError(fmt::format("store: found format {} version {}, expected {} version {}", values["format"],
+                                 values["version"], kFormat, kVersion));
+  }
+  return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"], values["build"]};
+}
+
+bool UnitSet::Contains(std::int64_t unit) const {
+  if (units_.contains(unit)) return true;
+  for (const auto& [key, blocks] : blocks_) {
+    const Shard shard{key.second, key.first};
+    if (shard.Owns(unit) && blocks.contains(BlockOf(shard, unit))) return true;
+  }
+  return false;
+}
+
+std::int64_t UnitSet::Count() const {
+  auto count = static_cast<std::int64_t>(units_.size());
+  for (const auto& [key, blocks] : blocks_) count += Store::kUnitsPerBlock * static_cast<std::int64_t>(blocks.size());
+  return count;
+}
+
+UnitSet Store::Units() const {
+  UnitSet units;
+  Statement open(db_.get(), "SELECT unit FROM units");
+  while (open.Step()) units.AddUnit(open.Integer(0));
+  for (const BlockInfo& info : Blocks()) units.AddBlock(info.shard, info.block);
+  return units;
+}
+
+void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
+  STICTION_CHECK(shard.Owns(unit), fmt::format("unit {} is not of shard {}/{}", unit, shard.index, shard.count));
+  Statement(db_.get(), "INSERT INTO units (unit, shards, shard, block, record) VALUES (?, ?, ?, ?, ?)")
+      .Bind(unit)
+      .Bind(static_cast<std::int64_t>(shard.count))
+      .Bind(static_cast<std::int64_t>(shard.index))
+      .Bind(BlockOf(shard, unit))
+      .Bind(record)
+      .Step();
+}
+
+std::vector<Finding> Store::AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
+                                    const std::vector<Finding>& candidates) {
+  Transaction transaction(db_.get());
+  InsertUnit(shard, unit, Serialize(record));
+  std::vector<Finding> representatives;
+  for (const Finding& candidate : candidates) {
+    if (Represent(candidate)) representatives.push_back(candidate);
+  }
+  CloseBlockIfComplete(shard, BlockOf(shard, unit));
+  transaction.Commit();
+  return representatives;
+}
+
+// Whether the candidate is now the representative of its group.
+bool Store::Represent(const Finding& candidate) {
+  Statement present(db_.get(), "SELECT unit, idx FROM findings WHERE signature = ?");
+  present.Bind(candidate.signature);
+  if (present.Step()) {
+    const std::pair now(present.Integer(0), present.Integer(1));
+    if (now <= std::pair(candidate.unit, candidate.index)) return false;
+  }
+  WriteFinding(db_.get(), candidate);
+  return true;
+}
+
+void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
+  const std::string of_block = " FROM units WHERE shards = ? AND shard = ? AND block = ?";
+  const auto bind = [&](Statement& statement) -> Statement& {
+    return statement.Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index)).Bind(block);
+  };
+  Statement count(db_.get(), "SELECT COUNT(*)" + of_block);
+  bind(count).Step();
+  if (count.Integer(0) < kUnitsPerBlock) return;
+  Record sum;
+  Statement records(db_.get(), "SELECT record" + of_block);
+  bind(records);
+  while (records.Step()) sum.Merge(ParseRecord(records.Text(0)));
+  Statement insert(db_.get(), "INSERT INTO blocks (shards, shard, block, record) VALUES (?, ?, ?, ?)");
+  bind(insert).Bind(Serialize(sum)).Step();
+  Statement remove(db_.get(), "DELETE" + of_block);
+  bind(remove).Step();
+}
+
+void Store::Finish(const Finding& finding) {
+  Transaction transaction(db_.get());
+  Statement present(db_.get(), "SELECT 1 FROM findings WHERE signature = ? AND unit = ? AND idx = ?");
+  present.Bind(finding.signature).Bind(finding.unit).Bind(finding.index);
+  if (present.Step()) WriteFinding(db_.get(), finding);
+  transaction.Commit();
+}
+
+std::vector<Finding> Store::SelectFindings(const std::string& where_and_order) const {
+  Statement rows(db_.get(), fmt::format("SELECT {} FROM findings {}", kFindingColumns, where_and_order));
+  std::vector<Finding> findings;
+  while (rows.Step()) findings.push_back(ReadFinding(rows));
+  return findings;
+}
+
+std::vector<Finding> Store::Pending() const {
+  return SelectFindings("WHERE done = 0 ORDER BY contacts, unit, idx");
+}
+
+std::vector<Finding> Store::Findings() const { return SelectFindings("ORDER BY signature"); }
+
+Record Store::Total() const {
+  Record total;
+  for (const char* table : {"blocks", "units"}) {
+    Statement rows(db_.get(), fmt::format("SELECT record FROM {}", table));
+    while (rows.Step()) total.Merge(ParseRecord(rows.Text(0)));
+  }
+  return total;
+}
+
+std::vector<Store::BlockInfo> Store::Blocks() const {
+  Statement rows(db_.get(), "SELECT shards, shard, block FROM blocks ORDER BY shards, shard, block");
+  std::vector<BlockInfo> blocks;
+  while (rows.Step()) {
+    blocks.push_back({{static_cast<int>(rows.Integer(1)), static_cast<int>(rows.Integer(0))}, rows.Integer(2)});
+  }
+  return blocks;
+}
+
+void Store::MergeFrom(const Store& other) {
+  if (other.identity_ != identity_) {
+    throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
+  }
+  Transaction transaction(db_.get());
+  const UnitSet before = Units();
+  const auto shard_of = [](const Statement& row) {
+    return Shard{static_cast<int>(row.Integer(1)), static_cast<int>(row.Integer(0))};
+  };
+  Statement blocks(other.db_.get(), "SELECT shards, shard, block, record FROM blocks");
+  while (blocks.Step()) MergeBlock(shard_of(blocks), blocks.Integer(2), blocks.Text(3), before);
+  Statement units(other.db_.get(), "SELECT shards, shard, unit, record FROM units");
+  while (units.Step()) MergeUnit(shard_of(units), units.Integer(2), units.Text(3));
+  for (const Finding& finding : other.Findings()) MergeFinding(finding);
+  transaction.Commit();
+}
+
+// A finished block takes the place of an unfinished copy of itself.
+void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record, const UnitSet& before) {
+  const auto bind = [&](Statement& statement) -> Statement& {
+    return statement.Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index)).Bind(block);
+  };
+  Statement same(db_.get(), "SELECT record FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  if (bind(same).Step()) {
+    STICTION_CHECK(same.Text(0) == record,
+                   fmt::format("two copies of block {} of shard {}/{} differ", block, shard.index, shard.count));
+    return;
+  }
+  Statement remove(db_.get(), "DELETE FROM units WHERE shards = ? AND shard = ? AND block = ?");
+  bind(remove).Step();
+  const UnitSet rest = Units();
+  for (std::int64_t k = 0; k < kUnitsPerBlock; ++k) {
+    const std::int64_t unit = (block * kUnitsPerBlock + k) * shard.count + shard.index;
+    if (before.Contains(unit) && rest.Contains(unit)) {
+      throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
+    }
+  }
+  Statement insert(db_.get(), "INSERT INTO blocks (shards, shard, block, record) VALUES (?, ?, ?, ?)");
+  bind(insert).Bind(record).Step();
+}
+
+void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
+  if (Units().Contains(unit)) {
+    Statement same(db_.get(), "SELECT record FROM units WHERE unit = ?");
+    same.Bind(unit);
+    STICTION_CHECK(!same.Step() || same.Text(0) == record, fmt::format("two copies of unit {} differ", unit));
+    return;
+  }
+  InsertUnit(shard, unit, record);
+  CloseBlockIfComplete(shard, BlockOf(shard, unit));
+}
+
+void Store::MergeFinding(const Finding& finding) {
+  Statement present(db_.get(), "SELECT unit, idx, done FROM findings WHERE signature = ?");
+  present.Bind(finding.signature);
+  if (present.Step()) {
+    const std::tuple mine(present.Integer(0), present.Integer(1), -present.Integer(2));
+    if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;
+  }
+  WriteFinding(db_.get(), finding);
+}
+
+}  // namespace stiction

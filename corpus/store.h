@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Store: one SQLite file with what a campaign has done and found.
+//
+//   campaign   its identity: definition, seed, policies, build
+//   blocks     statistics of kUnitsPerBlock consecutive units of one shard
+//   units      statistics of single units, of blocks that are not complete yet
+//   findings   one representative per signature, with certificate and minimized form
+//
+// Never a row per problem tried. Units may be added in any order, each once; a finding's representative is
+// the one with the smallest (unit, index), whoever came first. So the same units leave the same store,
+// whatever the number of threads and interruptions. Every Add is one transaction: a killed process loses the
+// unit that it was working on and nothing else.
+
+#ifndef STICTION_CORPUS_STORE_H_
+#define STICTION_CORPUS_STORE_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corpus/statistics.h"
+
+struct sqlite3;
+
+namespace stiction {
+
+// Two stores belong together if all of this is equal. Shards are no part of it.
+struct CampaignIdentity {
+  std::string definition;  // canonical JSON: generators, sizes, palette, unit size, ...
+  std::uint64_t seed = 0;
+  std::string policies;  // JSON list of canonical names
+  std::string build;     // commit, compiler, flags
+
+  bool operator==(const CampaignIdentity&) const = default;
+};
+
+struct Shard {
+  int index = 0;
+  int count = 1;
+
+  bool Owns(std::int64_t unit) const { return unit % count == index; }
+  bool operator==(const Shard&) const = default;
+};
+
+// A representative. `done` once it is certified and minimized.
+struct Finding {
+  std::string signature;
+  std::string kind;  // an outcome, or "wrong-answer", "disagreement"
+  std::int64_t unit = 0;
+  std::int64_t index = 0;
+  std::string generator;
+  int contacts = 0;
+  std::string policy;
+  std::string inexact_outcome;
+  std::string exact_outcome;
+  std::string problem;  // exact, as stiction-problem JSON
+  bool done = false;
+  // Filled when done.
+  std::string certificate;            // of `problem`, JSON; empty for outcomes without one
+  std::string minimized;              // stiction-problem JSON with `expect`
+  std::string minimized_certificate;  // JSON
+  std::string facts;                  // JSON: start, period, grid counts, sizes, ...
+
+  bool operator==(const Finding&) const = default;
+};
+
+// The units of a store: whole blocks, and single units of blocks that are not complete.
+class UnitSet {
+ public:
+  void AddUnit(std::int64_t unit) { units_.insert(unit); }
+  void AddBlock(const Shard& shard, std::int64_t block) { blocks_[{shard.count, shard.index}].insert(block); }
+  bool Contains(std::int64_t unit) const;
+  std::int64_t Count() const;
+
+ private:
+  std::set<std::int64_t> units_;
+  std::map<std::pair<int, int>, std::set<std::int64_t>> blocks_;  // by (shards, shard)
+};
+
+class Store {
+ public:
+  static constexpr std::int64_t kUnitsPerBlock = 1024;
+
+  // Opens a store for a campaign, making it if it does not exist. A store of another campaign is an InputError
+  // that names the difference and how to start a new one.
+  Store(const std::filesystem::path& file, const CampaignIdentity& identity);
+  // Opens an existing store to read.
+  static Store OpenToRead(const std::filesystem::path& file);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  const CampaignIdentity& identity() const { return identity_; }
+
+  // Units that are in the store.
+  UnitSet Units() const;
+  // A unit of a shard: its statistics and candidates for representatives. Returns those candidates that are now
+  // representatives.
+  std::vector<Finding> AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
+                               const std::vector<Finding>& candidates);
+  // Fills in a representative, unless a smaller one has taken its place meanwhile.
+  void Finish(const Finding& finding);
+  // Representatives that are not done, fewest contacts first, then by (unit, index).
+  std::vector<Finding> Pending() const;
+  // All representatives in the order of signature.
+  std::vector<Finding> Findings() const;
+  // Sum over all units.
+  Record Total() const;
+
+  struct BlockInfo {
+    Shard shard;
+    std::int64_t block;
+  };
+  std::vector<BlockInfo> Blocks() const;
+
+  // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless as
+  // the same block; a block in both with different content is an InternalError that names it.
+  void MergeFrom(const Store& other);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* db) const;
+  };
+  explicit Store(std::unique_ptr<sqlite3, Close> db);
+  void CreateTables();
+  void WriteIdentity(const CampaignIdentity& identity);
+  std::optional<CampaignIdentity> ReadIdentity() const;
+  void InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record);
+  void MergeBlock(const Shard& shard, std::int64_t block, const std::string& record, const UnitSet& before);
+  void MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record);
+  void MergeFinding(const Finding& finding);
+  void CloseBlockIfComplete(const Shard& shard, std::int64_t block);
+  bool Represent(const Finding& candidate);
+  std::vector<Finding> SelectFindings(const std::string& where_and_order) const;
+  void Execute(const std::string& sql) const;
+
+  std::unique_ptr<sqlite3, Close> db_;
+  CampaignIdentity identity_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_STORE_H_

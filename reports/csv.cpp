@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/csv.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::string_view kKeyColumns[] = {"generator", "contacts", "policy", "method", "arithmetic"};
+
+void AddKeyColumns(Csv& csv) {
+  for (const std::string_view column : kKeyColumns) csv.Add(column);
+}
+
+void AddKey(Csv& csv, const TallyKey& key) {
+  csv.Add(key.generator).Add(key.contacts).Add(key.policy).Add(key.method).Add(key.arithmetic);
+}
+
+void AddStatisticsColumns(Csv& csv, const std::string& prefix) {
+  const Statistics none;
+  ForEachField(none, [&](const char* name, const char*, std::int64_t) { csv.Add(prefix + name); });
+}
+
+void AddStatistics(Csv& csv, const Statistics& statistics) {
+  ForEachField(statistics, [&csv](const char*, const char*, std::int64_t value) { csv.Add(value); });
+}
+
+void AddOutcomeColumns(Csv& csv, const std::string& prefix) {
+  for (const std::string_view name : kOutcomeNames) csv.Add(prefix + std::string(name));
+}
+
+template <class Counts>
+void AddCounts(Csv& csv, const Counts& counts) {
+  for (const std::int64_t count : counts) csv.Add(count);
+}
+
+void AddEmpty(Csv& csv, int cells) {
+  for (int i = 0; i < cells; ++i) csv.Add("");
+}
+
+void AddYesNo(Csv& csv, bool yes) { csv.Add(yes ? "yes" : "no"); }
+
+void AddFindingColumns(Csv& csv) {
+  for (const char* column : {"signature", "kind", "count", "unit", "index", "generator", "contacts", "policy",
+                             "inexact_outcome", "exact_outcome", "state", "loop_drives", "loop_steps"}) {
+    csv.Add(column);
+  }
+  for (const char* column : {"start", "period", "steps", "whole_grid", "every_policy_loops"}) csv.Add(column);
+  AddOutcomeColumns(csv, "found_grid_");
+  for (const char* column : {"minimized_contacts", "minimized_start", "minimized_period", "minimized_steps"}) {
+    csv.Add(column);
+  }
+  AddOutcomeColumns(csv, "minimized_grid_");
+  for (const char* column : {"problem_file", "original_file", "certificate_file"}) csv.Add(column);
+  csv.EndRow();
+}
+
+void AddRepresentative(Csv& csv, const Finding* finding) {
+  if (finding == nullptr) {
+    AddEmpty(csv, 7);
+    csv.Add("counted");
+    return;
+  }
+  csv.Add(finding->unit).Add(finding->index).Add(finding->generator).Add(finding->contacts).Add(finding->policy);
+  csv.Add(finding->inexact_outcome).Add(finding->exact_outcome).Add(finding->done ? "finished" : "pending");
+}
+
+void AddLoop(Csv& csv, const std::optional<LoopLength>& loop) {
+  if (!loop) return AddEmpty(csv, 2);
+  csv.Add(loop->drives).Add(loop->steps);
+}
+
+void AddFound(Csv& csv, const Discovery& discovery) {
+  if (!discovery.found) return AddEmpty(csv, 5 + kOutcomeCount);
+  csv.Add(discovery.found->start).Add(discovery.found->period).Add(discovery.found->steps);
+  AddYesNo(csv, discovery.WholeGrid());
+  AddYesNo(csv, discovery.EveryPolicyLoops());
+  AddCounts(csv, discovery.found->grid.counts);
+}
+
+void AddMinimized(Csv& csv, const std::optional<RunFacts>& run) {
+  if (!run) return AddEmpty(csv, 4 + kOutcomeCount);
+  csv.Add(run->contacts).Add(run->start).Add(run->period).Add(run->steps);
+  AddCounts(csv, run->grid.counts);
+}
+
+}  // namespace
+
+Csv& Csv::Add(std::string_view text) {
+  if (row_started_) text_ += ',';
+  row_started_ = true;
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    text_ += text;
+    return *this;
+  }
+  text_ += '"';
+  for (const char c : text) text_ += c == '"' ? std::string("\"\"") : std::string(1, c);
+  text_ += '"';
+  return *this;
+}
+
+Csv& Csv::Add(std::int64_t value) { return Add(std::string_view(std::to_string(value))); }
+
+void Csv::EndRow() {
+  text_ += "\r\n";
+  row_started_ = false;
+}
+
+std::string StatisticsCsv(const Record& record) {
+  Csv csv;
+  AddKeyColumns(csv);
+  csv.Add("problems");
+  AddOutcomeColumns(csv, "");
+  for (const char* column : {"audited", "misjudged", "wrong", "with_zero_steps", "with_give_ups"}) csv.Add(column);
+  AddStatisticsColumns(csv, "sum_");
+  AddStatisticsColumns(csv, "max_");
+  csv.EndRow();
+  for (const auto& [key, tally] : record.tallies) {
+    AddKey(csv, key);
+    csv.Add(tally.problems);
+    AddCounts(csv, tally.outcomes);
+    csv.Add(tally.audited).Add(tally.misjudged).Add(tally.wrong);
+    csv.Add(tally.with_zero_steps).Add(tally.with_give_ups);
+    AddStatistics(csv, tally.sums);
+    AddStatistics(csv, tally.maxima);
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string VerdictsCsv(const Record& record) {
+  Csv csv;
+  AddKeyColumns(csv);
+  csv.Add("inexact_outcome").Add("exact_outcome").Add("count").EndRow();
+  for (const auto& [key, tally] : record.tallies) {
+    for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
+      for (int exact = 0; exact < kOutcomeCount; ++exact) {
+        const std::int64_t count = tally.verdicts[inexact][exact];
+        if (count == 0) continue;
+        AddKey(csv, key);
+        csv.Add(kOutcomeNames[inexact]).Add(kOutcomeNames[exact]).Add(count).EndRow();
+      }
+    }
+  }
+  return csv.text();
+}
+
+std::string StepsCsv(const Record& record) {
+  Csv csv;
+  AddKeyColumns(csv);
+  csv.Add("steps").Add("or_more").Add("problems").EndRow();
+  for (const auto& [key, tally] : record.tallies) {
+    for (int steps = 0; steps < Tally::kBins; ++steps) {
+      if (tally.steps[steps] == 0) continue;
+      AddKey(csv, key);
+      csv.Add(steps);
+      AddYesNo(csv, steps == Tally::kBins - 1);
+      csv.Add(tally.steps[steps]).EndRow();
+    }
+  }
+  return csv.text();
+}
+
+std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
+  Csv csv;
+  AddFindingColumns(csv);
+  for (const Discovery& discovery : discoveries) {
+    csv.Add(discovery.signature).Add(discovery.kind).Add(discovery.met);
+    AddRepresentative(csv, discovery.representative);
+    AddLoop(csv, discovery.loop);
+    AddFound(csv, discovery);
+    AddMinimized(csv, discovery.minimized);
+    csv.Add(discovery.files.problem).Add(discovery.files.original).Add(discovery.files.certificate).EndRow();
+  }
+  return csv.text();
+}
+
+}  // namespace stiction

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of a report as CSV (RFC 4180): a header line, CRLF, exact integers.
+
+#ifndef STICTION_REPORTS_CSV_H_
+#define STICTION_REPORTS_CSV_H_
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corpus/statistics.h"
+#include "reports/discovery.h"
+
+namespace stiction {
+
+class Csv {
+ public:
+  Csv& Add(std::string_view text);  // quoted where it must be
+  Csv& Add(std::int64_t value);
+  void EndRow();
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  bool row_started_ = false;
+};
+
+// One row per tally: problems, outcomes, audits, sums and maxima of every counter.
+std::string StatisticsCsv(const Record& record);
+// One row per tally, double outcome and exact outcome that occurred, of the runs repeated exactly on suspicion.
+std::string VerdictsCsv(const Record& record);
+// One row per tally and number of steps that occurred; the last bin holds everything above, too.
+std::string StepsCsv(const Record& record);
+// One row per signature, in the order of signature.
+std::string FindingsCsv(const std::vector<Discovery>& discoveries);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_CSV_H_

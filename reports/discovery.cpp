@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/discovery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <regex>
+#include <string_view>
+#include <tuple>
+
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::size_t kLongestName = 200;  // file systems allow 255, and extensions come on top
+
+bool IsLoop(std::string_view kind) { return kind == Name(Outcome::kCycle) || kind == Name(Outcome::kStall); }
+
+// The kinds that findings have; a signature begins with its kind.
+std::vector<std::string_view> Kinds() {
+  std::vector<std::string_view> kinds(kOutcomeNames.begin(), kOutcomeNames.end());
+  kinds.insert(kinds.end(), {"wrong-answer", "disagreement"});
+  return kinds;
+}
+
+// For a signature without a representative, which would say it.
+std::string KindOf(const std::string& signature) {
+  for (const std::string_view kind : Kinds()) {
+    if (signature.starts_with(std::string(kind) + "-")) return std::string(kind);
+  }
+  return signature;
+}
+
+// A signature names drives and steps of its loop: "cycle-2c-4d-10s-...".
+std::optional<LoopLength> LoopLengthOf(const std::string& signature) {
+  static const std::regex pattern("^(?:cycle|stall)-\\d+c-(\\d{1,18})d-(\\d{1,18})s-.*");
+  std::smatch match;
+  if (!std::regex_match(signature, match, pattern)) return std::nullopt;
+  return LoopLength{std::stoll(match[1]), std::stoll(match[2])};
+}
+
+Grid ReadGrid(const JsonPlace& facts) {
+  Grid grid;
+  const JsonPlace counts = facts.Required("grid", "outcomes over the policy grid");
+  counts.RequireObject();
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    const auto count = counts.Optional(std::string(kOutcomeNames[i]));
+    if (count) grid.counts[i] = count->Integer(0, std::numeric_limits<std::int64_t>::max(), "a count");
+  }
+  return grid;
+}
+
+RunFacts ReadRun(const JsonPlace& facts) {
+  const auto count = [&facts](const char* key) {
+    return facts.Required(key, "a count").Integer(0, std::numeric_limits<std::int64_t>::max(), "a count");
+  };
+  return {count("contacts"), count("start"), count("period"), count("steps"), ReadGrid(facts)};
+}
+
+void AddFacts(Discovery& discovery, const Finding& finding) {
+  if (finding.facts.empty()) return;
+  const std::string source = "facts of " + finding.signature;
+  const Json json = ParseJson(finding.facts, source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  if (const auto found = root.Optional("found")) discovery.found = ReadRun(*found);
+  if (const auto minimized = root.Optional("minimized")) discovery.minimized = ReadRun(*minimized);
+}
+
+FindingFiles FilesOf(const Finding& finding) {
+  const std::string stem = "findings/" + FileName(finding.signature);
+  const bool certified = !finding.certificate.empty() || !finding.minimized_certificate.empty();
+  return {stem + ".json", stem + ".original.json", certified ? stem + ".certificate.json" : ""};
+}
+
+void Represent(Discovery& discovery, const Finding& finding) {
+  discovery.kind = finding.kind;
+  discovery.representative = &finding;
+  discovery.files = FilesOf(finding);
+  AddFacts(discovery, finding);
+}
+
+bool MayStandInFileName(char c) {
+  const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return letter || (c >= '0' && c <= '9') || std::string_view("-_=,@").find(c) != std::string_view::npos;
+}
+
+std::uint64_t Hash(std::string_view text) {  // FNV-1a
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+}  // namespace
+
+std::int64_t Grid::Total() const { return std::accumulate(counts.begin(), counts.end(), std::int64_t{0}); }
+
+bool Grid::IsAll(std::string_view outcome) const {
+  const std::int64_t total = Total();
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    if (kOutcomeNames[i] == outcome) return total > 0 && counts[i] == total;
+  }
+  return false;
+}
+
+bool Grid::AllLoop() const {
+  const std::int64_t loops =
+      counts[static_cast<int>(Outcome::kCycle)] + counts[static_cast<int>(Outcome::kStall)];
+  return loops > 0 && loops == Total();
+}
+
+bool Discovery::WholeGrid() const { return found && found->grid.IsAll(representative->exact_outcome); }
+
+int Discovery::SmallestContacts() const {
+  return minimized ? static_cast<int>(minimized->contacts) : representative->contacts;
+}
+
+std::vector<Discovery> Discoveries(const Record& record, const std::vector<Finding>& findings) {
+  std::map<std::string, Discovery> by_signature;
+  for (const auto& [signature, count] : record.signatures) {
+    by_signature[signature].kind = KindOf(signature);
+    by_signature[signature].met = count;
+  }
+  for (const Finding& finding : findings) Represent(by_signature[finding.signature], finding);
+  std::vector<Discovery> discoveries;
+  for (auto& [signature, discovery] : by_signature) {
+    discovery.signature = signature;
+    if (IsLoop(discovery.kind)) discovery.loop = LoopLengthOf(signature);
+    discoveries.push_back(std::move(discovery));
+  }
+  return discoveries;
+}
+
+std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveries) {
+  std::vector<const Discovery*> sorted;
+  for (const Discovery& discovery : discoveries) {
+    if (discovery.representative != nullptr) sorted.push_back(&discovery);
+  }
+  const auto rank = [](const Discovery* d) {
+    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), -d->met);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&rank](const Discovery* left, const Discovery* right) { return rank(left) < rank(right); });
+  return sorted;
+}
+
+std::string FileName(const std::string& signature) {
+  std::string name = signature.substr(0, kLongestName);
+  std::replace_if(name.begin(), name.end(), [](char c) { return !MayStandInFileName(c); }, '_');
+  if (name == signature && !name.empty()) return name;
+  return fmt::format("{}-{:016x}", name, Hash(signature));
+}
+
+}  // namespace stiction

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section of the page that shows findings one by one.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corpus/problem_file.h"
+#include "reports/page.h"
+
+namespace stiction {
+namespace {
+
+bool IsLoop(std::string_view outcome) { return outcome == "cycle" || outcome == "stall"; }
+
+// ---- The problem in numbers ----
+
+// "N1", "F1", "N2", ...; in space a contact has two friction rows, "F1x" and "F1y".
+std::vector<std::string> RowNames(const ExactProblem& problem) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    names.push_back(fmt::format("N{}", i + 1));
+    if (!problem.contacts[i].HasFrictionRows()) continue;
+    if (problem.dimension == 2) {
+      names.push_back(fmt::format("F{}", i + 1));
+    } else {
+      names.insert(names.end(), {fmt::format("F{}x", i + 1), fmt::format("F{}y", i + 1)});
+    }
+  }
+  return names;
+}
+
+std::string MuText(const Contact<Rational>& contact) {
+  return contact.HasFrictionRows() ? ToString(contact.mu) : "–";
+}
+
+// What stands in the column of mu: the coefficient beside the normal of its contact.
+std::vector<std::string> MuColumn(const ExactProblem& problem) {
+  std::vector<std::string> column;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    column.push_back(MuText(contact));
+    if (contact.HasFrictionRows()) column.resize(column.size() + static_cast<std::size_t>(problem.dimension) - 1);
+  }
+  return column;
+}
+
+Cell Number(const Rational& x, const std::string& style = "") {
+  return {Text(ToString(x)), x == 0 && style.empty() ? "zero" : style};
+}
+
+Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
+  const std::vector<std::string> names = RowNames(problem);
+  const std::vector<std::string> mu = MuColumn(problem);
+  std::vector<Column> columns = {{"A", "", false}};
+  for (const std::string& name : names) columns.push_back({name});
+  columns.insert(columns.end(), {{"b"}, {"mu"}});
+  Table table(caption, columns);
+  for (int row = 0; row < problem.rows(); ++row) {
+    std::vector<Cell> cells = {{Text(names[row])}};
+    for (int column = 0; column < problem.rows(); ++column) cells.push_back(Number(problem.A(row, column)));
+    cells.push_back(Number(problem.b[row], "edge"));
+    cells.push_back({Text(mu[row]), "edge"});
+    table.AddRow(cells);
+  }
+  return table.Done();
+}
+
+struct Size {
+  int contacts = 0;
+  int nonzeros = 0;       // of A and b
+  std::int64_t bits = 0;  // of the longest numerator or denominator
+};
+
+Size SizeOf(const ExactProblem& problem) {
+  Size size{static_cast<int>(problem.contacts.size())};
+  const auto count = [&size](const Rational& x) {
+    size.nonzeros += x != 0;
+    size.bits = std::max(size.bits, Bits(x));
+  };
+  for (const Rational& x : problem.A.reshaped()) count(x);
+  for (const Rational& x : problem.b) count(x);
+  for (const auto& contact : problem.contacts) count(contact.mu);
+  return size;
+}
+
+// The minimized problem; as found while there is none.
+const std::string& SimplestText(const Finding& finding) {
+  return finding.minimized.empty() ? finding.problem : finding.minimized;
+}
+
+// ---- Words ----
+
+std::string GridText(const Grid& grid) {
+  std::string text;
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    if (grid.counts[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kOutcomeNames[i], Grouped(grid.counts[i]));
+  }
+  return text;
+}
+
+// "The state after 3 drives stands again 4 drives later (17 steps in all)."
+std::string RunText(const RunFacts& run, const Finding& finding) {
+  const std::string steps = Counted(run.steps, "step");
+  if (!IsLoop(finding.exact_outcome)) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
+  const std::string unit = finding.exact_outcome == "cycle" ? "drive" : "step";
+  return fmt::format("Under {}: the state after {} stands again {} later, and so for ever ({} in all).", finding.policy,
+                     Counted(run.start, unit), Counted(run.period, unit), steps);
+}
+
+// A word as a shell reads it back.
+std::string ShellWord(const std::string& word) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_=,@./").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+Html Commands(const Discovery& discovery) {
+  const std::string& policy = discovery.representative->policy;
+  std::string text = fmt::format("./run replay {} --step", discovery.files.problem);
+  if (policy != "paper") text += " --policy " + ShellWord(policy);
+  if (!discovery.files.certificate.empty()) text += fmt::format("\n./run check {}", discovery.files.certificate);
+  return Tag("pre")(Tag("code")(text));
+}
+
+Html FileLinks(const FindingFiles& files) {
+  const auto link = [](const std::string& file, std::string_view title) { return Tag("a", {{"href", file}})(title); };
+  Html links = link(files.problem, "problem") + Html(" · ") + link(files.original, "as found");
+  if (!files.certificate.empty()) links += Html(" · ") + link(files.certificate, "certificate");
+  return Tag("p", {{"class", "note"}})(Html("Files: ") + links);
+}
+
+Html Story(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  if (!discovery.Finished()) return Html("<p>Neither certified nor minimized yet; the problem as found:</p>\n");
+  if (discovery.minimized) return Tag("p")(RunText(*discovery.minimized, finding)) + Html("\n");
+  std::string text = fmt::format("In doubles: {}.", finding.inexact_outcome);
+  if (discovery.found) text += " " + RunText(*discovery.found, finding);
+  return Tag("p")(text + " Not minimized; the problem as found:") + Html("\n");
+}
+
+// ---- The table ----
+
+Table EmptyTable() {
+  return Table("Findings, the simplest first",
+               {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units", false},
+                {"kind", "", false},
+                {"contacts", "of the problem as found → of the minimized problem", false},
+                {"drives", "of one period of the loop"},
+                {"steps", "of one period of the loop"},
+                {"met", "runs of the campaign with this signature"},
+                {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
+                {"policies, as found", "outcomes over the planar grid of policies", false},
+                {"policies, minimized", "likewise, of the minimized problem", false},
+                {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
+}
+
+Html KindBadge(const Discovery& discovery) {
+  const Tag badge("span", {{"class", IsLoop(discovery.kind) ? "badge loop" : "badge"}});
+  Html html = badge(discovery.kind);
+  if (discovery.WholeGrid()) html += Html(" <span class=\"badge whole\">whole grid</span>");
+  return html;
+}
+
+Html ContactsText(const Discovery& discovery) {
+  const int found = discovery.representative->contacts, smallest = discovery.SmallestContacts();
+  return found == smallest ? Text(std::to_string(found)) : Text(fmt::format("{} → {}", found, smallest));
+}
+
+Html RepresentativeText(const Finding& finding) {
+  Html html = Text(fmt::format("{} {}/{}", finding.generator, finding.unit, finding.index));
+  if (finding.policy != "paper") html += Tag("small")(finding.policy);
+  return html;
+}
+
+Html SizeText(const Discovery& discovery) {
+  if (!discovery.minimized) return Tag("span", {{"class", "soft"}})(discovery.Finished() ? "–" : "pending");
+  const Finding& finding = *discovery.representative;
+  const Size size = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
+  return Text(fmt::format("{}, {}", Counted(size.nonzeros, "nonzero"), Counted(size.bits, "bit")));
+}
+
+void AddFinding(Table& table, const Discovery& discovery) {
+  const auto period = [&](std::int64_t LoopLength::*part) {
+    return discovery.loop ? Text(Grouped((*discovery.loop).*part)) : Html();
+  };
+  table.AddRow({{Tag("code")(discovery.signature), "signature"},
+                {KindBadge(discovery)},
+                {ContactsText(discovery)},
+                {period(&LoopLength::drives)},
+                {period(&LoopLength::steps)},
+                {Text(Grouped(discovery.met))},
+                {RepresentativeText(*discovery.representative)},
+                {discovery.found ? Text(GridText(discovery.found->grid)) : Html()},
+                {discovery.minimized ? Text(GridText(discovery.minimized->grid)) : Html()},
+                {SizeText(discovery)}},
+               1, "finding");
+  table.AddWide(Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(discovery)), "more");
+}
+
+Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
+  const auto all = static_cast<std::int64_t>(discoveries.size());
+  const auto here = static_cast<std::int64_t>(shown);
+  std::string text = "One row per signature: fewest contacts first, then those that every policy of the grid shows, "
+                     "then the most frequent. ";
+  if (here == all) return Tag("p")(text + fmt::format("All {} are shown.", Grouped(all)));
+  text += fmt::format("{} of {} are shown; all are in ", Grouped(here), Counted(all, "signature"));
+  return Tag("p")(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
+}
+
+}  // namespace
+
+Html FindingDetails(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  const ExactProblem problem = ParseProblem(SimplestText(finding), finding.signature).problem;
+  return Tag("div", {{"class", "details"}})(Html("\n") + Story(discovery) +
+                                            ProblemTable(problem, "Problem of " + finding.signature) +
+                                            Commands(discovery) + FileLinks(discovery.files)) +
+         Html("\n");
+}
+
+Html FindingsSection(const std::vector<Discovery>& discoveries) {
+  if (discoveries.empty()) return Section("findings", "Findings", Html("<p>None.</p>\n"));
+  std::vector<const Discovery*> shown = ByInterest(discoveries);
+  if (shown.size() > kFindingsShown) shown.resize(kFindingsShown);
+  Table table = EmptyTable();
+  for (const Discovery* discovery : shown) AddFinding(table, *discovery);
+  return Section("findings", "Findings",
+                 HowMany(shown.size(), discoveries) +
+                     Html("<p class=\"note\">Paths are relative to the directory of this page; <code>run</code> stands "
+                          "in stiction’s own directory. <code>replay</code> shows every pivot in exact numbers; "
+                          "<code>certify/check_certificate.py</code> is an independent check of a certificate.</p>\n") +
+                     table.Done());
+}
+
+}  // namespace stiction

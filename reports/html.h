@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// HTML, escaped by construction: whatever does not come from our own source text becomes Html only through
+// Text() or an attribute's value, and both escape.
+
+#ifndef STICTION_REPORTS_HTML_H_
+#define STICTION_REPORTS_HTML_H_
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stiction {
+
+class Html {
+ public:
+  Html() = default;
+  // Markup of our own; a literal only, so that nobody passes what a store says.
+  template <std::size_t Size>
+  explicit Html(const char (&markup)[Size]) : markup_(markup, Size - 1) {}
+
+  Html& operator+=(const Html& more);
+  friend Html operator+(Html left, const Html& right) { return left += right; }
+
+  const std::string& markup() const { return markup_; }
+  bool empty() const { return markup_.empty(); }
+
+ private:
+  friend Html Text(std::string_view text);
+  friend struct Tag;
+  std::string markup_;
+};
+
+// Control characters that HTML does not allow become U+FFFD.
+Html Text(std::string_view text);
+
+struct Attribute {
+  std::string_view name;
+  std::string value;
+};
+
+// Tag("a", {{"href", url}})(content): an element. Void elements take no content: Tag("br").Void().
+struct Tag {
+  Tag(std::string_view name, std::initializer_list<Attribute> attributes = {});
+  Html operator()(const Html& content) const;
+  Html operator()(std::string_view text) const { return (*this)(Text(text)); }
+  Html Void() const;
+
+ private:
+  std::string name_;
+  std::string open_;  // "<name attributes", not closed yet
+};
+
+// ---- Tables ----
+
+struct Column {
+  std::string title;
+  std::string hint = {};  // shown on hovering
+  bool number = true;     // right-aligned
+};
+
+struct Cell {
+  Html content;
+  std::string style = {};  // class names
+};
+
+class Table {
+ public:
+  // `caption` names the table to a screen reader, and is not shown.
+  Table(std::string caption, std::vector<Column> columns);
+
+  // The first `headers` cells are headers of the row. As many cells as columns (InternalError otherwise).
+  void AddRow(const std::vector<Cell>& cells, int headers = 1, const std::string& style = "");
+  // One cell across all columns.
+  void AddWide(const Html& content, const std::string& style);
+  // The table in a frame that scrolls sideways where the page is narrow.
+  Html Done() const;
+
+ private:
+  Html Head() const;
+
+  std::string caption_;
+  std::vector<Column> columns_;
+  Html rows_;
+};
+
+// ---- Numbers for people ----
+
+std::string Grouped(std::int64_t value);  // 1,234,567
+// count per million of total, about three digits; "" of nothing.
+std::string PerMillion(std::int64_t count, std::int64_t total);
+std::string Percent(std::int64_t count, std::int64_t total);
+std::string Mean(std::int64_t sum, std::int64_t count);
+// "1 problem", "2 problems".
+std::string Counted(std::int64_t count, const std::string& noun);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_HTML_H_

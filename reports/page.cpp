@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "corpus/json_text.h"
+#include "reports/style.h"
+
+namespace stiction {
+namespace {
+
+// ---- What was found ----
+
+// Discoveries of one kind, counted.
+struct KindCounts {
+  std::int64_t met = 0, groups = 0, finished = 0, pending = 0, counted = 0, found_grid = 0, minimized_grid = 0;
+
+  void Add(const Discovery& discovery) {
+    met += discovery.met;
+    ++groups;
+    finished += discovery.Finished();
+    pending += discovery.representative != nullptr && !discovery.Finished();
+    counted += discovery.representative == nullptr;
+    found_grid += discovery.EveryPolicyLoops();
+    minimized_grid += discovery.minimized && discovery.minimized->grid.AllLoop();
+  }
+};
+
+// By kind, loops first.
+std::vector<std::pair<std::string, KindCounts>> CountByKind(const std::vector<Discovery>& discoveries) {
+  std::map<std::string, KindCounts> counts;
+  for (const Discovery& discovery : discoveries) counts[discovery.kind].Add(discovery);
+  std::vector<std::pair<std::string, KindCounts>> sorted(counts.begin(), counts.end());
+  const auto is_loop = [](const auto& row) { return row.first == "cycle" || row.first == "stall"; };
+  std::stable_partition(sorted.begin(), sorted.end(), is_loop);
+  return sorted;
+}
+
+KindCounts CountAll(const std::vector<Discovery>& discoveries) {
+  KindCounts all;
+  for (const Discovery& discovery : discoveries) all.Add(discovery);
+  return all;
+}
+
+std::vector<Cell> KindRow(const std::string& kind, const KindCounts& c) {
+  std::vector<Cell> cells = {{Text(kind)}};
+  for (const std::int64_t count :
+       {c.met, c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
+    cells.push_back({Text(Grouped(count)), count == 0 ? "zero" : ""});
+  }
+  return cells;
+}
+
+Html KindTable(const std::vector<Discovery>& discoveries) {
+  Table table("Findings by kind",
+              {{"kind", "", false},
+               {"runs", "runs in which it was met"},
+               {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
+               {"finished", "representatives certified and minimized"},
+               {"pending", "representatives that are not finished yet"},
+               {"only counted", "groups without a representative"},
+               {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
+               {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
+  for (const auto& [kind, counts] : CountByKind(discoveries)) table.AddRow(KindRow(kind, counts));
+  table.AddRow(KindRow("all", CountAll(discoveries)), 1, "total");
+  return table.Done();
+}
+
+Html KindNote() {
+  return Html("<p class=\"note\">A group is a signature: findings that are the same up to permuting contacts, "
+              "reversing tangents and units. Its representative is the first problem that shows it; finished means "
+              "certified and minimized. Groups that were met in a unit with many new ones are only counted there, "
+              "and represented when another unit meets them. Whole grid: a loop under every policy, that is, under every "
+              "reading of the published text.</p>\n");
+}
+
+// Every policy runs the same problems.
+std::int64_t ProblemsOf(const Record& total) {
+  std::map<std::pair<std::string, int>, std::int64_t> problems;
+  for (const auto& [key, tally] : total.tallies) {
+    std::int64_t& most = problems[{key.generator, key.contacts}];
+    most = std::max(most, tally.problems);
+  }
+  std::int64_t sum = 0;
+  for (const auto& [key, count] : problems) sum += count;
+  return sum;
+}
+
+std::int64_t RunsOf(const Record& total) {
+  std::int64_t runs = 0;
+  for (const auto& [key, tally] : total.tallies) runs += tally.problems;
+  return runs;
+}
+
+Html Tile(std::int64_t value, const std::string& meaning, const char* style = "") {
+  const Html content = Tag("strong")(Grouped(value)) + Html(" ") + Tag("span")(meaning);
+  return Tag("li", {{"class", style}})(content) + Html("\n");
+}
+
+Html Tiles(const ReportContent& content) {
+  const KindCounts all = CountAll(content.discoveries);
+  const std::int64_t problems = ProblemsOf(content.total);
+  const std::int64_t runs = RunsOf(content.total);
+  Html tiles = Tile(problems, "problems run");
+  if (runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
+  tiles += Tile(all.met, "runs with a finding");
+  tiles += Tile(all.groups, "groups of findings (signatures)", "loop");
+  tiles += Tile(all.finished, "representatives finished");
+  tiles += Tile(all.pending, "representatives pending");
+  tiles += Tile(all.found_grid, "of the finished loop under every policy", "loop");
+  return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
+}
+
+Html Featured(const std::vector<Discovery>& discoveries) {
+  const auto sorted = ByInterest(discoveries);
+  const auto first = std::find_if(sorted.begin(), sorted.end(), [](const Discovery* d) { return d->minimized; });
+  if (first == sorted.end()) return {};
+  const Html title = Tag("h3")(Html("The simplest: ") + Tag("code")((*first)->signature));
+  return Tag("div", {{"class", "featured"}})(title + FindingDetails(**first)) + Html("\n");
+}
+
+// ---- Campaign ----
+
+std::string PlainText(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  if (json.is_number_integer()) return Grouped(json.get<std::int64_t>());
+  if (!json.is_array()) return JsonText(json);
+  std::vector<std::string> parts;
+  for (const Json& element : json) parts.push_back(PlainText(element));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string CampaignLabel(const std::string& key) {
+  static const std::map<std::string, std::string> labels = {{"contacts", "numbers of contacts"},
+                                                            {"mu", "friction palette"},
+                                                            {"unit_problems", "problems of a unit"},
+                                                            {"audit_every", "audited: one problem in"},
+                                                            {"representatives_per_unit", "new representatives per unit, at most"},
+                                                            {"max_drives", "budget, drives"},
+                                                            {"max_pivots", "budget, pivots"},
+                                                            {"max_bits", "budget, bits of a number"}};
+  const auto label = labels.find(key);
+  return label == labels.end() ? key : label->second;
+}
+
+// A text that is JSON by intention; as it is if it is not.
+Json Lenient(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_discarded() ? Json(text) : json;
+}
+
+class Definitions {
+ public:
+  void Add(const std::string& term, const std::string& text) {
+    rows_ += Tag("dt")(term) + Tag("dd")(text) + Html("\n");
+  }
+  Html Done() const { return Tag("dl")(rows_); }
+
+ private:
+  Html rows_;
+};
+
+void AddDefinition(Definitions& list, const std::string& definition) {
+  const Json json = Lenient(definition);
+  if (!json.is_object()) return list.Add("definition", PlainText(json));
+  for (const auto& [key, value] : json.items()) {
+    if (key == "format" || key == "version") continue;
+    list.Add(CampaignLabel(key), PlainText(value));
+  }
+}
+
+// ---- The document ----
+
+constexpr const char* kTitle = "stiction: does Baraff's contact force algorithm always end?";
+
+Html Head() {
+  // The sheet is ours, and nothing else is loaded.
+  const Tag policy("meta", {{"http-equiv", "Content-Security-Policy"},
+                            {"content", "default-src 'none'; style-src 'unsafe-inline'"}});
+  return Html("<head>\n<meta charset=\"utf-8\">\n") +
+         Html("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n") + policy.Void() +
+         Html("\n") + Tag("title")(kTitle) + Html("\n") + Tag("style")(Html(kStyle)) + Html("\n</head>\n");
+}
+
+Html Introduction() {
+  return Tag("h1")("Does Baraff’s contact force algorithm always end?") +
+         Tag("p")(
+             "A search of random friction problems for inputs on which the pivoting algorithm of D. Baraff, Fast "
+             "Contact Force Computation for Nonpenetrating Rigid Bodies (SIGGRAPH 1994), run as published, repeats "
+             "a state and so never ends. Every finding was run again in exact rational arithmetic; a finished loop "
+             "comes with a certificate that an independent checker verifies, and with a problem made as small as "
+             "it gets.") +
+         Html("\n");
+}
+
+Html Navigation() {
+  Html links;
+  for (const auto& [id, title] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"#found", "Found"},
+           {"#campaign", "Campaign"},
+           {"#outcomes", "Outcomes"},
+           {"#doubles", "How often doubles lie"},
+           {"#pivots", "Pivots"},
+           {"#steps", "Steps"},
+           {"#findings", "Findings"},
+           {"#files", "Files"}}) {
+    links += Tag("a", {{"href", id}})(title) + Html("\n");
+  }
+  return Tag("nav", {{"aria-label", "Sections"}})(links) + Html("\n");
+}
+
+Html FilesSection() {
+  Html list;
+  for (const auto& [file, meaning] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"statistics.csv", "all counters, sums and maxima per generator, contacts and policy"},
+           {"verdicts.csv", "runs repeated exactly on suspicion: what doubles said, what is exact"},
+           {"steps.csv", "histograms of steps per problem"},
+           {"findings.csv", "every signature, with its counts, facts and files"}}) {
+    list += Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
+  }
+  list += Tag("li")(Html("<code>findings/</code>: of every representative the minimized problem (or, until there "
+                         "is one, the problem as found), the problem as found (<code>.original.json</code>) and "
+                         "its certificate (<code>.certificate.json</code>)")) +
+          Html("\n");
+  return Section("files", "Files beside this page", Tag("ul")(list));
+}
+
+Html Sections(const ReportContent& content) {
+  Html sections = FoundSection(content) + CampaignSection(content);
+  if (content.units == 0) return sections + FilesSection();
+  return sections + OutcomesSection(content.total) + DoublesSection(content.total) +
+         PivotsSection(content.total) + StepsSection(content.total) + FindingsSection(content.discoveries) +
+         FilesSection();
+}
+
+}  // namespace
+
+Html Section(const std::string& id, const std::string& title, const Html& content) {
+  return Tag("section", {{"id", id}})(Html("\n") + Tag("h2")(title) + Html("\n") + content) + Html("\n");
+}
+
+Html FoundSection(const ReportContent& content) {
+  if (content.units == 0) {
+    return Section("found", "What was found", Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
+  }
+  Html found = Tiles(content);
+  if (content.discoveries.empty()) {
+    found += Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
+  } else {
+    found += Featured(content.discoveries) + Html("<h3>By kind</h3>\n") + KindTable(content.discoveries) + KindNote();
+  }
+  return Section("found", "What was found", found);
+}
+
+Html CampaignSection(const ReportContent& content) {
+  Definitions list;
+  list.Add("seed", std::to_string(content.identity.seed));
+  AddDefinition(list, content.identity.definition);
+  list.Add("policies", PlainText(Lenient(content.identity.policies)));
+  list.Add("build", content.identity.build);
+  list.Add("problems", Grouped(ProblemsOf(content.total)));
+  list.Add("units", Grouped(content.units));
+  list.Add("complete blocks", fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
+  return Section("campaign", "Campaign",
+                 list.Done() + Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
+                                    "findings on any machine.</p>\n"));
+}
+
+std::string Page(const ReportContent& content) {
+  Html sections = Sections(content);
+  const Html header = Tag("header")(Html("\n") + Introduction() + (content.units > 0 ? Navigation() : Html()));
+  const Html body = Tag("body")(Html("\n") + header + Html("\n") + Tag("main")(Html("\n") + sections) + Html("\n"));
+  return "<!DOCTYPE html>\n" + Tag("html", {{"lang", "en"}})(Html("\n") + Head() + body + Html("\n")).markup() + "\n";
+}
+
+}  // namespace stiction

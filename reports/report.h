@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report: what a store holds, as a page for people, tables for programs, and files to replay and check.
+//
+//   index.html                    one page that needs nothing else
+//   statistics.csv verdicts.csv   what was counted (csv.h)
+//   steps.csv findings.csv
+//   findings/NAME.json            the minimized problem; as found while there is none
+//   findings/NAME.original.json   the problem as found
+//   findings/NAME.certificate.json  of the minimized problem, otherwise of the problem as found
+
+#ifndef STICTION_REPORTS_REPORT_H_
+#define STICTION_REPORTS_REPORT_H_
+
+#include <filesystem>
+
+#include "corpus/store.h"
+
+namespace stiction {
+
+// Makes the directory; overwrites its own files there and leaves all others. The same content of a store gives
+// the same bytes. InputError if something cannot be written.
+void WriteReport(const Store& store, const std::filesystem::path& directory);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_REPORT_H_

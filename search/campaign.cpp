@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kLargestMuPart = 64;
+
+int WeightOf(int contacts) {
+  switch (contacts) {
+    case 2:
+      return 8;
+    case 3:
+      return 4;
+    case 4:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+GeneratorId ReadGenerator(const JsonPlace& place) {
+  const auto id = FindGenerator(place.Text("the name of a generator"));
+  if (!id) {
+    std::vector<std::string_view> names;
+    for (const GeneratorRow& row : Generators()) names.push_back(row.name);
+    place.Refuse(fmt::format("one of {}", fmt::join(names, ", ")));
+  }
+  return *id;
+}
+
+Policy ReadPolicy(const JsonPlace& place) {
+  try {
+    return ParsePolicy(place.Text("a policy"));
+  } catch (const std::invalid_argument& error) {
+    place.Refuse(error.what());
+  }
+}
+
+MuChoice ReadMu(const JsonPlace& place) {
+  try {
+    return ParseMu(place.Text("a friction coefficient as a string"));
+  } catch (const InputError& error) {
+    place.Refuse(error.what());
+  }
+}
+
+template <class Read>
+auto ReadList(const JsonPlace& list, Read read) {
+  std::vector<decltype(read(list))> values;
+  const std::size_t size = list.Size("a list that is not empty");
+  if (size == 0) list.Refuse("a list that is not empty");
+  for (std::size_t i = 0; i < size; ++i) values.push_back(read(list[i]));
+  return values;
+}
+
+}  // namespace
+
+Campaign::Campaign() {
+  for (const GeneratorRow& row : Generators()) generators.push_back(row.id);
+}
+
+MuChoice ParseMu(const std::string& text) {
+  const auto mu = ParseRational(text);
+  const bool fits = mu && *mu >= 0 && mu->get_num() <= kLargestMuPart && mu->get_den() <= kLargestMuPart;
+  if (!fits) {
+    throw InputError(fmt::format("friction coefficient: found '{}', expected p/q with 0 <= p <= {} and 1 <= q <= {}",
+                                 text, kLargestMuPart, kLargestMuPart));
+  }
+  return {static_cast<int>(mu->get_num().get_si()), static_cast<int>(mu->get_den().get_si())};
+}
+
+Campaign ReadCampaign(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const Json json = ParseJson(ReadText(file), source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
+                  "audit_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits"});
+  const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
+  if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
+  root.Required("version", "1").Integer(1, 1, "1");
+  Campaign campaign;
+  const auto integer = [&root](const char* key, std::int64_t least, std::int64_t most, auto& value) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if (const auto place = root.Optional(key)) {
+      value = static_cast<Value>(place->Integer(least, most, fmt::format("an integer from {} to {}", least, most)));
+    }
+  };
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  integer("seed", 0, std::numeric_limits<std::int64_t>::max(), campaign.seed);
+  integer("unit_problems", 1, kMost, campaign.unit_problems);
+  integer("audit_every", 1, kMost, campaign.audit_every);
+  integer("representatives_per_unit", 1, kMost, campaign.representatives_per_unit);
+  integer("max_drives", 1, kMost, campaign.limits.drives);
+  integer("max_pivots", 1, kMost, campaign.limits.pivots);
+  integer("max_bits", 1, kMost, campaign.limits.bits);
+  if (const auto list = root.Optional("generators")) campaign.generators = ReadList(*list, ReadGenerator);
+  if (const auto list = root.Optional("mu")) campaign.palette = ReadList(*list, ReadMu);
+  if (const auto list = root.Optional("policies")) campaign.policies = ReadList(*list, ReadPolicy);
+  if (const auto list = root.Optional("contacts")) {
+    campaign.contacts = ReadList(*list, [](const JsonPlace& place) {
+      return static_cast<int>(place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
+    });
+  }
+  return campaign;
+}
+
+Json DefinitionToJson(const Campaign& campaign) {
+  Json generators = Json::array(), palette = Json::array();
+  for (const GeneratorId id : campaign.generators) generators.push_back(Row(id).name);
+  for (const MuChoice& mu : campaign.palette) {
+    palette.push_back(ToString(Rational(mu.numerator) / Rational(mu.denominator)));
+  }
+  return {{"format", "stiction-campaign"},
+          {"version", 1},
+          {"generators", generators},
+          {"contacts", campaign.contacts},
+          {"mu", palette},
+          {"unit_problems", campaign.unit_problems},
+          {"audit_every", campaign.audit_every},
+          {"representatives_per_unit", campaign.representatives_per_unit},
+          {"max_drives", campaign.limits.drives},
+          {"max_pivots", campaign.limits.pivots},
+          {"max_bits", campaign.limits.bits}};
+}
+
+CampaignIdentity IdentityOf(const Campaign& campaign, const std::string& build) {
+  Json policies = Json::array();
+  for (const Policy& policy : campaign.policies) policies.push_back(PolicyName(policy));
+  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), build};
+}
+
+std::vector<Task> Schedule(const Campaign& campaign) {
+  int rounds = 0;
+  for (const int contacts : campaign.contacts) rounds = std::max(rounds, WeightOf(contacts));
+  std::vector<Task> schedule;
+  for (int round = 0; round < rounds; ++round) {
+    for (const int contacts : campaign.contacts) {
+      if (round >= WeightOf(contacts)) continue;
+      for (const GeneratorId generator : campaign.generators) schedule.push_back({generator, contacts});
+    }
+  }
+  return schedule;
+}
+
+}  // namespace stiction

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/finish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "certify/certificate.h"
+#include "corpus/json_text.h"
+#include "search/minimize.h"
+#include "search/signature.h"
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+std::string Checked(const Json& certificate, const std::string& source) {
+  const CheckReport report = CheckCertificate(certificate, source);
+  STICTION_CHECK(report.accepted, fmt::format("{}: our own certificate is rejected: {}", source, report.reason));
+  return JsonText(certificate);
+}
+
+bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+
+Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
+  return {{"contacts", problem.contacts.size()},
+          {"outcome", Name(run.verdict.outcome)},
+          {"start", run.verdict.start},
+          {"period", run.verdict.period},
+          {"steps", run.trace.pivots.size()},
+          {"grid", grid}};
+}
+
+// A minimized problem as a file: what it shows, where it comes from, what every policy makes of it.
+ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const Policy& policy, bool whole_grid) {
+  ProblemFile file;
+  file.name = finding.signature;
+  file.problem = problem;
+  file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
+                     {"minimized", true}};
+  file.expect[whole_grid ? "*" : PolicyName(policy)] = finding.exact_outcome;
+  return file;
+}
+
+}  // namespace
+
+Json GridCounts(const ExactProblem& problem, const Limits& limits) {
+  std::array<std::int64_t, kOutcomeCount> counts = {};
+  for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), limits)) {
+    counts[static_cast<int>(equal.verdict.outcome)] += static_cast<std::int64_t>(equal.policies.size());
+  }
+  Json json = Json::object();
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    if (counts[i] > 0) json[std::string(kOutcomeNames[i])] = counts[i];
+  }
+  return json;
+}
+
+std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
+                                     const std::function<bool()>& cancelled) {
+  const ProblemFile file = ParseProblem(finding.problem, finding.signature);
+  const Policy policy = ParsePolicy(finding.policy);
+  const ExactRun run = RunExact(file.problem, {policy, {}, limits});
+  const Outcome outcome = run.verdict.outcome;
+  Finding finished = finding;
+  finished.done = true;
+  const Json grid = GridCounts(file.problem, limits);
+  Json facts = {{"found", FactsOf(file.problem, run, grid)}};
+  if (outcome == Outcome::kSolved) {
+    finished.certificate = Checked(SolutionCertificate(file.problem, run.state.f), finding.signature);
+    finished.facts = facts.dump();
+    return finished;
+  }
+  const bool whole_grid = grid.size() == 1 && grid.contains(std::string(Name(outcome)));
+  if (IsLoop(outcome)) {
+    finished.certificate = Checked(LoopCertificate(file.problem, outcome, {policy}, limits), finding.signature);
+  }
+  MinimizeOptions options;
+  options.keep = outcome;
+  options.policies = {policy};
+  if (whole_grid) {
+    options.policies = PlanarGrid();
+    std::iter_swap(options.policies.begin(), std::find(options.policies.begin(), options.policies.end(), policy));
+  }
+  if (IsLoop(outcome)) options.signature = Signature(file.problem, run);
+  options.limits = limits;
+  options.cancelled = cancelled;
+  const Minimized minimized = Minimize(file.problem, options);
+  if (minimized.cancelled) return std::nullopt;
+  finished.minimized = ToJson(Describe(minimized.problem, finding, policy, whole_grid)).dump();
+  if (IsLoop(outcome)) {
+    const std::vector<Policy> certified = whole_grid ? PlanarGrid() : std::vector<Policy>{policy};
+    finished.minimized_certificate =
+        Checked(LoopCertificate(minimized.problem, outcome, certified, limits), finding.signature);
+  }
+  facts["minimized"] = FactsOf(minimized.problem, RunExact(minimized.problem, {policy, {}, limits}),
+                               GridCounts(minimized.problem, limits));
+  finished.facts = facts.dump();
+  return finished;
+}
+
+}  // namespace stiction

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finishing a finding: certified, put through the whole grid of policies, minimized, certified again.
+
+#ifndef STICTION_SEARCH_FINISH_H_
+#define STICTION_SEARCH_FINISH_H_
+
+#include <functional>
+#include <optional>
+
+#include "corpus/store.h"
+#include "solver/options.h"
+
+namespace stiction {
+
+// The finding with everything filled in, or empty if it was cancelled. A loop that the whole planar grid shows
+// is minimized so that the whole grid still shows it, any other so that its own policy does; the signature is
+// kept either way. Certificates pass CheckCertificate before they are returned (InternalError otherwise).
+// A finding that exact arithmetic solves gets the certificate of its solution and no minimized form.
+std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
+                                     const std::function<bool()>& cancelled);
+
+// "cycle": 1320, "solved": 216: outcomes over the whole planar grid.
+Json GridCounts(const ExactProblem& problem, const Limits& limits);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_FINISH_H_

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of generators, and the generators over doubles and rationals.
+
+#include "search/generators.ipp"
+
+#include <algorithm>
+
+#include "corpus/rational.h"
+
+namespace stiction {
+
+const std::array<GeneratorRow, kGeneratorCount>& Generators() {
+  using enum GeneratorId;
+  static constexpr std::array<GeneratorRow, kGeneratorCount> kRows = {{
+      {kIntegers, "integers",
+       "J of integers in [-5, 5], its number of columns uniform in 1..2n; A = J J', and b = J y or b = A x "
+       "with integers in [-5, 5].",
+       true},
+      {kPsd, "psd",
+       "J of multiples of 2^-15 in [-1, 1), its number of columns uniform in 1..2n; A = J J', b = A x with "
+       "multiples of 2^-11 in [-1, 1).",
+       true},
+      {kSmall, "small",
+       "J of integers in [-2, 2], zero with probability 5/9, its number of columns uniform in 1..2n; A = "
+       "J J', b = J y with integers in [-2, 2].",
+       true},
+      {kNearDegenerate, "near-degenerate",
+       "J = 2^k [C 0] + N with integers in [-3, 3] and k in 2..16, so that its rows are nearly dependent; A "
+       "= J J', b = -A f0 + J e where every contact of f0 is open, at a friction limit or inside, and e is 0 "
+       "(probability 1/4) or of integers in [-1, 1].",
+       true},
+      {kDuplicates, "duplicates",
+       "As integers, but one contact for certain, and each other with probability 1/4, is a copy of an "
+       "earlier one, its tangent reversed with probability 1/2; a single contact has no copy.",
+       true},
+      {kConditioned, "conditioned",
+       "J = U diag(sigma) rounded to double, U orthogonal, sigma geometric from 1 to 10^-k with k in 0..8; "
+       "full rank with probability 1/2, otherwise of rank uniform in 1..2n-1; A = J J', b = J y with "
+       "integers in [-5, 5].",
+       false},
+      {kBodies, "bodies",
+       "1 to 3 planar rigid bodies at rest and the world, joined at n points: rational masses, inertias, "
+       "points and unit normals (Pythagorean), under gravity, applied forces or both; A = J M^-1 J', b = J "
+       "M^-1 F. Overlap of shapes is not modelled.",
+       false},
+  }};
+  return kRows;
+}
+
+std::optional<GeneratorId> FindGenerator(std::string_view name) {
+  const auto& rows = Generators();
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [name](const GeneratorRow& r) { return r.name == name; });
+  if (row == rows.end()) return std::nullopt;
+  return row->id;
+}
+
+#define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                           \
+  template void Generate<Scalar, Rows>(GeneratorId, int, std::span<const MuChoice>, Choices&, \
+                                       ContactProblem<Scalar, Rows>&)
+
+STICTION_INSTANTIATE_GENERATE(double, 2);
+STICTION_INSTANTIATE_GENERATE(double, 4);
+STICTION_INSTANTIATE_GENERATE(double, 6);
+STICTION_INSTANTIATE_GENERATE(double, 8);
+STICTION_INSTANTIATE_GENERATE(double, 10);
+STICTION_INSTANTIATE_GENERATE(double, 12);
+STICTION_INSTANTIATE_GENERATE(double, 14);
+STICTION_INSTANTIATE_GENERATE(double, 16);
+STICTION_INSTANTIATE_GENERATE(double, Eigen::Dynamic);
+STICTION_INSTANTIATE_GENERATE(Rational, Eigen::Dynamic);
+
+#undef STICTION_INSTANTIATE_GENERATE
+
+}  // namespace stiction

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Generators: random planar problems of static contacts that satisfy the paper's hypotheses.
+//
+// Every generator makes a matrix J and sets A = J W J', symmetric and positive semidefinite, and b = J y,
+// or b = A x, in range(A): range(J W J') = range(J) for a diagonal W > 0. This is exact by construction,
+// not to a tolerance. One template serves all scalars: the same choices give the exact problem over
+// rationals and the filter problem over doubles, to the bit on every machine, since only + - * / in a
+// fixed order are used (-ffp-contract=off).
+//
+// Shapes      rows = 2 contacts: the normal of a contact and then its friction. J: rows x columns.
+// Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed; a palette that is
+//             not empty, of coefficients with 0 <= numerator <= 64, 1 <= denominator <= 64.
+// Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
+
+#ifndef STICTION_SEARCH_GENERATORS_H_
+#define STICTION_SEARCH_GENERATORS_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "search/choices.h"
+#include "solver/problem.h"
+
+namespace stiction {
+
+inline constexpr int kMaxContacts = 8;
+
+// A friction coefficient, numerator / denominator. It is an exact double if the denominator is a power of
+// two.
+struct MuChoice {
+  int numerator = 0;
+  int denominator = 1;
+
+  bool operator==(const MuChoice&) const = default;
+};
+
+// All exact doubles.
+inline constexpr std::array<MuChoice, 5> kDefaultPalette = {{{1, 4}, {1, 2}, {1, 1}, {2, 1}, {5, 1}}};
+
+enum class GeneratorId : std::uint8_t {
+  kIntegers,
+  kPsd,
+  kSmall,
+  kNearDegenerate,
+  kDuplicates,
+  kConditioned,
+  kBodies,
+};
+inline constexpr int kGeneratorCount = 7;
+
+struct GeneratorRow {
+  GeneratorId id;
+  std::string_view name;          // on the command line
+  std::string_view distribution;  // friction coefficients apart: see Generate
+  // Whether the double problem is the rational problem, given a palette of exact doubles. Otherwise the
+  // double problem is a filter: what it shows must be seen again over rationals.
+  bool exact_in_double;
+};
+
+// The table itself (generators.cpp), in the order of GeneratorId.
+const std::array<GeneratorRow, kGeneratorCount>& Generators();
+
+inline const GeneratorRow& Row(GeneratorId id) { return Generators()[static_cast<int>(id)]; }
+
+// Empty if no generator has this name.
+std::optional<GeneratorId> FindGenerator(std::string_view name);
+
+// Fills `problem`, whose memory is reused, from `choices`. The friction coefficients are drawn first: one
+// of the palette for all contacts with probability 1/2, otherwise one per contact, uniformly.
+template <class Scalar, int Rows>
+void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, Choices& choices,
+              ContactProblem<Scalar, Rows>& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_GENERATORS_H_

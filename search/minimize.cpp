@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/minimize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "certify/exact.h"
+#include "certify/properties.h"
+#include "search/signature.h"
+
+namespace stiction {
+namespace {
+
+// Calls visit(x) for every number of the problem, entries of A on and above the diagonal once.
+template <class Visit>
+void ForEachNumber(const ExactProblem& problem, Visit visit) {
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = i; j < problem.rows(); ++j) visit(problem.A(i, j));
+    visit(problem.b[i]);
+  }
+}
+
+// The problem of the rows that are kept.
+ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>> contacts, const std::vector<int>& rows) {
+  ExactProblem smaller;
+  smaller.dimension = problem.dimension;
+  smaller.contacts = std::move(contacts);
+  const int size = static_cast<int>(rows.size());
+  smaller.A.resize(size, size);
+  smaller.b.resize(size);
+  for (int i = 0; i < size; ++i) {
+    smaller.b[i] = problem.b[rows[i]];
+    for (int j = 0; j < size; ++j) smaller.A(i, j) = problem.A(rows[i], rows[j]);
+  }
+  return smaller;
+}
+
+ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
+  std::vector<Contact<Rational>> contacts;
+  std::vector<int> rows;
+  int row = 0;
+  for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
+    const int size = problem.contacts[contact].HasFrictionRows() ? 2 : 1;
+    if (contact != dropped) {
+      contacts.push_back(problem.contacts[contact]);
+      for (int k = 0; k < size; ++k) rows.push_back(row + k);
+    }
+    row += size;
+  }
+  return Restrict(problem, std::move(contacts), rows);
+}
+
+std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int contact) {
+  if (!problem.contacts[contact].HasFrictionRows()) return std::nullopt;
+  std::vector<Contact<Rational>> contacts = problem.contacts;
+  contacts[contact] = {ContactKind::kFrictionless, 0, {}};
+  std::vector<int> rows;
+  int row = 0;
+  for (int k = 0; k < static_cast<int>(problem.contacts.size()); ++k) {
+    rows.push_back(row++);
+    if (!problem.contacts[k].HasFrictionRows()) continue;
+    if (k != contact) rows.push_back(row);
+    ++row;
+  }
+  return Restrict(problem, std::move(contacts), rows);
+}
+
+// fF = s fF' with s = mu: A' = S A S, b' = S b, mu' = 1.
+std::optional<ExactProblem> StretchTangent(const ExactProblem& problem, int contact) {
+  const Rational mu = problem.contacts[contact].mu;
+  if (!problem.contacts[contact].HasFrictionRows() || mu == 0 || mu == 1) return std::nullopt;
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  const int row = layout.NormalRowOf(contact) + 1;
+  ExactProblem stretched = problem;
+  stretched.contacts[contact].mu = 1;
+  for (int j = 0; j < problem.rows(); ++j) {
+    stretched.A(row, j) *= mu;
+    stretched.A(j, row) *= mu;
+  }
+  stretched.b[row] *= mu;
+  return stretched;
+}
+
+Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
+  const Rational shifted = x + Rational(1, 2);
+  mpz_class floor;
+  mpz_fdiv_q(floor.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  return Rational(floor);
+}
+
+Rational LargestEntry(const ExactProblem& problem, bool of_A) {
+  Rational largest = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    if (!of_A) largest = std::max<Rational>(largest, abs(problem.b[i]));
+    for (int j = 0; of_A && j < problem.rows(); ++j) largest = std::max<Rational>(largest, abs(problem.A(i, j)));
+  }
+  return largest;
+}
+
+// A and b scaled to largest entries size_A and size_b, rounded, with `ridge` added to the diagonal.
+ExactProblem RoundedTo(const ExactProblem& problem, int size_A, int size_b, int ridge) {
+  ExactProblem rounded = problem;
+  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(size_A / largest_A);
+  const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(size_b / largest_b);
+  for (int i = 0; i < problem.rows(); ++i) {
+    rounded.b[i] = Rounded(Rational(problem.b[i] * scale_b));
+    for (int j = 0; j < problem.rows(); ++j) {
+      rounded.A(i, j) = Rounded(Rational(problem.A(i, j) * scale_A));
+      if (i == j) rounded.A(i, j) += ridge;
+    }
+  }
+  return rounded;
+}
+
+// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
+// denominators; 1 if all are zero.
+class CommonFactor {
+ public:
+  void Add(const Rational& x) {
+    if (x == 0) return;
+    numerator_ = gcd(numerator_, x.get_num());
+    denominator_ = lcm(denominator_, x.get_den());
+  }
+  Rational Get() const {
+    if (numerator_ == 0) return 1;
+    return Rational(numerator_) / Rational(denominator_);
+  }
+
+ private:
+  mpz_class numerator_ = 0;
+  mpz_class denominator_ = 1;
+};
+
+std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& problem) {
+  CommonFactor in_A, in_b;
+  for (int i = 0; i < problem.rows(); ++i) {
+    in_b.Add(problem.b[i]);
+    for (int j = 0; j < problem.rows(); ++j) in_A.Add(problem.A(i, j));
+  }
+  ExactProblem divided_A = problem, divided_b = problem;
+  for (int i = 0; i < problem.rows(); ++i) {
+    divided_b.b[i] /= in_b.Get();
+    for (int j = 0; j < problem.rows(); ++j) divided_A.A(i, j) /= in_A.Get();
+  }
+  return {std::move(divided_A), std::move(divided_b)};
+}
+
+// Numbers to try in the place of x, simplest first.
+std::vector<Rational> SimplerNumbers(const Rational& x, bool positive) {
+  const int sign = x < 0 ? -1 : 1;
+  const Rational truncated = sign * Rational(mpz_class(abs(x.get_num()) / x.get_den()));
+  const Rational half = sign * Rational(mpz_class(abs(truncated.get_num()) / 2));
+  std::vector<Rational> numbers = {0,         Rational(sign),   Rational(2 * sign),       half,
+                                   truncated, truncated - sign, Rational(truncated + sign), Rounded(x),
+                                   Rational(-sign)};
+  for (int denominator = 2; denominator <= 4; ++denominator) {
+    numbers.push_back(Rounded(Rational(x * denominator)) / denominator);
+  }
+  std::vector<Rational> distinct;
+  for (const Rational& number : numbers) {
+    const bool known = std::find(distinct.begin(), distinct.end(), number) != distinct.end();
+    if (!known && number != x && !(positive && number < 0)) distinct.push_back(number);
+  }
+  return distinct;
+}
+
+class Minimizer {
+ public:
+  Minimizer(const ExactProblem& problem, const MinimizeOptions& options)
+      : options_(options), result_{problem, 0, 0, false}, simplicity_(SimplicityOf(problem)) {}
+
+  Minimized Run() {
+    if (const auto lack = Lacks(result_.problem)) throw InputError("minimize: " + *lack);
+    bool progress = true;
+    while (progress && !Cancelled()) {
+      progress = DropContacts();
+      progress |= DropFriction();
+      progress |= StretchTangents();
+      progress |= RoundAll();
+      progress |= DivideCommonFactors();
+      progress |= SimplifyEntries();
+      progress |= SimplifyCoefficients();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // What keeps a candidate from being interesting; empty if it is. Cheapest tests first.
+  std::optional<std::string> Lacks(const ExactProblem& candidate) const {
+    if (!IsSymmetric(candidate)) return "A is not symmetric";
+    if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";
+    if (!IsInRange(candidate)) return "b is not in range(A)";
+    const Policy& first = options_.policies.front();
+    const ExactRun run = RunExact(candidate, {first, {}, options_.limits});
+    if (run.verdict.outcome != options_.keep) {
+      return fmt::format("under {} it ends in {}, not in {}", PolicyName(first), Name(run.verdict.outcome),
+                         Name(options_.keep));
+    }
+    if (options_.signature && Signature(candidate, run) != *options_.signature) return "it has another signature";
+    if (options_.policies.size() > 1 && !AllEndIn(options_.keep, candidate, options_.policies, options_.limits)) {
+      return fmt::format("not every policy asked for ends in {}", Name(options_.keep));
+    }
+    return std::nullopt;
+  }
+
+  bool Cancelled() {
+    result_.cancelled = result_.cancelled || options_.cancelled();
+    return result_.cancelled;
+  }
+
+  // Takes the candidate if it is simpler and interesting.
+  bool Try(const ExactProblem& candidate) {
+    if (Cancelled()) return false;
+    const Simplicity simplicity = SimplicityOf(candidate);
+    if (!(simplicity < simplicity_)) return false;
+    ++result_.candidates;
+    if (Lacks(candidate)) return false;
+    ++result_.accepted;
+    result_.problem = candidate;
+    simplicity_ = simplicity;
+    return true;
+  }
+  bool Try(const std::optional<ExactProblem>& candidate) { return candidate && Try(*candidate); }
+
+  int ContactCount() const { return static_cast<int>(result_.problem.contacts.size()); }
+
+  bool DropContacts() {
+    bool progress = false;
+    for (int contact = ContactCount() - 1; contact >= 0; --contact) {
+      progress |= Try(WithoutContact(result_.problem, contact));
+    }
+    return progress;
+  }
+
+  bool DropFriction() {
+    bool progress = false;
+    for (int contact = 0; contact < ContactCount(); ++contact) {
+      progress |= Try(WithoutFriction(result_.problem, contact));
+    }
+    return progress;
+  }
+
+  bool StretchTangents() {
+    bool progress = false;
+    for (int contact = 0; contact < ContactCount(); ++contact) {
+      progress |= Try(StretchTangent(result_.problem, contact));
+    }
+    return progress;
+  }
+
+  // Small integers at once, all tangents stretched or not. The first size that works is taken.
+  bool RoundAll() {
+    ExactProblem stretched = result_.problem;
+    for (int contact = 0; contact < ContactCount(); ++contact) {
+      if (auto next = StretchTangent(stretched, contact)) stretched = std::move(*next);
+    }
+    const ExactProblem original = result_.problem;
+    for (const int size : {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 100, 200, 500, 1000, 10000}) {
+      for (const ExactProblem* base : {static_cast<const ExactProblem*>(&stretched), &original}) {
+        for (const int ridge : {0, 1}) {
+          for (const int size_b : {std::max(2, size / 2), size}) {
+            if (Try(RoundedTo(*base, size, size_b, ridge))) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  bool DivideCommonFactors() {
+    const bool progress = Try(WithoutCommonFactors(result_.problem).first);
+    return Try(WithoutCommonFactors(result_.problem).second) || progress;
+  }
+
+  bool SimplifyEntries() {
+    bool progress = false;
+    for (int i = 0; i < result_.problem.rows(); ++i) {
+      for (int j = i; j <= result_.problem.rows(); ++j) progress |= SimplifyEntry(i, j);
+    }
+    return progress;
+  }
+
+  // Entry (i, j) of A with its mirror; j = rows stands for b_i.
+  bool SimplifyEntry(int i, int j) {
+    const bool of_b = j == result_.problem.rows();
+    const Rational value = of_b ? result_.problem.b[i] : result_.problem.A(i, j);
+    for (const Rational& number : SimplerNumbers(value, !of_b && i == j)) {
+      ExactProblem candidate = result_.problem;
+      if (of_b) {
+        candidate.b[i] = number;
+      } else {
+        candidate.A(i, j) = number;
+        candidate.A(j, i) = number;
+      }
+      if (Try(candidate)) return true;
+    }
+    return false;
+  }
+
+  bool SimplifyCoefficients() {
+    bool progress = false;
+    for (int contact = 0; contact < ContactCount(); ++contact) {
+      if (!result_.problem.contacts[contact].HasFrictionRows()) continue;
+      for (const Rational& number : SimplerNumbers(result_.problem.contacts[contact].mu, true)) {
+        ExactProblem candidate = result_.problem;
+        candidate.contacts[contact].mu = number;
+        if (!Try(candidate)) continue;
+        progress = true;
+        break;
+      }
+    }
+    return progress;
+  }
+
+  const MinimizeOptions& options_;
+  Minimized result_;
+  Simplicity simplicity_;
+};
+
+}  // namespace
+
+bool Simplicity::operator<(const Simplicity& other) const {
+  return std::tie(contacts, rows, nonzeros, bits, magnitude) <
+         std::tie(other.contacts, other.rows, other.nonzeros, other.bits, other.magnitude);
+}
+
+Simplicity SimplicityOf(const ExactProblem& problem) {
+  Simplicity simplicity;
+  simplicity.contacts = static_cast<std::int64_t>(problem.contacts.size());
+  simplicity.rows = problem.rows();
+  const auto add = [&simplicity](const Rational& x) {
+    simplicity.bits += static_cast<std::int64_t>(mpz_sizeinbase(x.get_num_mpz_t(), 2));
+    if (x.get_den() != 1) simplicity.bits += static_cast<std::int64_t>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
+    if (x < 0) ++simplicity.bits;
+    simplicity.magnitude += Rational(mpz_class(abs(x.get_num()) + x.get_den()));
+  };
+  ForEachNumber(problem, [&](const Rational& x) {
+    simplicity.nonzeros += x != 0;
+    add(x);
+  });
+  for (const auto& contact : problem.contacts) add(contact.mu);
+  return simplicity;
+}
+
+Minimized Minimize(const ExactProblem& problem, const MinimizeOptions& options) {
+  return Minimizer(problem, options).Run();
+}
+
+}  // namespace stiction

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/search.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "search/finish.h"
+#include "search/unit.h"
+
+namespace stiction {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::duration;
+
+// Fewest contacts first: they are the quickest to minimize and the most wanted.
+struct FinishOrder {
+  bool operator()(const Finding& left, const Finding& right) const {
+    return std::tie(left.contacts, left.unit, left.index, left.signature) <
+           std::tie(right.contacts, right.unit, right.index, right.signature);
+  }
+};
+
+class Search {
+ public:
+  Search(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options)
+      : campaign_(campaign), options_(options), store_(options.store, identity), done_(store_.Units()) {
+    for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
+    if (options.problems) {
+      wanted_units_ = (*options.problems + campaign.unit_problems - 1) / campaign.unit_problems;
+    }
+  }
+
+  SearchReport Run(const std::function<void(const SearchProgress&)>& show) {
+    start_ = Clock::now();
+    if (options_.minutes) deadline_ = start_ + std::chrono::duration_cast<Clock::duration>(duration<double>(*options_.minutes * 60));
+    std::vector<std::jthread> workers;
+    running_ = options_.threads;
+    for (int i = 0; i < options_.threads; ++i) workers.emplace_back([this] { Work(); });
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(500), [this] { return running_ == 0; })) show(Progress());
+    if (failure_) std::rethrow_exception(failure_);
+    show(Progress());
+    return {End(), Progress()};
+  }
+
+ private:
+  bool Interrupted() const { return options_.interrupted != nullptr && *options_.interrupted; }
+  bool TimeUp() const { return deadline_ && Clock::now() >= *deadline_; }
+  bool Stopped() const { return failed_ || Interrupted() || TimeUp(); }
+
+  SearchEnd End() const {
+    if (Interrupted()) return SearchEnd::kInterrupted;
+    const bool unfinished = !pending_.empty() || !wanted_units_ || next_unit_ < *wanted_units_;
+    return unfinished ? SearchEnd::kTimeUp : SearchEnd::kDone;
+  }
+
+  SearchProgress Progress() const {  // under the mutex
+    SearchProgress progress = progress_;
+    progress.seconds = duration<double>(Clock::now() - start_).count();
+    progress.units_wanted = wanted_units_;
+    progress.pending = static_cast<std::int64_t>(pending_.size());
+    return progress;
+  }
+
+  void Work() {
+    try {
+      UnitRunner runner(campaign_);
+      double searching = 0, finishing = 0;  // seconds of this thread
+      while (!Stopped()) {
+        const auto before = Clock::now();
+        // Half of the time goes to finishing, as long as there is something to finish.
+        if (finishing <= searching && FinishOne()) {
+          finishing += duration<double>(Clock::now() - before).count();
+        } else if (RunOneUnit(runner)) {
+          searching += duration<double>(Clock::now() - before).count();
+        } else if (!FinishOne() && Idle()) {
+          break;
+        }
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;
+    }
+    const std::lock_guard lock(mutex_);
+    --running_;
+    changed_.notify_all();
+  }
+
+  // Whether no other thread can still bring something to finish. Otherwise waits a little.
+  bool Idle() {
+    std::unique_lock lock(mutex_);
+    if (busy_ == 0 && pending_.empty()) return true;
+    changed_.wait_for(lock, std::chrono::milliseconds(20));
+    return false;
+  }
+
+  std::optional<std::int64_t> NextUnit() {  // under the mutex
+    while (!wanted_units_ || next_unit_ < *wanted_units_) {
+      const std::int64_t unit = next_unit_++;
+      if (!options_.shard.Owns(unit)) continue;
+      if (!done_.Contains(unit)) return unit;
+    }
+    return std::nullopt;
+  }
+
+  bool RunOneUnit(UnitRunner& runner) {
+    std::unique_lock lock(mutex_);
+    const auto unit = NextUnit();
+    if (!unit) return false;
+    ++busy_;
+    lock.unlock();
+    const UnitResult result = runner.Run(*unit);
+    lock.lock();
+    --busy_;
+    // A group's former representative may be waiting here; a smaller one takes its place.
+    for (Finding& finding : store_.AddUnit(options_.shard, *unit, result.record, result.candidates)) {
+      std::erase_if(pending_, [&](const Finding& other) { return other.signature == finding.signature; });
+      pending_.insert(std::move(finding));
+    }
+    ++progress_.units_done;
+    progress_.problems += campaign_.unit_problems;
+    for (const auto& [signature, count] : result.record.signatures) {
+      progress_.findings += count;
+      signatures_.insert(signature);
+    }
+    progress_.groups = static_cast<std::int64_t>(signatures_.size());
+    changed_.notify_all();
+    return true;
+  }
+
+  bool FinishOne() {
+    std::unique_lock lock(mutex_);
+    if (pending_.empty()) return false;
+    const Finding finding = std::move(pending_.extract(pending_.begin()).value());
+    ++busy_;
+    lock.unlock();
+    const auto finished = FinishFinding(finding, campaign_.limits, [this] { return Stopped(); });
+    lock.lock();
+    --busy_;
+    if (finished) {
+      store_.Finish(*finished);
+    } else {
+      pending_.insert(finding);
+    }
+    changed_.notify_all();
+    return true;
+  }
+
+  const Campaign& campaign_;
+  const SearchOptions& options_;
+  Store store_;  // under the mutex
+  UnitSet done_;
+  std::optional<std::int64_t> wanted_units_;
+  Clock::time_point start_;
+  std::optional<Clock::time_point> deadline_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::int64_t next_unit_ = 0;
+  std::set<Finding, FinishOrder> pending_;
+  std::set<std::string> signatures_;
+  SearchProgress progress_;
+  int busy_ = 0;
+  int running_ = 0;
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_ = false;
+};
+
+}  // namespace
+
+SearchReport RunSearch(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options,
+                       const std::function<void(const SearchProgress&)>& show) {
+  return Search(campaign, identity, options).Run(show);
+}
+
+}  // namespace stiction

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search: units and findings of a campaign, on all cores, into a store.
+//
+// Threads take the units of the shard in ascending order and, in turn, findings to finish, fewest contacts
+// first. What the store holds in the end depends on which units were run and on nothing else.
+
+#ifndef STICTION_SEARCH_SEARCH_H_
+#define STICTION_SEARCH_SEARCH_H_
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "search/campaign.h"
+
+namespace stiction {
+
+struct SearchOptions {
+  std::filesystem::path store;
+  Shard shard;
+  int threads = 1;
+  std::optional<double> minutes;         // wall clock, everything counted
+  std::optional<std::int64_t> problems;  // of the whole campaign, rounded up to whole units
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+struct SearchProgress {
+  double seconds = 0;
+  std::int64_t problems = 0;  // in this call
+  std::int64_t units_done = 0;
+  std::optional<std::int64_t> units_wanted;
+  std::int64_t groups = 0;    // signatures met in this call, in the store or new
+  std::int64_t findings = 0;  // in this call
+  std::int64_t pending = 0;   // representatives to finish
+};
+
+enum class SearchEnd { kDone, kTimeUp, kInterrupted };
+
+struct SearchReport {
+  SearchEnd end = SearchEnd::kDone;
+  SearchProgress progress;
+};
+
+// `show` is called about twice a second from the calling thread.
+SearchReport RunSearch(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options,
+                       const std::function<void(const SearchProgress&)>& show);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_SEARCH_H_

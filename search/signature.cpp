@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/signature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+using Steps = std::vector<const Pivot<Rational>*>;
+
+// Names of one reading of the period: contacts by first appearance, tangents by their first limit.
+class Naming {
+ public:
+  explicit Naming(const RowLayout<Eigen::Dynamic>& layout) : layout_(layout) {}
+
+  std::string Variable(int row) {
+    const int contact = layout_.ContactOf(row);
+    const int number = static_cast<int>(names_.try_emplace(contact, names_.size()).first->second);
+    return std::to_string(number) + (layout_.IsNormal(row) ? "N" : "F");
+  }
+
+  const char* Set(int row, IndexSet set) {
+    const int sign = LimitSign(set);
+    if (sign == 0) return Name(set);
+    const int turn = turns_.try_emplace(layout_.ContactOf(row), sign).first->second;
+    return sign * turn > 0 ? "+" : "-";
+  }
+
+ private:
+  const RowLayout<Eigen::Dynamic>& layout_;
+  std::map<int, std::size_t> names_;
+  std::map<int, int> turns_;
+};
+
+std::string Word(const Steps& period, std::size_t first, const RowLayout<Eigen::Dynamic>& layout) {
+  Naming naming(layout);
+  std::string word;
+  for (std::size_t k = 0; k < period.size(); ++k) {
+    const Pivot<Rational>& step = *period[(first + k) % period.size()];
+    word += naming.Variable(step.driven);
+    if (step.goal == DriveGoal::kZero) word += '0';
+    word += step.s == 0 ? "=" : ">";
+    word += naming.Variable(step.limiting);
+    word += fmt::format(":{}/{} ", naming.Set(step.limiting, step.from), naming.Set(step.limiting, step.to));
+  }
+  return word;
+}
+
+// The steps of the first period.
+Steps Period(const ExactRun& run) {
+  const Verdict& verdict = run.verdict;
+  const auto& pivots = run.trace.pivots;
+  Steps period;
+  for (std::size_t k = 0; k < pivots.size(); ++k) {
+    const bool inside = verdict.outcome == Outcome::kCycle ? pivots[k].drive > verdict.start
+                                                           : static_cast<std::int64_t>(k) >= verdict.start;
+    if (inside) period.push_back(&pivots[k]);
+  }
+  return period;
+}
+
+std::uint64_t Hash(std::string_view text) {  // FNV-1a
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+
+}  // namespace
+
+std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
+  STICTION_CHECK(IsLoop(run.verdict.outcome), "only loops have a word");
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  const Steps period = Period(run);
+  std::string smallest;
+  for (std::size_t first = 0; first < period.size(); ++first) {
+    const std::size_t before = (first + period.size() - 1) % period.size();
+    const bool starts_drive = period[first]->drive != period[before]->drive || period.size() == 1;
+    if (run.verdict.outcome == Outcome::kCycle && !starts_drive && run.verdict.period > 1) continue;
+    std::string word = Word(period, first, layout);
+    if (smallest.empty() || word < smallest) smallest = std::move(word);
+  }
+  return smallest;
+}
+
+std::string Signature(const ExactProblem& problem, const ExactRun& run) {
+  const Verdict& verdict = run.verdict;
+  if (!IsLoop(verdict.outcome)) return fmt::format("{}-{}c", Name(verdict.outcome), problem.contacts.size());
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  const Steps period = Period(run);
+  std::vector<int> contacts;
+  for (const Pivot<Rational>* step : period) {
+    contacts.push_back(layout.ContactOf(step->driven));
+    contacts.push_back(layout.ContactOf(step->limiting));
+  }
+  std::sort(contacts.begin(), contacts.end());
+  contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
+  const std::int64_t drives = verdict.outcome == Outcome::kCycle ? verdict.period : 1;
+  return fmt::format("{}-{}c-{}d-{}s-{:016x}", Name(verdict.outcome), contacts.size(), drives, period.size(),
+                     Hash(LoopWord(problem, run)));
+}
+
+}  // namespace stiction

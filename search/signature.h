@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signature of a loop: what stays of it when contacts are permuted, tangents reversed, units changed.
+//
+// The word of a loop is the sequence of its steps within one period: driven variable, goal, limiting
+// variable, its sets before and after, and whether the step had length zero; no numbers. Contacts are
+// named in the order in which they appear, tangents turned so that the first limit of each contact is the
+// upper one, and of all rotations of the period the smallest word is taken.
+
+#ifndef STICTION_SEARCH_SIGNATURE_H_
+#define STICTION_SEARCH_SIGNATURE_H_
+
+#include <string>
+
+#include "certify/exact.h"
+
+namespace stiction {
+
+// The word itself, readable: one item per step, e.g. "aF>bF:CF/NC+ ...". Requires outcome cycle or stall.
+std::string LoopWord(const ExactProblem& problem, const ExactRun& run);
+
+// "cycle-2c-4d-10s-1f0c...": outcome, contacts in the period, its drives and steps, hash of the word. For
+// another outcome only its name and the number of contacts: "singular-3c".
+std::string Signature(const ExactProblem& problem, const ExactRun& run);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_SIGNATURE_H_

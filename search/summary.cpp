@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kShown = 10;
+
+// The kind of a finding from its signature: all before the first "-<number>c".
+std::string KindOf(const std::string& signature) {
+  for (std::size_t dash = signature.find('-'); dash != signature.npos; dash = signature.find('-', dash + 1)) {
+    if (dash + 1 < signature.size() && std::isdigit(static_cast<unsigned char>(signature[dash + 1])) != 0) {
+      return signature.substr(0, dash);
+    }
+  }
+  return signature;
+}
+
+struct Digest {
+  std::int64_t units = 0, problems = 0, runs = 0, suspicions = 0, confirmed = 0, audited = 0, misjudged = 0, wrong = 0;
+  std::map<std::string, std::int64_t> findings;  // by kind, all counted
+  std::map<std::string, std::int64_t> groups;    // by kind
+  std::int64_t finished = 0, pending = 0, whole_grid = 0;
+  std::vector<Finding> simplest;
+};
+
+Digest DigestOf(const Store& store) {
+  Digest digest;
+  const Record total = store.Total();
+  digest.units = store.Units().Count();
+  std::map<std::pair<std::string, int>, std::int64_t> problems;  // the same problems run under each policy
+  for (const auto& [key, tally] : total.tallies) {
+    digest.runs += tally.problems;
+    problems[{key.generator, key.contacts}] = tally.problems;
+    for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
+      for (int exact = 0; exact < kOutcomeCount; ++exact) {
+        digest.suspicions += tally.verdicts[inexact][exact];
+        if (exact == inexact) digest.confirmed += tally.verdicts[inexact][exact];
+      }
+    }
+    digest.audited += tally.audited;
+    digest.misjudged += tally.misjudged;
+    digest.wrong += tally.wrong;
+  }
+  for (const auto& [key, count] : problems) digest.problems += count;
+  for (const auto& [signature, count] : total.signatures) {
+    digest.findings[KindOf(signature)] += count;
+    ++digest.groups[KindOf(signature)];
+  }
+  for (Finding& finding : store.Findings()) {
+    ++(finding.done ? digest.finished : digest.pending);
+    if (!finding.done || finding.minimized.empty()) continue;
+    const Json facts = ParseJson(finding.facts, finding.signature);
+    digest.whole_grid += facts.at("minimized").at("grid").size() == 1;
+    digest.simplest.push_back(std::move(finding));
+  }
+  std::stable_sort(digest.simplest.begin(), digest.simplest.end(), [](const Finding& left, const Finding& right) {
+    return left.minimized.size() < right.minimized.size();
+  });
+  return digest;
+}
+
+std::string FindingLine(const Finding& finding) {
+  const Json facts = ParseJson(finding.facts, finding.signature).at("minimized");
+  std::string grid;
+  for (const auto& [outcome, count] : facts.at("grid").items()) {
+    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", outcome, count.dump());
+  }
+  return fmt::format("  {:40} {} contacts, start {}, period {}; policies: {}\n", finding.signature,
+                     facts.at("contacts").dump(), facts.at("start").dump(), facts.at("period").dump(), grid);
+}
+
+}  // namespace
+
+std::string Thousands(std::int64_t number) {
+  std::string text = std::to_string(number);
+  for (int i = static_cast<int>(text.size()) - 3; i > (number < 0 ? 1 : 0); i -= 3) text.insert(i, ",");
+  return text;
+}
+
+Json SummaryToJson(const Store& store) {
+  const Digest digest = DigestOf(store);
+  Json simplest = Json::array();
+  for (const Finding& finding : digest.simplest) {
+    simplest.push_back({{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
+  }
+  return {{"seed", store.identity().seed},
+          {"build", store.identity().build},
+          {"units", digest.units},
+          {"problems", digest.problems},
+          {"runs", digest.runs},
+          {"findings", digest.findings},
+          {"groups", digest.groups},
+          {"finished", digest.finished},
+          {"pending", digest.pending},
+          {"whole_grid", digest.whole_grid},
+          {"suspicions", digest.suspicions},
+          {"confirmed", digest.confirmed},
+          {"audited", digest.audited},
+          {"misjudged", digest.misjudged},
+          {"wrong", digest.wrong},
+          {"minimized", simplest}};
+}
+
+std::string SummaryText(const Store& store, const std::string& file) {
+  const Digest digest = DigestOf(store);
+  std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Thousands(digest.problems),
+                                 Thousands(digest.units), store.identity().seed);
+  for (const auto& [kind, count] : digest.findings) {
+    text += fmt::format("  {:28} {:>12} in {} groups\n", kind, Thousands(count), Thousands(digest.groups.at(kind)));
+  }
+  if (digest.findings.empty()) text += "  no findings\n";
+  text += fmt::format("  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
+                      Thousands(digest.confirmed), Thousands(digest.suspicions), Thousands(digest.misjudged),
+                      Thousands(digest.audited), Thousands(digest.wrong));
+  text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
+                      Thousands(digest.finished), Thousands(digest.pending), Thousands(digest.whole_grid));
+  if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";
+  for (std::size_t i = 0; i < std::min<std::size_t>(kShown, digest.simplest.size()); ++i) {
+    text += FindingLine(digest.simplest[i]);
+  }
+  text += fmt::format("See them: ./run report {} -o report; the same search again goes on.\n", file);
+  return text;
+}
+
+}  // namespace stiction

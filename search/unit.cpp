@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/unit.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <tuple>
+
+#include "certify/exact.h"
+#include "search/generators.ipp"
+#include "search/signature.h"
+#include "solver/published.ipp"
+#include "solver/residual.h"
+
+namespace stiction {
+namespace {
+
+constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
+
+// What one unit collects while it runs.
+class Collector {
+ public:
+  Collector(const Campaign& campaign, const Task& task, std::int64_t unit)
+      : campaign_(campaign), task_(task), unit_(unit) {
+    for (const Policy& policy : campaign.policies) {
+      const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};
+      tallies_.push_back(&result_.record.tallies[key]);
+    }
+  }
+
+  Tally& tally(std::size_t policy) { return *tallies_[policy]; }
+
+  // Runs problem `index` exactly. `suspected`: the inexact run did not end in a verified solution.
+  void RunExactly(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
+    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
+    const ExactRun run = RunExact(problem, {campaign_.policies[policy], {}, campaign_.limits});
+    const Outcome exact = run.verdict.outcome;
+    Tally& tally = *tallies_[policy];
+    if (suspected) {
+      ++tally.verdicts[static_cast<int>(inexact)][static_cast<int>(exact)];
+    } else {
+      ++tally.audited;
+      tally.misjudged += exact != inexact;
+    }
+    const bool same_problem = Row(task_.generator).exact_in_double;
+    if (exact != Outcome::kSolved) {
+      Find(index, policy, inexact, run, std::string(Name(exact)), Signature(problem, run), problem);
+    } else if (wrong && same_problem) {
+      Find(index, policy, inexact, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts), problem);
+    } else if (inexact != exact && same_problem) {
+      Find(index, policy, inexact, run, "disagreement",
+           fmt::format("disagreement-{}-{}-{}c", Name(inexact), Name(exact), task_.contacts), problem);
+    }
+  }
+
+  UnitResult Take() { return std::move(result_); }
+
+ private:
+  void Find(std::int64_t index, std::size_t policy, Outcome inexact, const ExactRun& run, std::string kind,
+            std::string signature, const ExactProblem& problem) {
+    if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
+    const bool seen = ++result_.record.signatures[signature] > 1;
+    if (seen || static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
+    ProblemFile file;
+    const std::string generator(Row(task_.generator).name);
+    file.name = fmt::format("{}-{}-{}", generator, unit_, index);
+    file.problem = problem;
+    file.origin = Json{{"generator", generator}, {"campaign_seed", std::to_string(campaign_.seed)},
+                       {"unit", unit_},          {"index", index}};
+    Finding finding;
+    finding.signature = std::move(signature);
+    finding.kind = std::move(kind);
+    finding.unit = unit_;
+    finding.index = index;
+    finding.generator = generator;
+    finding.contacts = task_.contacts;
+    finding.policy = PolicyName(campaign_.policies[policy]);
+    finding.inexact_outcome = Name(inexact);
+    finding.exact_outcome = Name(run.verdict.outcome);
+    finding.problem = ToJson(file).dump();
+    result_.candidates.push_back(std::move(finding));
+  }
+
+  const Campaign& campaign_;
+  const Task& task_;
+  std::int64_t unit_;
+  UnitResult result_;
+  std::vector<Tally*> tallies_;
+};
+
+// Problems of a fixed number of contacts.
+class SizedKernel {
+ public:
+  virtual ~SizedKernel() = default;
+  virtual void Run(std::int64_t unit, GeneratorId generator, Collector& collector) = 0;
+};
+
+template <int Rows>
+class Kernel final : public SizedKernel {
+ public:
+  explicit Kernel(const Campaign& campaign) : campaign_(campaign) {
+    for (const Policy& policy : campaign.policies) {
+      algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
+    }
+  }
+
+  void Run(std::int64_t unit, GeneratorId generator, Collector& collector) override {
+    std::int64_t until_audit = 1;  // the first problem is audited
+    for (std::int64_t index = 0; index < campaign_.unit_problems; ++index) {
+      Choices choices(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+      Generate<double, Rows>(generator, Rows / 2, campaign_.palette, choices, problem_);
+      const bool audit = --until_audit == 0;
+      if (audit) until_audit = campaign_.audit_every;
+      for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) Try(index, policy, audit, collector);
+    }
+  }
+
+ private:
+  void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
+    const Verdict verdict = algorithms_[policy].Run(problem_);
+    Tally& tally = collector.tally(policy);
+    tally.Count(verdict);
+    const bool solved = verdict.outcome == Outcome::kSolved;
+    const bool wrong = solved && !(Residual(algorithms_[policy].state().f) <= kWrongAnswer);
+    tally.wrong += wrong;
+    const bool suspected = !solved || wrong;
+    if (suspected || audit) collector.RunExactly(index, policy, verdict.outcome, wrong, suspected);
+  }
+
+  // Of f alone: the accelerations are computed anew.
+  double Residual(const typename ContactProblem<double, Rows>::Vector& f) const {
+    typename ContactProblem<double, Rows>::Vector a;
+    for (int i = 0; i < Rows; ++i) {
+      double sum = problem_.b[i];
+      for (int j = 0; j < Rows; ++j) sum += problem_.A(i, j) * f[j];
+      a[i] = sum;
+    }
+    return NaturalResidual(problem_, f, a);
+  }
+
+  const Campaign& campaign_;
+  std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
+  ContactProblem<double, Rows> problem_;
+};
+
+std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, int contacts) {
+  switch (contacts) {
+    case 1:
+      return std::make_unique<Kernel<2>>(campaign);
+    case 2:
+      return std::make_unique<Kernel<4>>(campaign);
+    case 3:
+      return std::make_unique<Kernel<6>>(campaign);
+    case 4:
+      return std::make_unique<Kernel<8>>(campaign);
+    case 5:
+      return std::make_unique<Kernel<10>>(campaign);
+    case 6:
+      return std::make_unique<Kernel<12>>(campaign);
+    case 7:
+      return std::make_unique<Kernel<14>>(campaign);
+    case 8:
+      return std::make_unique<Kernel<16>>(campaign);
+    default:
+      throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", contacts, kMaxContacts));
+  }
+}
+
+Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit) {
+  return schedule[static_cast<std::size_t>(unit) % schedule.size()];
+}
+
+}  // namespace
+
+struct UnitRunner::Implementation {
+  explicit Implementation(const Campaign& c) : campaign(c), schedule(Schedule(c)) {}
+
+  Campaign campaign;
+  std::vector<Task> schedule;
+  std::map<int, std::unique_ptr<SizedKernel>> kernels;  // by contacts
+};
+
+UnitRunner::UnitRunner(const Campaign& campaign) : implementation_(std::make_unique<Implementation>(campaign)) {}
+UnitRunner::~UnitRunner() = default;
+
+UnitResult UnitRunner::Run(std::int64_t unit) {
+  Implementation& self = *implementation_;
+  const Task task = TaskOf(self.schedule, unit);
+  std::unique_ptr<SizedKernel>& kernel = self.kernels[task.contacts];
+  if (kernel == nullptr) kernel = MakeKernel(self.campaign, task.contacts);
+  Collector collector(self.campaign, task, unit);
+  kernel->Run(unit, task.generator, collector);
+  return collector.Take();
+}
+
+ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
+  const Task task = TaskOf(Schedule(campaign), unit);
+  Choices choices(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+  ExactProblem problem;
+  Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, campaign.palette, choices, problem);
+  return problem;
+}
+
+}  // namespace stiction

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Unit: a fixed number of problems of one generator and size, tried one after the other.
+//
+// Each problem is solved over doubles, under every policy of the campaign. Whatever does not end in a
+// verified `solved` there is only a suspicion: the same choices then give the exact problem, which is run
+// exactly, and both verdicts are counted. The exact verdict alone makes a finding.
+// Nothing but (campaign, unit number) decides what comes out. The path of a problem that raises no suspicion
+// allocates nothing.
+
+#ifndef STICTION_SEARCH_UNIT_H_
+#define STICTION_SEARCH_UNIT_H_
+
+#include <memory>
+#include <vector>
+
+#include "search/campaign.h"
+
+namespace stiction {
+
+struct UnitResult {
+  Record record;
+  std::vector<Finding> candidates;  // first of each signature, at most representatives_per_unit of them
+};
+
+// Keeps its workspaces between units. One per thread.
+class UnitRunner {
+ public:
+  explicit UnitRunner(const Campaign& campaign);
+  ~UnitRunner();
+  UnitRunner(const UnitRunner&) = delete;
+  UnitRunner& operator=(const UnitRunner&) = delete;
+
+  UnitResult Run(std::int64_t unit);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// The exact problem with this number, and its choices.
+ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_UNIT_H_

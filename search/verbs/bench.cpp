@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction bench: timings, by hand and never as a test.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "corpus/json_text.h"
+#include "search/unit.h"
+#include "search/verbs/verbs.h"
+
+namespace stiction {
+namespace {
+
+struct BenchOptions {
+  std::string suite = "search";
+  std::vector<int> contacts = {2, 3, 4, 8};
+  int repeat = 5;
+  std::int64_t problems = 200000;
+  bool json = false;
+};
+
+struct Spread {
+  double least, median, most;
+};
+
+Spread SpreadOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {values.front(), values[values.size() / 2], values.back()};
+}
+
+// Problems a second of one thread: generation, solving over doubles, classification, exact runs of suspicions.
+Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
+  Campaign campaign;
+  campaign.generators = {generator};
+  campaign.contacts = {contacts};
+  campaign.unit_problems = o.problems;
+  UnitRunner runner(campaign);
+  std::vector<double> rates;
+  for (int run = 0; run <= o.repeat; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    runner.Run(run);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (run > 0) rates.push_back(static_cast<double>(o.problems) / seconds);  // the first run warms up
+  }
+  return SpreadOf(rates);
+}
+
+int RunBench(const BenchOptions& o) {
+  Json rows = Json::array();
+  if (!o.json) fmt::print("{:16} {:>8} {:>14} {:>14} {:>14}   problems a second, one thread\n", "generator", "contacts", "least", "median", "most");
+  for (const GeneratorRow& row : Generators()) {
+    for (const int contacts : o.contacts) {
+      const Spread rate = SearchRate(row.id, contacts, o);
+      rows.push_back({{"generator", row.name}, {"contacts", contacts}, {"least", rate.least}, {"median", rate.median}, {"most", rate.most}});
+      if (!o.json) fmt::print("{:16} {:>8} {:>14.0f} {:>14.0f} {:>14.0f}\n", row.name, contacts, rate.least, rate.median, rate.most);
+      std::fflush(stdout);
+    }
+  }
+  if (o.json) std::cout << JsonText(rows) << "\n";
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddBench(CLI::App& program, Action& action) {
+  auto o = std::make_shared<BenchOptions>();
+  CLI::App& verb = *program.add_subcommand("bench", "Benchmark tables");
+  verb.add_option("--suite", o->suite, "search: problems a second of the search's hot path")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"search"}));
+  verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
+  verb.add_option("--problems", o->problems, "problems per run")->capture_default_str()->check(CLI::PositiveNumber);
+  verb.add_option("--repeat", o->repeat, "counted runs")->capture_default_str()->check(CLI::Range(1, 1000));
+  verb.add_flag("--json", o->json, "machine output");
+  verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });
+}
+
+}  // namespace stiction

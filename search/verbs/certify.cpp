@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction certify, stiction check: claims with exact witnesses, made and verified.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "certify/certificate.h"
+#include "corpus/json_text.h"
+#include "search/verbs/verbs.h"
+
+namespace stiction {
+namespace {
+
+struct CertifyOptions {
+  std::string file;
+  std::string output;
+  std::string claim = "solution-exists";
+  std::string policy = "paper";
+  bool json = false;
+  Limits limits;
+};
+
+// The first policy of the grid that ends in a solution gives the witness; null if none does.
+Json ExistenceCertificate(const ExactProblem& problem, const Limits& limits) {
+  for (const Policy& policy : PlanarGrid()) {
+    const ExactRun run = RunExact(problem, {policy, {}, limits});
+    if (run.verdict.outcome == Outcome::kSolved) return SolutionCertificate(problem, run.state.f);
+  }
+  return nullptr;
+}
+
+Json Certify(const CertifyOptions& o, const ProblemFile& file) {
+  if (o.claim == "solution-exists") return ExistenceCertificate(file.problem, o.limits);
+  if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
+  if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
+  if (o.claim == "in-range") return RangeCertificate(file.problem);
+  const Outcome loop = o.claim == "cycle" ? Outcome::kCycle : Outcome::kStall;
+  return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
+}
+
+int RunCertify(const CertifyOptions& o) {
+  const bool runs_method = o.claim == "solution-exists" || o.claim == "cycle" || o.claim == "stall";
+  const ProblemFile file = runs_method ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  const Json certificate = Certify(o, file);
+  const bool certified = !certificate.is_null();
+  if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
+  const Json claim = certified ? certificate["claim"] : Json("undecided");
+  // With the certificate itself on standard output, nothing else may stand there.
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  if (o.json) {
+    out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file.problem)}}) << "\n";
+  } else if (certified) {
+    out << fmt::format("{}: {}\n", o.output, claim.get<std::string>());
+  } else {
+    out << fmt::format("undecided: no run under the policies asked for shows '{}'\n", o.claim);
+  }
+  return certified ? kExitDone : kExitUndecided;
+}
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+int RunCheck(const CheckOptions& o) {
+  bool all = true;
+  Json reports = Json::array();
+  for (const std::string& file : o.files) {
+    const CheckReport report = CheckCertificate(ParseJson(ReadText(file), file), file);
+    all &= report.accepted;
+    reports.push_back({{"file", file}, {"accepted", report.accepted}, {"claim", report.claim}});
+    if (report.accepted) {
+      reports.back()["facts"] = report.facts;
+      if (!o.json) fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
+    } else {
+      reports.back()["reason"] = report.reason;
+      if (!o.json) fmt::print("{}: REJECTED: {}\n", file, report.reason);
+    }
+  }
+  if (o.json) std::cout << JsonText(reports) << "\n";
+  return all ? kExitDone : kExitNotSo;
+}
+
+}  // namespace
+
+void AddCertify(CLI::App& program, Action& action) {
+  auto o = std::make_shared<CertifyOptions>();
+  CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
+  verb.add_option("FILE", o->file, "stiction-problem file")->required();
+  verb.add_option("-o,--output", o->output, "certificate to write; - is standard output")->required();
+  verb.add_option("--claim", o->claim,
+                  "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, cycle, "
+                  "stall")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "cycle", "stall"}));
+  AddPolicyOption(verb, o->policy, Grid::kAllowed);
+  AddLimits(verb, o->limits);
+  verb.add_flag("--json", o->json, "machine output");
+  verb.callback([o, &action] { action = [o] { return RunCertify(*o); }; });
+}
+
+void AddCheck(CLI::App& program, Action& action) {
+  auto o = std::make_shared<CheckOptions>();
+  CLI::App& verb = *program.add_subcommand("check", "Verify certificates");
+  verb.add_option("CERT", o->files, "stiction-certificate files")->required();
+  verb.add_flag("--json", o->json, "machine output");
+  verb.callback([o, &action] { action = [o] { return RunCheck(*o); }; });
+}
+
+}  // namespace stiction

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction replay: the published algorithm on one problem, pivot by pivot, exactly.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "certify/certificate.h"
+#include "corpus/json_text.h"
+#include "search/verbs/verbs.h"
+
+namespace stiction {
+namespace {
+
+struct ReplayOptions {
+  std::string file;
+  std::string policy = "paper";
+  bool all_policies = false;
+  bool step = false;
+  bool json = false;
+  Limits limits;
+};
+
+bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+
+// "cycle: the state after 3 drives stands again 4 drives later"
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  return std::string(Name(verdict.outcome));
+}
+
+// ---- The trace for people --------------------------------------------------------------------
+
+class Narrator {
+ public:
+  Narrator(const ProblemFile& file, const ExactRun& run)
+      : problem_(file.problem), run_(run), names_(VariableNames(file.problem)) {
+    layout_.Assign(problem_.contacts);
+  }
+
+  void Table() const {
+    fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven", "goal", "length", "what happens");
+    for (std::size_t k = 0; k < run_.trace.pivots.size(); ++k) {
+      const Pivot<Rational>& pivot = run_.trace.pivots[k];
+      fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, pivot.drive, names_[pivot.driven], Name(pivot.goal),
+                 ToString(pivot.s), Event(pivot));
+    }
+  }
+
+  void Steps() const {
+    fmt::print("f = 0, a = b = {}; all sets are empty (4.3).\n", List(problem_.b));
+    int drive = 0;
+    ExactProblem::Vector a = problem_.b;
+    for (const Pivot<Rational>& pivot : run_.trace.pivots) {
+      if (pivot.drive != drive) StartDrive(pivot, a);
+      drive = pivot.drive;
+      a = pivot.a;
+      Step(pivot);
+    }
+    fmt::print("\n");
+  }
+
+ private:
+  std::string List(const ExactProblem::Vector& values) const {
+    std::vector<std::string> numbers;
+    for (const Rational& value : values) numbers.push_back(ToString(value));
+    return fmt::format("({})", fmt::join(numbers, ", "));
+  }
+
+  // Sets in the paper's names, with their members.
+  std::string Sets(const std::vector<IndexSet>& sets) const {
+    std::string text;
+    for (int set = 1; set < kIndexSetCount; ++set) {
+      std::vector<std::string> members;
+      for (std::size_t row = 0; row < sets.size(); ++row) {
+        if (static_cast<int>(sets[row]) == set) members.push_back(names_[row]);
+      }
+      const bool paper_set = static_cast<IndexSet>(set) != IndexSet::kSuspended;
+      if (!paper_set && members.empty()) continue;
+      text += fmt::format("{}{} = {{{}}}", text.empty() ? "" : "  ", kIndexSetNames[set], fmt::join(members, " "));
+    }
+    return text;
+  }
+
+  // Why this variable is driven, and toward what.
+  void StartDrive(const Pivot<Rational>& pivot, const ExactProblem::Vector& a) const {
+    const int row = pivot.driven;
+    fmt::print("\nDrive {}: {}", pivot.drive, names_[row]);
+    if (layout_.IsNormal(row)) {
+      fmt::print(". a_{} = {} < 0: increase f_{} until it is 0 (4.1).\n", names_[row], ToString(a[row]), names_[row]);
+    } else if (pivot.goal == DriveGoal::kZero) {
+      fmt::print(". Its friction was given up earlier: first drive f_{} to zero (5.5).\n", names_[row]);
+    } else {
+      const bool up = pivot.df[row] > 0;
+      fmt::print(". a_{} = {}: {} f_{} until a_{} = 0 or f_{} = {}mu f_{} (5.2).\n", names_[row], ToString(a[row]),
+                 up ? "increase" : "decrease", names_[row], names_[row], names_[row], up ? "" : "-", names_[row - 1]);
+    }
+  }
+
+  void Step(const Pivot<Rational>& pivot) const {
+    fmt::print("  df = {}   da = {}\n", List(pivot.df), List(pivot.da));
+    fmt::print("  s = {}: {}\n", ToString(pivot.s), Event(pivot));
+    fmt::print("    f = {}   a = {}\n", List(pivot.f), List(pivot.a));
+    fmt::print("    {}\n", Sets(pivot.sets));
+  }
+
+  std::string Reached(const Pivot<Rational>& pivot) const {
+    const std::string& name = names_[pivot.limiting];
+    switch (pivot.wanted) {
+      case IndexSet::kClamped:
+      case IndexSet::kSticking:
+        return fmt::format("a_{} = 0", name);
+      case IndexSet::kAtUpper:
+        return fmt::format("f_{} = mu f_{}", name, names_[pivot.limiting - 1]);
+      case IndexSet::kAtLower:
+        return fmt::format("f_{} = -mu f_{}", name, names_[pivot.limiting - 1]);
+      default:
+        return fmt::format("f_{} = 0", name);
+    }
+  }
+
+  std::string Event(const Pivot<Rational>& pivot) const {
+    const std::string& name = names_[pivot.limiting];
+    if (pivot.gave_up) {
+      return fmt::format("{}; {} is in {} and wants back into {}: given up (5.4, 5.5)", Reached(pivot), name,
+                         Name(pivot.from), Name(pivot.wanted));
+    }
+    if (pivot.limiting != pivot.driven) {
+      return fmt::format("{}; {} moves from {} to {}", Reached(pivot), name, Name(pivot.from), Name(pivot.to));
+    }
+    if (pivot.to == IndexSet::kNone) return fmt::format("{}; the drive ends, {} is in no set", Reached(pivot), name);
+    return fmt::format("{}; the drive ends, {} joins {}", Reached(pivot), name, Name(pivot.to));
+  }
+
+  const ExactProblem& problem_;
+  const ExactRun& run_;
+  std::vector<std::string> names_;
+  RowLayout<Eigen::Dynamic> layout_;
+};
+
+// ---- One policy, or all ----------------------------------------------------------------------
+
+int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
+  const Policy policy = ParsePolicy(o.policy);
+  const ExactRun run = RunExact(file.problem, {policy, {}, o.limits});
+  const std::string expected = Expected(file, policy);
+  if (o.json) {
+    Json pivots = Json::array();
+    for (const Pivot<Rational>& pivot : run.trace.pivots) {
+      pivots.push_back(PivotToJson(pivot, VariableNames(file.problem)));
+      if (o.step) {
+        pivots.back()["df"] = VectorToJson(pivot.df);
+        pivots.back()["f"] = VectorToJson(pivot.f);
+        pivots.back()["a"] = VectorToJson(pivot.a);
+      }
+    }
+    Json result = {{"outcome", Name(run.verdict.outcome)}, {"start", run.verdict.start},
+                   {"period", run.verdict.period},         {"policy", PolicyName(policy)},
+                   {"expected", expected},                 {"statistics", StatisticsToJson(run.verdict.statistics)},
+                   {"f", VectorToJson(run.state.f)},       {"pivots", pivots}};
+    std::cout << JsonText(result) << "\n";
+  } else {
+    fmt::print("{}: {} contacts, policy {}\n", file.name, file.problem.contacts.size(), PolicyName(policy));
+    const Narrator narrator(file, run);
+    if (o.step) {
+      narrator.Steps();
+    } else {
+      narrator.Table();
+    }
+    fmt::print("{}\n", Describe(run.verdict));
+    if (!expected.empty() && expected != Name(run.verdict.outcome)) fmt::print("expected: {}\n", expected);
+  }
+  const std::string_view wanted = expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected);
+  return Name(run.verdict.outcome) == wanted ? kExitDone : kExitNotSo;
+}
+
+int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
+  Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
+  std::map<std::string, Json> by_name;
+  for (const PolicyClass& equal : RunPolicies(file.problem, PlanarGrid(), o.limits)) {
+    for (const Policy& policy : equal.policies) {
+      Json entry = {{"outcome", Name(equal.verdict.outcome)}};
+      if (IsLoop(equal.verdict.outcome)) {
+        entry["start"] = equal.verdict.start;
+        entry["period"] = equal.verdict.period;
+      }
+      by_name[PolicyName(policy)] = entry;
+    }
+  }
+  for (const Policy& policy : PlanarGrid()) {
+    const std::string name = PolicyName(policy);
+    const std::string outcome = by_name[name]["outcome"].get<std::string>();
+    outcomes[name] = by_name[name];
+    counts[outcome] = counts.value(outcome, 0) + 1;
+    const std::string expected = Expected(file, policy);
+    if (outcome != (expected.empty() ? "solved" : expected)) unexpected.push_back(name);
+  }
+  if (o.json) {
+    std::cout << JsonText({{"policies", outcomes}, {"counts", counts}, {"unexpected", unexpected}}) << "\n";
+  } else {
+    for (const auto& [name, entry] : outcomes.items()) {
+      fmt::print("{:10} {}\n", entry["outcome"].get<std::string>(), name);
+    }
+    for (const auto& [outcome, count] : counts.items()) fmt::print("{}: {} policies\n", outcome, count.dump());
+    if (!unexpected.empty()) fmt::print("not as expected: {} policies\n", unexpected.size());
+  }
+  return unexpected.empty() ? kExitDone : kExitNotSo;
+}
+
+}  // namespace
+
+void AddReplay(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ReplayOptions>();
+  CLI::App& verb = *program.add_subcommand("replay", "Follow the published algorithm pivot by pivot, exactly");
+  verb.add_option("FILE", o->file, "stiction-problem file")->required();
+  AddPolicyOption(verb, o->policy, Grid::kRefused);
+  verb.add_flag("--all-policies", o->all_policies, "the outcome under every policy of the planar grid");
+  verb.add_flag("--step", o->step, "directions, forces and sets at every step");
+  verb.add_flag("--json", o->json, "machine output");
+  AddLimits(verb, o->limits);
+  verb.callback([o, &action] {
+    action = [o] {
+      const ProblemFile file = ReadHandledProblem(o->file);
+      return o->all_policies ? ReplayAll(*o, file) : ReplayOne(*o, file);
+    };
+  });
+}
+
+}  // namespace stiction

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces that several verbs share.
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "certify/certificate.h"
+#include "certify/properties.h"
+#include "search/verbs/verbs.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kExactAssumptionContacts = 50;
+
+const char* KindName(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::kBilateral:
+      return "bilateral";
+    case ContactKind::kFrictionless:
+      return "frictionless";
+    case ContactKind::kStatic:
+      return "static";
+    case ContactKind::kSliding:
+      return "sliding";
+  }
+  return "";
+}
+
+template <class Options>
+void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
+  ForEachField(options, [&verb, &group](const NumberRow& row, auto& value) {
+    verb.add_option("--" + std::string(row.name), value, fmt::format("{} [{}]", row.help, row.unit))
+        ->check(CLI::Range(row.min, row.max))
+        ->capture_default_str()
+        ->group(group);
+  });
+}
+
+}  // namespace
+
+ProblemFile ReadHandledProblem(const std::string& file) {
+  ProblemFile problem = ReadProblem(file);
+  if (problem.problem.dimension != 2) {
+    throw InputError(file, "dimension", std::to_string(problem.problem.dimension),
+                     "2: method baraff is built for the plane only");
+  }
+  for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
+    const ContactKind kind = problem.problem.contacts[i].kind;
+    if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
+    throw InputError(file, fmt::format("contacts[{}].kind", i), KindName(kind),
+                     "frictionless or static: method baraff is built for these");
+  }
+  return problem;
+}
+
+void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid) {
+  const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
+  verb.add_option("--policy", policy,
+                  fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
+      ->capture_default_str()
+      ->check([grid](const std::string& text) {
+        if (text == "*" && grid == Grid::kAllowed) return std::string();
+        try {
+          ParsePolicy(text);
+          return std::string();
+        } catch (const std::invalid_argument& error) {
+          return std::string(error.what());
+        }
+      });
+}
+
+void AddLimits(CLI::App& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }
+void AddTolerances(CLI::App& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
+
+std::vector<Policy> PoliciesNamed(const std::string& text) {
+  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
+}
+
+std::string Expected(const ProblemFile& file, const Policy& policy) {
+  for (const auto& [name, outcome] : file.expect) {
+    if (name != "*" && ParsePolicy(name) == policy) return outcome;
+  }
+  const auto all = file.expect.find("*");
+  return all == file.expect.end() ? "" : all->second;
+}
+
+void WriteText(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::cout << text;
+    return;
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(fmt::format("{}: cannot be written", file));
+}
+
+Json StatisticsToJson(const Statistics& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+Json FailedAssumptions(const ExactProblem& problem) {
+  Json failed = Json::array();
+  if (const auto pair = FindAsymmetry(problem.A)) {
+    failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
+  }
+  if (problem.contacts.size() > kExactAssumptionContacts) {
+    failed.push_back({{"assumption", "psd"}, {"undecided", "more than 50 contacts"}});
+    failed.push_back({{"assumption", "in-range"}, {"undecided", "more than 50 contacts"}});
+    return failed;
+  }
+  const auto semidefinite = DecideSemidefinite(problem.A);
+  if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
+    failed.push_back(
+        {{"assumption", "psd"}, {"x", VectorToJson(negative->x)}, {"value", ToString(negative->value)}});
+  }
+  const auto range = DecideRange(problem.A, problem.b);
+  if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {
+    failed.push_back(
+        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
+  }
+  return failed;
+}
+
+}  // namespace stiction

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of the program: each adds its subcommand, and says how it ended by an exit code.
+
+#ifndef STICTION_SEARCH_VERBS_VERBS_H_
+#define STICTION_SEARCH_VERBS_VERBS_H_
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "corpus/problem_file.h"
+#include "solver/options.h"
+
+namespace stiction {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitNotSo = 1;      // not solved, rejected, differs
+inline constexpr int kExitBadInput = 2;   // usage or input
+inline constexpr int kExitUndecided = 3;  // undecided, or a limit
+inline constexpr int kExitInternal = 70;  // always a bug
+
+// What the chosen verb does; set while the command line is parsed.
+using Action = std::function<int()>;
+
+void AddSolve(CLI::App& program, Action& action);
+void AddReplay(CLI::App& program, Action& action);
+void AddCertify(CLI::App& program, Action& action);
+void AddCheck(CLI::App& program, Action& action);
+void AddMinimize(CLI::App& program, Action& action);
+void AddSearch(CLI::App& program, Action& action);
+void AddStatus(CLI::App& program, Action& action);
+void AddMerge(CLI::App& program, Action& action);
+void AddReport(CLI::App& program, Action& action);
+void AddBench(CLI::App& program, Action& action);
+void AddPolicies(CLI::App& program, Action& action);
+
+// ---- Shared pieces ---------------------------------------------------------------------------
+
+// A problem that the published algorithm handles; InputError that names the contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file);
+
+// --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
+enum class Grid { kRefused, kAllowed };
+void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid);
+// Limits and tolerances from their tables.
+void AddLimits(CLI::App& verb, Limits& limits);
+void AddTolerances(CLI::App& verb, Tolerances& tolerances);
+
+// "paper" -> one policy, "*" -> the planar grid.
+std::vector<Policy> PoliciesNamed(const std::string& text);
+
+// What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
+std::string Expected(const ProblemFile& file, const Policy& policy);
+
+// Writes a text file; "-" is standard output.
+void WriteText(const std::string& file, const std::string& text);
+
+Json StatisticsToJson(const Statistics& statistics);
+
+// The assumptions of the paper that fail, each with its exact witness.
+Json FailedAssumptions(const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_VERBS_VERBS_H_

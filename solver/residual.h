@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Natural residual: how far (f, a) is from the contact conditions. No tolerance inside.
+//
+//   normal     abs(fN - max(0, fN - r aN))
+//   friction   abs(fF - clamp(fF - r aF, -mu fN, mu fN)),  fN replaced by max(0, fN)
+//
+// which vanish together exactly where (15) and (16) hold. r = 1 / max A_ii turns accelerations into
+// forces; the result is relative to the larger of max abs(f) and max abs(b) / max A_ii.
+// Shapes: f, a rows x 1. Planar problems of frictionless and static contacts. Allocates nothing.
+
+#ifndef STICTION_SOLVER_RESIDUAL_H_
+#define STICTION_SOLVER_RESIDUAL_H_
+
+#include <algorithm>
+
+#include "solver/problem.h"
+#include "solver/scalar.h"
+
+namespace stiction {
+
+template <class Scalar, int Rows, class Vector>
+Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
+  Scalar max_A(0), max_b(0), max_f(0), worst(0);
+  for (int i = 0; i < problem.rows(); ++i) {
+    max_A = std::max<Scalar>(max_A, problem.A(i, i));
+    max_b = std::max<Scalar>(max_b, Abs(problem.b[i]));
+    max_f = std::max<Scalar>(max_f, Abs(f[i]));
+  }
+  const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    const Scalar normal = std::max<Scalar>(Scalar(0), f[row] - r * a[row]);
+    worst = std::max<Scalar>(worst, Abs(Scalar(f[row] - normal)));
+    if (contact.HasFrictionRows()) {
+      const Scalar bound = contact.mu * std::max<Scalar>(Scalar(0), f[row]);
+      const Scalar wanted = f[row + 1] - r * a[row + 1];
+      const Scalar friction = std::min<Scalar>(bound, std::max<Scalar>(Scalar(-bound), wanted));
+      worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] - friction)));
+      ++row;
+    }
+    ++row;
+  }
+  const Scalar scale = std::max<Scalar>(max_f, max_b * r);
+  return scale > 0 ? Scalar(worst / scale) : worst;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_RESIDUAL_H_

@@ -1,0 +1,763 @@
+// SPDX-License-Identifier: Apache-2.0
+// Problem files: what is read, what is refused and how, and the exact round trip.
+
+#include "corpus/problem_file.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+const std::string kReference = R"({
+  "format": "stiction-problem", "version": 1,
+  "name": "two-contact-cycle", "dimension": 2,
+  "contacts": [
+    {"kind": "static", "mu": "1"},
+    {"kind": "static", "mu": "1"}
+  ],
+  "A": [
+    ["7","-2","-6","0"],
+    ["-2","9","-1","-7"],
+    ["-6","-1","7","3"],
+    ["0","-7","3","7"]
+  ],
+  "b": ["2","-1","-2","2"]
+}
+)";
+
+// One contact of the kind given by its members, with A = 0 and b = 0.
+std::string OneContact(const std::string& members, int dimension = 2, int rows = 2) {
+  std::string b, A;
+  for (int i = 0; i < rows; ++i) b += i == 0 ? "0" : ",0";
+  for (int i = 0; i < rows; ++i) A += (i == 0 ? "[" : ",[") + b + "]";
+  return R"({"format": "stiction-problem", "version": 1, "name": "one", "dimension": )" +
+         std::to_string(dimension) + R"(, "contacts": [{)" + members + R"(}], "A": [)" + A + R"(], "b": [)" +
+         b + "]}";
+}
+
+// A planar static contact (two rows) with this A.
+std::string WithA(const std::string& A) {
+  return R"({"format": "stiction-problem", "version": 1, "name": "one", "dimension": 2,
+             "contacts": [{"kind": "static", "mu": 1}], "A": )" +
+         A + R"(, "b": [0, 0]})";
+}
+
+// The same with this number in b[1].
+std::string WithNumber(const std::string& literal) {
+  return R"({"format": "stiction-problem", "version": 1, "name": "one", "dimension": 2,
+             "contacts": [{"kind": "static", "mu": 1}], "A": [[0, 0], [0, 0]], "b": [0, )" +
+         literal + "]}";
+}
+
+// The reference with one piece of its text replaced.
+std::string Edited(const std::string& piece, const std::string& replacement) {
+  std::string text = kReference;
+  const std::size_t at = text.find(piece);
+  REQUIRE(at != text.npos);
+  return text.replace(at, piece.size(), replacement);
+}
+
+// The reference with members added at its end.
+std::string WithMembers(const std::string& members) {
+  return Edited(R"("b": ["2","-1","-2","2"])", R"("b": ["2","-1","-2","2"], )" + members);
+}
+
+std::string Refusal(const std::string& text) {
+  try {
+    (void)ParseProblem(text, "p.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+struct Case {
+  std::string text;
+  std::string message;  // after "p.json: "
+};
+
+void CheckRefusals(const std::vector<Case>& table) {
+  for (const Case& refused : table) {
+    INFO(refused.text);
+    CHECK(Refusal(refused.text) == "p.json: " + refused.message);
+  }
+}
+
+bool SameProblem(const ExactProblem& x, const ExactProblem& y) {
+  if (x.dimension != y.dimension || x.contacts.size() != y.contacts.size() || x.rows() != y.rows())
+    return false;
+  bool same = x.A.rows() == y.A.rows() && x.A.cols() == y.A.cols();
+  for (std::size_t i = 0; i < x.contacts.size(); ++i) {
+    const auto& [kind, mu, slip] = x.contacts[i];
+    same = same && kind == y.contacts[i].kind && mu == y.contacts[i].mu && slip == y.contacts[i].slip;
+  }
+  for (int i = 0; same && i < x.rows(); ++i) {
+    same = x.b(i) == y.b(i);
+    for (int j = 0; same && j < x.rows(); ++j) same = x.A(i, j) == y.A(i, j);
+  }
+  return same;
+}
+
+bool SameFile(const ProblemFile& x, const ProblemFile& y) {
+  return x.name == y.name && SameProblem(x.problem, y.problem) && x.scene == y.scene && x.origin == y.origin &&
+         x.expect == y.expect;
+}
+
+// ---- Reading ---------------------------------------------------------------------------------
+
+TEST_CASE("problem file: the reference problem is read value by value") {
+  const ProblemFile file = ParseProblem(kReference, "p.json");
+  const ExactProblem& problem = file.problem;
+  CHECK(file.name == "two-contact-cycle");
+  CHECK(problem.dimension == 2);
+  REQUIRE(problem.contacts.size() == 2);
+  CHECK(problem.contacts[1].kind == ContactKind::kStatic);
+  CHECK(problem.contacts[1].mu == 1);
+  REQUIRE(problem.rows() == 4);
+  CHECK(problem.A(1, 3) == -7);
+  CHECK(problem.A(3, 2) == 3);
+  CHECK(problem.b(2) == -2);
+  CHECK_FALSE(file.scene.has_value());
+  CHECK_FALSE(file.origin.has_value());
+  CHECK(file.expect.empty());
+}
+
+TEST_CASE("problem file: no contacts at all is valid") {
+  const std::string text =
+      R"({"format": "stiction-problem", "version": 1, "name": "", "dimension": 3,
+          "contacts": [], "A": [], "b": []})";
+  const ProblemFile file = ParseProblem(text, "p.json");
+  CHECK(file.problem.contacts.empty());
+  CHECK(file.problem.rows() == 0);
+  CHECK(SameFile(ParseProblem(Print(file), "printed"), file));
+  const std::string sparse = R"({"format": "stiction-problem", "version": 1, "name": "", "dimension": 2,
+                                 "contacts": [], "A": {"size": 0, "entries": []}, "b": []})";
+  CHECK(ParseProblem(sparse, "p.json").problem.A.rows() == 0);
+}
+
+TEST_CASE("problem file: every kind of contact is read with its rows") {
+  const auto first = [](const std::string& text) {
+    return ParseProblem(text, "p.json").problem.contacts.at(0);
+  };
+  CHECK(first(OneContact(R"("kind": "bilateral")", 2, 1)).kind == ContactKind::kBilateral);
+  CHECK(first(OneContact(R"("kind": "frictionless")", 3, 1)).kind == ContactKind::kFrictionless);
+  CHECK(first(OneContact(R"("kind": "static", "mu": 0.5)", 3, 3)).mu == Rational(1, 2));
+  CHECK(first(OneContact(R"("kind": "static", "mu": "0")")).mu == 0);
+  const auto planar = first(OneContact(R"("kind": "sliding", "mu": "1/3", "slip": "-1")"));
+  CHECK(planar.kind == ContactKind::kSliding);
+  CHECK(planar.mu == Rational(1, 3));
+  CHECK(planar.slip == std::array<Rational, 2>{-1, 0});
+  const auto spatial = first(OneContact(R"("kind": "sliding", "mu": 1, "slip": ["-3/5", "0.8"])", 3, 3));
+  CHECK(spatial.slip == std::array<Rational, 2>{Rational(-3, 5), Rational(4, 5)});
+  CHECK(first(OneContact(R"("kind": "sliding", "mu": 1, "slip": [0, -1])", 3, 3)).slip[1] == -1);
+}
+
+TEST_CASE("problem file: numbers are taken at their exact value") {
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {R"("-3/4")", "-3/4"},
+      {R"("2.5e-3")", "1/400"},
+      {R"("0.1")", "1/10"},
+      {R"("18446744073709551617")", "18446744073709551617"},
+      {"0.1", "3602879701896397/36028797018963968"},
+      {"-0", "0"},
+      {"-0.0", "0"},
+      {"1.5", "3/2"},
+      {"1E2", "100"},
+      {"1e-400", "0"},
+      {"9007199254740992", "9007199254740992"},
+      {"9007199254740994", "9007199254740994"},
+      {"-9223372036854775808", "-9223372036854775808"},
+      {"18446744073709549568", "18446744073709549568"},
+      {"18446744073709551616", "18446744073709551616"},
+      {"-100000000000000000000", "-100000000000000000000"},
+      {"9007199254740993.0", "9007199254740992"},
+  };
+  for (const auto& [literal, expected] : table) {
+    INFO(literal);
+    CHECK(ToString(ParseProblem(WithNumber(literal), "p.json").problem.b(1)) == expected);
+  }
+}
+
+TEST_CASE("problem file: an entry of A below the diagonal stands for its mirror unless that is listed") {
+  const auto A = [](const std::string& text) { return ParseProblem(WithA(text), "p.json").problem.A; };
+  const auto symmetric = A(R"({"size": 2, "entries": [[1, 0, "1/2"], [0, 0, 3]]})");
+  CHECK(symmetric(0, 0) == 3);
+  CHECK(symmetric(1, 0) == Rational(1, 2));
+  CHECK(symmetric(0, 1) == Rational(1, 2));
+  CHECK(symmetric(1, 1) == 0);
+  for (const std::string text : {R"({"size": 2, "entries": [[1, 0, "1/2"], [0, 1, 0]]})",
+                                 R"({"entries": [[0, 1, 0], [1, 0, 0.5]], "size": 2})"}) {
+    CHECK(A(text)(1, 0) == Rational(1, 2));
+    CHECK(A(text)(0, 1) == 0);
+  }
+}
+
+TEST_CASE("problem file: scene, origin and expect are kept") {
+  const ProblemFile file = ParseProblem(
+      WithMembers(
+          R"("scene": "stack", "origin": {"seed": 18446744073709551615, "parent": [1, null, {"x": -0.1}]},
+                     "expect": {"paper": "cycle", "ties=contacts,scan=highest": "solved", "*": "undecided"})"),
+      "p.json");
+  CHECK(file.scene == Json("stack"));
+  REQUIRE(file.origin.has_value());
+  CHECK(file.origin->at("seed").get<std::uint64_t>() == UINT64_MAX);
+  CHECK(file.expect.size() == 3);
+  CHECK(file.expect.at("ties=contacts,scan=highest") == "solved");
+  CHECK(SameFile(ParseProblem(Print(file), "printed"), file));
+}
+
+// ---- Refusals --------------------------------------------------------------------------------
+
+TEST_CASE("problem file: a wrong format, version or dimension is refused") {
+  CheckRefusals({
+      {"[]", "$: found [], expected an object"},
+      {"null", "$: found null, expected an object"},
+      {"{}", R"(format: found nothing, expected "stiction-problem")"},
+      {Edited("stiction-problem", "stiction-certificate"),
+       R"(format: found "stiction-certificate", expected "stiction-problem")"},
+      {Edited(R"("version": 1)", R"("version": 2)"), "version: found 2, expected 1"},
+      {Edited(R"("version": 1)", R"("version": 1.0)"), "version: found 1.0, expected 1"},
+      {Edited(R"("version": 1)", R"("version": "1")"), R"(version: found "1", expected 1)"},
+      {Edited(R"("version": 1)", R"("version": 18446744073709551615)"),
+       "version: found 18446744073709551615, expected 1"},
+      {Edited(R"("version": 1,)", ""), "version: found nothing, expected 1"},
+      {Edited(R"("dimension": 2)", R"("dimension": 1)"), "dimension: found 1, expected 2 or 3"},
+      {Edited(R"("dimension": 2)", R"("dimension": 4)"), "dimension: found 4, expected 2 or 3"},
+      {Edited(R"("dimension": 2)", R"("dimension": true)"), "dimension: found true, expected 2 or 3"},
+      {Edited(R"(, "dimension": 2)", ""), "dimension: found nothing, expected 2 or 3"},
+      {Edited(R"("name": "two-contact-cycle", )", ""), "name: found nothing, expected a string"},
+      {Edited(R"("two-contact-cycle")", "7"), "name: found 7, expected a string"},
+  });
+}
+
+TEST_CASE("problem file: an unknown key is refused wherever it stands") {
+  const std::string keys = "only format, version, name, dimension, contacts, A, b, scene, origin, expect";
+  CheckRefusals({
+      {WithMembers(R"("c": 1)"), "c: found an unknown key, expected " + keys},
+      {WithMembers(R"("a b": 1)"), R"(["a b"]: found an unknown key, expected )" + keys},
+      {OneContact(R"("kind": "static", "mu": 1, "Mu": 1)"),
+       "contacts[0].Mu: found an unknown key, expected only kind, mu, slip"},
+      {WithA(R"({"size": 2, "entries": [], "order": 1})"),
+       "A.order: found an unknown key, expected only size, entries"},
+  });
+}
+
+TEST_CASE("problem file: a duplicate key is refused wherever it stands") {
+  CheckRefusals({
+      {Edited(R"("version": 1,)", R"("version": 1, "version": 1,)"),
+       "version: found a duplicate key, expected each key once"},
+      {OneContact(R"("kind": "static", "mu": "1", "mu": "2")"),
+       "contacts[0].mu: found a duplicate key, expected each key once"},
+      {OneContact(R"("kind": "static", "mu": "1", "m\u0075": "1")"),
+       "contacts[0].mu: found a duplicate key, expected each key once"},
+      {WithMembers(R"("origin": {"list": [0, [1, {"a": [], "b": {}, "a": 1}]]})"),
+       "origin.list[1][1].a: found a duplicate key, expected each key once"},
+      {WithMembers(R"("expect": {"paper": "cycle", "paper": "cycle"})"),
+       "expect.paper: found a duplicate key, expected each key once"},
+  });
+}
+
+TEST_CASE("problem file: a wrong kind of contact is refused") {
+  const std::string kinds = "one of bilateral, frictionless, static, sliding";
+  CheckRefusals({
+      {OneContact(R"("kind": "sticky")"), R"(contacts[0].kind: found "sticky", expected )" + kinds},
+      {OneContact(R"("kind": "Static", "mu": 1)"), R"(contacts[0].kind: found "Static", expected )" + kinds},
+      {OneContact(R"("kind": 2)"), "contacts[0].kind: found 2, expected " + kinds},
+      {OneContact(R"("mu": "1")"), "contacts[0].kind: found nothing, expected " + kinds},
+      {Edited(R"({"kind": "static", "mu": "1"})", R"("static")"),
+       R"(contacts[0]: found "static", expected an object)"},
+      {Edited(R"("contacts")", R"("contacts": {}, "scene")"),
+       "contacts: found {}, expected an array of contacts"},
+  });
+}
+
+TEST_CASE("problem file: a negative, missing or misplaced mu is refused") {
+  CheckRefusals({
+      {OneContact(R"("kind": "static", "mu": "-1/1000")"),
+       R"(contacts[0].mu: found "-1/1000", expected mu >= 0)"},
+      {OneContact(R"("kind": "static", "mu": -1e-300)"), "contacts[0].mu: found -1e-300, expected mu >= 0"},
+      {OneContact(R"("kind": "static")"),
+       "contacts[0].mu: found nothing, expected the mu of a static contact, a number >= 0"},
+      {OneContact(R"("kind": "sliding", "slip": "1")"),
+       "contacts[0].mu: found nothing, expected the mu of a sliding contact, a number >= 0"},
+      {OneContact(R"("kind": "frictionless", "mu": 0)", 2, 1),
+       "contacts[0].mu: found 0, expected no mu on a frictionless contact"},
+      {OneContact(R"("kind": "bilateral", "mu": "1")", 2, 1),
+       R"(contacts[0].mu: found "1", expected no mu on a bilateral contact)"},
+  });
+  const std::string message = Refusal(OneContact(R"("kind": "static", "mu": null)"));
+  CHECK(message.starts_with("p.json: contacts[0].mu: found null, expected a number, such as"));
+}
+
+TEST_CASE("problem file: a wrong, missing or misplaced slip is refused") {
+  const std::string unit = "a unit vector of two numbers [x, y], x^2 + y^2 = 1";
+  const auto spatial = [](const std::string& slip) {
+    return OneContact(R"("kind": "sliding", "mu": 1, "slip": )" + slip, 3, 3);
+  };
+  const auto planar = [](const std::string& slip) {
+    return OneContact(R"("kind": "sliding", "mu": 1, "slip": )" + slip);
+  };
+  CheckRefusals({
+      {planar(R"("2")"), R"(contacts[0].slip: found "2", expected "1" or "-1")"},
+      {planar(R"("0")"), R"(contacts[0].slip: found "0", expected "1" or "-1")"},
+      {planar("1"), R"(contacts[0].slip: found 1, expected "1" or "-1")"},
+      {planar(R"(["1", "0"])"), R"(contacts[0].slip: found ["1","0"], expected "1" or "-1")"},
+      {spatial(R"("1")"), R"(contacts[0].slip: found "1", expected )" + unit},
+      {spatial(R"(["1"])"), R"(contacts[0].slip: found ["1"], expected )" + unit},
+      {spatial(R"(["1", "0", "0"])"), R"(contacts[0].slip: found ["1","0","0"], expected )" + unit},
+      {spatial(R"(["1", "1"])"), R"(contacts[0].slip: found ["1","1"], expected )" + unit},
+      {spatial("[0.6, 0.8]"), "contacts[0].slip: found [0.6,0.8], expected " + unit},
+      {OneContact(R"("kind": "sliding", "mu": 1)"),
+       "contacts[0].slip: found nothing, expected the direction of the sliding velocity"},
+      {OneContact(R"("kind": "static", "mu": 1, "slip": "1")"),
+       R"(contacts[0].slip: found "1", expected no slip on a static contact)"},
+      {OneContact(R"("kind": "bilateral", "slip": "1")", 2, 1),
+       R"(contacts[0].slip: found "1", expected no slip on a bilateral contact)"},
+  });
+  const std::string message = Refusal(spatial(R"(["3/5", "x"])"));
+  CHECK(message.starts_with(R"(p.json: contacts[0].slip[1]: found "x", expected a number)"));
+}
+
+TEST_CASE("problem file: a wrong shape is refused") {
+  CheckRefusals({
+      {Edited(R"(,
+    ["0","-7","3","7"])",
+              ""),
+       "A: found 3 rows, expected 4 rows, one per row of the contacts"},
+      {Edited(R"(["-2","9","-1","-7"])", R"(["-2","9","-1"])"),
+       "A[1]: found 3 numbers, expected 4 numbers, one per row of the contacts"},
+      {Edited(R"(["-2","9","-1","-7"])", R"(["-2","9","-1","-7","0"])"),
+       "A[1]: found 5 numbers, expected 4 numbers, one per row of the contacts"},
+      {Edited(R"(["-2","9","-1","-7"])", R"("9")"),
+       R"(A[1]: found "9", expected an array of 4 numbers, one per row of the contacts)"},
+      {Edited(R"(["2","-1","-2","2"])", R"(["2","-1","-2"])"),
+       "b: found 3 numbers, expected 4 numbers, one per row of the contacts"},
+      {Edited(R"(["2","-1","-2","2"])", "{}"),
+       "b: found {}, expected an array of 4 numbers, one per row of the contacts"},
+      {Edited(R"("dimension": 2)", R"("dimension": 3)"),
+       "A: found 4 rows, expected 6 rows, one per row of the contacts"},
+      {WithA("7"), R"(A: found 7, expected an array of rows, or {"size", "entries"})"},
+      {Edited(R"(,
+  "b": ["2","-1","-2","2"])",
+              ""),
+       "b: found nothing, expected an array of numbers"},
+      {Edited(R"("A": [)", R"("origin": {}, "scene": [)"),
+       R"(A: found nothing, expected an array of rows, or {"size", "entries"})"},
+  });
+}
+
+TEST_CASE("problem file: wrong entries of a sparse A are refused") {
+  const auto entries = [](const std::string& list) {
+    return WithA(R"({"size": 2, "entries": [)" + list + "]}");
+  };
+  const std::string index = "a row number >= 0 and < 2";
+  CheckRefusals({
+      {WithA(R"({"size": 3, "entries": []})"), "A.size: found 3, expected 2, the rows of the contacts"},
+      {WithA(R"({"size": 1000000000, "entries": []})"),
+       "A.size: found 1000000000, expected 2, the rows of the contacts"},
+      {WithA(R"({"entries": []})"), "A.size: found nothing, expected 2, the rows of the contacts"},
+      {WithA(R"({"size": 2})"), "A.entries: found nothing, expected an array of entries [i, j, value]"},
+      {WithA(R"({"size": 2, "entries": 1})"), "A.entries: found 1, expected an array of entries [i, j, value]"},
+      {entries("[0, 0]"), "A.entries[0]: found [0,0], expected an entry [i, j, value]"},
+      {entries("[0, 0, 1, 1]"), "A.entries[0]: found [0,0,1,1], expected an entry [i, j, value]"},
+      {entries("[2, 0, 1]"), "A.entries[0][0]: found 2, expected " + index},
+      {entries("[0, 0, 1], [1, -1, 1]"), "A.entries[1][1]: found -1, expected " + index},
+      {entries("[1.0, 0, 1]"), "A.entries[0][0]: found 1.0, expected " + index},
+      {entries(R"(["1", 0, 1])"), R"(A.entries[0][0]: found "1", expected )" + index},
+      {entries("[1, 0, 1], [0, 0, 1], [1, 0, 1]"), "A.entries[2]: found [1,0,1], expected each entry once"},
+      {entries("[1, 1, 1], [0, 1, 5]"),
+       "A.entries[1]: found [0,1,5], expected an entry above the diagonal only beside the one below"},
+  });
+  CHECK(Refusal(entries("[1, 0, []]")).starts_with("p.json: A.entries[0][2]: found [], expected a number"));
+}
+
+TEST_CASE("problem file: a value that is not a number is refused with its place") {
+  const std::string expected =
+      R"(, expected a number, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))";
+  for (const std::string literal :
+       {R"("x")", R"("")", R"("1,5")", R"("1/0")", R"("0/0")", R"("1e10001")", R"("1e-10001")", R"("inf")",
+        R"("NaN")", R"(" 1")", R"("+1")", R"("1.")", "null", "true", "[]", "{}", R"(["1"])"}) {
+    INFO(literal);
+    CHECK(Refusal(WithNumber(literal)) == "p.json: b[1]: found " + literal + expected);
+    CHECK(Refusal(WithA("[[0, 0], [0, " + literal + "]]")) == "p.json: A[1][1]: found " + literal + expected);
+  }
+}
+
+TEST_CASE("problem file: an infinite number is refused") {
+  CheckRefusals({
+      {WithNumber("1e400"), "b[1]: found 1e400, expected a finite number"},
+      {WithNumber("-1e309"), "b[1]: found -1e309, expected a finite number"},
+      {WithNumber("1" + std::string(400, '0')),
+       "b[1]: found 1" + std::string(59, '0') + "... (401 characters), expected a finite number"},
+      {WithMembers(R"("origin": {"x": [1, 1e999]})"), "origin.x[1]: found 1e999, expected a finite number"},
+  });
+}
+
+TEST_CASE("problem file: an integer literal that is no exact double is refused") {
+  for (const std::string literal :
+       {"9007199254740993", "-9007199254740993", "9223372036854775807", "18446744073709551615",
+        "18446744073709551617", "-9223372036854775809", "100000000000000000001"}) {
+    INFO(literal);
+    CHECK(Refusal(WithNumber(literal)) ==
+          "p.json: b[1]: found " + literal + ", expected an integer that is a double exactly, or a string");
+  }
+  CHECK(Refusal(WithMembers(R"("origin": {"seed": 18446744073709551617})")) ==
+        "p.json: origin.seed: found 18446744073709551617, expected an integer that is a double exactly, or a "
+        "string");
+}
+
+TEST_CASE("problem file: a syntax error is refused with line and column") {
+  const auto second_line = [](const std::string& literal) { return "{\n  \"b\": [0, " + literal + "]}"; };
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"", "line 1, column 1"},
+      {"{\"format\":\n  oops}", "line 2, column 3"},
+      {second_line("NaN"), "line 2, column 12"},
+      {second_line("Infinity"), "line 2, column 12"},
+      {second_line("-Infinity"), "line 2, column 13"},
+      {second_line("01"), "line 2, column 13"},
+      {second_line("+1"), "line 2, column 12"},
+      {second_line(".5"), "line 2, column 12"},
+      {second_line("1,"), "line 2, column 14"},
+      {kReference + "x", "line 16, column 1"},
+      {kReference + "{}", "line 16, column 1"},
+      {"// note\n" + kReference, "line 1, column 1"},
+      {"{'format': 1}", "line 1, column 2"},
+      {"[\"\xFF\"]", "line 1, column 3"},
+  };
+  for (const auto& [text, message] : table) {
+    INFO(text);
+    CHECK_THAT(Refusal(text), Catch::StartsWith("p.json: " + message + ": found syntax error while parsing") &&
+                                  Catch::EndsWith(", expected JSON text"));
+  }
+}
+
+TEST_CASE("problem file: a NUL byte does not end the text") {
+  const std::string nul(1, '\0');
+  CHECK(Refusal(kReference + nul + "x") == "p.json: line 16, column 1: found a NUL byte, expected JSON text");
+  CHECK(Refusal(nul) == "p.json: line 1, column 1: found a NUL byte, expected JSON text");
+}
+
+TEST_CASE("problem file: deep nesting is refused, not followed") {
+  const auto nested = [](std::size_t levels) {
+    return WithMembers(R"("scene": )" + std::string(levels, '[') + std::string(levels, ']'));
+  };
+  CHECK(Refusal(nested(kMaxJsonDepth - 1)) == "accepted");
+  const std::string message = Refusal(nested(kMaxJsonDepth));
+  CHECK_THAT(message,
+             Catch::StartsWith("p.json: scene[0][0]") &&
+                 Catch::EndsWith(": found deeper nesting, expected at most 100 levels of arrays and objects"));
+  CHECK_THAT(Refusal(std::string(1000000, '[')), Catch::Contains("deeper nesting"));
+  std::string objects;
+  for (int i = 0; i < 100000; ++i) objects += R"({"a":)";
+  CHECK_THAT(Refusal(objects), Catch::Contains("deeper nesting"));
+}
+
+TEST_CASE("problem file: a wrong origin or expect is refused") {
+  const std::string outcomes = "one of solved, cycle, stall, ray, singular, limit, undecided";
+  CheckRefusals({
+      {WithMembers(R"("origin": "seed 7")"), R"(origin: found "seed 7", expected an object)"},
+      {WithMembers(R"("expect": "cycle")"), R"(expect: found "cycle", expected an object)"},
+      {WithMembers(R"("expect": {"paper": "loop"})"), R"(expect.paper: found "loop", expected )" + outcomes},
+      {WithMembers(R"("expect": {"ties=contacts": null})"),
+       R"(expect["ties=contacts"]: found null, expected )" + outcomes},
+      {WithMembers(R"("expect": {"paper": "cycle", "scan=lowest": "solved"})"),
+       R"(expect["scan=lowest"]: found a duplicate key, expected each policy once (it is "paper" too))"},
+      {WithMembers(R"("expect": {"ties=rows": "cycle"})"),
+       R"(expect["ties=rows"]: found "ties=rows", expected a policy or "*" (policy switch 'ties': found )"
+       "'rows', expected one of sets, contacts)"},
+  });
+  CHECK(Refusal(WithMembers(R"("expect": {"": "cycle"})"))
+            .starts_with(R"(p.json: expect[""]: found "", expected a)"));
+  CHECK(Refusal(WithMembers(R"("expect": {"*,*": "cycle"})"))
+            .starts_with(R"(p.json: expect["*,*"]: found "*,*")"));
+}
+
+TEST_CASE("problem file: what was found is shortened, between characters") {
+  const std::string long_text(1000, 'x');
+  CHECK(
+      Refusal(Edited("\"static\"", '"' + long_text + '"'))
+          .starts_with("p.json: contacts[0].kind: found \"" + std::string(59, 'x') + "... (1002 characters)"));
+  CHECK(Shortened("abc\xC3\xA9", 5) == "abc\xC3\xA9");
+  CHECK(Shortened("abc\xC3\xA9z", 4) == "abc... (6 characters)");
+}
+
+TEST_CASE("problem file: a file that cannot be read is refused with its name") {
+  const auto refusal = [](const std::filesystem::path& file) -> std::string {
+    try {
+      (void)ReadProblem(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(refusal("/nonexistent/p.json") ==
+        "/nonexistent/p.json: found nothing to read (No such file or directory), expected a file");
+  CHECK(refusal("/") == "/: found nothing to read (a directory), expected a file");
+}
+
+TEST_CASE("problem file: a file is read from disk, and errors name it") {
+  const auto file = std::filesystem::temp_directory_path() / ("stiction-problem-" + std::to_string(getpid()));
+  const auto write = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
+  write(kReference);
+  CHECK(SameFile(ReadProblem(file), ParseProblem(kReference, "p.json")));
+  write("");
+  CHECK_THROWS_WITH(ReadProblem(file), Catch::StartsWith(file.string() + ": line 1, column 1: "));
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("problem file: damaged text is refused, or read and written back to the same values") {
+  std::mt19937_64 random(11);
+  const std::string whole = WithMembers(R"("origin": {"seed": 1e3}, "expect": {"paper": "cycle"})");
+  const std::string bytes = "{}[]\",:0123456789-+.eE/ \n\\u" + std::string(1, '\0') + "\xC3\xA9";
+  int accepted = 0;
+  for (int i = 0; i < 5000; ++i) {
+    std::string text = whole;
+    for (int edits = 1 + static_cast<int>(random() % 2); edits > 0; --edits) {
+      const std::size_t at = random() % text.size();
+      const std::size_t removed = random() % 3;
+      text.replace(at, removed, random() % 3 ? std::string(1, bytes[random() % bytes.size()]) : "");
+    }
+    INFO(text);
+    const std::string message = Refusal(text);  // any other exception fails the test
+    accepted += message == "accepted";
+    if (message != "accepted") {
+      REQUIRE(message.starts_with("p.json: "));
+      REQUIRE(message.find(": found ") != message.npos);
+      REQUIRE(message.find(", expected ") != message.npos);
+    } else {
+      const ProblemFile file = ParseProblem(text, "p.json");
+      REQUIRE(SameFile(ParseProblem(Print(file), "printed"), file));
+    }
+  }
+  CHECK(accepted > 100);
+  CHECK(accepted < 4000);
+}
+
+// ---- Certificates ----------------------------------------------------------------------------
+
+TEST_CASE("problem of a certificate: paths start where the problem stands") {
+  const Json json = ParseJson(R"({"problem": )" + Edited(R"("9")", R"("nine")") + "}", "c.json");
+  CHECK_THROWS_WITH(ProblemFromJson(json.at("problem"), "c.json", "problem", false),
+                    Catch::StartsWith("c.json: problem.A[1][1]: found \"nine\", expected a number"));
+}
+
+TEST_CASE("problem of a certificate: strict reading takes what ProblemToJson writes and nothing else") {
+  const ExactProblem problem = ParseProblem(kReference, "p.json").problem;
+  const Json json = ProblemToJson(problem);
+  CHECK(SameProblem(ProblemFromJson(json, "c.json", "problem", true), problem));
+
+  const auto refusal = [](const Json& edited) -> std::string {
+    try {
+      (void)ProblemFromJson(edited, "c.json", "problem", true);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  Json named = json;
+  named["name"] = "x";
+  CHECK(refusal(named) ==
+        "c.json: problem.name: found an unknown key, expected only format, version, dimension, contacts, A, b");
+  Json number = json;
+  number["b"][2] = -2;
+  CHECK_THAT(refusal(number),
+             Catch::StartsWith("c.json: problem.b[2]: found -2, expected an exact number as a string"));
+  Json mu = json;
+  mu["contacts"][0]["mu"] = 1.0;
+  CHECK_THAT(refusal(mu),
+             Catch::StartsWith("c.json: problem.contacts[0].mu: found 1.0, expected an exact number"));
+  Json missing = json;
+  missing.erase("b");
+  CHECK(refusal(missing) == "c.json: problem.b: found nothing, expected an array of numbers");
+}
+
+// ---- Writing ---------------------------------------------------------------------------------
+
+TEST_CASE("problem file: the reference problem is printed as people write it") {
+  CHECK(Print(ParseProblem(kReference, "p.json")) == kReference);
+}
+
+TEST_CASE("problem file: scene, origin and expect are printed after the problem") {
+  ProblemFile file;
+  file.name = "nothing";
+  file.problem.A.resize(0, 0);
+  file.problem.b.resize(0);
+  file.scene = Json("a\nb");
+  file.origin = Json{{"seed", 7}};
+  file.expect = {{"paper", "solved"}};
+  CHECK(Print(file) == R"({
+  "format": "stiction-problem", "version": 1,
+  "name": "nothing", "dimension": 2,
+  "contacts": [],
+  "A": [],
+  "b": [],
+  "scene": "a\nb",
+  "origin": {
+    "seed": 7
+  },
+  "expect": {
+    "paper": "solved"
+  }
+}
+)");
+}
+
+TEST_CASE("problem file: what no reader would accept is not written") {
+  const ProblemFile valid = ParseProblem(OneContact(R"("kind": "static", "mu": 1)"), "p.json");
+  CHECK_NOTHROW(Print(valid));
+  const auto refused = [&](auto edit) {
+    ProblemFile file = valid;
+    edit(file);
+    CHECK_THROWS_AS(Print(file), InternalError);
+  };
+  const auto contact = [](ProblemFile& file) { return &file.problem.contacts[0]; };
+  refused([&](ProblemFile& file) { contact(file)->mu = -1; });
+  refused([&](ProblemFile& file) { contact(file)->slip[0] = 1; });
+  refused([&](ProblemFile& file) { contact(file)->kind = ContactKind::kSliding; });
+  refused([&](ProblemFile& file) { contact(file)->kind = ContactKind::kFrictionless; });
+  refused([](ProblemFile& file) { file.problem.dimension = 3; });
+  refused([](ProblemFile& file) { file.problem.A.resize(2, 3); });
+  refused([](ProblemFile& file) { file.problem.b.resize(3); });
+  refused([](ProblemFile& file) { file.name = "\xFF"; });
+  refused([](ProblemFile& file) { file.origin = Json{{"x", {1, std::numeric_limits<double>::infinity()}}}; });
+  refused([](ProblemFile& file) { file.scene = Json(std::numeric_limits<double>::quiet_NaN()); });
+}
+
+// Random problems of all kinds, as a generator would make them and as a person would type them.
+class RandomProblem {
+ public:
+  explicit RandomProblem(std::uint64_t seed) : random_(seed) {}
+
+  ProblemFile File() {
+    ProblemFile file;
+    file.name = Pick({"", "a name", "quote \" and \\ and \xC3\xA9"});
+    file.problem.dimension = 2 + Below(2);
+    for (int i = Below(5); i > 0; --i) file.problem.contacts.push_back(OneContact(file.problem.dimension));
+    const int rows = RowCount(file.problem.contacts, file.problem.dimension);
+    file.problem.A.resize(rows, rows);
+    file.problem.b.resize(rows);
+    for (int i = 0; i < rows; ++i) {
+      file.problem.b(i) = Number();
+      for (int j = 0; j < rows; ++j)
+        file.problem.A(i, j) = j < i && Below(3) > 0 ? file.problem.A(j, i) : Number();
+    }
+    if (Below(2)) file.scene = Json{{"bodies", {1, 0.1, "x", nullptr}}};
+    if (Below(2)) file.origin = Json{{"seed", random_()}, {"deep", {{"a", Json::array()}, {"b", -5e-324}}}};
+    if (Below(2))
+      file.expect["paper"] = Pick({"solved", "cycle", "stall", "ray", "singular", "limit", "undecided"});
+    if (Below(2)) file.expect["drop=variable,scan=highest"] = "solved";
+    if (Below(2)) file.expect["*"] = "cycle";
+    return file;
+  }
+
+  // A as {"size", "entries"}: the lower triangle in some order, and the upper one where it differs.
+  Json Entries(const ExactProblem::Matrix& A) {
+    std::vector<Json> entries;
+    for (int i = 0; i < A.rows(); ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const bool symmetric = A(i, j) == A(j, i);
+        if (!symmetric || A(i, j) != 0) entries.push_back({i, j, ToString(A(i, j))});
+        if (!symmetric) entries.push_back({j, i, ToString(A(j, i))});
+      }
+    }
+    for (std::size_t i = entries.size(); i > 1; --i) std::swap(entries[i - 1], entries[random_() % i]);
+    return Json{{"size", A.rows()}, {"entries", entries}};
+  }
+
+ private:
+  int Below(int n) { return static_cast<int>(random_() % n); }
+  std::string Pick(const std::vector<std::string>& values) {
+    return values[Below(static_cast<int>(values.size()))];
+  }
+
+  mpz_class Integer(int words) {
+    mpz_class x = 0;
+    for (int i = 0; i < words; ++i) x = (x << 32) + static_cast<unsigned long>(random_() >> 32);
+    return Below(2) ? x : mpz_class(-x);
+  }
+
+  Rational Number() {
+    if (Below(3) == 0) return 0;
+    if (Below(2)) return Below(19) - 9;
+    Rational x(Integer(1 + Below(6)), abs(Integer(1 + Below(6))) + 1);
+    x.canonicalize();
+    return x;
+  }
+
+  Contact<Rational> OneContact(int dimension) {
+    Contact<Rational> contact;
+    contact.kind = static_cast<ContactKind>(Below(4));
+    if (contact.HasFrictionRows()) contact.mu = abs(Number());
+    if (contact.kind != ContactKind::kSliding) return contact;
+    if (dimension == 2) {
+      contact.slip[0] = Below(2) ? 1 : -1;
+    } else {  // a rational point of the circle
+      const Rational t = Number();
+      contact.slip = {Rational((1 - t * t) / (1 + t * t)), Rational(2 * t / (1 + t * t))};
+    }
+    return contact;
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST_CASE("problem file: writing and reading gives the same values") {
+  RandomProblem random(20240607);
+  int kinds_seen = 0, spatial = 0;
+  for (int i = 0; i < 400; ++i) {
+    const ProblemFile file = random.File();
+    const std::string text = Print(file);
+    INFO(text);
+    REQUIRE(SameFile(ParseProblem(text, "printed"), file));
+    REQUIRE(SameFile(ParseProblem(ToJson(file).dump(), "dumped"), file));
+    REQUIRE(ParseJson(text, "printed") == ToJson(file));
+    REQUIRE(Print(ParseProblem(text, "printed")) == text);
+    REQUIRE(SameProblem(ProblemFromJson(ProblemToJson(file.problem), "json", "", true), file.problem));
+    for (const auto& contact : file.problem.contacts) kinds_seen |= 1 << static_cast<int>(contact.kind);
+    spatial += file.problem.dimension == 3;
+  }
+  CHECK(kinds_seen == 15);
+  CHECK(spatial > 100);
+  CHECK(spatial < 300);
+}
+
+TEST_CASE("problem file: A as entries is read to the same values as A in rows") {
+  RandomProblem random(77);
+  for (int i = 0; i < 400; ++i) {
+    const ProblemFile file = random.File();
+    Json json = ToJson(file);
+    json["A"] = random.Entries(file.problem.A);
+    INFO(json.dump());
+    REQUIRE(SameFile(ParseProblem(json.dump(), "sparse"), file));
+  }
+}
+
+TEST_CASE("problem file: the writer never emits a number of the problem as anything but a string") {
+  RandomProblem random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Json json = ToJson(random.File());
+    for (const Json& row : json.at("A")) {
+      for (const Json& x : row) REQUIRE(x.is_string());
+    }
+    for (const Json& x : json.at("b")) REQUIRE(x.is_string());
+    for (const Json& contact : json.at("contacts")) {
+      if (contact.contains("mu")) REQUIRE(contact.at("mu").is_string());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stiction

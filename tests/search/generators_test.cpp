@@ -1,0 +1,607 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of search/choices.h and search/generators.h. What is exact is checked over rationals, with ==.
+
+#include "search/generators.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "corpus/rational.h"
+
+namespace stiction {
+namespace {
+
+using ExactProblem = ContactProblem<Rational>;
+using DoubleProblem = ContactProblem<double>;
+using Record = std::vector<std::int64_t>;
+
+constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
+
+// Problems per generator and size; the exact elimination of large ones takes milliseconds.
+int SeedCount(int contacts) { return contacts <= 4 ? 300 : 200; }
+
+std::uint64_t Seed(GeneratorId id, int contacts, int index) {
+  return ProblemSeed(1994, kGeneratorCount * contacts + static_cast<int>(id), index);
+}
+
+template <class Problem>
+Problem Make(GeneratorId id, int contacts, Choices choices,
+             std::span<const MuChoice> palette = kDefaultPalette) {
+  Problem problem;
+  Generate(id, contacts, palette, choices, problem);
+  return problem;
+}
+
+template <class Problem>
+Problem Make(GeneratorId id, int contacts, int index) {
+  return Make<Problem>(id, contacts, Choices(Seed(id, contacts, index)));
+}
+
+// visit(id, contacts) for all generators and sizes.
+template <class Visit>
+void ForEachKind(Visit visit) {
+  for (const GeneratorRow& row : Generators()) {
+    for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
+      CAPTURE(row.name, contacts);
+      visit(row.id, contacts);
+    }
+  }
+}
+
+template <class P, class Q>
+bool Equal(const P& p, const Q& q) {
+  if (p.dimension != q.dimension || p.rows() != q.rows() || p.contacts.size() != q.contacts.size())
+    return false;
+  for (std::size_t i = 0; i < p.contacts.size(); ++i) {
+    if (p.contacts[i].kind != q.contacts[i].kind || p.contacts[i].mu != q.contacts[i].mu) return false;
+    for (int k = 0; k < 2; ++k) {
+      if (p.contacts[i].slip[k] != q.contacts[i].slip[k]) return false;
+    }
+  }
+  for (int i = 0; i < p.rows(); ++i) {
+    if (p.b[i] != q.b[i]) return false;
+    for (int j = 0; j < p.rows(); ++j) {
+      if (p.A(i, j) != q.A(i, j)) return false;
+    }
+  }
+  return true;
+}
+
+bool IsSymmetric(const ExactProblem& problem) {
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (problem.A(i, j) != problem.A(j, i)) return false;
+    }
+  }
+  return true;
+}
+
+struct Properties {
+  bool semidefinite = true;
+  bool in_range = true;
+  int rank = 0;
+};
+
+// The problem times the common denominator of its numbers: [A b] in integers.
+Eigen::Matrix<mpz_class, Eigen::Dynamic, Eigen::Dynamic> Integral(const ExactProblem& problem) {
+  const int rows = problem.rows();
+  mpz_class denominator = 1;
+  for (int i = 0; i < rows; ++i) {
+    denominator = lcm(denominator, problem.b[i].get_den());
+    for (int j = 0; j < rows; ++j) denominator = lcm(denominator, problem.A(i, j).get_den());
+  }
+  const auto scaled = [&denominator](const Rational& x) {
+    return mpz_class(x.get_num() * mpz_class(denominator / x.get_den()));
+  };
+  Eigen::Matrix<mpz_class, Eigen::Dynamic, Eigen::Dynamic> M(rows, rows + 1);
+  for (int i = 0; i < rows; ++i) {
+    M(i, rows) = scaled(problem.b[i]);
+    for (int j = 0; j < rows; ++j) M(i, j) = scaled(problem.A(i, j));
+  }
+  return M;
+}
+
+// Elimination of [A b], A symmetric, without pivoting or fractions (Bareiss): pivots are principal minors,
+// divisions are exact. A zero pivot needs a zero column, otherwise A is indefinite, and a zero right-hand
+// side, otherwise b is not in range(A).
+Properties Eliminate(const ExactProblem& problem) {
+  const int rows = problem.rows();
+  auto M = Integral(problem);
+  Properties properties;
+  mpz_class last_pivot = 1;
+  for (int k = 0; k < rows; ++k) {
+    const mpz_class pivot = M(k, k);
+    if (pivot < 0) properties.semidefinite = false;
+    if (pivot == 0) {
+      for (int i = k + 1; i < rows; ++i) properties.semidefinite &= M(i, k) == 0;
+      properties.in_range &= M(k, rows) == 0;
+      continue;
+    }
+    ++properties.rank;
+    for (int i = k + 1; i < rows; ++i) {
+      for (int j = k + 1; j <= i; ++j) M(i, j) = (M(i, j) * pivot - M(i, k) * M(j, k)) / last_pivot;
+      M(i, rows) = (M(i, rows) * pivot - M(i, k) * M(k, rows)) / last_pivot;
+    }
+    last_pivot = pivot;
+  }
+  return properties;
+}
+
+// Eigenvalues of A, largest first, to about 20 digits of the largest.
+std::vector<long double> Eigenvalues(const ExactProblem& problem) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const auto rounded = [](const Rational& x) {
+    const double high = x.get_d();
+    const Rational rest = x - Rational(high);
+    return static_cast<long double>(high) + rest.get_d();
+  };
+  Matrix A(problem.rows(), problem.rows());
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) A(i, j) = rounded(problem.A(i, j));
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(A, Eigen::EigenvaluesOnly);
+  std::vector<long double> values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  std::reverse(values.begin(), values.end());
+  return values;
+}
+
+// Whether contact `to` is contact `from`, its tangent reversed if sign = -1, as far as A and b tell.
+bool IsCopy(const ExactProblem& problem, int from, int to, int sign) {
+  for (int row = 0; row < 2; ++row) {
+    const Rational factor = row == 0 ? 1 : sign;
+    if (problem.b[2 * to + row] != factor * problem.b[2 * from + row]) return false;
+    for (int j = 0; j < problem.rows(); ++j) {
+      if (problem.A(2 * to + row, j) != factor * problem.A(2 * from + row, j)) return false;
+    }
+  }
+  return true;
+}
+
+// ---- Choices ----------------------------------------------------------------------------------
+
+TEST_CASE("choices: the words are those of splitmix64") {
+  // The sequence that its reference implementation prints for this seed.
+  Choices choices(1234567);
+  for (const std::uint64_t word : {6457827717110365317u, 3203168211198807973u, 9817491932198370423u}) {
+    const auto value = choices.Integer(kLowest, kHighest);
+    CHECK(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(kLowest) == word);
+  }
+}
+
+TEST_CASE("choices: integers are uniform within their bounds, drawn singly or many from a word") {
+  constexpr int kDraws = 110000;
+  std::array<int, 11> single{}, shared{};
+  Choices choices(5);
+  for (int i = 0; i < kDraws; ++i) ++single.at(choices.Integer(-5, 5) + 5);
+  choices.ForEach<-5, 5>(kDraws, [&shared](int, int value) { ++shared.at(value + 5); });
+  for (int v = 0; v < 11; ++v) {
+    CHECK(std::abs(single[v] - kDraws / 11) < 500);  // five standard deviations
+    CHECK(std::abs(shared[v] - kDraws / 11) < 500);
+  }
+  CHECK(choices.Integer(7, 7) == 7);
+}
+
+TEST_CASE("choices: numbers that share a word are independent in pairs") {
+  constexpr int kPairs = 121000;
+  std::array<int, 121> counts{};
+  int before = 0;
+  Choices(6).ForEach<0, 10>(2 * kPairs, [&](int i, int value) {
+    if (i % 2 == 1) ++counts.at(11 * before + value);
+    before = value;
+  });
+  for (const int count : counts) CHECK(std::abs(count - 1000) < 160);
+}
+
+TEST_CASE("choices: a replay clamps into the range and goes on with the value nearest zero") {
+  const Record sequence = {100, -100, 3, kLowest, kHighest};
+  Record used;
+  Choices choices = Choices::Replay(sequence, &used);
+  CHECK(choices.Integer(-5, 5) == 5);
+  CHECK(choices.Integer(-5, 5) == -5);
+  choices.ForEach<-5, 5>(2, [](int i, int value) { CHECK(value == (i == 0 ? 3 : -5)); });
+  CHECK(choices.Integer(kLowest, kHighest) == kHighest);
+  CHECK(choices.Integer(-5, 5) == 0);
+  CHECK(choices.Integer(2, 5) == 2);
+  CHECK(choices.Integer(-5, -2) == -2);
+  CHECK(used == Record{5, -5, 3, -5, kHighest, 0, 2, -2});
+}
+
+TEST_CASE("choices: seeds differ between the problems of a unit, between units and between campaigns") {
+  std::set<std::uint64_t> seeds;
+  for (int campaign = 0; campaign < 10; ++campaign) {
+    for (int unit = 0; unit < 10; ++unit) {
+      for (int index = 0; index < 100; ++index) seeds.insert(ProblemSeed(campaign, unit, index));
+    }
+  }
+  CHECK(seeds.size() == 10000);
+}
+
+// ---- All generators ---------------------------------------------------------------------------
+
+TEST_CASE("generators: the table is in the order of the ids and found by name") {
+  for (int i = 0; i < kGeneratorCount; ++i) {
+    const GeneratorRow& row = Generators()[i];
+    CHECK(static_cast<int>(row.id) == i);
+    CHECK(FindGenerator(row.name) == row.id);
+    CHECK(&Row(row.id) == &row);
+    CHECK_FALSE(row.distribution.empty());
+  }
+  CHECK(FindGenerator("near-degenerate") == GeneratorId::kNearDegenerate);
+  CHECK_FALSE(FindGenerator("nothing").has_value());
+}
+
+TEST_CASE("generators: A is symmetric and semidefinite, b in its range, and every rank occurs") {
+  ForEachKind([](GeneratorId id, int contacts) {
+    std::set<int> ranks;
+    for (int index = 0; index < SeedCount(contacts); ++index) {
+      CAPTURE(index);
+      const auto problem = Make<ExactProblem>(id, contacts, index);
+      REQUIRE(problem.rows() == 2 * contacts);
+      REQUIRE(IsSymmetric(problem));
+      const Properties properties = Eliminate(problem);
+      REQUIRE(properties.semidefinite);
+      REQUIRE(properties.in_range);
+      ranks.insert(properties.rank);
+    }
+    if (id == GeneratorId::kBodies) {  // normal and friction of a contact are never dependent
+      CHECK(*ranks.begin() >= 2);
+      CHECK(*ranks.rbegin() == std::min(2 * contacts, 9));
+      return;
+    }
+    const int largest = id == GeneratorId::kDuplicates && contacts > 1 ? 2 * contacts - 2 : 2 * contacts;
+    CHECK(*ranks.rbegin() == largest);
+    for (int rank = 1; rank <= largest; ++rank) CHECK(ranks.contains(rank));
+  });
+}
+
+TEST_CASE("generators: the check of these tests sees an indefinite A and a b outside its range") {
+  auto problem = Make<ExactProblem>(GeneratorId::kIntegers, 1, 0);
+  problem.A << 1, 1, 1, 1;
+  problem.b << 2, 2;
+  CHECK(Eliminate(problem).in_range);
+  problem.b << 2, 1;
+  CHECK_FALSE(Eliminate(problem).in_range);
+  problem.A << 1, 2, 2, 1;
+  CHECK_FALSE(Eliminate(problem).semidefinite);
+  problem.A << 0, 1, 1, 0;
+  CHECK_FALSE(Eliminate(problem).semidefinite);
+}
+
+TEST_CASE("generators: where the table says so, the double problem is the rational one") {
+  ForEachKind([](GeneratorId id, int contacts) {
+    int different = 0;
+    for (int index = 0; index < SeedCount(contacts); ++index) {
+      const auto exact = Make<ExactProblem>(id, contacts, index);
+      const auto rounded = Make<DoubleProblem>(id, contacts, index);
+      different += Equal(exact, rounded) ? 0 : 1;
+    }
+    if (Row(id).exact_in_double) {
+      CHECK(different == 0);
+    } else {
+      CHECK(different > 0);  // otherwise the table is too modest
+    }
+  });
+}
+
+// Choices at the ends of their ranges make the largest numbers.
+TEST_CASE("generators: the largest problems are exact in double too") {
+  constexpr std::array<MuChoice, 4> kExtremes = {{{64, 1}, {1, 64}, {64, 64}, {63, 64}}};
+  ForEachKind([&kExtremes](GeneratorId id, int contacts) {
+    if (!Row(id).exact_in_double) return;
+    for (int index = 0; index < 60; ++index) {
+      CAPTURE(index);
+      Choices ends(index);
+      Record sequence(2000, kHighest);
+      for (std::int64_t& value : sequence) {
+        if (index > 0 && ends.Integer(0, index % 10) == 0) value = kLowest;
+      }
+      const auto exact = Make<ExactProblem>(id, contacts, Choices::Replay(sequence), kExtremes);
+      REQUIRE(Equal(exact, Make<DoubleProblem>(id, contacts, Choices::Replay(sequence), kExtremes)));
+    }
+  });
+}
+
+TEST_CASE("generators: the double problem is near the rational one where it is only a filter") {
+  for (const GeneratorId id : {GeneratorId::kConditioned, GeneratorId::kBodies}) {
+    for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
+      for (int index = 0; index < SeedCount(contacts); ++index) {
+        const auto exact = Make<ExactProblem>(id, contacts, index);
+        const auto rounded = Make<DoubleProblem>(id, contacts, index);
+        const double A = rounded.A.cwiseAbs().maxCoeff(), b = rounded.b.cwiseAbs().maxCoeff();
+        for (int i = 0; i < exact.rows(); ++i) {
+          REQUIRE(std::abs(exact.b[i].get_d() - rounded.b[i]) <= 1e-14 * std::max(1.0, b));
+          for (int j = 0; j < exact.rows(); ++j) {
+            REQUIRE(std::abs(exact.A(i, j).get_d() - rounded.A(i, j)) <= 1e-14 * A);
+            REQUIRE(rounded.A(i, j) == rounded.A(j, i));
+          }
+        }
+      }
+    }
+  }
+}
+
+template <int Rows>
+void CheckFixedSize(GeneratorId id) {
+  for (int index = 0; index < 200; ++index) {
+    using Fixed = ContactProblem<double, Rows>;
+    REQUIRE(Equal(Make<Fixed>(id, Rows / 2, index), Make<DoubleProblem>(id, Rows / 2, index)));
+  }
+}
+
+TEST_CASE("generators: a seed makes the same problem on a fixed and on a dynamic number of rows") {
+  for (const GeneratorRow& row : Generators()) {
+    CAPTURE(row.name);
+    [&]<int... kContacts>(std::integer_sequence<int, kContacts...>) {
+      (CheckFixedSize<2 * (kContacts + 1)>(row.id), ...);
+    }
+    (std::make_integer_sequence<int, kMaxContacts>());
+  }
+}
+
+TEST_CASE("generators: a problem depends on nothing that was in its memory before") {
+  DoubleProblem reused;
+  reused.dimension = 3;
+  for (const GeneratorRow& row : Generators()) {
+    for (const int contacts : {3, 8, 1, 8, 2}) {
+      reused.A.setConstant(std::numeric_limits<double>::quiet_NaN());
+      reused.b.setConstant(std::numeric_limits<double>::quiet_NaN());
+      for (auto& contact : reused.contacts) contact = {ContactKind::kSliding, -1, {1, 1}};
+      Choices choices(Seed(row.id, contacts, 9));
+      Generate<double>(row.id, contacts, kDefaultPalette, choices, reused);
+      CHECK(Equal(reused, Make<DoubleProblem>(row.id, contacts, 9)));
+    }
+  }
+}
+
+TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals") {
+  ForEachKind([](GeneratorId id, int contacts) {
+    for (int index = 0; index < 50; ++index) {
+      Record record, again;
+      const std::uint64_t seed = Seed(id, contacts, index);
+      const auto problem = Make<DoubleProblem>(id, contacts, Choices(seed, &record));
+      REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices(seed))));
+      REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices::Replay(record, &again))));
+      REQUIRE(again == record);
+      REQUIRE(Equal(Make<ExactProblem>(id, contacts, Choices(seed)),
+                    Make<ExactProblem>(id, contacts, Choices::Replay(record))));
+    }
+  });
+}
+
+// What a minimizer does: any edited, shortened or meaningless sequence is a problem of the same family.
+TEST_CASE("generators: any sequence of choices makes a problem that meets the assumptions") {
+  ForEachKind([](GeneratorId id, int contacts) {
+    Choices edits(Seed(id, contacts, 77));
+    for (int index = 0; index < 20; ++index) {
+      Record sequence;
+      Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &sequence));
+      sequence.resize(edits.Integer(0, static_cast<std::int64_t>(sequence.size())));
+      for (std::int64_t& value : sequence) {
+        if (edits.Integer(0, 4) == 0) value = edits.Integer(-1000, 1000);
+      }
+      const auto problem = Make<ExactProblem>(id, contacts, Choices::Replay(sequence));
+      const Properties properties = Eliminate(problem);
+      REQUIRE(properties.semidefinite);
+      REQUIRE(properties.in_range);
+    }
+  });
+}
+
+TEST_CASE("generators: friction coefficients come from the palette, in half of the problems one for all") {
+  constexpr std::array<MuChoice, 3> kPalette = {{{1, 3}, {3, 10}, {7, 1}}};
+  std::set<Rational> seen;
+  int uniform = 0;
+  constexpr int kProblems = 1000;
+  for (int index = 0; index < kProblems; ++index) {
+    const auto problem = Make<ExactProblem>(GeneratorId::kSmall, 8, Choices(index), kPalette);
+    std::set<Rational> own;
+    for (const auto& contact : problem.contacts) {
+      REQUIRE(contact.kind == ContactKind::kStatic);
+      own.insert(contact.mu);
+    }
+    seen.insert(own.begin(), own.end());
+    uniform += own.size() == 1;
+  }
+  CHECK(seen == std::set<Rational>{Rational(1, 3), Rational(3, 10), Rational(7)});
+  CHECK(std::abs(uniform - kProblems / 2) < 80);
+}
+
+TEST_CASE("generators: outside 1 to 8 contacts, or without a palette, is an internal error") {
+  DoubleProblem problem;
+  Choices choices(1);
+  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 0, kDefaultPalette, choices, problem));
+  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 9, kDefaultPalette, choices, problem));
+  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 2, {}, choices, problem));
+  ContactProblem<double, 4> fixed;
+  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 3, kDefaultPalette, choices, fixed));
+}
+
+// Campaigns are compared between machines and compilers: these words may change only together with the
+// generators themselves.
+TEST_CASE("generators: the bits of the double problems are the same on every machine") {
+  const std::array<std::uint64_t, kGeneratorCount> expected = {
+      0xe9843a6c5c02462a, 0x9b7decbea7385274, 0x1f58d55260819c5d, 0x61552515ac86d439,
+      0x0087249eeaa2bc61, 0xa9098b9430b81db6, 0x47c17bf2f082462f,
+  };
+  for (const GeneratorRow& row : Generators()) {
+    std::uint64_t hash = 0;
+    const auto add = [&hash](double x) { hash = Mix(hash + std::bit_cast<std::uint64_t>(x) + 1); };
+    for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
+      for (int index = 0; index < 100; ++index) {
+        const auto problem = Make<DoubleProblem>(row.id, contacts, index);
+        for (const auto& contact : problem.contacts) add(contact.mu);
+        for (const double x : problem.b) add(x);
+        for (const double x : problem.A.reshaped()) add(x);
+      }
+    }
+    CAPTURE(row.name);
+    CHECK(hash == expected[static_cast<int>(row.id)]);
+  }
+}
+
+// ---- One by one -------------------------------------------------------------------------------
+
+TEST_CASE("integers, small: entries are integers within their bounds") {
+  for (int index = 0; index < 300; ++index) {
+    const auto integers = Make<DoubleProblem>(GeneratorId::kIntegers, 2, index);
+    CHECK(integers.A.cwiseAbs().maxCoeff() <= 100);
+    CHECK(integers.A == integers.A.array().round().matrix());
+    const auto small = Make<DoubleProblem>(GeneratorId::kSmall, 2, index);
+    CHECK(small.A.cwiseAbs().maxCoeff() <= 16);
+    CHECK(small.A == small.A.array().round().matrix());
+    CHECK(small.b.cwiseAbs().maxCoeff() <= 16);
+  }
+}
+
+TEST_CASE("duplicates: a contact is a copy of another, with its tangent kept or reversed") {
+  for (int contacts = 2; contacts <= kMaxContacts; ++contacts) {
+    std::set<int> signs;
+    for (int index = 0; index < 100; ++index) {
+      CAPTURE(contacts, index);
+      const auto problem = Make<ExactProblem>(GeneratorId::kDuplicates, contacts, index);
+      bool copied = false;
+      for (int to = 1; to < contacts; ++to) {
+        for (int from = 0; from < to; ++from) {
+          for (const int sign : {-1, 1}) {
+            if (!IsCopy(problem, from, to, sign)) continue;
+            copied = true;
+            signs.insert(sign);
+          }
+        }
+      }
+      REQUIRE(copied);
+    }
+    CHECK(signs.size() == 2);
+  }
+}
+
+TEST_CASE("near-degenerate: rows are nearly dependent") {
+  int close = 0;
+  for (int index = 0; index < 200; ++index) {
+    const auto problem = Make<ExactProblem>(GeneratorId::kNearDegenerate, 3, index);
+    const int rank = Eliminate(problem).rank;
+    const auto values = Eigenvalues(problem);
+    close += values[rank - 1] < 1e-4L * values[0];
+  }
+  CHECK(close > 60);
+}
+
+// One contact, one column, mu = 1/2: J = 2^2 (1, 2) + (1, -1) = (5, 7), f0 = 2 (2, 1), so that J' f0 = 34.
+TEST_CASE("near-degenerate: forces at a friction limit balance b up to the noise") {
+  constexpr std::array<MuChoice, 1> kHalf = {{{1, 2}}};
+  const Record exactly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 2, 2, 0};
+  auto problem = Make<ExactProblem>(GeneratorId::kNearDegenerate, 1, Choices::Replay(exactly), kHalf);
+  CHECK((problem.A(0, 0) == 25 && problem.A(1, 0) == 35 && problem.A(0, 1) == 35 && problem.A(1, 1) == 49));
+  CHECK((problem.b[0] == -34 * 5 && problem.b[1] == -34 * 7));
+  const Record nearly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 3, 2, 1, 1};  // f0 = 2 (2, -1): J' f0 = 6; e = 1
+  problem = Make<ExactProblem>(GeneratorId::kNearDegenerate, 1, Choices::Replay(nearly), kHalf);
+  CHECK((problem.b[0] == -5 * 5 && problem.b[1] == -5 * 7));
+}
+
+TEST_CASE("conditioned: eigenvalues fall geometrically from 1 to 100^-k, k = 0..8, the others are zero") {
+  std::set<int> exponents;
+  for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
+    for (int index = 0; index < 60; ++index) {
+      CAPTURE(contacts, index);
+      const auto problem = Make<ExactProblem>(GeneratorId::kConditioned, contacts, index);
+      const int rank = Eliminate(problem).rank;
+      const auto values = Eigenvalues(problem);
+      REQUIRE(std::abs(values[0] - 1) < 1e-14L);
+      if (rank == 1) continue;
+      const long double decades = -std::log10(values[rank - 1]) / 2;
+      const int exponent = static_cast<int>(std::lround(decades));
+      REQUIRE(std::abs(decades - exponent) < 0.01L);
+      exponents.insert(exponent);
+      for (int i = 0; i < rank; ++i) {
+        const long double expected = -2.0L * exponent * i / (rank - 1);
+        REQUIRE(std::abs(std::log10(values[i]) - expected) < 0.01L);
+      }
+    }
+  }
+  CHECK(exponents == std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8});
+}
+
+// theory.md 6.4, "Real rigid bodies", first example: W = diag(1/3, 1/3, 4/3), F = (1, -15, 18).
+TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed by hand") {
+  constexpr std::array<MuChoice, 2> kPalette = {{{2, 1}, {10, 1}}};
+  const Record choices = {1, 0,   1,              // mu = (2, 10)
+                          1, 1,                   // one body, applied force only
+                          0, 0,   3,  1,  3, 4,   // centre, mass 3, inertia 3/4
+                          1, -15, 18,             // F
+                          0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
+                          5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
+  Record used;
+  const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices, &used), kPalette);
+  CHECK(used == choices);
+  CHECK((problem.contacts[0].mu == 2 && problem.contacts[1].mu == 10));
+  const auto q = [](int numerator, int denominator) {
+    Rational x(numerator, denominator);
+    x.canonicalize();
+    return x;
+  };
+  const std::array<std::array<Rational, 3>, 4> J = {{{q(3, 5), q(4, 5), q(3, 5)},
+                                                     {q(-4, 5), q(3, 5), q(-4, 5)},
+                                                     {q(-7, 25), q(24, 25), q(1, 5)},
+                                                     {q(-24, 25), q(-7, 25), q(-11, 10)}}};
+  const std::array<Rational, 3> W = {q(1, 3), q(1, 3), q(4, 3)}, F = {1, -15, 18};
+  for (int i = 0; i < 4; ++i) {
+    Rational b = 0;
+    for (int k = 0; k < 3; ++k) b += J[i][k] * W[k] * F[k];
+    CHECK(problem.b[i] == b);
+    for (int j = 0; j < 4; ++j) {
+      Rational A = 0;
+      for (int k = 0; k < 3; ++k) A += J[i][k] * W[k] * J[j][k];
+      CHECK(problem.A(i, j) == A);
+    }
+  }
+}
+
+// Two equal bodies of mass 1 and inertia 1, contact 0 between them, contact 1 between the second and the
+// world: the shared point pushes the bodies apart, so that body 2 feels contact 0 with the opposite sign.
+TEST_CASE("bodies: a contact between two bodies moves them in opposite directions") {
+  const Record choices = {0, 0,                // one mu
+                          2, 0,                // two bodies, gravity only
+                          0, 10,  1, 1, 1, 1,  // first: centre (0, 1)
+                          0, -10, 1, 1, 1, 1,  // second: centre (0, -1)
+                          0, 0,   1, 0, 1,     // at (0, 0), normal (0, 1), with the other body
+                          0, -20, 1, 0, 0};    // at (0, -2), normal (0, 1), with the world
+  const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices));
+  // Rows: J = [0 1 0 | 0 -1 0], [-1 0 -1 | 1 0 -1], [0 0 0 | 0 1 0], [0 0 0 | -1 0 -1].
+  const std::array<std::array<int, 4>, 4> A = {{{2, 0, -1, 0}, {0, 4, 0, 0}, {-1, 0, 1, 0}, {0, 0, 0, 2}}};
+  const std::array<int, 4> b = {0, 0, -10, 0};
+  for (int i = 0; i < 4; ++i) {
+    CHECK(problem.b[i] == b[i]);
+    for (int j = 0; j < 4; ++j) CHECK(problem.A(i, j) == A[i][j]);
+  }
+}
+
+TEST_CASE("bodies: the rank is at most three per body, and normals point into all quadrants") {
+  std::set<int> ranks;
+  for (int index = 0; index < 300; ++index) {
+    ranks.insert(Eliminate(Make<ExactProblem>(GeneratorId::kBodies, 8, index)).rank);
+  }
+  for (const int rank : {3, 6, 9}) CHECK(ranks.contains(rank));
+  CHECK(*ranks.rbegin() == 9);
+  // A single contact of a body of mass 1 and inertia 1 at the centre, under gravity: b = -10 (ny, nx).
+  std::set<std::pair<int, int>> quadrants;
+  for (int p = -7; p <= 7; ++p) {
+    for (int q = -7; q <= 7; ++q) {
+      const Record choices = {0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, p, q};
+      const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 1, Choices::Replay(choices));
+      const Rational ny = problem.b[0] / -10, nx = problem.b[1] / -10;
+      REQUIRE(nx * nx + ny * ny == 1);
+      quadrants.insert({sgn(nx), sgn(ny)});
+    }
+  }
+  CHECK(quadrants.size() == 8);
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# bare_debian.sh DIR [COMMAND...]: whether a stranger with nothing but Debian 12 gets there.
+#
+# Makes a minimal Debian 12 in DIR (new or empty), clones the committed state of this repository into it, and
+# runs the two commands of the README there as root, or each COMMAND given instead, e.g.
+# './run test --matrix'. Prints every command's exit code and time; exits 0 only if all did.
+#
+# Needs root, debootstrap, git and network; about 2 GB in DIR, and some minutes besides the commands' own
+# time. DIR stays, to be looked at and removed with rm -rf. Nothing stays mounted, however the script ends.
+# Packages come from the mirror of this machine's apt, or from $MIRROR.
+set -euo pipefail
+
+readonly suite=bookworm
+
+die() {
+  printf 'bare_debian: %s\n' "$*" >&2
+  exit 2
+}
+
+# The first source of this machine that has Debian 12; asked of apt, which reads every form of sources.
+mirror_of_this_machine() {
+  apt-get update --print-uris 2>/dev/null |
+    sed -n "s|^'\(.*\)/dists/$suite/InRelease'.*|\1|p" | sed -n 1p
+}
+
+# What apt needs to reach the mirror from here: names, proxies, lenience about dates, certificates.
+copy_network_settings() {
+  local chroot=$1
+  cp -L /etc/resolv.conf /etc/hosts "$chroot/etc/"
+  apt-config dump --no-empty | grep -E '^Acquire::(https?::|Check-|Retries)' | grep -v Proxy-Auto-Detect \
+    >"$chroot/etc/apt/apt.conf.d/90host" || true
+  if [[ -d /usr/local/share/ca-certificates ]]; then
+    mkdir -p "$chroot/usr/local/share"
+    cp -RL /usr/local/share/ca-certificates "$chroot/usr/local/share/"
+  fi
+  if [[ -x $chroot/usr/sbin/update-ca-certificates ]]; then
+    inside "$chroot" update-ca-certificates >/dev/null
+  fi
+}
+
+make_debian() {
+  local chroot=$1 mirror=$2 options=(--variant=minbase)
+  [[ $mirror != https:* ]] || options+=(--include=ca-certificates)
+  debootstrap "${options[@]}" "$suite" "$chroot" "$mirror" >"$chroot.log" 2>&1 ||
+    die "debootstrap failed; see $chroot.log"
+  rm -f -- "$chroot.log"
+  mount -t proc proc "$chroot/proc"
+  mount -t tmpfs tmpfs "$chroot/dev/shm"
+  copy_network_settings "$chroot"
+}
+
+# Runs a command in the chroot with nothing of this machine's environment but its proxies.
+inside() {
+  local chroot=$1 variable proxies=()
+  for variable in http_proxy https_proxy no_proxy; do
+    [[ -z ${!variable-} ]] || proxies+=("$variable=${!variable}")
+  done
+  env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root CI=true "${proxies[@]}" \
+    chroot "$chroot" "${@:2}" </dev/null
+}
+
+main() {
+  local chroot mirror command start status worst=0 report=()
+  (($#)) || die "usage: bare_debian.sh DIR [COMMAND...]"
+  ((EUID == 0)) || die "needs root"
+  mkdir -p -- "$1"
+  chroot=$(readlink -f -- "$1")
+  [[ -z $(ls -A -- "$chroot") ]] || die "$1 is not empty"
+  shift
+  (($#)) || set -- './run search' './run test'
+  mirror=${MIRROR:-$(mirror_of_this_machine)}
+  [[ -n $mirror ]] || die "apt knows no source of $suite here; set MIRROR"
+
+  echo "bare_debian: installing $suite from $mirror in $chroot"
+  make_debian "$chroot" "$mirror"
+  git clone --quiet --no-hardlinks -- "$(dirname -- "$0")/../.." "$chroot/root/stiction"
+  for command in "$@"; do
+    echo "bare_debian: $command"
+    start=$SECONDS status=0
+    inside "$chroot" bash -c "cd /root/stiction && $command" || status=$?
+    report+=("exit $status after $((SECONDS - start)) s: $command")
+    ((status == 0)) || worst=1
+  done
+  printf 'bare_debian: %s\n' "${report[@]}"
+  return $worst
+}
+
+# In a mount namespace of our own, whose mounts end with it.
+if [[ -z ${STICTION_OWN_MOUNTS-} && $EUID == 0 ]]; then
+  STICTION_OWN_MOUNTS=1 exec unshare --mount --propagation private -- bash "$0" "$@"
+fi
+main "$@"
