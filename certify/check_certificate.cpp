@@ -27,10 +27,12 @@ std::string Shortened(const Json& json) {
 void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
   if (!json.is_object()) throw Rejected{path, Shortened(json), "an object"};
   for (const auto& [key, value] : json.items()) {
-    if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", fmt::format("{}", fmt::join(keys, ", "))};
+    if (!keys.contains(key))
+      throw Rejected{path + "." + key, "an unknown key", fmt::format("{}", fmt::join(keys, ", "))};
   }
   for (const std::string& key : keys) {
-    if (!json.contains(key)) throw Rejected{path, "no key '" + key + "'", fmt::format("{}", fmt::join(keys, ", "))};
+    if (!json.contains(key))
+      throw Rejected{path, "no key '" + key + "'", fmt::format("{}", fmt::join(keys, ", "))};
   }
 }
 
@@ -64,7 +66,8 @@ void RequireEqual(const Rational& found, const Rational& expected, const std::st
 Json CheckSolution(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"a", "f"});
   if (!PublishedHandles(problem)) {
-    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts", "those"};
+    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts",
+                   "those"};
   }
   const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
   const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
@@ -77,14 +80,16 @@ Json CheckSolution(const ExactProblem& problem, const Json& witness) {
 Json CheckSymmetric(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {});
   if (const auto pair = FindAsymmetry(problem.A)) {
-    throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror", "A = A'"};
+    throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
+                   "A = A'"};
   }
   return Json::object();
 }
 
 Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"i", "j"});
-  const std::int64_t i = ReadInteger(witness["i"], "witness.i", 0), j = ReadInteger(witness["j"], "witness.j", 0);
+  const std::int64_t i = ReadInteger(witness["i"], "witness.i", 0),
+                     j = ReadInteger(witness["j"], "witness.j", 0);
   if (i >= problem.rows() || j >= problem.rows()) throw Rejected{"witness", Shortened(witness), "indices of A"};
   if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", "different entries"};
   return Json::object();
@@ -101,7 +106,8 @@ Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
   for (int i = 0; i < rows; ++i) {
     L.row(i) = ReadVector(witness["L"][i], fmt::format("witness.L[{}]", i), rows).transpose();
     if (D[i] < 0) throw Rejected{fmt::format("witness.D[{}]", i), ToString(D[i]), "a number >= 0"};
-    for (int j = i; j < rows; ++j) RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
+    for (int j = i; j < rows; ++j)
+      RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
   }
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < rows; ++j) {
@@ -209,7 +215,8 @@ void CompareRun(const ExactRun& run, const Json& described, const std::string& p
 Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
   RequireKeys(witness, "witness", {"runs"});
   if (!PublishedHandles(problem)) {
-    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts", "those"};
+    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts",
+                   "those"};
   }
   const Json& runs = witness["runs"];
   if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shortened(runs), "at least one run"};
@@ -223,14 +230,16 @@ Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
       throw Rejected{path, "a run that stands before", "different runs"};
     }
     const Json& named = runs[k]["policies"];
-    if (!named.is_array() || named.empty()) throw Rejected{path + ".policies", Shortened(named), "at least one policy"};
+    if (!named.is_array() || named.empty())
+      throw Rejected{path + ".policies", Shortened(named), "at least one policy"};
     // A run of as many steps as the certificate describes is enough to confirm or refute it.
     Limits limits;
     limits.pivots = static_cast<std::int64_t>(runs[k]["pivots"].size()) + 1;
     for (std::size_t p = 0; p < named.size(); ++p) {
       const std::string where = fmt::format("{}.policies[{}]", path, p);
       const Policy policy = ReadPolicy(named[p], where);
-      if (!policies.insert(PolicyName(policy)).second) throw Rejected{where, Shortened(named[p]), "each policy once"};
+      if (!policies.insert(PolicyName(policy)).second)
+        throw Rejected{where, Shortened(named[p]), "each policy once"};
       CompareRun(RunExact(problem, {policy, {}, limits}), runs[k], path, loop, names);
     }
   }
@@ -251,8 +260,10 @@ const std::map<std::string, Checker>& Checkers() {
       {"not-psd", CheckNotSemidefinite},
       {"in-range", CheckInRange},
       {"not-in-range", CheckNotInRange},
-      {"cycle", [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kCycle); }},
-      {"stall", [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kStall); }},
+      {"cycle",
+       [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kCycle); }},
+      {"stall",
+       [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kStall); }},
   };
   return checkers;
 }
@@ -274,7 +285,8 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source)
     if (checker == Checkers().end()) {
       std::vector<std::string> claims;
       for (const auto& [claim, check] : Checkers()) claims.push_back(claim);
-      throw Rejected{"claim", Shortened(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
+      throw Rejected{"claim", Shortened(certificate["claim"]),
+                     fmt::format("one of {}", fmt::join(claims, ", "))};
     }
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
     report.facts = checker->second(problem, certificate["witness"]);

@@ -18,8 +18,8 @@ ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) 
   ExactRun run;
   run.policy = options.policy;
   run.verdict = algorithm.Run(problem, &run.trace);
-  run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(), algorithm.last_left(),
-               algorithm.last_step_zero()};
+  run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(),
+               algorithm.last_left(), algorithm.last_step_zero()};
   run.a = algorithm.state().a;
   if (run.verdict.outcome == Outcome::kRay) run.ray = algorithm.direction().df();
   return run;

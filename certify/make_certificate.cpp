@@ -50,8 +50,8 @@ Json VectorToJson(const ExactVector& values) {
 }
 
 Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names) {
-  return {{"drive", pivot.drive},          {"driven", names[pivot.driven]},     {"goal", Name(pivot.goal)},
-          {"step", ToString(pivot.s)},     {"limiting", names[pivot.limiting]}, {"from", Name(pivot.from)},
+  return {{"drive", pivot.drive},      {"driven", names[pivot.driven]},     {"goal", Name(pivot.goal)},
+          {"step", ToString(pivot.s)}, {"limiting", names[pivot.limiting]}, {"from", Name(pivot.from)},
           {"to", Name(pivot.to)}};
 }
 
@@ -90,7 +90,8 @@ Json SemidefiniteCertificate(const ExactProblem& problem) {
                            {{"x", VectorToJson(negative->x)}, {"value", ToString(negative->value)}});
   }
   if (!IsSymmetric(problem)) {
-    throw InputError("claim psd: A is not symmetric, and x'Ax >= 0 for all x; `psd` is claimed of symmetric A only");
+    throw InputError(
+        "claim psd: A is not symmetric, and x'Ax >= 0 for all x; `psd` is claimed of symmetric A only");
   }
   const auto& factors = std::get<LdltFactors>(decision);
   return MakeCertificate("psd", problem, {{"L", MatrixToJson(factors.L)}, {"D", VectorToJson(factors.D)}});

@@ -18,7 +18,8 @@ std::optional<std::string> NormalViolation(int contact, const Rational& f, const
   return std::nullopt;
 }
 
-std::optional<std::string> FrictionViolation(int contact, const Rational& bound, const Rational& f, const Rational& a) {
+std::optional<std::string> FrictionViolation(int contact, const Rational& bound, const Rational& f,
+                                             const Rational& a) {
   const Rational slack = bound - abs(f);
   if (slack < 0) return Broken(contact, "abs(fF) <= mu fN", slack);
   const Rational power = a * f;

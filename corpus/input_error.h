@@ -13,7 +13,8 @@ namespace stiction {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  InputError(const std::string& file, const std::string& path, const std::string& found, const std::string& expected)
+  InputError(const std::string& file, const std::string& path, const std::string& found,
+             const std::string& expected)
       : std::runtime_error(file + ": " + path + ": found " + found + ", expected " + expected) {}
 };
 

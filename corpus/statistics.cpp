@@ -33,7 +33,8 @@ void Fill(Array& values, const Json& json) {
   for (std::size_t i = 0; i < json.size(); ++i) values.at(i) = json[i].template get<std::int64_t>();
 }
 
-void AddTo(std::array<std::int64_t, kOutcomeCount>& sums, const std::array<std::int64_t, kOutcomeCount>& values) {
+void AddTo(std::array<std::int64_t, kOutcomeCount>& sums,
+           const std::array<std::int64_t, kOutcomeCount>& values) {
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
 }
 
@@ -59,7 +60,8 @@ void Tally::Merge(const Tally& other) {
   with_zero_steps += other.with_zero_steps;
   with_give_ups += other.with_give_ups;
   ForEachPair(sums, other.sums, [](std::int64_t& mine, std::int64_t theirs) { mine += theirs; });
-  ForEachPair(maxima, other.maxima, [](std::int64_t& mine, std::int64_t theirs) { mine = std::max(mine, theirs); });
+  ForEachPair(maxima, other.maxima,
+              [](std::int64_t& mine, std::int64_t theirs) { mine = std::max(mine, theirs); });
   for (int i = 0; i < kBins; ++i) steps[i] += other.steps[i];
 }
 

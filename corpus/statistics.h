@@ -32,11 +32,11 @@ struct Tally {
   using Outcomes = std::array<std::int64_t, kOutcomeCount>;
 
   std::int64_t problems = 0;
-  Outcomes outcomes = {};                          // as the inexact run ended
+  Outcomes outcomes = {};                             // as the inexact run ended
   std::array<Outcomes, kOutcomeCount> verdicts = {};  // [inexact][exact] of the problems run again exactly
-  std::int64_t audited = 0;    // run again exactly without a suspicion, as a sample
-  std::int64_t misjudged = 0;  // of these, with another exact outcome
-  std::int64_t wrong = 0;      // called solved with a natural residual above 1e-6, or not a number
+  std::int64_t audited = 0;                           // run again exactly without a suspicion, as a sample
+  std::int64_t misjudged = 0;                         // of these, with another exact outcome
+  std::int64_t wrong = 0;  // called solved with a natural residual above 1e-6, or not a number
   std::int64_t with_zero_steps = 0;
   std::int64_t with_give_ups = 0;
   Statistics sums;

@@ -146,7 +146,8 @@ std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& w
   const auto differ = [](const char* what, const std::string& there, const std::string& here) {
     return fmt::format("its {} is {}, this campaign's is {}", what, there, here);
   };
-  if (stored.seed != wanted.seed) return differ("seed", std::to_string(stored.seed), std::to_string(wanted.seed));
+  if (stored.seed != wanted.seed)
+    return differ("seed", std::to_string(stored.seed), std::to_string(wanted.seed));
   if (stored.build != wanted.build) return differ("build", stored.build, wanted.build);
   if (stored.policies != wanted.policies) return differ("set of policies", stored.policies, wanted.policies);
   return differ("definition", stored.definition, wanted.definition);
@@ -205,10 +206,12 @@ void Store::Execute(const std::string& sql) const {
 void Store::CreateTables() { Execute(kTables); }
 
 void Store::WriteIdentity(const CampaignIdentity& identity) {
-  const std::vector<std::pair<std::string, std::string>> rows = {
-      {"format", kFormat},          {"version", kVersion},
-      {"definition", identity.definition}, {"seed", std::to_string(identity.seed)},
-      {"policies", identity.policies},     {"build", identity.build}};
+  const std::vector<std::pair<std::string, std::string>> rows = {{"format", kFormat},
+                                                                 {"version", kVersion},
+                                                                 {"definition", identity.definition},
+                                                                 {"seed", std::to_string(identity.seed)},
+                                                                 {"policies", identity.policies},
+                                                                 {"build", identity.build}};
   for (const auto& [key, value] : rows) {
     Statement(db_.get(), "INSERT INTO campaign (key, value) VALUES (?, ?)").Bind(key).Bind(value).Step();
   }
@@ -225,7 +228,8 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
     throw InputError(fmt::format("store: found format {} version {}, expected {} version {}", values["format"],
                                  values["version"], kFormat, kVersion));
   }
-  return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"], values["build"]};
+  return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"],
+                          values["build"]};
 }
 
 bool UnitSet::Contains(std::int64_t unit) const {
@@ -239,7 +243,8 @@ bool UnitSet::Contains(std::int64_t unit) const {
 
 std::int64_t UnitSet::Count() const {
   auto count = static_cast<std::int64_t>(units_.size());
-  for (const auto& [key, blocks] : blocks_) count += Store::kUnitsPerBlock * static_cast<std::int64_t>(blocks.size());
+  for (const auto& [key, blocks] : blocks_)
+    count += Store::kUnitsPerBlock * static_cast<std::int64_t>(blocks.size());
   return count;
 }
 
@@ -252,7 +257,8 @@ UnitSet Store::Units() const {
 }
 
 void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
-  STICTION_CHECK(shard.Owns(unit), fmt::format("unit {} is not of shard {}/{}", unit, shard.index, shard.count));
+  STICTION_CHECK(shard.Owns(unit),
+                 fmt::format("unit {} is not of shard {}/{}", unit, shard.index, shard.count));
   Statement(db_.get(), "INSERT INTO units (unit, shards, shard, block, record) VALUES (?, ?, ?, ?, ?)")
       .Bind(unit)
       .Bind(static_cast<std::int64_t>(shard.count))
@@ -290,7 +296,9 @@ bool Store::Represent(const Finding& candidate) {
 void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
   const std::string of_block = " FROM units WHERE shards = ? AND shard = ? AND block = ?";
   const auto bind = [&](Statement& statement) -> Statement& {
-    return statement.Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index)).Bind(block);
+    return statement.Bind(static_cast<std::int64_t>(shard.count))
+        .Bind(static_cast<std::int64_t>(shard.index))
+        .Bind(block);
   };
   Statement count(db_.get(), "SELECT COUNT(*)" + of_block);
   bind(count).Step();
@@ -362,14 +370,17 @@ void Store::MergeFrom(const Store& other) {
 }
 
 // A finished block takes the place of an unfinished copy of itself.
-void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record, const UnitSet& before) {
+void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record,
+                       const UnitSet& before) {
   const auto bind = [&](Statement& statement) -> Statement& {
-    return statement.Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index)).Bind(block);
+    return statement.Bind(static_cast<std::int64_t>(shard.count))
+        .Bind(static_cast<std::int64_t>(shard.index))
+        .Bind(block);
   };
   Statement same(db_.get(), "SELECT record FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
   if (bind(same).Step()) {
-    STICTION_CHECK(same.Text(0) == record,
-                   fmt::format("two copies of block {} of shard {}/{} differ", block, shard.index, shard.count));
+    STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of block {} of shard {}/{} differ", block,
+                                                       shard.index, shard.count));
     return;
   }
   Statement remove(db_.get(), "DELETE FROM units WHERE shards = ? AND shard = ? AND block = ?");

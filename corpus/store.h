@@ -119,8 +119,8 @@ class Store {
   };
   std::vector<BlockInfo> Blocks() const;
 
-  // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless as
-  // the same block; a block in both with different content is an InternalError that names it.
+  // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless
+  // as the same block; a block in both with different content is an InternalError that names it.
   void MergeFrom(const Store& other);
 
  private:

@@ -41,20 +41,22 @@ class Chart {
 
   Html Draw(const std::string& label) const {
     const std::string view = fmt::format("0 0 {:.0f} {:.0f}", kLeft + kWidth + 6, kBase + 20);
-    return Tag("svg", {{"viewBox", view}, {"role", "img"}, {"aria-label", label}})(
-        Html("\n") + Scale() + Bars() + Axis());
+    return Tag("svg", {{"viewBox", view}, {"role", "img"}, {"aria-label", label}})(Html("\n") + Scale() +
+                                                                                   Bars() + Axis());
   }
 
  private:
   double Y(double decades) const { return kBase - kHeight * (decades + kOne) / (decades_ + kOne); }
 
   static Html Label(double x, double y, const char* anchor, const std::string& text) {
-    return Tag("text", {{"x", Coordinate(x)}, {"y", Coordinate(y)}, {"text-anchor", anchor}})(text) + Html("\n");
+    return Tag("text", {{"x", Coordinate(x)}, {"y", Coordinate(y)}, {"text-anchor", anchor}})(text) +
+           Html("\n");
   }
 
   static Html Line(double y) {
     const std::string at = Coordinate(y);
-    return Tag("line", {{"x1", Coordinate(kLeft)}, {"x2", Coordinate(kLeft + kWidth)}, {"y1", at}, {"y2", at}})("");
+    return Tag("line",
+               {{"x1", Coordinate(kLeft)}, {"x2", Coordinate(kLeft + kWidth)}, {"y1", at}, {"y2", at}})("");
   }
 
   Html Scale() const {
@@ -114,7 +116,8 @@ Html StepsSection(const Record& total) {
   Html figures;
   for (const auto& [contacts, tally] : by_contacts) figures += Figure(contacts, tally);
   return Section("steps", "Steps per problem",
-                 Html("<p>Across: steps until the run in doubles ended. Up: number of runs, on a logarithmic scale.</p>\n") +
+                 Html("<p>Across: steps until the run in doubles ended. Up: number of runs, on a logarithmic "
+                      "scale.</p>\n") +
                      Tag("div", {{"class", "charts"}})(Html("\n") + figures) + Html("\n"));
 }
 

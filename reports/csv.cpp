@@ -59,7 +59,11 @@ void AddRepresentative(Csv& csv, const Finding* finding) {
     csv.Add("counted");
     return;
   }
-  csv.Add(finding->unit).Add(finding->index).Add(finding->generator).Add(finding->contacts).Add(finding->policy);
+  csv.Add(finding->unit)
+      .Add(finding->index)
+      .Add(finding->generator)
+      .Add(finding->contacts)
+      .Add(finding->policy);
   csv.Add(finding->inexact_outcome).Add(finding->exact_outcome).Add(finding->done ? "finished" : "pending");
 }
 
@@ -109,7 +113,8 @@ std::string StatisticsCsv(const Record& record) {
   AddKeyColumns(csv);
   csv.Add("problems");
   AddOutcomeColumns(csv, "");
-  for (const char* column : {"audited", "misjudged", "wrong", "with_zero_steps", "with_give_ups"}) csv.Add(column);
+  for (const char* column : {"audited", "misjudged", "wrong", "with_zero_steps", "with_give_ups"})
+    csv.Add(column);
   AddStatisticsColumns(csv, "sum_");
   AddStatisticsColumns(csv, "max_");
   csv.EndRow();

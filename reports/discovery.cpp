@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::size_t kLongestName = 200;  // file systems allow 255, and extensions come on top
 
-bool IsLoop(std::string_view kind) { return kind == Name(Outcome::kCycle) || kind == Name(Outcome::kStall); }
-
 // The kinds that findings have; a signature begins with its kind.
 std::vector<std::string_view> Kinds() {
   std::vector<std::string_view> kinds(kOutcomeNames.begin(), kOutcomeNames.end());
@@ -112,7 +110,12 @@ bool Grid::AllLoop() const {
   return loops > 0 && loops == Total();
 }
 
-bool Discovery::WholeGrid() const { return found && found->grid.IsAll(representative->exact_outcome); }
+bool Discovery::IsLoop() const { return kind == Name(Outcome::kCycle) || kind == Name(Outcome::kStall); }
+
+bool Discovery::WholeGrid() const {
+  return found && representative->exact_outcome != Name(Outcome::kSolved) &&
+         found->grid.IsAll(representative->exact_outcome);
+}
 
 int Discovery::SmallestContacts() const {
   return minimized ? static_cast<int>(minimized->contacts) : representative->contacts;
@@ -128,7 +131,7 @@ std::vector<Discovery> Discoveries(const Record& record, const std::vector<Findi
   std::vector<Discovery> discoveries;
   for (auto& [signature, discovery] : by_signature) {
     discovery.signature = signature;
-    if (IsLoop(discovery.kind)) discovery.loop = LoopLengthOf(signature);
+    if (discovery.IsLoop()) discovery.loop = LoopLengthOf(signature);
     discoveries.push_back(std::move(discovery));
   }
   return discoveries;
@@ -140,7 +143,7 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
     if (discovery.representative != nullptr) sorted.push_back(&discovery);
   }
   const auto rank = [](const Discovery* d) {
-    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), -d->met);
+    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(), -d->met);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&rank](const Discovery* left, const Discovery* right) { return rank(left) < rank(right); });
@@ -149,7 +152,8 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
 
 std::string FileName(const std::string& signature) {
   std::string name = signature.substr(0, kLongestName);
-  std::replace_if(name.begin(), name.end(), [](char c) { return !MayStandInFileName(c); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !MayStandInFileName(c); }, '_');
   if (name == signature && !name.empty()) return name;
   return fmt::format("{}-{:016x}", name, Hash(signature));
 }

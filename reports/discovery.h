@@ -57,7 +57,8 @@ struct Discovery {
   FindingFiles files;
 
   bool Finished() const { return representative != nullptr && representative->done; }
-  bool WholeGrid() const;     // every policy ends in the outcome of the finding
+  bool IsLoop() const;
+  bool WholeGrid() const;  // every policy ends in the outcome of the finding, and that is not `solved`
   bool EveryPolicyLoops() const { return found && found->grid.AllLoop(); }
   int SmallestContacts() const;  // of the minimized problem, or as found
 };
@@ -65,8 +66,8 @@ struct Discovery {
 // In the order of signature. The findings must outlive what is returned.
 std::vector<Discovery> Discoveries(const Record& record, const std::vector<Finding>& findings);
 
-// The order of interest: fewest contacts, then those that the whole grid shows, then the most frequent, then by
-// signature. Only those with a representative.
+// The order of interest: fewest contacts, then those that the whole grid shows, then loops, then the most
+// frequent, then by signature. Only those with a representative.
 std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveries);
 
 // A signature as a file name without extension: letters, digits and -_=,@ stay; a name that had to be changed

@@ -11,9 +11,9 @@
 namespace stiction {
 namespace {
 
-bool IsLoop(std::string_view outcome) { return outcome == "cycle" || outcome == "stall"; }
-
 // ---- The problem in numbers ----
+
+constexpr std::size_t kLongestProblem = 6000;  // of its JSON text; longer ones nobody reads off a page
 
 // "N1", "F1", "N2", ...; in space a contact has two friction rows, "F1x" and "F1y".
 std::vector<std::string> RowNames(const ExactProblem& problem) {
@@ -39,7 +39,8 @@ std::vector<std::string> MuColumn(const ExactProblem& problem) {
   std::vector<std::string> column;
   for (const Contact<Rational>& contact : problem.contacts) {
     column.push_back(MuText(contact));
-    if (contact.HasFrictionRows()) column.resize(column.size() + static_cast<std::size_t>(problem.dimension) - 1);
+    if (contact.HasFrictionRows())
+      column.resize(column.size() + static_cast<std::size_t>(problem.dimension) - 1);
   }
   return column;
 }
@@ -66,13 +67,12 @@ Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
 }
 
 struct Size {
-  int contacts = 0;
   int nonzeros = 0;       // of A and b
   std::int64_t bits = 0;  // of the longest numerator or denominator
 };
 
 Size SizeOf(const ExactProblem& problem) {
-  Size size{static_cast<int>(problem.contacts.size())};
+  Size size;
   const auto count = [&size](const Rational& x) {
     size.nonzeros += x != 0;
     size.bits = std::max(size.bits, Bits(x));
@@ -86,6 +86,13 @@ Size SizeOf(const ExactProblem& problem) {
 // The minimized problem; as found while there is none.
 const std::string& SimplestText(const Finding& finding) {
   return finding.minimized.empty() ? finding.problem : finding.minimized;
+}
+
+Html ProblemOf(const Finding& finding) {
+  const std::string& text = SimplestText(finding);
+  if (text.size() > kLongestProblem)
+    return Html("<p class=\"note\">Its numbers are too long for a page.</p>\n");
+  return ProblemTable(ParseProblem(text, finding.signature).problem, "Problem of " + finding.signature);
 }
 
 // ---- Words ----
@@ -102,10 +109,12 @@ std::string GridText(const Grid& grid) {
 // "The state after 3 drives stands again 4 drives later (17 steps in all)."
 std::string RunText(const RunFacts& run, const Finding& finding) {
   const std::string steps = Counted(run.steps, "step");
-  if (!IsLoop(finding.exact_outcome)) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
-  const std::string unit = finding.exact_outcome == "cycle" ? "drive" : "step";
-  return fmt::format("Under {}: the state after {} stands again {} later, and so for ever ({} in all).", finding.policy,
-                     Counted(run.start, unit), Counted(run.period, unit), steps);
+  const bool cycle = finding.exact_outcome == Name(Outcome::kCycle);
+  const bool stall = finding.exact_outcome == Name(Outcome::kStall);
+  if (!cycle && !stall) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
+  const std::string unit = cycle ? "drive" : "step";
+  return fmt::format("Under {}: the state after {} stands again {} later, and so on for ever ({} in all).",
+                     finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
 }
 
 // A word as a shell reads it back.
@@ -124,12 +133,15 @@ Html Commands(const Discovery& discovery) {
   const std::string& policy = discovery.representative->policy;
   std::string text = fmt::format("./run replay {} --step", discovery.files.problem);
   if (policy != "paper") text += " --policy " + ShellWord(policy);
-  if (!discovery.files.certificate.empty()) text += fmt::format("\n./run check {}", discovery.files.certificate);
+  if (!discovery.files.certificate.empty())
+    text += fmt::format("\n./run check {}", discovery.files.certificate);
   return Tag("pre")(Tag("code")(text));
 }
 
 Html FileLinks(const FindingFiles& files) {
-  const auto link = [](const std::string& file, std::string_view title) { return Tag("a", {{"href", file}})(title); };
+  const auto link = [](const std::string& file, std::string_view title) {
+    return Tag("a", {{"href", file}})(title);
+  };
   Html links = link(files.problem, "problem") + Html(" · ") + link(files.original, "as found");
   if (!files.certificate.empty()) links += Html(" · ") + link(files.certificate, "certificate");
   return Tag("p", {{"class", "note"}})(Html("Files: ") + links);
@@ -147,21 +159,23 @@ Html Story(const Discovery& discovery) {
 // ---- The table ----
 
 Table EmptyTable() {
-  return Table("Findings, the simplest first",
-               {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units", false},
-                {"kind", "", false},
-                {"contacts", "of the problem as found → of the minimized problem", false},
-                {"drives", "of one period of the loop"},
-                {"steps", "of one period of the loop"},
-                {"met", "runs of the campaign with this signature"},
-                {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
-                {"policies, as found", "outcomes over the planar grid of policies", false},
-                {"policies, minimized", "likewise, of the minimized problem", false},
-                {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
+  return Table(
+      "Findings, the simplest first",
+      {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units",
+        false},
+       {"kind", "", false},
+       {"contacts", "of the problem as found → of the minimized problem", false},
+       {"drives", "of one period of the loop"},
+       {"steps", "of one period of the loop"},
+       {"met", "runs of the campaign with this signature"},
+       {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
+       {"policies, as found", "outcomes over the planar grid of policies", false},
+       {"policies, minimized", "likewise, of the minimized problem", false},
+       {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
 }
 
 Html KindBadge(const Discovery& discovery) {
-  const Tag badge("span", {{"class", IsLoop(discovery.kind) ? "badge loop" : "badge"}});
+  const Tag badge("span", {{"class", discovery.IsLoop() ? "badge loop" : "badge"}});
   Html html = badge(discovery.kind);
   if (discovery.WholeGrid()) html += Html(" <span class=\"badge whole\">whole grid</span>");
   return html;
@@ -200,14 +214,16 @@ void AddFinding(Table& table, const Discovery& discovery) {
                 {discovery.minimized ? Text(GridText(discovery.minimized->grid)) : Html()},
                 {SizeText(discovery)}},
                1, "finding");
-  table.AddWide(Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(discovery)), "more");
+  table.AddWide(Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(discovery)),
+                "more");
 }
 
 Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
   const auto all = static_cast<std::int64_t>(discoveries.size());
   const auto here = static_cast<std::int64_t>(shown);
-  std::string text = "One row per signature: fewest contacts first, then those that every policy of the grid shows, "
-                     "then the most frequent. ";
+  std::string text =
+      "One row per signature: fewest contacts first, then those that every policy of the grid shows, then "
+      "loops before others, then the most frequent. ";
   if (here == all) return Tag("p")(text + fmt::format("All {} are shown.", Grouped(all)));
   text += fmt::format("{} of {} are shown; all are in ", Grouped(here), Counted(all, "signature"));
   return Tag("p")(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
@@ -217,9 +233,7 @@ Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
 
 Html FindingDetails(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
-  const ExactProblem problem = ParseProblem(SimplestText(finding), finding.signature).problem;
-  return Tag("div", {{"class", "details"}})(Html("\n") + Story(discovery) +
-                                            ProblemTable(problem, "Problem of " + finding.signature) +
+  return Tag("div", {{"class", "details"}})(Html("\n") + Story(discovery) + ProblemOf(finding) +
                                             Commands(discovery) + FileLinks(discovery.files)) +
          Html("\n");
 }
@@ -230,12 +244,13 @@ Html FindingsSection(const std::vector<Discovery>& discoveries) {
   if (shown.size() > kFindingsShown) shown.resize(kFindingsShown);
   Table table = EmptyTable();
   for (const Discovery* discovery : shown) AddFinding(table, *discovery);
-  return Section("findings", "Findings",
-                 HowMany(shown.size(), discoveries) +
-                     Html("<p class=\"note\">Paths are relative to the directory of this page; <code>run</code> stands "
-                          "in stiction’s own directory. <code>replay</code> shows every pivot in exact numbers; "
-                          "<code>certify/check_certificate.py</code> is an independent check of a certificate.</p>\n") +
-                     table.Done());
+  return Section(
+      "findings", "Findings",
+      HowMany(shown.size(), discoveries) +
+          Html("<p class=\"note\">Paths are relative to the directory of this page; <code>run</code> stands "
+               "in stiction’s own directory. <code>replay</code> shows every pivot in exact numbers; "
+               "<code>certify/check_certificate.py</code> is an independent check of a certificate.</p>\n") +
+          table.Done());
 }
 
 }  // namespace stiction

@@ -46,10 +46,10 @@ std::string Escaped(std::string_view text) {
   return out;
 }
 
-// About three digits: 0.0123, 1.23, 12.3, 123, 1,234.
+// Two or three digits: 0.012, 1.23, 12.3, 123, 1,234.
 std::string ThreeDigits(double value) {
   if (value == 0) return "0";
-  if (value < 1) return fmt::format("{:.2g}", value);
+  if (value < 1) return fmt::format("{:#.2g}", value);
   if (value < 10) return fmt::format("{:.2f}", value);
   if (value < 100) return fmt::format("{:.1f}", value);
   return Grouped(static_cast<std::int64_t>(value + 0.5));
@@ -72,8 +72,7 @@ Html Text(std::string_view text) {
   return html;
 }
 
-Tag::Tag(std::string_view name, std::initializer_list<Attribute> attributes)
-    : name_(name), open_("<" + name_) {
+Tag::Tag(std::string_view name, std::initializer_list<Attribute> attributes) : name_(name), open_("<" + name_) {
   for (const Attribute& attribute : attributes) {
     if (attribute.value.empty()) continue;
     open_ += fmt::format(" {}=\"{}\"", attribute.name, Escaped(attribute.value));
@@ -116,7 +115,8 @@ void Table::AddWide(const Html& content, const std::string& style) {
 Html Table::Head() const {
   Html row;
   for (const Column& column : columns_) {
-    row += Tag("th", {{"scope", "col"}, {"class", column.number ? "n" : ""}, {"title", column.hint}})(column.title);
+    row += Tag("th",
+               {{"scope", "col"}, {"class", column.number ? "n" : ""}, {"title", column.hint}})(column.title);
   }
   return Tag("thead")(Tag("tr")(row));
 }
@@ -124,7 +124,8 @@ Html Table::Head() const {
 Html Table::Done() const {
   const Html caption = Tag("caption")(caption_);
   const Html table = Tag("table")(caption + Head() + Html("\n") + Tag("tbody")(Html("\n") + rows_));
-  const Tag frame("div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", caption_}, {"tabindex", "0"}});
+  const Tag frame("div",
+                  {{"class", "scroll"}, {"role", "region"}, {"aria-label", caption_}, {"tabindex", "0"}});
   return frame(table) + Html("\n");
 }
 

@@ -88,7 +88,7 @@ class Table {
 // ---- Numbers for people ----
 
 std::string Grouped(std::int64_t value);  // 1,234,567
-// count per million of total, about three digits; "" of nothing.
+// count per million of total, two or three digits; "" of nothing.
 std::string PerMillion(std::int64_t count, std::int64_t total);
 std::string Percent(std::int64_t count, std::int64_t total);
 std::string Mean(std::int64_t sum, std::int64_t count);

@@ -35,7 +35,9 @@ std::vector<std::pair<std::string, KindCounts>> CountByKind(const std::vector<Di
   std::map<std::string, KindCounts> counts;
   for (const Discovery& discovery : discoveries) counts[discovery.kind].Add(discovery);
   std::vector<std::pair<std::string, KindCounts>> sorted(counts.begin(), counts.end());
-  const auto is_loop = [](const auto& row) { return row.first == "cycle" || row.first == "stall"; };
+  const auto is_loop = [](const auto& row) {
+    return row.first == Name(Outcome::kCycle) || row.first == Name(Outcome::kStall);
+  };
   std::stable_partition(sorted.begin(), sorted.end(), is_loop);
   return sorted;
 }
@@ -56,26 +58,29 @@ std::vector<Cell> KindRow(const std::string& kind, const KindCounts& c) {
 }
 
 Html KindTable(const std::vector<Discovery>& discoveries) {
-  Table table("Findings by kind",
-              {{"kind", "", false},
-               {"runs", "runs in which it was met"},
-               {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
-               {"finished", "representatives certified and minimized"},
-               {"pending", "representatives that are not finished yet"},
-               {"only counted", "groups without a representative"},
-               {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
-               {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
+  Table table(
+      "Findings by kind",
+      {{"kind", "", false},
+       {"runs", "runs in which it was met"},
+       {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
+       {"finished", "representatives certified and minimized"},
+       {"pending", "representatives that are not finished yet"},
+       {"only counted", "groups without a representative"},
+       {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
+       {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
   for (const auto& [kind, counts] : CountByKind(discoveries)) table.AddRow(KindRow(kind, counts));
   table.AddRow(KindRow("all", CountAll(discoveries)), 1, "total");
   return table.Done();
 }
 
 Html KindNote() {
-  return Html("<p class=\"note\">A group is a signature: findings that are the same up to permuting contacts, "
-              "reversing tangents and units. Its representative is the first problem that shows it; finished means "
-              "certified and minimized. Groups that were met in a unit with many new ones are only counted there, "
-              "and represented when another unit meets them. Whole grid: a loop under every policy, that is, under every "
-              "reading of the published text.</p>\n");
+  return Html(
+      "<p class=\"note\">A group is a signature: findings that are the same up to permuting contacts, "
+      "reversing tangents and units; what is found under another policy than <code>paper</code> is a group "
+      "of its own. The representative of a group is the first problem that shows it; finished means "
+      "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
+      "represented when another unit meets them. Whole grid: a loop under every policy, that is, under "
+      "every reading of the published text.</p>\n");
 }
 
 // Every policy runs the same problems.
@@ -117,32 +122,34 @@ Html Tiles(const ReportContent& content) {
 
 Html Featured(const std::vector<Discovery>& discoveries) {
   const auto sorted = ByInterest(discoveries);
-  const auto first = std::find_if(sorted.begin(), sorted.end(), [](const Discovery* d) { return d->minimized; });
+  const auto first = std::find_if(sorted.begin(), sorted.end(),
+                                  [](const Discovery* d) { return d->IsLoop() && d->minimized; });
   if (first == sorted.end()) return {};
-  const Html title = Tag("h3")(Html("The simplest: ") + Tag("code")((*first)->signature));
+  const Html title = Tag("h3")(Html("The simplest loop: ") + Tag("code")((*first)->signature));
   return Tag("div", {{"class", "featured"}})(title + FindingDetails(**first)) + Html("\n");
 }
 
 // ---- Campaign ----
 
-std::string PlainText(const Json& json) {
+std::string PlainText(const Json& json, const char* separator = ", ") {
   if (json.is_string()) return json.get<std::string>();
   if (json.is_number_integer()) return Grouped(json.get<std::int64_t>());
   if (!json.is_array()) return JsonText(json);
   std::vector<std::string> parts;
   for (const Json& element : json) parts.push_back(PlainText(element));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return fmt::format("{}", fmt::join(parts, separator));
 }
 
 std::string CampaignLabel(const std::string& key) {
-  static const std::map<std::string, std::string> labels = {{"contacts", "numbers of contacts"},
-                                                            {"mu", "friction palette"},
-                                                            {"unit_problems", "problems of a unit"},
-                                                            {"audit_every", "audited: one problem in"},
-                                                            {"representatives_per_unit", "new representatives per unit, at most"},
-                                                            {"max_drives", "budget, drives"},
-                                                            {"max_pivots", "budget, pivots"},
-                                                            {"max_bits", "budget, bits of a number"}};
+  static const std::map<std::string, std::string> labels = {
+      {"contacts", "numbers of contacts"},
+      {"mu", "friction palette"},
+      {"unit_problems", "problems of a unit"},
+      {"audit_every", "audited: one problem in"},
+      {"representatives_per_unit", "new representatives per unit, at most"},
+      {"max_drives", "budget, drives"},
+      {"max_pivots", "budget, pivots"},
+      {"max_bits", "budget, bits of a number"}};
   const auto label = labels.find(key);
   return label == labels.end() ? key : label->second;
 }
@@ -189,25 +196,25 @@ Html Head() {
 Html Introduction() {
   return Tag("h1")("Does Baraff’s contact force algorithm always end?") +
          Tag("p")(
-             "A search of random friction problems for inputs on which the pivoting algorithm of D. Baraff, Fast "
-             "Contact Force Computation for Nonpenetrating Rigid Bodies (SIGGRAPH 1994), run as published, repeats "
-             "a state and so never ends. Every finding was run again in exact rational arithmetic; a finished loop "
-             "comes with a certificate that an independent checker verifies, and with a problem made as small as "
-             "it gets.") +
+             "A search of random friction problems for inputs on which the pivoting algorithm of D. "
+             "Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies (SIGGRAPH 1994), run "
+             "as published, repeats a state and so never ends. Every finding was run again in exact "
+             "rational arithmetic; a finished loop comes with a certificate that an independent checker "
+             "verifies, and with a problem made as small as it gets.") +
          Html("\n");
 }
 
 Html Navigation() {
   Html links;
-  for (const auto& [id, title] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"#found", "Found"},
-           {"#campaign", "Campaign"},
-           {"#outcomes", "Outcomes"},
-           {"#doubles", "How often doubles lie"},
-           {"#pivots", "Pivots"},
-           {"#steps", "Steps"},
-           {"#findings", "Findings"},
-           {"#files", "Files"}}) {
+  for (const auto& [id, title] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"#found", "Found"},
+                                                                  {"#campaign", "Campaign"},
+                                                                  {"#outcomes", "Outcomes"},
+                                                                  {"#doubles", "How often doubles lie"},
+                                                                  {"#pivots", "Pivots"},
+                                                                  {"#steps", "Steps"},
+                                                                  {"#findings", "Findings"},
+                                                                  {"#files", "Files"}}) {
     links += Tag("a", {{"href", id}})(title) + Html("\n");
   }
   return Tag("nav", {{"aria-label", "Sections"}})(links) + Html("\n");
@@ -222,10 +229,11 @@ Html FilesSection() {
            {"findings.csv", "every signature, with its counts, facts and files"}}) {
     list += Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   }
-  list += Tag("li")(Html("<code>findings/</code>: of every representative the minimized problem (or, until there "
-                         "is one, the problem as found), the problem as found (<code>.original.json</code>) and "
-                         "its certificate (<code>.certificate.json</code>)")) +
-          Html("\n");
+  list +=
+      Tag("li")(Html("<code>findings/</code>: of every representative the minimized problem (or, until there "
+                     "is one, the problem as found), the problem as found (<code>.original.json</code>) "
+                     "and its certificate (<code>.certificate.json</code>)")) +
+      Html("\n");
   return Section("files", "Files beside this page", Tag("ul")(list));
 }
 
@@ -245,13 +253,16 @@ Html Section(const std::string& id, const std::string& title, const Html& conten
 
 Html FoundSection(const ReportContent& content) {
   if (content.units == 0) {
-    return Section("found", "What was found", Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
+    return Section("found", "What was found",
+                   Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
   }
   Html found = Tiles(content);
   if (content.discoveries.empty()) {
-    found += Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
+    found +=
+        Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
   } else {
-    found += Featured(content.discoveries) + Html("<h3>By kind</h3>\n") + KindTable(content.discoveries) + KindNote();
+    found += Featured(content.discoveries) + Html("<h3>By kind</h3>\n") + KindTable(content.discoveries) +
+             KindNote();
   }
   return Section("found", "What was found", found);
 }
@@ -260,11 +271,12 @@ Html CampaignSection(const ReportContent& content) {
   Definitions list;
   list.Add("seed", std::to_string(content.identity.seed));
   AddDefinition(list, content.identity.definition);
-  list.Add("policies", PlainText(Lenient(content.identity.policies)));
+  list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
   list.Add("build", content.identity.build);
   list.Add("problems", Grouped(ProblemsOf(content.total)));
   list.Add("units", Grouped(content.units));
-  list.Add("complete blocks", fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
+  list.Add("complete blocks",
+           fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
   return Section("campaign", "Campaign",
                  list.Done() + Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
                                     "findings on any machine.</p>\n"));
@@ -273,8 +285,10 @@ Html CampaignSection(const ReportContent& content) {
 std::string Page(const ReportContent& content) {
   Html sections = Sections(content);
   const Html header = Tag("header")(Html("\n") + Introduction() + (content.units > 0 ? Navigation() : Html()));
-  const Html body = Tag("body")(Html("\n") + header + Html("\n") + Tag("main")(Html("\n") + sections) + Html("\n"));
-  return "<!DOCTYPE html>\n" + Tag("html", {{"lang", "en"}})(Html("\n") + Head() + body + Html("\n")).markup() + "\n";
+  const Html body =
+      Tag("body")(Html("\n") + header + Html("\n") + Tag("main")(Html("\n") + sections) + Html("\n"));
+  return "<!DOCTYPE html>\n" + Tag("html", {{"lang", "en"}})(Html("\n") + Head() + body + Html("\n")).markup() +
+         "\n";
 }
 
 }  // namespace stiction

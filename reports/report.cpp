@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 void MakeDirectory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw InputError(fmt::format("{}: cannot make the directory: {}", directory.string(), error.message()));
+  if (error)
+    throw InputError(fmt::format("{}: cannot make the directory: {}", directory.string(), error.message()));
 }
 
 void WriteFile(const fs::path& file, const std::string& text) {
@@ -47,7 +48,8 @@ void WriteFinding(const Discovery& discovery, const fs::path& directory) {
   const std::string original = Pretty(finding.problem, finding.signature);
   const bool minimized = !finding.minimized.empty();
   WriteFile(directory / discovery.files.original, original);
-  WriteFile(directory / discovery.files.problem, minimized ? Pretty(finding.minimized, finding.signature) : original);
+  WriteFile(directory / discovery.files.problem,
+            minimized ? Pretty(finding.minimized, finding.signature) : original);
   if (discovery.files.certificate.empty()) {
     RemoveFile(directory / ("findings/" + FileName(finding.signature) + ".certificate.json"));
   } else {

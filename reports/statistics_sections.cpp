@@ -111,7 +111,8 @@ Html UnsolvedMap(const Record& total) {
       const auto found = merged.find({generator, n});
       const std::int64_t problems = found == merged.end() ? 0 : found->second.problems;
       const std::int64_t unsolved = problems == 0 ? 0 : problems - found->second.outcomes[0];
-      cells.push_back({Text(PerMillion(unsolved, problems)), unsolved == 0 ? "zero" : Heat(unsolved, problems)});
+      cells.push_back(
+          {Text(PerMillion(unsolved, problems)), unsolved == 0 ? "zero" : Heat(unsolved, problems)});
     }
     table.AddRow(cells);
   }
@@ -120,7 +121,8 @@ Html UnsolvedMap(const Record& total) {
 
 std::vector<Cell> OutcomeCells(const Tally& tally) {
   std::vector<Cell> cells = {Count(tally.problems)};
-  for (int i = 0; i < kOutcomeCount; ++i) cells.push_back(CountAndRate(tally.outcomes[i], tally.problems, i > 0));
+  for (int i = 0; i < kOutcomeCount; ++i)
+    cells.push_back(CountAndRate(tally.outcomes[i], tally.problems, i > 0));
   return cells;
 }
 
@@ -131,11 +133,13 @@ std::vector<Cell> Joined(std::vector<Cell> left, const std::vector<Cell>& right)
 
 Html OutcomeTable(const Record& total) {
   std::vector<Column> columns = {{"generator", "", false}, {"contacts"}, {"policy", "", false}, {"problems"}};
-  for (int i = 0; i < kOutcomeCount; ++i) columns.push_back({std::string(kOutcomeNames[i]), std::string(kMeaning[i])});
+  for (int i = 0; i < kOutcomeCount; ++i)
+    columns.push_back({std::string(kOutcomeNames[i]), std::string(kMeaning[i])});
   Table table("Outcomes per generator, number of contacts and policy", columns);
   Groups groups;
   for (const auto& [key, tally] : total.tallies) {
-    const std::vector<Cell> names = {{Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(PolicyText(key))}};
+    const std::vector<Cell> names = {
+        {Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(PolicyText(key))}};
     table.AddRow(Joined(names, OutcomeCells(tally)), 3, groups.Style(key.generator));
   }
   table.AddRow(Joined({{Text("all")}, {}, {}}, OutcomeCells(AllOf(total))), 3, "total");
@@ -145,7 +149,8 @@ Html OutcomeTable(const Record& total) {
 // ---- Doubles ----
 
 std::string InexactName(int outcome) {
-  return outcome == static_cast<int>(Outcome::kSolved) ? "solved, but wrong" : std::string(kOutcomeNames[outcome]);
+  return outcome == static_cast<int>(Outcome::kSolved) ? "solved, but wrong"
+                                                       : std::string(kOutcomeNames[outcome]);
 }
 
 std::vector<Cell> VerdictCells(const Outcomes& exact, int confirmed) {
@@ -156,8 +161,9 @@ std::vector<Cell> VerdictCells(const Outcomes& exact, int confirmed) {
 
 Html VerdictTable(const Tally& all) {
   std::vector<Column> columns = {{"in doubles", "how the run ended in double arithmetic", false},
-                                 {"run again exactly"}};
-  for (const std::string_view name : kOutcomeNames) columns.push_back({"exactly: " + std::string(name)});
+                                 {"runs", "all of these are repeated exactly"}};
+  for (const std::string_view name : kOutcomeNames)
+    columns.push_back({std::string(name), "outcome of the exact run"});
   columns.push_back({"confirmed", "the exact run ended in the same outcome"});
   Table table("Suspicious runs in doubles and their exact outcome", columns);
   for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
@@ -220,7 +226,8 @@ std::vector<Cell> PivotCells(const Tally& tally) {
   ForEachField(tally.maxima, [&](const char*, const char*, std::int64_t value) { maxima.push_back(value); });
   ForEachField(tally.sums, [&](const char*, const char*, std::int64_t sum) {
     const std::int64_t maximum = maxima[cells.size() - 1];
-    cells.push_back({Text(Mean(sum, tally.problems)) + Tag("small")(Grouped(maximum)), maximum == 0 ? "zero" : ""});
+    cells.push_back(
+        {Text(Mean(sum, tally.problems)) + Tag("small")(Grouped(maximum)), maximum == 0 ? "zero" : ""});
   });
   return cells;
 }
@@ -246,29 +253,30 @@ Html PivotTable(const Record& total) {
 }  // namespace
 
 Html OutcomesSection(const Record& total) {
-  return Section(
-      "outcomes", "Outcomes",
-      Html("<p>As the runs in doubles ended. Runs not solved, per million; the deeper the colour, the more, one shade "
-           "for each factor of ten:</p>\n") +
-          UnsolvedMap(total) + Html("<p>All outcomes; below each count its rate per million problems:</p>\n") +
-          OutcomeTable(total));
+  return Section("outcomes", "Outcomes",
+                 Html("<p>As the runs in doubles ended. Runs not solved, per million; the deeper the colour, "
+                      "the more, one shade for each factor of ten:</p>\n") +
+                     UnsolvedMap(total) +
+                     Html("<p>All outcomes; below each count its rate per million problems:</p>\n") +
+                     OutcomeTable(total));
 }
 
 Html DoublesSection(const Record& total) {
-  return Section(
-      "doubles", "How often doubles lie",
-      Html("<p>A run in doubles is suspicious if it does not end in a solution, or if its solution has a natural "
-           "residual above 1e-6. Every suspicious problem is run again in exact rational arithmetic, and so is a "
-           "sample of the others. Where a generator rounds its problems to doubles, the exact run is that of the "
-           "problem before rounding.</p>\n") +
-          VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") + TrustTable(total));
+  return Section("doubles", "How often doubles lie",
+                 Html("<p>A run in doubles is suspicious if it does not end in a solution, or if its solution "
+                      "has a natural residual above 1e-6. Every suspicious problem is run again in exact "
+                      "rational arithmetic, and so is a sample of the others. Where a generator rounds its "
+                      "problems to doubles, the exact run is that of the problem before rounding. Rows: "
+                      "how the suspicious runs ended in doubles; columns: how they end exactly.</p>\n") +
+                     VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") + TrustTable(total));
 }
 
 Html PivotsSection(const Record& total) {
-  return Section("pivots", "Pivots per problem",
-                 Html("<p>Of the runs in doubles: the mean, and below it the maximum. A loop counts up to where it "
-                      "was noticed.</p>\n") +
-                     PivotTable(total));
+  return Section(
+      "pivots", "Pivots per problem",
+      Html("<p>Of the runs in doubles: the mean, and below it the maximum. A loop counts up to where it "
+           "was noticed.</p>\n") +
+          PivotTable(total));
 }
 
 }  // namespace stiction

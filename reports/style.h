@@ -28,7 +28,8 @@ body {
   background: var(--paper); color: var(--ink);
   font: 1rem/1.5 system-ui, -apple-system, "Segoe UI", "Liberation Sans", Arial, sans-serif;
 }
-h1 { font-size: clamp(1.6rem, 4vw, 2.3rem); line-height: 1.15; margin: 0.5rem 0 0.8rem; letter-spacing: -0.01em; }
+h1 { font-size: clamp(1.6rem, 4vw, 2.3rem); line-height: 1.15; margin: 0.5rem 0 0.8rem;
+  letter-spacing: -0.01em; }
 h2 { font-size: 1.35rem; line-height: 1.25; margin: 0 0 0.6rem; }
 h3 { font-size: 1.05rem; margin: 1.6rem 0 0.4rem; }
 p { max-width: 50rem; margin: 0.5rem 0 0.9rem; }
@@ -38,28 +39,33 @@ nav { margin: 1rem 0 0; display: flex; flex-wrap: wrap; gap: 0.3rem 1.2rem; font
 section { margin-top: 2.2rem; padding-top: 1.6rem; border-top: 1px solid var(--line); }
 .note, small, .soft { color: var(--soft); }
 .note { font-size: 0.92rem; }
-code, pre, .mono { font-family: ui-monospace, "SF Mono", Menlo, Consolas, "Liberation Mono", monospace; font-size: 0.9em; }
+code, pre, .mono { font-family: ui-monospace, "SF Mono", Menlo, Consolas, "Liberation Mono", monospace;
+  font-size: 0.9em; }
 code { overflow-wrap: anywhere; }
 pre { background: var(--code); border-radius: 6px; padding: 0.7rem 0.9rem; overflow-x: auto; margin: 0.6rem 0; }
 pre code { overflow-wrap: normal; font-size: 1em; }
 
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: 0.8rem; margin: 1rem 0 1.4rem;
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: 0.8rem;
+  margin: 1rem 0 1.4rem;
   padding: 0; list-style: none; }
 .tiles li { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 0.8rem 1rem; }
-.tiles strong { display: block; font-size: 1.65rem; line-height: 1.2; font-weight: 650; font-variant-numeric: tabular-nums; }
+.tiles strong { display: block; font-size: 1.65rem; line-height: 1.2; font-weight: 650;
+  font-variant-numeric: tabular-nums; }
 .tiles .loop strong { color: var(--loop); }
 .tiles span { color: var(--soft); font-size: 0.92rem; }
 
 .scroll { overflow-x: auto; max-width: 100%; margin: 0.7rem 0 1.2rem; }
 table { border-collapse: collapse; font-size: 0.9rem; background: var(--card); border: 1px solid var(--line); }
-caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
+caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%);
+  white-space: nowrap; }
 th, td { padding: 0.3rem 0.65rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
 thead th { font-weight: 600; color: var(--soft); vertical-align: bottom; border-bottom: 2px solid var(--line);
   font-size: 0.85rem; }
 thead th[title] { text-decoration: underline dotted; text-underline-offset: 3px; }
-tbody th { font-weight: 500; }
+tbody th { font-weight: 500; white-space: nowrap; }
+tbody th.signature { white-space: normal; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-td small, th small { display: block; font-size: 0.78rem; }
+td small, th small { display: block; font-size: 0.87em; }
 .zero { color: var(--soft); opacity: 0.65; }
 tr.total > * { font-weight: 650; border-top: 2px solid var(--line); }
 tr.group > * { border-top: 2px solid var(--line); }
@@ -73,7 +79,8 @@ dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
 
 .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)); gap: 1rem; }
-figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 0.7rem 0.8rem 0.4rem; }
+figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 8px;
+  padding: 0.7rem 0.8rem 0.4rem; }
 figcaption { font-size: 0.92rem; }
 svg { display: block; width: 100%; height: auto; margin-top: 0.3rem; }
 svg rect { fill: var(--bar); }
@@ -89,7 +96,8 @@ svg text { fill: var(--soft); font-size: 11px; font-family: inherit; }
 tr.finding > * { border-bottom: 0; padding-top: 0.6rem; }
 tr.more > td { padding-top: 0; padding-bottom: 0.6rem; }
 summary { cursor: pointer; color: var(--accent); font-size: 0.9rem; }
-.featured { background: var(--card); border: 1px solid var(--line); border-left: 4px solid var(--loop); border-radius: 8px;
+.featured { background: var(--card); border: 1px solid var(--line); border-left: 4px solid var(--loop);
+  border-radius: 8px;
   padding: 0.9rem 1.1rem; margin: 1rem 0; }
 .featured h3 { margin-top: 0; }
 .details { max-width: 60rem; }
@@ -105,13 +113,14 @@ summary { cursor: pointer; color: var(--accent); font-size: 0.9rem; }
 }
 @media print {
   :root {
-    --paper: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --accent: #000; --loop: #8a2c14; --code: #f4f4f4;
+    --paper: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --accent: #000; --loop: #8a2c14;
+    --code: #f4f4f4;
     --h1: #fdf3e3; --h2: #fbe3c4; --h3: #f8cda2; --h4: #f1ae7f; --h5: #e68a62; --heat-ink: #000; --bar: #444;
   }
-  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  html { font-size: 8.5pt; }
+  body { max-width: none; padding: 0; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   nav { display: none; }
-  table { font-size: 7.5pt; }
-  th, td { padding: 0.15rem 0.35rem; }
+  th, td { padding: 0.15rem 0.5rem; }
   .scroll { overflow: visible; }
   figure, tr, .tiles li, .featured { break-inside: avoid; }
   h2, h3 { break-after: avoid; }

@@ -70,8 +70,9 @@ MuChoice ParseMu(const std::string& text) {
   const auto mu = ParseRational(text);
   const bool fits = mu && *mu >= 0 && mu->get_num() <= kLargestMuPart && mu->get_den() <= kLargestMuPart;
   if (!fits) {
-    throw InputError(fmt::format("friction coefficient: found '{}', expected p/q with 0 <= p <= {} and 1 <= q <= {}",
-                                 text, kLargestMuPart, kLargestMuPart));
+    throw InputError(
+        fmt::format("friction coefficient: found '{}', expected p/q with 0 <= p <= {} and 1 <= q <= {}", text,
+                    kLargestMuPart, kLargestMuPart));
   }
   return {static_cast<int>(mu->get_num().get_si()), static_cast<int>(mu->get_den().get_si())};
 }
@@ -90,7 +91,8 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
   const auto integer = [&root](const char* key, std::int64_t least, std::int64_t most, auto& value) {
     using Value = std::remove_reference_t<decltype(value)>;
     if (const auto place = root.Optional(key)) {
-      value = static_cast<Value>(place->Integer(least, most, fmt::format("an integer from {} to {}", least, most)));
+      value =
+          static_cast<Value>(place->Integer(least, most, fmt::format("an integer from {} to {}", least, most)));
     }
   };
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
@@ -106,7 +108,8 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
   if (const auto list = root.Optional("policies")) campaign.policies = ReadList(*list, ReadPolicy);
   if (const auto list = root.Optional("contacts")) {
     campaign.contacts = ReadList(*list, [](const JsonPlace& place) {
-      return static_cast<int>(place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
+      return static_cast<int>(
+          place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
     });
   }
   return campaign;
@@ -148,6 +151,24 @@ std::vector<Task> Schedule(const Campaign& campaign) {
     }
   }
   return schedule;
+}
+
+std::int64_t UnitProblems(const Campaign& campaign, const Task& task) {
+  return std::max<std::int64_t>(1, campaign.unit_problems >> std::max(0, task.contacts - 2));
+}
+
+std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems) {
+  const std::vector<Task> schedule = Schedule(campaign);
+  std::int64_t of_round = 0;
+  for (const Task& task : schedule) of_round += UnitProblems(campaign, task);
+  std::int64_t units = problems / of_round * static_cast<std::int64_t>(schedule.size());
+  std::int64_t rest = problems % of_round;
+  for (const Task& task : schedule) {
+    if (rest <= 0) break;
+    rest -= UnitProblems(campaign, task);
+    ++units;
+  }
+  return units;
 }
 
 }  // namespace stiction

@@ -21,8 +21,8 @@ struct Campaign {
   std::vector<int> contacts = {1, 2, 3, 4, 5, 6, 7, 8};
   std::vector<MuChoice> palette = {kDefaultPalette.begin(), kDefaultPalette.end()};
   std::vector<Policy> policies = {Policy{}};
-  std::int64_t unit_problems = 10000;       // problems of a unit
-  std::int64_t audit_every = 5000;          // of which one in so many is also run exactly, suspicious or not
+  std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
+  std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
 
@@ -42,6 +42,11 @@ struct Task {
 };
 // Units go round the generators and sizes; two, three and four contacts come more often (8, 4 and 2 times).
 std::vector<Task> Schedule(const Campaign& campaign);
+
+// Problems of a unit: half as many for each contact beyond two, so that no unit takes long.
+std::int64_t UnitProblems(const Campaign& campaign, const Task& task);
+// The least number of units, counted from 0, that hold so many problems.
+std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems);
 
 // "1/2" or "0.5" -> MuChoice; InputError otherwise.
 MuChoice ParseMu(const std::string& text);

@@ -16,23 +16,22 @@ namespace {
 
 std::string Checked(const Json& certificate, const std::string& source) {
   const CheckReport report = CheckCertificate(certificate, source);
-  STICTION_CHECK(report.accepted, fmt::format("{}: our own certificate is rejected: {}", source, report.reason));
+  STICTION_CHECK(report.accepted,
+                 fmt::format("{}: our own certificate is rejected: {}", source, report.reason));
   return JsonText(certificate);
 }
 
 bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
 
 Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
-  return {{"contacts", problem.contacts.size()},
-          {"outcome", Name(run.verdict.outcome)},
-          {"start", run.verdict.start},
-          {"period", run.verdict.period},
-          {"steps", run.trace.pivots.size()},
-          {"grid", grid}};
+  return {{"contacts", problem.contacts.size()}, {"outcome", Name(run.verdict.outcome)},
+          {"start", run.verdict.start},          {"period", run.verdict.period},
+          {"steps", run.trace.pivots.size()},    {"grid", grid}};
 }
 
 // A minimized problem as a file: what it shows, where it comes from, what every policy makes of it.
-ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const Policy& policy, bool whole_grid) {
+ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const Policy& policy,
+                     bool whole_grid) {
   ProblemFile file;
   file.name = finding.signature;
   file.problem = problem;
@@ -80,7 +79,8 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   options.policies = {policy};
   if (whole_grid) {
     options.policies = PlanarGrid();
-    std::iter_swap(options.policies.begin(), std::find(options.policies.begin(), options.policies.end(), policy));
+    std::iter_swap(options.policies.begin(),
+                   std::find(options.policies.begin(), options.policies.end(), policy));
   }
   if (IsLoop(outcome)) options.signature = Signature(file.problem, run);
   options.limits = limits;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <tuple>
 
 #include "certify/exact.h"
@@ -23,7 +25,8 @@ void ForEachNumber(const ExactProblem& problem, Visit visit) {
 }
 
 // The problem of the rows that are kept.
-ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>> contacts, const std::vector<int>& rows) {
+ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>> contacts,
+                      const std::vector<int>& rows) {
   ExactProblem smaller;
   smaller.dimension = problem.dimension;
   smaller.contacts = std::move(contacts);
@@ -67,21 +70,53 @@ std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int con
   return Restrict(problem, std::move(contacts), rows);
 }
 
-// fF = s fF' with s = mu: A' = S A S, b' = S b, mu' = 1.
-std::optional<ExactProblem> StretchTangent(const ExactProblem& problem, int contact) {
-  const Rational mu = problem.contacts[contact].mu;
-  if (!problem.contacts[contact].HasFrictionRows() || mu == 0 || mu == 1) return std::nullopt;
+// The same problem in other units: f_i = s_i f'_i, so A' = S A S, b' = S b and mu' = mu s_N / s_F.
+ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& s) {
+  ExactProblem rescaled = problem;
+  for (int i = 0; i < problem.rows(); ++i) {
+    rescaled.b[i] *= s[i];
+    for (int j = 0; j < problem.rows(); ++j) rescaled.A(i, j) *= s[i] * s[j];
+  }
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
-  const int row = layout.NormalRowOf(contact) + 1;
-  ExactProblem stretched = problem;
-  stretched.contacts[contact].mu = 1;
-  for (int j = 0; j < problem.rows(); ++j) {
-    stretched.A(row, j) *= mu;
-    stretched.A(j, row) *= mu;
+  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
+    const int row = layout.NormalRowOf(contact);
+    if (layout.HasFriction(row)) rescaled.contacts[contact].mu *= s[row] / s[row + 1];
   }
-  stretched.b[row] *= mu;
-  return stretched;
+  return rescaled;
+}
+
+// Tangents in units that make mu = 1, of one contact or (contact < 0) of all.
+ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<Rational> s(problem.rows(), Rational(1));
+  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
+    const int row = layout.NormalRowOf(contact);
+    const Rational& mu = problem.contacts[contact].mu;
+    if (layout.HasFriction(row) && mu > 0 && (only_contact < 0 || only_contact == contact)) s[row + 1] = mu;
+  }
+  return Rescaled(problem, s);
+}
+
+// The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
+Rational InverseRoot(const Rational& x) {
+  if (x <= 0) return 1;
+  const double exponent = std::ilogb(ToDouble(x));
+  const auto half = static_cast<long>(-exponent / 2);
+  const Rational power(mpz_class(1) << std::abs(half));
+  return half < 0 ? Rational(1 / power) : power;
+}
+
+// Each contact in units in which its normal's diagonal entry is near one, tangents stretched.
+ExactProblem Equilibrated(const ExactProblem& problem) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<Rational> s(problem.rows());
+  for (int row = 0; row < problem.rows(); ++row) {
+    s[row] = layout.IsNormal(row) ? InverseRoot(problem.A(row, row)) : s[row - 1];
+  }
+  return Stretched(Rescaled(problem, s), -1);
 }
 
 Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
@@ -95,17 +130,19 @@ Rational LargestEntry(const ExactProblem& problem, bool of_A) {
   Rational largest = 0;
   for (int i = 0; i < problem.rows(); ++i) {
     if (!of_A) largest = std::max<Rational>(largest, abs(problem.b[i]));
-    for (int j = 0; of_A && j < problem.rows(); ++j) largest = std::max<Rational>(largest, abs(problem.A(i, j)));
+    for (int j = 0; of_A && j < problem.rows(); ++j)
+      largest = std::max<Rational>(largest, abs(problem.A(i, j)));
   }
   return largest;
 }
 
 // A and b scaled to largest entries size_A and size_b, rounded, with `ridge` added to the diagonal.
-ExactProblem RoundedTo(const ExactProblem& problem, int size_A, int size_b, int ridge) {
+ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
+                       std::int64_t ridge) {
   ExactProblem rounded = problem;
   const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
-  const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(size_A / largest_A);
-  const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(size_b / largest_b);
+  const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size_A) / largest_A);
+  const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(Rational(size_b) / largest_b);
   for (int i = 0; i < problem.rows(); ++i) {
     rounded.b[i] = Rounded(Rational(problem.b[i] * scale_b));
     for (int j = 0; j < problem.rows(); ++j) {
@@ -149,16 +186,24 @@ std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& p
   return {std::move(divided_A), std::move(divided_b)};
 }
 
-// Numbers to try in the place of x, simplest first.
+// Numbers to try in the place of x, simplest first. Above kSmall only numbers with fewer bits stand here:
+// counting large numbers down by ones would take for ever and make nothing easier to read.
 std::vector<Rational> SimplerNumbers(const Rational& x, bool positive) {
+  constexpr int kSmall = 16;
   const int sign = x < 0 ? -1 : 1;
-  const Rational truncated = sign * Rational(mpz_class(abs(x.get_num()) / x.get_den()));
-  const Rational half = sign * Rational(mpz_class(abs(truncated.get_num()) / 2));
-  std::vector<Rational> numbers = {0,         Rational(sign),   Rational(2 * sign),       half,
-                                   truncated, truncated - sign, Rational(truncated + sign), Rounded(x),
-                                   Rational(-sign)};
-  for (int denominator = 2; denominator <= 4; ++denominator) {
-    numbers.push_back(Rounded(Rational(x * denominator)) / denominator);
+  const mpz_class whole = abs(x.get_num()) / x.get_den();
+  std::vector<Rational> numbers = {0, sign, 2 * sign, sign * Rational(mpz_class(whole / 2))};
+  if (whole > kSmall) {
+    const mpz_class one_bit_less = (mpz_class(1) << (mpz_sizeinbase(whole.get_mpz_t(), 2) - 1)) - 1;
+    numbers.push_back(sign * Rational(one_bit_less));
+    numbers.push_back(Rounded(x));
+  } else {
+    for (const mpz_class& near : {mpz_class(whole - 1), whole, mpz_class(whole + 1)})
+      numbers.push_back(sign * Rational(near));
+    numbers.push_back(-sign);
+    for (int denominator = 2; denominator <= 4; ++denominator) {
+      numbers.push_back(Rounded(Rational(x * denominator)) / denominator);
+    }
   }
   std::vector<Rational> distinct;
   for (const Rational& number : numbers) {
@@ -167,6 +212,34 @@ std::vector<Rational> SimplerNumbers(const Rational& x, bool positive) {
   }
   return distinct;
 }
+
+// Largest entries to round to.
+constexpr std::array<std::int64_t, 26> kRoundSizes = {2,
+                                                      3,
+                                                      4,
+                                                      5,
+                                                      6,
+                                                      7,
+                                                      8,
+                                                      9,
+                                                      10,
+                                                      12,
+                                                      14,
+                                                      16,
+                                                      20,
+                                                      24,
+                                                      32,
+                                                      48,
+                                                      64,
+                                                      100,
+                                                      200,
+                                                      500,
+                                                      1000,
+                                                      10000,
+                                                      1000000,
+                                                      1000000000,
+                                                      1000000000000,
+                                                      1000000000000000};
 
 class Minimizer {
  public:
@@ -200,8 +273,10 @@ class Minimizer {
       return fmt::format("under {} it ends in {}, not in {}", PolicyName(first), Name(run.verdict.outcome),
                          Name(options_.keep));
     }
-    if (options_.signature && Signature(candidate, run) != *options_.signature) return "it has another signature";
-    if (options_.policies.size() > 1 && !AllEndIn(options_.keep, candidate, options_.policies, options_.limits)) {
+    if (options_.signature && Signature(candidate, run) != *options_.signature)
+      return "it has another signature";
+    if (options_.policies.size() > 1 &&
+        !AllEndIn(options_.keep, candidate, options_.policies, options_.limits)) {
       return fmt::format("not every policy asked for ends in {}", Name(options_.keep));
     }
     return std::nullopt;
@@ -246,24 +321,22 @@ class Minimizer {
 
   bool StretchTangents() {
     bool progress = false;
-    for (int contact = 0; contact < ContactCount(); ++contact) {
-      progress |= Try(StretchTangent(result_.problem, contact));
-    }
+    for (int contact = 0; contact < ContactCount(); ++contact)
+      progress |= Try(Stretched(result_.problem, contact));
     return progress;
   }
 
-  // Small integers at once, all tangents stretched or not. The first size that works is taken.
+  // Small integers at once, in several units and with a ridge that makes A definite. The first size that works
+  // is taken.
   bool RoundAll() {
-    ExactProblem stretched = result_.problem;
-    for (int contact = 0; contact < ContactCount(); ++contact) {
-      if (auto next = StretchTangent(stretched, contact)) stretched = std::move(*next);
-    }
-    const ExactProblem original = result_.problem;
-    for (const int size : {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 100, 200, 500, 1000, 10000}) {
-      for (const ExactProblem* base : {static_cast<const ExactProblem*>(&stretched), &original}) {
-        for (const int ridge : {0, 1}) {
-          for (const int size_b : {std::max(2, size / 2), size}) {
-            if (Try(RoundedTo(*base, size, size_b, ridge))) return true;
+    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
+                                               result_.problem};
+    for (const std::int64_t size : kRoundSizes) {
+      for (const ExactProblem& base : bases) {
+        for (const std::int64_t ridge :
+             {std::int64_t{0}, std::int64_t{1}, std::int64_t{2}, size / 16, size / 4}) {
+          for (const std::int64_t size_b : {std::max<std::int64_t>(2, size / 2), size}) {
+            if (Try(RoundedTo(base, size, size_b, ridge))) return true;
           }
         }
       }

@@ -32,19 +32,20 @@ class Search {
   Search(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options)
       : campaign_(campaign), options_(options), store_(options.store, identity), done_(store_.Units()) {
     for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
-    if (options.problems) {
-      wanted_units_ = (*options.problems + campaign.unit_problems - 1) / campaign.unit_problems;
-    }
+    if (options.problems) wanted_units_ = UnitsFor(campaign, *options.problems);
   }
 
   SearchReport Run(const std::function<void(const SearchProgress&)>& show) {
     start_ = Clock::now();
-    if (options_.minutes) deadline_ = start_ + std::chrono::duration_cast<Clock::duration>(duration<double>(*options_.minutes * 60));
+    if (options_.minutes)
+      deadline_ =
+          start_ + std::chrono::duration_cast<Clock::duration>(duration<double>(*options_.minutes * 60));
     std::vector<std::jthread> workers;
     running_ = options_.threads;
     for (int i = 0; i < options_.threads; ++i) workers.emplace_back([this] { Work(); });
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, std::chrono::milliseconds(500), [this] { return running_ == 0; })) show(Progress());
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(500), [this] { return running_ == 0; }))
+      show(Progress());
     if (failure_) std::rethrow_exception(failure_);
     show(Progress());
     return {End(), Progress()};
@@ -126,7 +127,7 @@ class Search {
       pending_.insert(std::move(finding));
     }
     ++progress_.units_done;
-    progress_.problems += campaign_.unit_problems;
+    progress_.problems += result.problems;
     for (const auto& [signature, count] : result.record.signatures) {
       progress_.findings += count;
       signatures_.insert(signature);

@@ -14,6 +14,8 @@
 namespace stiction {
 namespace {
 
+constexpr std::size_t kMostContactsWithWord = 2;
+
 using Steps = std::vector<const Pivot<Rational>*>;
 
 // Names of one reading of the period: contacts by first appearance, tangents by their first limit.
@@ -107,8 +109,10 @@ std::string Signature(const ExactProblem& problem, const ExactRun& run) {
   std::sort(contacts.begin(), contacts.end());
   contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
   const std::int64_t drives = verdict.outcome == Outcome::kCycle ? verdict.period : 1;
-  return fmt::format("{}-{}c-{}d-{}s-{:016x}", Name(verdict.outcome), contacts.size(), drives, period.size(),
-                     Hash(LoopWord(problem, run)));
+  const std::string counts =
+      fmt::format("{}-{}c-{}d-{}s", Name(verdict.outcome), contacts.size(), drives, period.size());
+  if (contacts.size() > kMostContactsWithWord) return counts;
+  return fmt::format("{}-{:016x}", counts, Hash(LoopWord(problem, run)));
 }
 
 }  // namespace stiction

@@ -18,8 +18,10 @@ namespace stiction {
 // The word itself, readable: one item per step, e.g. "aF>bF:CF/NC+ ...". Requires outcome cycle or stall.
 std::string LoopWord(const ExactProblem& problem, const ExactRun& run);
 
-// "cycle-2c-4d-10s-1f0c...": outcome, contacts in the period, its drives and steps, hash of the word. For
-// another outcome only its name and the number of contacts: "singular-3c".
+// "cycle-2c-4d-10s-1f0c...": outcome, contacts in the period, its drives and steps, and the hash of the word if
+// the period has at most two contacts. Of these there are less than a hundred words; with more contacts almost
+// every loop has a word of its own, and the counts alone make the groups. Of another outcome than a loop only
+// its name and the number of contacts remain: "singular-3c".
 std::string Signature(const ExactProblem& problem, const ExactRun& run);
 
 }  // namespace stiction

@@ -10,7 +10,8 @@
 namespace {
 
 constexpr const char* kFooter =
-    "Exit: 0 done; 1 not solved, rejected, or not as expected; 2 bad usage or input; 3 undecided or a limit; 70 a bug.";
+    "Exit: 0 done; 1 not solved, rejected, or not as expected; 2 bad usage or input; 3 undecided or a limit; "
+    "70 a bug.";
 
 int Main(int argc, char** argv) {
   CLI::App program{"stiction: does Baraff's algorithm for contact forces with static friction always end?"};

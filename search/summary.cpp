@@ -24,7 +24,8 @@ std::string KindOf(const std::string& signature) {
 }
 
 struct Digest {
-  std::int64_t units = 0, problems = 0, runs = 0, suspicions = 0, confirmed = 0, audited = 0, misjudged = 0, wrong = 0;
+  std::int64_t units = 0, problems = 0, runs = 0, suspicions = 0, confirmed = 0, audited = 0, misjudged = 0,
+               wrong = 0;
   std::map<std::string, std::int64_t> findings;  // by kind, all counted
   std::map<std::string, std::int64_t> groups;    // by kind
   std::int64_t finished = 0, pending = 0, whole_grid = 0;
@@ -61,9 +62,9 @@ Digest DigestOf(const Store& store) {
     digest.whole_grid += facts.at("minimized").at("grid").size() == 1;
     digest.simplest.push_back(std::move(finding));
   }
-  std::stable_sort(digest.simplest.begin(), digest.simplest.end(), [](const Finding& left, const Finding& right) {
-    return left.minimized.size() < right.minimized.size();
-  });
+  std::stable_sort(
+      digest.simplest.begin(), digest.simplest.end(),
+      [](const Finding& left, const Finding& right) { return left.minimized.size() < right.minimized.size(); });
   return digest;
 }
 
@@ -89,7 +90,8 @@ Json SummaryToJson(const Store& store) {
   const Digest digest = DigestOf(store);
   Json simplest = Json::array();
   for (const Finding& finding : digest.simplest) {
-    simplest.push_back({{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
+    simplest.push_back(
+        {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
   }
   return {{"seed", store.identity().seed},
           {"build", store.identity().build},
@@ -114,12 +116,14 @@ std::string SummaryText(const Store& store, const std::string& file) {
   std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Thousands(digest.problems),
                                  Thousands(digest.units), store.identity().seed);
   for (const auto& [kind, count] : digest.findings) {
-    text += fmt::format("  {:28} {:>12} in {} groups\n", kind, Thousands(count), Thousands(digest.groups.at(kind)));
+    text +=
+        fmt::format("  {:28} {:>12} in {} groups\n", kind, Thousands(count), Thousands(digest.groups.at(kind)));
   }
   if (digest.findings.empty()) text += "  no findings\n";
-  text += fmt::format("  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
-                      Thousands(digest.confirmed), Thousands(digest.suspicions), Thousands(digest.misjudged),
-                      Thousands(digest.audited), Thousands(digest.wrong));
+  text += fmt::format(
+      "  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
+      Thousands(digest.confirmed), Thousands(digest.suspicions), Thousands(digest.misjudged),
+      Thousands(digest.audited), Thousands(digest.wrong));
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Thousands(digest.finished), Thousands(digest.pending), Thousands(digest.whole_grid));
   if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";

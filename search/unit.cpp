@@ -22,6 +22,7 @@ class Collector {
  public:
   Collector(const Campaign& campaign, const Task& task, std::int64_t unit)
       : campaign_(campaign), task_(task), unit_(unit) {
+    result_.problems = UnitProblems(campaign, task);
     for (const Policy& policy : campaign.policies) {
       const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};
       tallies_.push_back(&result_.record.tallies[key]);
@@ -46,7 +47,8 @@ class Collector {
     if (exact != Outcome::kSolved) {
       Find(index, policy, inexact, run, std::string(Name(exact)), Signature(problem, run), problem);
     } else if (wrong && same_problem) {
-      Find(index, policy, inexact, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts), problem);
+      Find(index, policy, inexact, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts),
+           problem);
     } else if (inexact != exact && same_problem) {
       Find(index, policy, inexact, run, "disagreement",
            fmt::format("disagreement-{}-{}-{}c", Name(inexact), Name(exact), task_.contacts), problem);
@@ -60,13 +62,16 @@ class Collector {
             std::string signature, const ExactProblem& problem) {
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
     const bool seen = ++result_.record.signatures[signature] > 1;
-    if (seen || static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
+    if (seen || static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit)
+      return;
     ProblemFile file;
     const std::string generator(Row(task_.generator).name);
     file.name = fmt::format("{}-{}-{}", generator, unit_, index);
     file.problem = problem;
-    file.origin = Json{{"generator", generator}, {"campaign_seed", std::to_string(campaign_.seed)},
-                       {"unit", unit_},          {"index", index}};
+    file.origin = Json{{"generator", generator},
+                       {"campaign_seed", std::to_string(campaign_.seed)},
+                       {"unit", unit_},
+                       {"index", index}};
     Finding finding;
     finding.signature = std::move(signature);
     finding.kind = std::move(kind);
@@ -92,7 +97,7 @@ class Collector {
 class SizedKernel {
  public:
   virtual ~SizedKernel() = default;
-  virtual void Run(std::int64_t unit, GeneratorId generator, Collector& collector) = 0;
+  virtual void Run(std::int64_t unit, const Task& task, Collector& collector) = 0;
 };
 
 template <int Rows>
@@ -104,11 +109,13 @@ class Kernel final : public SizedKernel {
     }
   }
 
-  void Run(std::int64_t unit, GeneratorId generator, Collector& collector) override {
+  void Run(std::int64_t unit, const Task& task, Collector& collector) override {
+    const std::int64_t problems = UnitProblems(campaign_, task);
     std::int64_t until_audit = 1;  // the first problem is audited
-    for (std::int64_t index = 0; index < campaign_.unit_problems; ++index) {
-      Choices choices(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
-      Generate<double, Rows>(generator, Rows / 2, campaign_.palette, choices, problem_);
+    for (std::int64_t index = 0; index < problems; ++index) {
+      Choices choices(
+          ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+      Generate<double, Rows>(task.generator, task.contacts, campaign_.palette, choices, problem_);
       const bool audit = --until_audit == 0;
       if (audit) until_audit = campaign_.audit_every;
       for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) Try(index, policy, audit, collector);
@@ -180,7 +187,8 @@ struct UnitRunner::Implementation {
   std::map<int, std::unique_ptr<SizedKernel>> kernels;  // by contacts
 };
 
-UnitRunner::UnitRunner(const Campaign& campaign) : implementation_(std::make_unique<Implementation>(campaign)) {}
+UnitRunner::UnitRunner(const Campaign& campaign)
+    : implementation_(std::make_unique<Implementation>(campaign)) {}
 UnitRunner::~UnitRunner() = default;
 
 UnitResult UnitRunner::Run(std::int64_t unit) {
@@ -189,13 +197,14 @@ UnitResult UnitRunner::Run(std::int64_t unit) {
   std::unique_ptr<SizedKernel>& kernel = self.kernels[task.contacts];
   if (kernel == nullptr) kernel = MakeKernel(self.campaign, task.contacts);
   Collector collector(self.campaign, task, unit);
-  kernel->Run(unit, task.generator, collector);
+  kernel->Run(unit, task, collector);
   return collector.Take();
 }
 
 ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
   const Task task = TaskOf(Schedule(campaign), unit);
-  Choices choices(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+  Choices choices(
+      ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
   ExactProblem problem;
   Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, campaign.palette, choices, problem);
   return problem;

@@ -18,6 +18,7 @@
 namespace stiction {
 
 struct UnitResult {
+  std::int64_t problems = 0;
   Record record;
   std::vector<Finding> candidates;  // first of each signature, at most representatives_per_unit of them
 };

@@ -17,12 +17,12 @@ class InternalError : public std::logic_error {
 }  // namespace stiction
 
 // Always on.
-#define STICTION_CHECK(condition, message)                                                             \
-  do {                                                                                                 \
-    if (!(condition)) {                                                                                \
+#define STICTION_CHECK(condition, message)                                                            \
+  do {                                                                                                \
+    if (!(condition)) {                                                                               \
       throw ::stiction::InternalError(std::string(__FILE__) + ":" + std::to_string(__LINE__) + ": " + \
-                                      (message));                                                      \
-    }                                                                                                  \
+                                      (message));                                                     \
+    }                                                                                                 \
   } while (false)
 
 // For costly invariants: on in Debug builds and with STICTION_ASSERTS.

@@ -23,8 +23,8 @@ enum class IndexSet : std::uint8_t {
 inline constexpr int kIndexSetCount = 7;
 
 // The paper's names, as they stand in JSON: none, C, NC, CF, NC-, NC+, suspended.
-inline constexpr std::array<const char*, kIndexSetCount> kIndexSetNames = {
-    "none", "C", "NC", "CF", "NC-", "NC+", "suspended"};
+inline constexpr std::array<const char*, kIndexSetCount> kIndexSetNames = {"none", "C",   "NC",       "CF",
+                                                                           "NC-",  "NC+", "suspended"};
 
 inline const char* Name(IndexSet set) { return kIndexSetNames[static_cast<int>(set)]; }
 
@@ -38,7 +38,9 @@ inline constexpr int LimitSign(IndexSet set) {
 }
 
 // Whether the variable's acceleration is kept at zero by its force: C or CF.
-inline constexpr bool IsUnknown(IndexSet set) { return set == IndexSet::kClamped || set == IndexSet::kSticking; }
+inline constexpr bool IsUnknown(IndexSet set) {
+  return set == IndexSet::kClamped || set == IndexSet::kSticking;
+}
 
 // Whether a friction variable is in one of CF, NC-, NC+.
 inline constexpr bool IsFrictionSet(IndexSet set) { return set == IndexSet::kSticking || LimitSign(set) != 0; }

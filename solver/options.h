@@ -45,7 +45,16 @@ struct Policy {
 
 // Rows of the table of switches, in the order in which a policy is written.
 enum class PolicySwitch : std::uint8_t {
-  kScan, kResume, kAdmit, kFile, kGiveUp, kDrop, kRezero, kTies, kApex, kSlip,
+  kScan,
+  kResume,
+  kAdmit,
+  kFile,
+  kGiveUp,
+  kDrop,
+  kRezero,
+  kTies,
+  kApex,
+  kSlip,
 };
 inline constexpr int kPolicySwitchCount = 10;
 
@@ -57,10 +66,10 @@ struct PolicyValue {
 struct PolicySwitchRow {
   PolicySwitch id;
   std::string_view name;
-  std::string_view question;  // what the text leaves open
-  std::string_view reads;     // where the paper speaks of it
+  std::string_view question;        // what the text leaves open
+  std::string_view reads;           // where the paper speaks of it
   std::vector<PolicyValue> values;  // the first is the reference
-  bool planar;                // part of the grid of planar problems
+  bool planar;                      // part of the grid of planar problems
   int (*get)(const Policy&);
   void (*set)(Policy&, int value);
 };
@@ -80,9 +89,7 @@ const std::vector<Policy>& PlanarGrid();
 
 // A set of switches as bits.
 using SwitchMask = std::uint16_t;
-inline constexpr SwitchMask Bit(PolicySwitch s) {
-  return static_cast<SwitchMask>(1u << static_cast<int>(s));
-}
+inline constexpr SwitchMask Bit(PolicySwitch s) { return static_cast<SwitchMask>(1u << static_cast<int>(s)); }
 
 // Whether two policies have the same values on every switch of the mask.
 bool AgreeOn(SwitchMask mask, const Policy& left, const Policy& right);
@@ -130,8 +137,7 @@ void ForEachField(Tolerances& t, Visit visit) {
                   "pivots and rates below this are zero (inexact arithmetics)", 0, 1e-2},
         t.pivot);
   visit(NumberRow{"loop-grain", "of max abs(b) / max A_ii",
-                  "forces are rounded to this before states are compared (inexact arithmetics)", 1e-15,
-                  1},
+                  "forces are rounded to this before states are compared (inexact arithmetics)", 1e-15, 1},
         t.loop_grain);
 }
 

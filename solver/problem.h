@@ -25,8 +25,8 @@ namespace stiction {
 
 // One T per row: an array for a fixed number of rows, otherwise a vector.
 template <class T, int Rows>
-using RowArray =
-    std::conditional_t<Rows == Eigen::Dynamic, std::vector<T>, std::array<T, Rows == Eigen::Dynamic ? 1 : Rows>>;
+using RowArray = std::conditional_t<Rows == Eigen::Dynamic, std::vector<T>,
+                                    std::array<T, Rows == Eigen::Dynamic ? 1 : Rows>>;
 
 template <class T, int Rows>
 void Reset(RowArray<T, Rows>& values, int rows, T value) {
@@ -47,9 +47,7 @@ struct Contact {
   // Direction of the sliding velocity of a sliding contact: one component in the plane, two in space.
   std::array<Scalar, 2> slip = {Scalar(0), Scalar(0)};
 
-  bool HasFrictionRows() const {
-    return kind == ContactKind::kStatic || kind == ContactKind::kSliding;
-  }
+  bool HasFrictionRows() const { return kind == ContactKind::kStatic || kind == ContactKind::kSliding; }
 };
 
 template <class Scalar, int Rows = Eigen::Dynamic>

@@ -92,7 +92,8 @@ void PublishedAlgorithm<Scalar, Rows>::Sweep() {
   for (int row = 0; row < problem_->rows(); ++row) {
     if (state_.sets[row] != IndexSet::kNone) continue;
     if (layout_.IsNormal(row)) {
-      const bool rests = Sign(state_.f[row], scale_.force) == 0 && Sign(state_.a[row], scale_.acceleration) >= 0;
+      const bool rests =
+          Sign(state_.f[row], scale_.force) == 0 && Sign(state_.a[row], scale_.acceleration) >= 0;
       if (!rests) continue;
       Consult(PolicySwitch::kAdmit);
       if (options_.policy.admit == Admit::kEager) state_.sets[row] = IndexSet::kSeparating;
@@ -218,8 +219,8 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     const auto status = direction_.Solve(*problem_, layout_, state_.sets, driven, sign, scale_);
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
-    const Step<Scalar> step = step_size_.Find(*problem_, layout_, state_, direction_, driven, goal,
-                                              options_.policy.ties, scale_);
+    const Step<Scalar> step =
+        step_size_.Find(*problem_, layout_, state_, direction_, driven, goal, options_.policy.ties, scale_);
     if (step.limiting < 0) return End(Outcome::kRay);
     if (step.order_matters) Consult(PolicySwitch::kTies);
     const bool zero = Sign(step.s, scale_.force) == 0;

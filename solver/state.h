@@ -5,7 +5,8 @@
 #define STICTION_SOLVER_STATE_H_
 
 #include <Eigen/Core>
-#include <cmath>
+#include <algorithm>
+#include <limits>
 
 #include "solver/index_sets.h"
 #include "solver/options.h"
@@ -26,11 +27,11 @@ struct ContactState {
 // Tolerances in the units of the problem; exact zeros for exact scalars.
 template <class Scalar>
 struct Scale {
-  Scalar acceleration = Scalar(0);       // m/s^2
-  Scalar force = Scalar(0);              // N
-  Scalar pivot = Scalar(0);              // relative to a column of direction systems
-  Scalar rate = Scalar(0);               // 1/kg: smallest da per unit force that is not zero
-  Scalar inverse_grain = Scalar(0);      // 1/N: forces are compared after rounding to 1/inverse_grain
+  Scalar acceleration = Scalar(0);   // m/s^2
+  Scalar force = Scalar(0);          // N
+  Scalar pivot = Scalar(0);          // relative to a column of direction systems
+  Scalar rate = Scalar(0);           // 1/kg: smallest da per unit force that is not zero
+  Scalar inverse_grain = Scalar(0);  // 1/N: forces are compared after rounding to 1/inverse_grain
 };
 
 template <class Scalar, int Rows>

@@ -26,7 +26,7 @@ namespace stiction {
 template <class Scalar>
 struct Step {
   Scalar s = Scalar(0);
-  int limiting = -1;                // row, -1 for a ray
+  int limiting = -1;                 // row, -1 for a ray
   IndexSet wants = IndexSet::kNone;  // the set that the limiting variable wants into
   bool order_matters = false;        // whether the two values of Ties choose differently
 };

@@ -51,9 +51,8 @@ void StepSize<Scalar, Rows>::LimitDriven(const Problem& problem, const RowLayout
 
 template <class Scalar, int Rows>
 void StepSize<Scalar, Rows>::LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout,
-                                             const State& state,
-                                             const DirectionSystem<Scalar, Rows>& direction, int row,
-                                             const Scale<Scalar>& scale) {
+                                             const State& state, const DirectionSystem<Scalar, Rows>& direction,
+                                             int row, const Scale<Scalar>& scale) {
   Limit& limit = limits_[row];
   const auto& df = direction.df();
   const auto& da = direction.da();
@@ -94,9 +93,8 @@ int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, c
 
 template <class Scalar, int Rows>
 Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayout<Rows>& layout,
-                                          const State& state,
-                                          const DirectionSystem<Scalar, Rows>& direction, int driven,
-                                          DriveGoal goal, Ties ties, const Scale<Scalar>& scale) {
+                                          const State& state, const DirectionSystem<Scalar, Rows>& direction,
+                                          int driven, DriveGoal goal, Ties ties, const Scale<Scalar>& scale) {
   const int rows = problem.rows();
   int nearest = -1;
   for (int row = 0; row < rows; ++row) {

@@ -89,9 +89,10 @@ void AddCertify(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   verb.add_option("-o,--output", o->output, "certificate to write; - is standard output")->required();
-  verb.add_option("--claim", o->claim,
-                  "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, cycle, "
-                  "stall")
+  verb.add_option(
+          "--claim", o->claim,
+          "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, cycle, "
+          "stall")
       ->capture_default_str()
       ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "cycle", "stall"}));
   AddPolicyOption(verb, o->policy, Grid::kAllowed);

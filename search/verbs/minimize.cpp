@@ -51,7 +51,8 @@ int RunMinimize(const MinimizeVerb& o) {
   options.policies = {policy};
   if (whole_grid) {
     options.policies = PlanarGrid();
-    std::iter_swap(options.policies.begin(), std::find(options.policies.begin(), options.policies.end(), policy));
+    std::iter_swap(options.policies.begin(),
+                   std::find(options.policies.begin(), options.policies.end(), policy));
   }
   if (o.keep_signature) options.signature = Signature(file.problem, run);
   options.limits = o.limits;
@@ -77,8 +78,8 @@ int RunMinimize(const MinimizeVerb& o) {
         << "\n";
   } else {
     out << fmt::format("{}: {} contacts, {} nonzeros, {} bits; was {}, {}, {}. Tried {}, took {}.\n", keep,
-                       after.contacts, after.nonzeros, after.bits, before.contacts, before.nonzeros, before.bits,
-                       minimized.candidates, minimized.accepted);
+                       after.contacts, after.nonzeros, after.bits, before.contacts, before.nonzeros,
+                       before.bits, minimized.candidates, minimized.accepted);
   }
   return kExitDone;
 }
@@ -87,14 +88,16 @@ int ListPolicies(bool json) {
   Json rows = Json::array();
   for (const PolicySwitchRow& row : PolicySwitches()) {
     Json values = Json::array();
-    for (const PolicyValue& value : row.values) values.push_back({{"value", value.name}, {"meaning", value.meaning}});
+    for (const PolicyValue& value : row.values)
+      values.push_back({{"value", value.name}, {"meaning", value.meaning}});
     rows.push_back({{"switch", row.name},
                     {"question", row.question},
                     {"reads", row.reads},
                     {"planar", row.planar},
                     {"values", values}});
     if (json) continue;
-    fmt::print("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)", row.reads);
+    fmt::print("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
+               row.reads);
     for (const PolicyValue& value : row.values) fmt::print("    {:14} {}\n", value.name, value.meaning);
   }
   if (json) {
@@ -113,9 +116,10 @@ void AddMinimize(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("minimize", "A simpler problem with the same certified finding");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   verb.add_option("-o,--output", o->output, "problem to write; - is standard output")->required();
-  verb.add_option("--keep", o->keep,
-                  "outcome to keep under the policy, e.g. cycle; with :* under every policy of the planar grid; by "
-                  "default the outcome under the policy")
+  verb.add_option(
+          "--keep", o->keep,
+          "outcome to keep under the policy, e.g. cycle; with :* under every policy of the planar grid; by "
+          "default the outcome under the policy")
       ->check(CheckKeep);
   verb.add_flag("--keep-signature", o->keep_signature, "keep the sequence of pivots of the loop as well");
   AddPolicyOption(verb, o->policy, Grid::kRefused);

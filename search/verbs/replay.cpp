@@ -44,11 +44,12 @@ class Narrator {
   }
 
   void Table() const {
-    fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven", "goal", "length", "what happens");
+    fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven", "goal", "length",
+               "what happens");
     for (std::size_t k = 0; k < run_.trace.pivots.size(); ++k) {
       const Pivot<Rational>& pivot = run_.trace.pivots[k];
-      fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, pivot.drive, names_[pivot.driven], Name(pivot.goal),
-                 ToString(pivot.s), Event(pivot));
+      fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, pivot.drive, names_[pivot.driven],
+                 Name(pivot.goal), ToString(pivot.s), Event(pivot));
     }
   }
 
@@ -82,7 +83,8 @@ class Narrator {
       }
       const bool paper_set = static_cast<IndexSet>(set) != IndexSet::kSuspended;
       if (!paper_set && members.empty()) continue;
-      text += fmt::format("{}{} = {{{}}}", text.empty() ? "" : "  ", kIndexSetNames[set], fmt::join(members, " "));
+      text +=
+          fmt::format("{}{} = {{{}}}", text.empty() ? "" : "  ", kIndexSetNames[set], fmt::join(members, " "));
     }
     return text;
   }
@@ -92,13 +94,15 @@ class Narrator {
     const int row = pivot.driven;
     fmt::print("\nDrive {}: {}", pivot.drive, names_[row]);
     if (layout_.IsNormal(row)) {
-      fmt::print(". a_{} = {} < 0: increase f_{} until it is 0 (4.1).\n", names_[row], ToString(a[row]), names_[row]);
+      fmt::print(". a_{} = {} < 0: increase f_{} until it is 0 (4.1).\n", names_[row], ToString(a[row]),
+                 names_[row]);
     } else if (pivot.goal == DriveGoal::kZero) {
       fmt::print(". Its friction was given up earlier: first drive f_{} to zero (5.5).\n", names_[row]);
     } else {
       const bool up = pivot.df[row] > 0;
-      fmt::print(". a_{} = {}: {} f_{} until a_{} = 0 or f_{} = {}mu f_{} (5.2).\n", names_[row], ToString(a[row]),
-                 up ? "increase" : "decrease", names_[row], names_[row], names_[row], up ? "" : "-", names_[row - 1]);
+      fmt::print(". a_{} = {}: {} f_{} until a_{} = 0 or f_{} = {}mu f_{} (5.2).\n", names_[row],
+                 ToString(a[row]), up ? "increase" : "decrease", names_[row], names_[row], names_[row],
+                 up ? "" : "-", names_[row - 1]);
     }
   }
 
@@ -133,7 +137,8 @@ class Narrator {
     if (pivot.limiting != pivot.driven) {
       return fmt::format("{}; {} moves from {} to {}", Reached(pivot), name, Name(pivot.from), Name(pivot.to));
     }
-    if (pivot.to == IndexSet::kNone) return fmt::format("{}; the drive ends, {} is in no set", Reached(pivot), name);
+    if (pivot.to == IndexSet::kNone)
+      return fmt::format("{}; the drive ends, {} is in no set", Reached(pivot), name);
     return fmt::format("{}; the drive ends, {} joins {}", Reached(pivot), name, Name(pivot.to));
   }
 
@@ -159,10 +164,14 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
         pivots.back()["a"] = VectorToJson(pivot.a);
       }
     }
-    Json result = {{"outcome", Name(run.verdict.outcome)}, {"start", run.verdict.start},
-                   {"period", run.verdict.period},         {"policy", PolicyName(policy)},
-                   {"expected", expected},                 {"statistics", StatisticsToJson(run.verdict.statistics)},
-                   {"f", VectorToJson(run.state.f)},       {"pivots", pivots}};
+    Json result = {{"outcome", Name(run.verdict.outcome)},
+                   {"start", run.verdict.start},
+                   {"period", run.verdict.period},
+                   {"policy", PolicyName(policy)},
+                   {"expected", expected},
+                   {"statistics", StatisticsToJson(run.verdict.statistics)},
+                   {"f", VectorToJson(run.state.f)},
+                   {"pivots", pivots}};
     std::cout << JsonText(result) << "\n";
   } else {
     fmt::print("{}: {} contacts, policy {}\n", file.name, file.problem.contacts.size(), PolicyName(policy));

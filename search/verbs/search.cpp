@@ -95,7 +95,8 @@ class ProgressLine {
     double fraction = 0;
     if (minutes_) fraction = progress.seconds / (*minutes_ * 60);
     if (progress.units_wanted && *progress.units_wanted > 0) {
-      fraction = std::max(fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
+      fraction = std::max(
+          fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
     }
     return std::min(fraction, 1.0);
   }
@@ -139,7 +140,8 @@ int RunSearchVerb(const SearchVerb& o) {
   options.interrupted = &interrupted;
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
-  fmt::print(stderr, "seed {}, {} threads, shard {}, store {}\n", campaign.seed, options.threads, o.shard, o.store);
+  fmt::print(stderr, "seed {}, {} threads, shard {}, store {}\n", campaign.seed, options.threads, o.shard,
+             o.store);
   ProgressLine line(options.minutes);
   const SearchReport report = RunSearch(campaign, IdentityOf(campaign, BuildId()), options,
                                         [&line](const SearchProgress& progress) { line.Show(progress); });
@@ -175,7 +177,8 @@ void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
   for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
   verb.add_option("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
   verb.add_option("--generator", o.generators, "only these generators")->check(CLI::IsMember(names));
-  verb.add_option("--contacts", o.contacts, "only these numbers of contacts")->check(CLI::Range(1, kMaxContacts));
+  verb.add_option("--contacts", o.contacts, "only these numbers of contacts")
+      ->check(CLI::Range(1, kMaxContacts));
   verb.add_option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
   verb.add_option("--policy", o.policies, "readings to run, as 'stiction policies' lists them; default paper");
   verb.add_option("--seed", o.seed, "the one source of randomness; default 1");
@@ -187,7 +190,8 @@ void AddSearch(CLI::App& program, Action& action) {
   auto o = std::make_shared<SearchVerb>();
   CLI::App& verb = *program.add_subcommand("search", "Search for loops of the published algorithm");
   AddCampaignOptions(verb, *o);
-  verb.add_option("--store", o->store, "SQLite file; a search goes on where its store stopped")->capture_default_str();
+  verb.add_option("--store", o->store, "SQLite file; a search goes on where its store stopped")
+      ->capture_default_str();
   verb.add_option("--minutes", o->minutes, "wall clock, everything counted; default 1 without --problems")
       ->check(CLI::PositiveNumber);
   verb.add_option("--problems", o->problems, "size of the whole campaign, rounded up to whole units")
@@ -196,7 +200,8 @@ void AddSearch(CLI::App& program, Action& action) {
   verb.add_option("--threads", o->threads, "default: one per core")->check(CLI::Range(1, 1024));
   verb.add_flag("--json", o->json, "machine output");
   std::string generators = "Generators:\n";
-  for (const GeneratorRow& row : Generators()) generators += fmt::format("  {}: {}\n", row.name, row.distribution);
+  for (const GeneratorRow& row : Generators())
+    generators += fmt::format("  {}: {}\n", row.name, row.distribution);
   verb.footer(generators);
   verb.callback([o, &action] { action = [o] { return RunSearchVerb(*o); }; });
 }
@@ -222,7 +227,8 @@ void AddMerge(CLI::App& program, Action& action) {
 void AddReport(CLI::App& program, Action& action) {
   auto store = std::make_shared<std::string>();
   auto directory = std::make_shared<std::string>();
-  CLI::App& verb = *program.add_subcommand("report", "Write a store as an HTML page, CSV files and problem files");
+  CLI::App& verb =
+      *program.add_subcommand("report", "Write a store as an HTML page, CSV files and problem files");
   verb.add_option("STORE", *store, "store of a search")->required();
   verb.add_option("-o,--output", *directory, "folder to write")->required();
   verb.callback([=, &action] {

@@ -59,7 +59,8 @@ ContactProblem<Scalar> Round(const ExactProblem& problem, ExactProblem& rounded)
   rounded = problem;
   ContactProblem<Scalar> result;
   result.dimension = problem.dimension;
-  for (Contact<Rational>& contact : rounded.contacts) result.contacts.push_back({contact.kind, round(contact.mu), {}});
+  for (Contact<Rational>& contact : rounded.contacts)
+    result.contacts.push_back({contact.kind, round(contact.mu), {}});
   result.A.resize(problem.rows(), problem.rows());
   result.b.resize(problem.rows());
   for (int i = 0; i < problem.rows(); ++i) {
@@ -110,7 +111,8 @@ int ExitOf(Outcome outcome) {
 
 void PrintForPeople(const Json& result) {
   fmt::print("{}", result["outcome"].get<std::string>());
-  if (result.contains("period")) fmt::print(", start {}, period {}", result["start"].dump(), result["period"].dump());
+  if (result.contains("period"))
+    fmt::print(", start {}, period {}", result["start"].dump(), result["period"].dump());
   fmt::print("\n");
   for (const auto& [key, value] : result.items()) {
     if (key == "outcome" || key == "start" || key == "period") continue;

@@ -1,0 +1,674 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report: what it writes says what the store holds, and nothing that stands in a store can break it.
+
+#include "reports/report.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "corpus/input_error.h"
+#include "corpus/json_text.h"
+#include "corpus/problem_file.h"
+#include "reports/csv.h"
+#include "reports/discovery.h"
+#include "reports/html.h"
+#include "reports/page.h"
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Stores to report on ----
+
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern = (fs::temp_directory_path() / "stiction-report-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { fs::remove_all(path_); }
+
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+const std::string kProblem =
+    R"({"format":"stiction-problem","version":1,"name":"as-found","dimension":2,)"
+    R"("contacts":[{"kind":"static","mu":"1"},{"kind":"static","mu":"1"}],)"
+    R"("A":[["7","-2","-6","0"],["-2","9","-1","-7"],["-6","-1","7","3"],["0","-7","3","7"]],)"
+    R"("b":["2","-1","-2","2"]})";
+const std::string kSmaller =
+    R"({"format":"stiction-problem","version":1,"name":"smaller","dimension":2,)"
+    R"("contacts":[{"kind":"static","mu":"5/17"}],"A":[["19","-3/23"],["-3/23","1"]],"b":["-1","29"]})";
+const std::string kFacts =
+    R"({"found":{"contacts":2,"outcome":"cycle","start":3,"period":4,"steps":17,"grid":{"cycle":1536}},)"
+    R"("minimized":{"contacts":1,"outcome":"cycle","start":5,"period":6,"steps":21,)"
+    R"("grid":{"solved":36,"cycle":1500}}})";
+
+const CampaignIdentity kIdentity = {
+    R"({"format":"stiction-campaign","version":1,"generators":["integers","psd"],)"
+    R"("contacts":[1,2],"mu":["1/2","5"],"unit_problems":10000})",
+    4711, R"(["paper","scan=highest"])", "abc123, gcc 12, -O2"};
+
+Finding PendingFinding(const std::string& signature, std::int64_t unit) {
+  Finding finding;
+  finding.signature = signature;
+  finding.kind = "cycle";
+  finding.unit = unit;
+  finding.index = 77;
+  finding.generator = "integers";
+  finding.contacts = 2;
+  finding.policy = "paper";
+  finding.inexact_outcome = "cycle";
+  finding.exact_outcome = "cycle";
+  finding.problem = kProblem;
+  return finding;
+}
+
+Finding Finished(Finding finding) {
+  finding.done = true;
+  finding.certificate = R"({"certificate":"of the original"})";
+  finding.minimized = kSmaller;
+  finding.minimized_certificate = R"({"certificate":"of the minimized"})";
+  finding.facts = kFacts;
+  return finding;
+}
+
+// Every counter of it has a value of its own, of at most five digits if the seed is small.
+Tally SampleTally(std::int64_t seed) {
+  Tally tally;
+  std::int64_t next = seed;
+  const auto fill = [&next](auto& values) {
+    for (auto& value : values) value = ++next;
+  };
+  tally.problems = 1000000 + seed;
+  fill(tally.outcomes);
+  for (auto& row : tally.verdicts) fill(row);
+  for (std::int64_t* counter :
+       {&tally.audited, &tally.misjudged, &tally.wrong, &tally.with_zero_steps, &tally.with_give_ups}) {
+    *counter = ++next;
+  }
+  ForEachField(tally.sums, [&next](const char*, const char*, std::int64_t& value) { value = ++next; });
+  ForEachField(tally.maxima, [&next](const char*, const char*, std::int64_t& value) { value = ++next; });
+  fill(tally.steps);
+  tally.verdicts[3][4] = 0;
+  tally.steps[7] = 0;
+  return tally;
+}
+
+const std::string kDone = "cycle-2c-4d-10s-00c0ffee00c0ffee";
+const std::string kPending = "cycle-2c-4d-12s-0123456789abcdef@give-up=second,ties=contacts";
+const std::string kCounted = "disagreement-ray-solved-3c";
+
+Record SampleRecord() {
+  Record record;
+  record.tallies[{"integers", 2, "paper"}] = SampleTally(100);
+  record.tallies[{"psd", 3, "scan=highest,ties=contacts"}] = SampleTally(5000);
+  record.signatures = {{kDone, 1234}, {kPending, 5}, {kCounted, 6}};
+  return record;
+}
+
+Store SampleStore(const fs::path& file) {
+  Store store(file, kIdentity);
+  store.AddUnit({}, 0, SampleRecord(), {PendingFinding(kDone, 0), PendingFinding(kPending, 0)});
+  store.Finish(Finished(PendingFinding(kDone, 0)));
+  return store;
+}
+
+// ---- Reading what was written ----
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::vector<std::string>> ParseCsv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> row(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      row.back() += text[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      row.emplace_back();
+    } else if (!quoted && c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') {
+      rows.push_back(row);
+      row.assign(1, "");
+      ++i;
+    } else {
+      row.back() += c;
+    }
+  }
+  REQUIRE_FALSE(quoted);
+  REQUIRE(row == std::vector<std::string>(1));  // the last line ends, too
+  return rows;
+}
+
+std::vector<Row> ReadTable(const fs::path& file) {
+  const auto lines = ParseCsv(ReadText(file));
+  REQUIRE_FALSE(lines.empty());
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    REQUIRE(lines[i].size() == lines[0].size());
+    Row& row = rows.emplace_back();
+    for (std::size_t k = 0; k < lines[i].size(); ++k) row[lines[0][k]] = lines[i][k];
+    REQUIRE(row.size() == lines[0].size());  // no column twice
+  }
+  return rows;
+}
+
+std::vector<Row> RowsOf(const std::vector<Row>& table, const TallyKey& key) {
+  std::vector<Row> rows;
+  for (const Row& row : table) {
+    const TallyKey found{row.at("generator"), std::stoi(row.at("contacts")), row.at("policy"), row.at("method"),
+                         row.at("arithmetic")};
+    if (found == key) rows.push_back(row);
+  }
+  return rows;
+}
+
+Row FindingRow(const fs::path& report, const std::string& signature) {
+  for (const Row& row : ReadTable(report / "findings.csv")) {
+    if (row.at("signature") == signature) return row;
+  }
+  FAIL("no row for " << signature);
+  return {};
+}
+
+std::map<std::string, std::string> Contents(const fs::path& directory) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (entry.is_regular_file())
+      contents[fs::relative(entry.path(), directory).string()] = ReadText(entry.path());
+  }
+  return contents;
+}
+
+bool Has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::vector<std::string> Matches(const std::string& text, const std::string& pattern) {
+  std::vector<std::string> found;
+  const std::regex regex(pattern);
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+    found.push_back((*match)[1]);
+  }
+  return found;
+}
+
+// Every element is closed in its order, attributes are quoted, no id stands twice.
+void RequireWellFormed(const std::string& page) {
+  static const std::set<std::string> kVoid = {"meta", "br"};
+  REQUIRE(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
+  static const std::regex tag("^<(/?)([a-z0-9]+)((?: [a-zA-Z0-9-]+=\"[^\"<>]*\")*)>");
+  std::vector<std::string> open;
+  std::size_t at = page.find('<', 1);
+  for (; at != std::string::npos; at = page.find('<', at + 1)) {
+    std::smatch match;
+    const std::string rest = page.substr(at, 2000);
+    INFO("at: " << rest.substr(0, 80));
+    REQUIRE(std::regex_search(rest, match, tag));
+    if (kVoid.count(match[2]) > 0) continue;
+    if (match[1].length() == 0) {
+      open.push_back(match[2]);
+      continue;
+    }
+    REQUIRE_FALSE(open.empty());
+    REQUIRE(open.back() == match[2].str());
+    open.pop_back();
+  }
+  REQUIRE(open.empty());
+  std::set<std::string> ids;
+  for (const std::string& id : Matches(page, " id=\"([^\"]*)\"")) REQUIRE(ids.insert(id).second);
+  for (const std::string& id : Matches(page, " href=\"#([^\"]*)\"")) REQUIRE(ids.count(id) == 1);
+  REQUIRE(Matches(page, "(&)(?!(?:amp|lt|gt|quot|#39);)").empty());
+}
+
+// ---- CSV ----
+
+TEST_CASE("report: statistics.csv holds every counter of every tally") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const auto table = ReadTable(scratch / "out/statistics.csv");
+  REQUIRE(table.size() == 2);
+  for (const auto& [key, tally] : SampleRecord().tallies) {
+    const auto rows = RowsOf(table, key);
+    REQUIRE(rows.size() == 1);
+    const Row& row = rows[0];
+    CHECK(row.at("problems") == std::to_string(tally.problems));
+    for (int i = 0; i < kOutcomeCount; ++i) {
+      CHECK(row.at(std::string(kOutcomeNames[i])) == std::to_string(tally.outcomes[i]));
+    }
+    CHECK(row.at("audited") == std::to_string(tally.audited));
+    CHECK(row.at("misjudged") == std::to_string(tally.misjudged));
+    CHECK(row.at("wrong") == std::to_string(tally.wrong));
+    CHECK(row.at("with_zero_steps") == std::to_string(tally.with_zero_steps));
+    CHECK(row.at("with_give_ups") == std::to_string(tally.with_give_ups));
+    ForEachField(tally.sums, [&row](const char* name, const char*, std::int64_t value) {
+      CHECK(row.at(std::string("sum_") + name) == std::to_string(value));
+    });
+    ForEachField(tally.maxima, [&row](const char* name, const char*, std::int64_t value) {
+      CHECK(row.at(std::string("max_") + name) == std::to_string(value));
+    });
+  }
+}
+
+TEST_CASE("report: verdicts.csv holds every pair of outcomes that occurred, and no other") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const auto table = ReadTable(scratch / "out/verdicts.csv");
+  for (const auto& [key, tally] : SampleRecord().tallies) {
+    std::map<std::pair<std::string, std::string>, std::string> found, expected;
+    for (const Row& row : RowsOf(table, key)) {
+      found[{row.at("inexact_outcome"), row.at("exact_outcome")}] = row.at("count");
+    }
+    for (int i = 0; i < kOutcomeCount; ++i) {
+      for (int k = 0; k < kOutcomeCount; ++k) {
+        if (i == 3 && k == 4) continue;
+        expected[{std::string(kOutcomeNames[i]), std::string(kOutcomeNames[k])}] =
+            std::to_string(tally.verdicts[i][k]);
+      }
+    }
+    CHECK(found == expected);
+  }
+}
+
+TEST_CASE("report: steps.csv holds the histogram of every tally") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const auto table = ReadTable(scratch / "out/steps.csv");
+  for (const auto& [key, tally] : SampleRecord().tallies) {
+    std::array<std::int64_t, Tally::kBins> steps = {};
+    for (const Row& row : RowsOf(table, key)) {
+      const int bin = std::stoi(row.at("steps"));
+      steps.at(bin) += std::stoll(row.at("problems"));
+      CHECK(row.at("or_more") == (bin == Tally::kBins - 1 ? "yes" : "no"));
+    }
+    CHECK(steps == tally.steps);
+  }
+}
+
+TEST_CASE("report: findings.csv holds every signature with its count and facts") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  REQUIRE(ReadTable(scratch / "out/findings.csv").size() == 3);
+
+  const Row done = FindingRow(scratch / "out", kDone);
+  const Row expected = {{"kind", "cycle"},
+                        {"count", "1234"},
+                        {"unit", "0"},
+                        {"index", "77"},
+                        {"generator", "integers"},
+                        {"contacts", "2"},
+                        {"policy", "paper"},
+                        {"inexact_outcome", "cycle"},
+                        {"exact_outcome", "cycle"},
+                        {"state", "finished"},
+                        {"loop_drives", "4"},
+                        {"loop_steps", "10"},
+                        {"start", "3"},
+                        {"period", "4"},
+                        {"steps", "17"},
+                        {"whole_grid", "yes"},
+                        {"every_policy_loops", "yes"},
+                        {"found_grid_cycle", "1536"},
+                        {"found_grid_solved", "0"},
+                        {"minimized_contacts", "1"},
+                        {"minimized_start", "5"},
+                        {"minimized_period", "6"},
+                        {"minimized_steps", "21"},
+                        {"minimized_grid_cycle", "1500"},
+                        {"minimized_grid_solved", "36"}};
+  for (const auto& [column, value] : expected) {
+    INFO(column);
+    CHECK(done.at(column) == value);
+  }
+
+  const Row pending = FindingRow(scratch / "out", kPending);
+  CHECK(pending.at("count") == "5");
+  CHECK(pending.at("state") == "pending");
+  CHECK(pending.at("loop_steps") == "12");
+  CHECK(pending.at("whole_grid").empty());
+  CHECK(pending.at("certificate_file").empty());
+
+  const Row counted = FindingRow(scratch / "out", kCounted);
+  CHECK(counted.at("kind") == "disagreement");
+  CHECK(counted.at("count") == "6");
+  CHECK(counted.at("state") == "counted");
+  CHECK(counted.at("problem_file").empty());
+}
+
+TEST_CASE("report: CSV cells are quoted where RFC 4180 asks for it") {
+  Csv csv;
+  csv.Add("plain").Add("a,b").Add("say \"so\"").Add("two\r\nlines").Add("").Add(-12345678).EndRow();
+  CHECK(csv.text() == "plain,\"a,b\",\"say \"\"so\"\"\",\"two\r\nlines\",,-12345678\r\n");
+}
+
+// ---- Files of findings ----
+
+TEST_CASE("report: a finished finding has its minimized problem, the original and the minimized certificate") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const Row row = FindingRow(scratch / "out", kDone);
+  CHECK(row.at("problem_file") == "findings/" + kDone + ".json");
+  CHECK(ReadText(scratch / "out" / row.at("problem_file")) == Print(ParseProblem(kSmaller, "")));
+  CHECK(ReadText(scratch / "out" / row.at("original_file")) == Print(ParseProblem(kProblem, "")));
+  CHECK(ReadText(scratch / "out" / row.at("certificate_file")) == "{\"certificate\":\"of the minimized\"}\n");
+}
+
+TEST_CASE("report: a finding that is only certified has the certificate of its original") {
+  const Scratch scratch;
+  Store store = SampleStore(scratch / "s");
+  Finding finding = Finished(PendingFinding(kPending, 0));
+  finding.minimized = finding.minimized_certificate = "";
+  finding.facts = R"({"found":{"contacts":2,"start":0,"period":0,"steps":9,"grid":{"solved":1536}}})";
+  finding.exact_outcome = "solved";
+  store.Finish(finding);
+  WriteReport(store, scratch / "out");
+  const Row row = FindingRow(scratch / "out", kPending);
+  CHECK(ReadText(scratch / "out" / row.at("certificate_file")) == "{\"certificate\":\"of the original\"}\n");
+  CHECK(ReadText(scratch / "out" / row.at("problem_file")) == Print(ParseProblem(kProblem, "")));
+  CHECK(row.at("whole_grid") == "no");
+}
+
+TEST_CASE("report: no certificate of an earlier representative stays behind") {
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  store.AddUnit({}, 5, SampleRecord(), {PendingFinding(kDone, 5)});
+  store.Finish(Finished(PendingFinding(kDone, 5)));
+  WriteReport(store, scratch / "out");
+  const fs::path certificate = scratch / ("out/findings/" + kDone + ".certificate.json");
+  REQUIRE(fs::exists(certificate));
+  store.AddUnit({}, 2, SampleRecord(), {PendingFinding(kDone, 2)});
+  WriteReport(store, scratch / "out");
+  CHECK(FindingRow(scratch / "out", kDone).at("state") == "pending");
+  CHECK_FALSE(fs::exists(certificate));
+}
+
+TEST_CASE("report: every file that is named exists") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  std::set<std::string> named;
+  for (const Row& row : ReadTable(scratch / "out/findings.csv")) {
+    for (const char* column : {"problem_file", "original_file", "certificate_file"})
+      named.insert(row.at(column));
+  }
+  const std::string page = ReadText(scratch / "out/index.html");
+  for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
+  for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
+  named.erase("");
+  CHECK(named.size() == 4 + 3 + 2);
+  for (const std::string& file : named) {
+    INFO(file);
+    CHECK(fs::is_regular_file(scratch / "out" / file));
+  }
+}
+
+TEST_CASE("report: a signature becomes a file name of its own") {
+  CHECK(FileName(kDone) == kDone);
+  CHECK(FileName(kPending) == kPending);
+  const std::vector<std::string> odd = {"",
+                                        ".",
+                                        "..",
+                                        "a/b",
+                                        "a_b",
+                                        "a\\b",
+                                        "a b",
+                                        "x.original",
+                                        "x_original",
+                                        "../../x",
+                                        std::string(400, 'a'),
+                                        std::string(401, 'a')};
+  std::set<std::string> names;
+  for (const std::string& signature : odd) {
+    const std::string name = FileName(signature);
+    INFO(name);
+    CHECK(names.insert(name).second);
+    CHECK(std::regex_match(name, std::regex("[-A-Za-z0-9_=,@]{1,230}")));
+  }
+}
+
+// ---- The page ----
+
+TEST_CASE("report: the page says what the store holds, with separated thousands") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "<strong>2,005,100</strong> <span>problems run</span>"));
+  CHECK(Has(page, "<strong>1,245</strong> <span>runs with a finding</span>"));
+  CHECK(Has(page, "<strong>3</strong> <span>groups of findings (signatures)</span>"));
+  CHECK(Has(page, "<dd>4711</dd>"));
+  CHECK(Has(page, "<dd>1/2, 5</dd>"));
+  CHECK(Has(page, "<dd>paper; scan=highest</dd>"));
+  CHECK(Has(page, "5/17"));
+  CHECK(Has(page, "-3/23"));
+  CHECK(Has(page, "solved 36, cycle 1,500"));
+  CHECK(Has(page, "./run replay findings/" + kDone + ".json --step"));
+  CHECK(Has(page, "./run check findings/" + kDone + ".certificate.json"));
+  CHECK(Has(page, "the state after 5 drives stands again 6 drives later"));
+}
+
+TEST_CASE("report: the page needs nothing but itself") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  for (const char* part : {"http:", "https:", "//", "<script", "<link", "<img", "src=", "style=\"", "url(",
+                           "@import", "onclick", "javascript:"}) {
+    INFO(part);
+    CHECK_FALSE(Has(page, part));
+  }
+  CHECK(Has(page, "default-src &#39;none&#39;"));
+}
+
+TEST_CASE("report: an empty store gives a page that says so, and tables of a header line") {
+  const Scratch scratch;
+  WriteReport(Store(scratch / "s", kIdentity), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "The store holds no units"));
+  CHECK(Has(page, "<dd>4711</dd>"));
+  for (const char* file : {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv"}) {
+    CHECK(ReadTable(scratch / "out" / file).empty());
+  }
+}
+
+TEST_CASE("report: units without findings, or without any tally, are no trouble") {
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  store.AddUnit({}, 0, Record{}, {});
+  WriteReport(store, scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "No findings"));
+}
+
+TEST_CASE("report: whatever stands in a store is shown as text") {
+  const Scratch scratch;
+  const std::string evil = "</td><script>alert(\"1\")</script>&'\x01";
+  CampaignIdentity identity = {evil, 1, evil, evil};
+  Record record;
+  record.tallies[{evil, 2, evil, evil, evil}] = SampleTally(1);
+  record.signatures = {{"cycle-2c-" + evil, 1}, {evil, 2}};
+  Finding finding = PendingFinding("cycle-2c-" + evil, 0);
+  finding.kind = finding.generator = finding.policy = finding.inexact_outcome = finding.exact_outcome = evil;
+  for (const bool done : {false, true}) {
+    const fs::path file = scratch / (done ? "done" : "pending"), out = scratch / (done ? "out1" : "out2");
+    Store store(file, identity);
+    store.AddUnit({}, 0, record, {finding});
+    if (done) store.Finish(Finished(finding));
+    WriteReport(store, out);
+    const std::string page = ReadText(out / "index.html");
+    RequireWellFormed(page);
+    CHECK_FALSE(Has(page, "<script"));
+    CHECK_FALSE(Has(page, "\x01"));
+    CHECK(Has(page, "&lt;/td&gt;&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;&#39;\xEF\xBF\xBD"));
+    CHECK(RowsOf(ReadTable(out / "statistics.csv"), {evil, 2, evil, evil, evil}).size() == 1);
+    CHECK(FindingRow(out, "cycle-2c-" + evil).at("policy") == evil);
+    CHECK(Contents(out / "findings").size() == (done ? 3 : 2));
+  }
+}
+
+TEST_CASE("report: a policy in a command is a single shell word") {
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  Finding finding = PendingFinding(kDone, 0);
+  finding.policy = "x; rm 'y'";
+  store.AddUnit({}, 0, SampleRecord(), {finding});
+  WriteReport(store, scratch / "out");
+  CHECK(Has(ReadText(scratch / "out/index.html"),
+            "--policy &#39;x; rm &#39;\\&#39;&#39;y&#39;\\&#39;&#39;&#39;</code>"));
+}
+
+TEST_CASE("report: a page of many findings is cut off, and findings.csv has them all") {
+  const Scratch scratch;
+  Record record = SampleRecord();
+  record.signatures.clear();
+  std::vector<Finding> findings;
+  const int many = static_cast<int>(kFindingsShown) + 20;
+  for (int i = 0; i < many; ++i) {
+    const std::string signature = fmt::format("cycle-2c-4d-10s-{:016x}", i);
+    record.signatures[signature] = i + 1;
+    findings.push_back(PendingFinding(signature, 0));
+    findings.back().contacts = i == 0 ? 1 : 2;
+  }
+  Store store(scratch / "s", kIdentity);
+  store.AddUnit({}, 0, record, findings);
+  WriteReport(store, scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  const auto shown = Matches(page, "<th scope=\"row\" class=\"signature\"><code>([^<]*)</code>");
+  REQUIRE(shown.size() == kFindingsShown);
+  CHECK(shown[0] == fmt::format("cycle-2c-4d-10s-{:016x}", 0));
+  CHECK(shown[1] == fmt::format("cycle-2c-4d-10s-{:016x}", many - 1));
+  CHECK(Has(page, "300 of 320 signatures"));
+  CHECK(ReadTable(scratch / "out/findings.csv").size() == static_cast<std::size_t>(many));
+}
+
+TEST_CASE("report: numbers too long to read stay out of the page") {
+  const Scratch scratch;
+  Finding finding = PendingFinding(kDone, 0);
+  const std::string digits(10000, '7'), entry = "\"9\"";
+  finding.problem.replace(finding.problem.find(entry), entry.size(), "\"" + digits + "\"");
+  Store store(scratch / "s", kIdentity);
+  store.AddUnit({}, 0, SampleRecord(), {finding});
+  WriteReport(store, scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "too long for a page"));
+  CHECK_FALSE(Has(page, digits));
+  CHECK(Has(ReadText(scratch / ("out/findings/" + kDone + ".json")), digits));
+}
+
+TEST_CASE("report: findings of interest come first") {
+  Finding small = PendingFinding("cycle-2c-1d-2s-a", 0), rare = small, often = small, other = small,
+          large = small;
+  Finding whole = Finished(PendingFinding("cycle-2c-1d-2s-w", 0));
+  const std::string minimized = R"("minimized":{"contacts":1,)";
+  whole.facts.replace(whole.facts.find(minimized), minimized.size(), R"("minimized":{"contacts":2,)");
+  small = Finished(small);  // minimized to one contact
+  small.contacts = 8;
+  rare.signature = "cycle-2c-1d-2s-r";
+  often.signature = "cycle-2c-1d-2s-s";
+  other.signature = "wrong-answer-2c";
+  other.kind = "wrong-answer";
+  large.signature = "cycle-3c-1d-2s-l";
+  large.contacts = 3;
+  const Record record{{},
+                      {{small.signature, 1},
+                       {whole.signature, 1},
+                       {rare.signature, 2},
+                       {often.signature, 9},
+                       {other.signature, 10},
+                       {large.signature, 100},
+                       {"cycle-1c-1d-1s-counted", 7}}};
+  const std::vector<Finding> findings = {large, often, other, rare, small, whole};
+  const auto discoveries = Discoveries(record, findings);
+  std::vector<std::string> order;
+  for (const Discovery* discovery : ByInterest(discoveries)) order.push_back(discovery->signature);
+  CHECK(order == std::vector<std::string>{small.signature, whole.signature, often.signature, rare.signature,
+                                          other.signature, large.signature});
+}
+
+// ---- All of it ----
+
+TEST_CASE("report: the same content gives the same bytes, in whatever order it came into the store") {
+  const Scratch scratch;
+  const auto fill = [](Store& store, const std::vector<std::int64_t>& units) {
+    for (const std::int64_t unit : units)
+      store.AddUnit({}, unit, SampleRecord(), {PendingFinding(kDone, unit)});
+    store.Finish(Finished(PendingFinding(kDone, 0)));
+  };
+  Store one(scratch / "one", kIdentity), two(scratch / "two", kIdentity);
+  fill(one, {0, 1, 2});
+  fill(two, {2, 0, 1});
+  WriteReport(one, scratch / "a");
+  WriteReport(two, scratch / "b");
+  const auto contents = Contents(scratch / "a");
+  CHECK(contents.size() == 5 + 3);
+  CHECK(contents == Contents(scratch / "b"));
+  WriteReport(one, scratch / "a");
+  CHECK(contents == Contents(scratch / "a"));
+}
+
+TEST_CASE("report: a directory that cannot be written is an input error that names it") {
+  const Scratch scratch;
+  const Store store = SampleStore(scratch / "s");
+  std::ofstream(scratch / "file") << "in the way";
+  CHECK_THROWS_AS(WriteReport(store, scratch / "file"), InputError);
+  CHECK_THROWS_WITH(WriteReport(store, scratch / "file"), Catch::Contains((scratch / "file").string()));
+  fs::create_directories(scratch / "out/index.html");
+  CHECK_THROWS_AS(WriteReport(store, scratch / "out"), InputError);
+}
+
+TEST_CASE("report: files of others in the directory stay") {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out/findings");
+  std::ofstream(scratch / "out/findings/notes.json") << "mine";
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  CHECK(ReadText(scratch / "out/findings/notes.json") == "mine");
+}
+
+// ---- Building blocks ----
+
+TEST_CASE("report: numbers for people") {
+  CHECK(Grouped(0) == "0");
+  CHECK(Grouped(999) == "999");
+  CHECK(Grouped(1000) == "1,000");
+  CHECK(Grouped(-1234567) == "-1,234,567");
+  CHECK(Grouped(-123) == "-123");
+  CHECK(PerMillion(0, 10) == "0");
+  CHECK(PerMillion(3, 0).empty());
+  CHECK(PerMillion(12, 1000000) == "12.0");
+  CHECK(PerMillion(1, 2) == "500,000");
+  CHECK(PerMillion(1, 30000000) == "0.033");
+  CHECK(Percent(1, 3) == "33.3%");
+  CHECK(Mean(7, 2) == "3.50");
+  CHECK(Counted(1, "contact") == "1 contact");
+  CHECK(Counted(1200, "contact") == "1,200 contacts");
+}
+
+TEST_CASE("report: text and attribute values are escaped, tables keep their shape") {
+  CHECK(Text("a<b & \"c\" > 'd'").markup() == "a&lt;b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+  CHECK(Tag("a", {{"href", "x\"y"}, {"class", ""}})("<").markup() == "<a href=\"x&quot;y\">&lt;</a>");
+  Table table("caption", {{"one"}, {"two"}});
+  CHECK_THROWS_AS(table.AddRow({{Text("alone")}}), InternalError);
+}
+
+}  // namespace
+}  // namespace stiction
