@@ -485,7 +485,7 @@ class Published:
         zero = False                      # whether the last step had length zero
         friction = self.variables[v].friction
         if friction and self.sets[friction] == "suspended":
-            self.enter(friction, self.filed(friction))
+            self.sets[friction] = self.filed(friction)
         seen, j = {}, None
         while j != v:
             self.end_if_repeated(seen, zero)

@@ -5,6 +5,7 @@
 #ifndef STICTION_REPORTS_HTML_H_
 #define STICTION_REPORTS_HTML_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string>

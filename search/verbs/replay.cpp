@@ -18,6 +18,7 @@ struct ReplayOptions {
   bool all_policies = false;
   bool step = false;
   bool json = false;
+  std::string record;
   Limits limits;
 };
 
@@ -188,6 +189,19 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
   return Name(run.verdict.outcome) == wanted ? kExitDone : kExitNotSo;
 }
 
+// `expect` for the whole grid: the most frequent outcome as "*", the policies that differ by name.
+std::map<std::string, std::string> ExpectFrom(const Json& outcomes, const Json& counts) {
+  std::string most;
+  for (const auto& [outcome, count] : counts.items()) {
+    if (most.empty() || count > counts[most]) most = outcome;
+  }
+  std::map<std::string, std::string> expect = {{"*", most}};
+  for (const auto& [policy, entry] : outcomes.items()) {
+    if (entry["outcome"] != most) expect[policy] = entry["outcome"].get<std::string>();
+  }
+  return expect;
+}
+
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
   std::map<std::string, Json> by_name;
@@ -209,6 +223,12 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
     const std::string expected = Expected(file, policy);
     if (outcome != (expected.empty() ? "solved" : expected)) unexpected.push_back(name);
   }
+  if (!o.record.empty()) {
+    ProblemFile recorded = file;
+    recorded.expect = ExpectFrom(outcomes, counts);
+    WriteText(o.record, Print(recorded));
+    return kExitDone;
+  }
   if (o.json) {
     std::cout << JsonText({{"policies", outcomes}, {"counts", counts}, {"unexpected", unexpected}}) << "\n";
   } else {
@@ -228,7 +248,9 @@ void AddReplay(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("replay", "Follow the published algorithm pivot by pivot, exactly");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   AddPolicyOption(verb, o->policy, Grid::kRefused);
-  verb.add_flag("--all-policies", o->all_policies, "the outcome under every policy of the planar grid");
+  CLI::Option* all =
+      verb.add_flag("--all-policies", o->all_policies, "the outcome under every policy of the planar grid");
+  verb.add_option("--record", o->record, "write the problem with what happened as its `expect`")->needs(all);
   verb.add_flag("--step", o->step, "directions, forces and sets at every step");
   verb.add_flag("--json", o->json, "machine output");
   AddLimits(verb, o->limits);
