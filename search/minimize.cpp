@@ -136,9 +136,15 @@ Rational LargestEntry(const ExactProblem& problem, bool of_A) {
   return largest;
 }
 
-// A and b scaled to largest entries size_A and size_b, rounded, with `ridge` added to the diagonal.
+// What is added to the diagonal of A: a number, and a share of the entry itself.
+struct Ridge {
+  int number;
+  Rational share;
+};
+
+// A and b scaled to largest entries size_A and size_b, with a ridge, rounded.
 ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
-                       std::int64_t ridge) {
+                       const Ridge& ridge) {
   ExactProblem rounded = problem;
   const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
   const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size_A) / largest_A);
@@ -146,8 +152,8 @@ ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::in
   for (int i = 0; i < problem.rows(); ++i) {
     rounded.b[i] = Rounded(Rational(problem.b[i] * scale_b));
     for (int j = 0; j < problem.rows(); ++j) {
-      rounded.A(i, j) = Rounded(Rational(problem.A(i, j) * scale_A));
-      if (i == j) rounded.A(i, j) += ridge;
+      rounded.A(i, j) = Rounded(Rational(problem.A(i, j) * scale_A * (i == j ? 1 + ridge.share : Rational(1))));
+      if (i == j) rounded.A(i, j) += ridge.number;
     }
   }
   return rounded;
@@ -184,6 +190,46 @@ std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& p
     for (int j = 0; j < problem.rows(); ++j) divided_A.A(i, j) /= in_A.Get();
   }
   return {std::move(divided_A), std::move(divided_b)};
+}
+
+// x to so many significant bits.
+Rational Significant(const Rational& x, int bits) {
+  if (x == 0) return 0;
+  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
+                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
+  const long shift = bits - size;
+  const Rational power(mpz_class(1) << std::abs(shift));
+  const Rational scale = shift < 0 ? Rational(1 / power) : power;
+  return Rounded(Rational(x * scale)) / scale;
+}
+
+// A = L D L' and b = L c with L, D and c to so many significant bits, common factors taken out: semidefinite
+// whatever the rounding, which matters where A is nearly singular. Requires: A positive semidefinite.
+ExactProblem WithRoundedFactors(const ExactProblem& problem, int bits) {
+  auto factors = std::get<LdltFactors>(DecideSemidefinite(problem.A));
+  ExactProblem rounded = problem;
+  const int size = problem.rows();
+  ExactVector c = problem.b;
+  for (int i = 0; i < size; ++i) {
+    for (int k = 0; k < i; ++k) c[i] -= factors.L(i, k) * c[k];
+  }
+  for (int i = 0; i < size; ++i) {
+    factors.D[i] = Significant(factors.D[i], bits);
+    // b stays in range(A): its part along a zero pivot is zero, as that of an exact b is.
+    c[i] = Significant(c[i], bits);
+    for (int k = 0; k < i; ++k) factors.L(i, k) = Significant(factors.L(i, k), bits);
+  }
+  for (int i = 0; i < size; ++i) {
+    rounded.b[i] = 0;
+    for (int k = 0; k <= i; ++k) rounded.b[i] += factors.L(i, k) * c[k];
+    for (int j = 0; j < size; ++j) {
+      rounded.A(i, j) = 0;
+      for (int k = 0; k <= std::min(i, j); ++k) {
+        rounded.A(i, j) += factors.L(i, k) * factors.D[k] * factors.L(j, k);
+      }
+    }
+  }
+  return WithoutCommonFactors(WithoutCommonFactors(rounded).first).second;
 }
 
 // Numbers to try in the place of x, simplest first. Above kSmall only numbers with fewer bits stand here:
@@ -254,6 +300,7 @@ class Minimizer {
       progress |= DropFriction();
       progress |= StretchTangents();
       progress |= RoundAll();
+      progress |= RoundFactors();
       progress |= DivideCommonFactors();
       progress |= SimplifyEntries();
       progress |= SimplifyCoefficients();
@@ -331,14 +378,26 @@ class Minimizer {
   bool RoundAll() {
     const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
                                                result_.problem};
+    const std::array<Ridge, 6> ridges = {
+        {{0, 0}, {1, 0}, {0, Rational(1, 64)}, {0, Rational(1, 16)}, {0, Rational(1, 4)}, {1, Rational(1, 4)}}};
     for (const std::int64_t size : kRoundSizes) {
       for (const ExactProblem& base : bases) {
-        for (const std::int64_t ridge :
-             {std::int64_t{0}, std::int64_t{1}, std::int64_t{2}, size / 16, size / 4}) {
+        for (const Ridge& ridge : ridges) {
           for (const std::int64_t size_b : {std::max<std::int64_t>(2, size / 2), size}) {
             if (Try(RoundedTo(base, size, size_b, ridge))) return true;
           }
         }
+      }
+    }
+    return false;
+  }
+
+  bool RoundFactors() {
+    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
+                                               result_.problem};
+    for (int bits = 1; bits <= 24; ++bits) {
+      for (const ExactProblem& base : bases) {
+        if (Try(WithRoundedFactors(base, bits))) return true;
       }
     }
     return false;
