@@ -144,7 +144,9 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
     if (discovery.representative != nullptr) sorted.push_back(&discovery);
   }
   const auto rank = [](const Discovery* d) {
-    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(), -d->met);
+    // The shorter the text of the minimized problem, the smaller its numbers.
+    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(), d->representative->minimized.size(),
+                      -d->met);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&rank](const Discovery* left, const Discovery* right) { return rank(left) < rank(right); });

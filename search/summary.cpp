@@ -59,7 +59,8 @@ Digest DigestOf(const Store& store) {
     ++(finding.done ? digest.finished : digest.pending);
     if (!finding.done || finding.minimized.empty()) continue;
     const Json facts = ParseJson(finding.facts, finding.signature);
-    digest.whole_grid += facts.at("minimized").at("grid").size() == 1;
+    const bool loop = finding.kind == Name(Outcome::kCycle) || finding.kind == Name(Outcome::kStall);
+    digest.whole_grid += loop && facts.at("minimized").at("grid").size() == 1;
     digest.simplest.push_back(std::move(finding));
   }
   std::stable_sort(

@@ -1,0 +1,665 @@
+// SPDX-License-Identifier: Apache-2.0
+// The store: the same units leave the same content, whatever their order, interruptions and merges.
+
+#include "corpus/store.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "corpus/input_error.h"
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+constexpr std::int64_t kBlock = Store::kUnitsPerBlock;
+
+// ---- Stores to test --------------------------------------------------------------------------
+
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern = (fs::temp_directory_path() / "stiction-store-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { fs::remove_all(path_); }
+
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+CampaignIdentity Identity() { return {R"({"contacts":[2,3]})", 7, R"(["paper"])", "0.1.0 abc, g++"}; }
+
+// What unit `unit` counts; every unit counts something else.
+Record RecordOf(std::int64_t unit) {
+  Record record;
+  Tally& tally = record.tallies[{unit % 2 == 0 ? "psd" : "small", 2, "paper"}];
+  for (std::int64_t i = 0; i <= unit % 5; ++i) {
+    Verdict verdict;
+    verdict.outcome = i == 0 ? Outcome::kSolved : Outcome::kCycle;
+    verdict.statistics.steps = unit % 70 + i;
+    verdict.statistics.give_ups = i;
+    tally.Count(verdict);
+  }
+  if (unit % 3 == 0) record.signatures[fmt::format("cycle-{}c", unit % 4)] = unit % 7 + 1;
+  return record;
+}
+
+Finding Candidate(const std::string& signature, std::int64_t unit, std::int64_t index, int contacts = 2) {
+  Finding finding;
+  finding.signature = signature;
+  finding.kind = "cycle";
+  finding.unit = unit;
+  finding.index = index;
+  finding.generator = "psd";
+  finding.contacts = contacts;
+  finding.policy = "paper";
+  finding.inexact_outcome = "stall";
+  finding.exact_outcome = "cycle";
+  finding.problem = fmt::format("problem {} {}", unit, index);
+  return finding;
+}
+
+Finding Finished(Finding finding) {
+  finding.done = true;
+  finding.certificate = "certificate of " + finding.problem;
+  finding.minimized = "minimized " + finding.problem;
+  finding.minimized_certificate = "certificate of " + finding.minimized;
+  finding.facts = R"({"found":1})";
+  return finding;
+}
+
+// The candidates of a unit: one group for each of 5 remainders, and one that all share.
+std::vector<Finding> CandidatesOf(std::int64_t unit) {
+  return {Candidate(fmt::format("group-{}", unit % 5), unit, unit * 37 % 11), Candidate("all", unit, 3)};
+}
+
+void Add(Store& store, std::int64_t unit, const Shard& shard = {}) {
+  store.AddUnit(shard, unit, RecordOf(unit), CandidatesOf(unit));
+}
+
+// The k-th unit of a shard.
+std::int64_t UnitOf(const Shard& shard, std::int64_t k) { return k * shard.count + shard.index; }
+
+void AddRange(Store& store, const Shard& shard, std::int64_t from, std::int64_t to) {
+  for (std::int64_t k = from; k < to; ++k) Add(store, UnitOf(shard, k), shard);
+}
+
+Record SumOf(std::int64_t units) {
+  Record sum;
+  for (std::int64_t unit = 0; unit < units; ++unit) sum.Merge(RecordOf(unit));
+  return sum;
+}
+
+// Every row of every table, in order.
+std::string Content(const fs::path& file) {
+  sqlite3* db = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+  std::string text;
+  const auto take = [](void* out, int columns, char** values, char**) {
+    for (int i = 0; i < columns; ++i) *static_cast<std::string*>(out) += std::string(values[i]) + "|";
+    *static_cast<std::string*>(out) += "\n";
+    return 0;
+  };
+  for (const char* query : {"SELECT * FROM campaign ORDER BY key", "SELECT * FROM units ORDER BY unit",
+                            "SELECT * FROM blocks ORDER BY shards, shard, block",
+                            "SELECT * FROM findings ORDER BY signature"}) {
+    REQUIRE(sqlite3_exec(db, query, take, &text, nullptr) == SQLITE_OK);
+  }
+  sqlite3_close(db);
+  return text;
+}
+
+std::size_t BlockCount(const Store& store) { return store.Blocks().size(); }
+
+void WriteFile(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+// ---- Identity --------------------------------------------------------------------------------
+
+TEST_CASE("store: another campaign is refused, with the difference and the way to a new store") {
+  const Scratch scratch;
+  const fs::path file = scratch / "a.store";
+  {
+    Store store(file, Identity());
+    Add(store, 0);
+  }
+  const std::string before = Content(file);
+  const auto refused = [&file](const CampaignIdentity& other, const std::string& there, const std::string& here) {
+    CHECK_THROWS_AS(Store(file, other), InputError);
+    CHECK_THROWS_WITH(Store(file, other), Contains(file.string()) && Contains(there) && Contains(here) &&
+                                              Contains("--store NEW_FILE"));
+  };
+  CampaignIdentity other = Identity();
+  other.seed = 8;
+  refused(other, "seed is 7", "is 8");
+  other = Identity();
+  other.build = "0.1.0 def, clang";
+  refused(other, "build is 0.1.0 abc, g++", "is 0.1.0 def, clang");
+  other = Identity();
+  other.policies = R"(["ties=contacts"])";
+  refused(other, R"(policies is ["paper"])", R"(is ["ties=contacts"])");
+  other = Identity();
+  other.definition = R"({"contacts":[2,4]})";
+  refused(other, R"(definition is {"contacts":[2,3]})", R"(is {"contacts":[2,4]})");
+  CHECK((Content(file) == before));
+
+  Store again(file, Identity());
+  CHECK(again.identity() == Identity());
+  CHECK(again.Units().Contains(0));
+}
+
+TEST_CASE("store: a seed of all 64 bits comes back") {
+  const Scratch scratch;
+  CampaignIdentity identity = Identity();
+  identity.seed = UINT64_MAX;
+  { Store store(scratch / "a.store", identity); }
+  CHECK(Store::OpenToRead(scratch / "a.store").identity() == identity);
+}
+
+// ---- Units and blocks ------------------------------------------------------------------------
+
+TEST_CASE("store: units in any order leave the same content") {
+  const Scratch scratch;
+  std::vector<std::int64_t> units(2 * kBlock + 100);
+  std::iota(units.begin(), units.end(), 0);
+  std::vector<std::string> contents;
+  for (int order = 0; order < 3; ++order) {
+    const fs::path file = scratch / fmt::format("{}.store", order);
+    if (order == 1) std::reverse(units.begin(), units.end());
+    if (order == 2) std::shuffle(units.begin(), units.end(), std::mt19937(1994));
+    Store store(file, Identity());
+    for (const std::int64_t unit : units) Add(store, unit);
+    CHECK(store.Total() == SumOf(2 * kBlock + 100));
+    CHECK(BlockCount(store) == 2);
+    contents.push_back(Content(file));
+  }
+  CHECK((contents[1] == contents[0]));
+  CHECK((contents[2] == contents[0]));
+}
+
+TEST_CASE("store: a block closes with its last unit, and the total stays") {
+  const Scratch scratch;
+  const Shard shard{1, 3};
+  Store store(scratch / "a.store", Identity());
+  AddRange(store, shard, 1, kBlock);
+  CHECK(BlockCount(store) == 0);
+  CHECK(store.Units().Count() == kBlock - 1);
+  Record total = store.Total();
+  total.Merge(RecordOf(1));
+
+  Add(store, 1, shard);
+  REQUIRE(BlockCount(store) == 1);
+  CHECK(store.Blocks()[0].shard == shard);
+  CHECK(store.Blocks()[0].block == 0);
+  CHECK(store.Total() == total);
+  const UnitSet units = store.Units();
+  CHECK(units.Count() == kBlock);
+  for (const std::int64_t k : {std::int64_t{0}, std::int64_t{1}, kBlock - 1}) {
+    CHECK(units.Contains(UnitOf(shard, k)));
+    CHECK_FALSE(units.Contains(UnitOf({0, 3}, k)));
+    CHECK_FALSE(units.Contains(UnitOf({2, 3}, k)));
+  }
+  CHECK_FALSE(units.Contains(UnitOf(shard, kBlock)));
+
+  Add(store, UnitOf(shard, kBlock), shard);
+  CHECK(BlockCount(store) == 1);
+  CHECK(store.Units().Count() == kBlock + 1);
+}
+
+TEST_CASE("store: a unit is counted once, and only by its own shard") {
+  const Scratch scratch;
+  const fs::path file = scratch / "a.store";
+  Store store(file, Identity());
+  AddRange(store, {}, 0, 5);
+  const std::string before = Content(file);
+  CHECK_THROWS_AS(Add(store, 4), InputError);
+  CHECK_THROWS_AS(Add(store, 4, {1, 2}), InternalError);
+  CHECK((Content(file) == before));
+}
+
+// Two searches on one store: both may be at work on the last unit of a block.
+TEST_CASE("store: a unit of a closed block is not counted again") {
+  const Scratch scratch;
+  const fs::path file = scratch / "a.store";
+  Store store(file, Identity());
+  AddRange(store, {}, 0, kBlock);
+  const std::string before = Content(file);
+  CHECK_THROWS_AS(Add(store, kBlock - 1), InputError);
+  CHECK((Content(file) == before));
+  CHECK(store.Total() == SumOf(kBlock));
+}
+
+TEST_CASE("store: what was added is there when the file is opened again") {
+  const Scratch scratch;
+  {
+    Store store(scratch / "a.store", Identity());
+    AddRange(store, {}, 0, kBlock + 3);
+  }
+  Store store(scratch / "a.store", Identity());
+  CHECK(store.Units().Count() == kBlock + 3);
+  CHECK(store.Total() == SumOf(kBlock + 3));
+  CHECK(store.Findings().size() == 6);
+}
+
+// ---- Findings --------------------------------------------------------------------------------
+
+TEST_CASE("store: the representative has the smallest (unit, index), whoever came first") {
+  const Scratch scratch;
+  const std::vector<Finding> candidates = {Candidate("g", 5, 2), Candidate("g", 5, 9), Candidate("g", 6, 0),
+                                           Candidate("g", 10, 1)};
+  std::vector<int> order = {0, 1, 2, 3};
+  int number = 0;
+  do {
+    // Two candidates of unit 5 cannot come apart: they are added together.
+    Store store(scratch / fmt::format("{}.store", number++), Identity());
+    std::vector<Finding> of_5;
+    for (const int i : order) {
+      if (candidates[i].unit == 5) of_5.push_back(candidates[i]);
+    }
+    for (const int i : order) {
+      const std::int64_t unit = candidates[i].unit;
+      if (unit != 5) {
+        store.AddUnit({}, unit, {}, {candidates[i]});
+      } else if (candidates[i] == of_5[0]) {
+        store.AddUnit({}, 5, {}, of_5);
+      }
+    }
+    const auto findings = store.Findings();
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0] == candidates[0]);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("store: adding a unit names the candidates that represent their group now") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity());
+  CHECK(store.AddUnit({}, 3, {}, {Candidate("g", 3, 0), Candidate("h", 3, 1)}).size() == 2);
+  CHECK(store.AddUnit({}, 4, {}, {Candidate("g", 4, 0)}).empty());
+  const auto now = store.AddUnit({}, 1, {}, {Candidate("g", 1, 7), Candidate("k", 1, 8)});
+  REQUIRE(now.size() == 2);
+  CHECK(now[0] == Candidate("g", 1, 7));
+  CHECK(now[1] == Candidate("k", 1, 8));
+}
+
+TEST_CASE("store: a finding that is replaced must be finished anew") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity());
+  const Finding later = Candidate("g", 5, 1), first = Candidate("g", 2, 8);
+  store.AddUnit({}, 5, {}, {later});
+  store.Finish(Finished(later));
+  CHECK(store.Pending().empty());
+  CHECK(store.Findings() == std::vector{Finished(later)});
+
+  store.AddUnit({}, 2, {}, {first});
+  CHECK(store.Pending() == std::vector{first});
+  CHECK(store.Findings() == std::vector{first});
+
+  store.Finish(Finished(later));  // by somebody who does not know of the other
+  CHECK(store.Findings() == std::vector{first});
+  store.Finish(Finished(first));
+  CHECK(store.Findings() == std::vector{Finished(first)});
+  store.Finish(Finished(Candidate("unknown", 1, 1)));
+  CHECK(store.Findings().size() == 1);
+}
+
+TEST_CASE("store: findings wait in the order of contacts, unit, index and are listed by signature") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity());
+  store.AddUnit({}, 4, {}, {Candidate("b", 4, 1, 3), Candidate("a", 4, 0, 3)});
+  store.AddUnit({}, 9, {}, {Candidate("d", 9, 0, 2)});
+  store.AddUnit({}, 3, {}, {Candidate("c", 3, 5, 3)});
+  const auto signatures = [](const std::vector<Finding>& findings) {
+    std::string all;
+    for (const Finding& finding : findings) all += finding.signature;
+    return all;
+  };
+  CHECK(signatures(store.Pending()) == "dcab");
+  CHECK(signatures(store.Findings()) == "abcd");
+}
+
+TEST_CASE("store: text with quotes, NUL bytes and any encoding comes back as it was") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity());
+  Finding finding = Candidate("it's \"g\"; DROP TABLE findings --", 1, 1);
+  finding.problem = std::string("a\0b\xff \xc3\xa4\n", 8);
+  store.AddUnit({}, 1, {}, {finding});
+  CHECK(store.Findings() == std::vector{finding});
+}
+
+// ---- Merging ---------------------------------------------------------------------------------
+
+// A store of the units from `from` to `to`, counted within the shard.
+fs::path MakeStore(const Scratch& scratch, const std::string& name, const Shard& shard, std::int64_t from,
+                   std::int64_t to) {
+  Store store(scratch / name, Identity());
+  AddRange(store, shard, from, to);
+  return scratch / name;
+}
+
+fs::path Merged(const Scratch& scratch, const std::string& name, const std::vector<fs::path>& stores) {
+  Store store(scratch / name, Identity());
+  for (const fs::path& other : stores) store.MergeFrom(Store::OpenToRead(other));
+  return scratch / name;
+}
+
+TEST_CASE("merge: shards make the whole, in any order and as often as you like") {
+  const Scratch scratch;
+  const fs::path a = MakeStore(scratch, "a", {0, 3}, 0, kBlock + 40);
+  const fs::path b = MakeStore(scratch, "b", {1, 3}, 0, kBlock);
+  const fs::path c = MakeStore(scratch, "c", {2, 3}, 0, 17);
+  const std::string content = Content(Merged(scratch, "abc", {a, b, c}));
+  CHECK((Content(Merged(scratch, "cba", {c, b, a})) == content));
+  CHECK((Content(Merged(scratch, "bacbb", {b, a, c, b, b})) == content));
+  const fs::path ab = Merged(scratch, "ab", {a, b}), bc = Merged(scratch, "bc", {b, c});
+  CHECK((Content(Merged(scratch, "ab+bc", {ab, bc})) == content));
+
+  const Store store = Store::OpenToRead(scratch / "abc");
+  CHECK(store.Units().Count() == 2 * kBlock + 57);
+  Record total;
+  for (const fs::path& part : {a, b, c}) total.Merge(Store::OpenToRead(part).Total());
+  CHECK(store.Total() == total);
+}
+
+TEST_CASE("merge: a store with itself stays as it is") {
+  const Scratch scratch;
+  const fs::path a = MakeStore(scratch, "a", {}, 0, kBlock + 5);
+  const std::string before = Content(a);
+  Store store(a, Identity());
+  store.MergeFrom(Store::OpenToRead(a));
+  CHECK((Content(a) == before));
+}
+
+TEST_CASE("merge: a partial and a complete copy of a block make the complete one, either way") {
+  const Scratch scratch;
+  const fs::path whole = MakeStore(scratch, "whole", {}, 0, kBlock);
+  const fs::path part = MakeStore(scratch, "part", {}, 100, 300);
+  const std::string content = Content(whole);
+  CHECK((Content(Merged(scratch, "1", {part, whole})) == content));
+  CHECK((Content(Merged(scratch, "2", {whole, part})) == content));
+}
+
+TEST_CASE("merge: two halves of a block close it") {
+  const Scratch scratch;
+  const fs::path left = MakeStore(scratch, "left", {1, 2}, 0, 600);
+  const fs::path right = MakeStore(scratch, "right", {1, 2}, 500, kBlock);  // 100 units are in both
+  const std::string content = Content(MakeStore(scratch, "whole", {1, 2}, 0, kBlock));
+  CHECK((Content(Merged(scratch, "1", {left, right})) == content));
+  CHECK((Content(Merged(scratch, "2", {right, left})) == content));
+}
+
+TEST_CASE("merge: two copies of a block or unit that differ are an internal error that names it") {
+  const Scratch scratch;
+  const Shard shard{1, 2};
+  const auto with_other_unit = [&](const std::string& name, std::int64_t units, std::int64_t other) {
+    Store store(scratch / name, Identity());
+    for (std::int64_t k = 0; k < units; ++k) {
+      const std::int64_t unit = UnitOf(shard, k);
+      store.AddUnit(shard, unit, RecordOf(k == other ? unit + 1 : unit), CandidatesOf(unit));
+    }
+    return scratch / name;
+  };
+  const fs::path whole = MakeStore(scratch, "whole", shard, 0, 2 * kBlock);
+  const fs::path other_block = with_other_unit("other-block", 2 * kBlock, kBlock + 7);
+  const fs::path part = MakeStore(scratch, "part", shard, 0, 20);
+  const fs::path other_unit = with_other_unit("other-unit", 20, 7);
+  const auto refused = [](const fs::path& into, const fs::path& from, const std::string& name) {
+    const std::string before = Content(into);
+    Store store(into, Identity());
+    CHECK_THROWS_AS(store.MergeFrom(Store::OpenToRead(from)), InternalError);
+    CHECK_THROWS_WITH(store.MergeFrom(Store::OpenToRead(from)), Contains(name));
+    CHECK((Content(into) == before));
+  };
+  refused(whole, other_block, "block 1 of shard 1/2");
+  refused(other_block, whole, "block 1 of shard 1/2");
+  refused(part, other_unit, "unit 15");
+  refused(other_unit, part, "unit 15");
+}
+
+TEST_CASE("merge: a unit that both stores counted for different shards is refused, either way") {
+  const Scratch scratch;
+  const std::vector<std::pair<std::string, fs::path>> unsharded = {
+      {"block", MakeStore(scratch, "block", {}, 0, kBlock)}, {"units", MakeStore(scratch, "units", {}, 0, 9)}};
+  const std::vector<std::pair<std::string, fs::path>> sharded = {
+      {"half block", MakeStore(scratch, "half block", {0, 2}, 0, kBlock)},
+      {"half units", MakeStore(scratch, "half units", {0, 2}, 0, 9)}};
+  const auto refused = [](const fs::path& into, const fs::path& from) {
+    const std::string before = Content(into);
+    Store store(into, Identity());
+    CHECK_THROWS_AS(store.MergeFrom(Store::OpenToRead(from)), InputError);
+    CHECK((Content(into) == before));
+  };
+  for (const auto& [whole_name, whole] : unsharded) {
+    for (const auto& [half_name, half] : sharded) {
+      CAPTURE(whole_name, half_name);
+      refused(whole, half);
+      refused(half, whole);
+    }
+  }
+}
+
+TEST_CASE("merge: stores of different campaigns are refused") {
+  const Scratch scratch;
+  CampaignIdentity identity = Identity();
+  identity.seed = 8;
+  { Store store(scratch / "other", identity); }
+  Store store(scratch / "a", Identity());
+  const auto merge = [&] { store.MergeFrom(Store::OpenToRead(scratch / "other")); };
+  CHECK_THROWS_AS(merge(), InputError);
+  CHECK_THROWS_WITH(merge(), Contains("seed is 8") && Contains("is 7"));
+}
+
+TEST_CASE("merge: the smaller representative stays, and of two copies the finished one") {
+  const Scratch scratch;
+  const auto make = [&scratch](const std::string& name, std::int64_t unit, const Finding& finding) {
+    Store store(scratch / name, Identity());
+    store.AddUnit({}, unit, RecordOf(unit), {finding});
+    if (finding.done) store.Finish(finding);
+    return scratch / name;
+  };
+  const Finding first = Candidate("g", 2, 5), later = Candidate("g", 4, 0);
+  const fs::path open = make("open", 2, first), done = make("done", 2, Finished(first)),
+                 other = make("other", 4, Finished(later));
+  const auto finding = [&](const std::string& name, const std::vector<fs::path>& stores) {
+    return Store::OpenToRead(Merged(scratch, name, stores)).Findings().at(0);
+  };
+  CHECK(finding("1", {open, other}) == first);
+  CHECK(finding("2", {other, open}) == first);
+  CHECK(finding("3", {open, done, other}) == Finished(first));
+  CHECK(finding("4", {other, done, open}) == Finished(first));
+}
+
+// ---- Files that are no stores ----------------------------------------------------------------
+
+TEST_CASE("store: what is no store is refused by name and left as it is") {
+  const Scratch scratch;
+  const auto refused_to_read = [](const fs::path& file) {
+    CHECK_THROWS_AS(Store::OpenToRead(file), InputError);
+    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains(file.string()));
+  };
+  const auto refused_to_write = [](const fs::path& file) {
+    CHECK_THROWS_AS(Store(file, Identity()), InputError);
+    CHECK_THROWS_WITH(Store(file, Identity()), Contains(file.string()));
+  };
+  SECTION("a file that does not exist is not made by reading") {
+    refused_to_read(scratch / "none.store");
+    CHECK_FALSE(fs::exists(scratch / "none.store"));
+  }
+  SECTION("an empty file") {
+    WriteFile(scratch / "empty", "");
+    refused_to_read(scratch / "empty");
+  }
+  SECTION("a text file") {
+    const std::string text = "{\"format\": \"stiction-problem\"}" + std::string(2000, ' ');
+    WriteFile(scratch / "text", text);
+    refused_to_read(scratch / "text");
+    refused_to_write(scratch / "text");
+    std::ifstream in(scratch / "text");
+    CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == text);
+  }
+  SECTION("a directory") {
+    refused_to_read(scratch / "");
+    refused_to_write(scratch / "");
+  }
+  SECTION("a path that leads nowhere") {
+    refused_to_write(scratch / "no/such/directory.store");
+    WriteFile(scratch / "file", "x");
+    refused_to_write(scratch / "file/a.store");
+    refused_to_write("/proc/stiction.store");
+  }
+  SECTION("a database of somebody else") {
+    const fs::path file = scratch / "places.sqlite";
+    sqlite3* db = nullptr;
+    REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+    REQUIRE(sqlite3_exec(db, "CREATE TABLE places (x); INSERT INTO places VALUES (1)", nullptr, nullptr,
+                         nullptr) == SQLITE_OK);
+    refused_to_read(file);
+    refused_to_write(file);
+    std::string tables;
+    const auto take = [](void* out, int, char** values, char**) {
+      *static_cast<std::string*>(out) += values[0];
+      return 0;
+    };
+    sqlite3_exec(db, "SELECT name FROM sqlite_master; PRAGMA journal_mode", take, &tables, nullptr);
+    CHECK(tables == "placesdelete");
+    sqlite3_close(db);
+  }
+  SECTION("a store of another version") {
+    const fs::path file = scratch / "a.store";
+    { Store store(file, Identity()); }
+    sqlite3* db = nullptr;
+    REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+    sqlite3_exec(db, "UPDATE campaign SET value = '2' WHERE key = 'version'", nullptr, nullptr, nullptr);
+    sqlite3_close(db);
+    refused_to_read(file);
+    refused_to_write(file);
+    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("version 2") && Contains("version 1"));
+  }
+}
+
+// ---- A running search ------------------------------------------------------------------------
+
+TEST_CASE("store: a running search can be read, and each reader sees one state") {
+  const Scratch scratch;
+  const fs::path file = scratch / "a.store";
+  Store writer(file, Identity());
+  AddRange(writer, {}, 0, kBlock - 1);
+  const Store early = Store::OpenToRead(file);
+  CHECK(early.Units().Count() == kBlock - 1);
+  Add(writer, kBlock - 1);  // closes the block between two questions of the reader
+  CHECK(early.Units().Count() == kBlock - 1);
+  CHECK(early.Total() == SumOf(kBlock - 1));
+  CHECK(early.Blocks().empty());
+
+  const Store late = Store::OpenToRead(file);
+  CHECK(late.Total() == SumOf(kBlock));
+  CHECK(late.Units().Count() == kBlock);
+  CHECK(late.identity() == Identity());
+}
+
+TEST_CASE("store: two processes can add units of their shards to one file") {
+  const Scratch scratch;
+  const fs::path file = scratch / "a.store";
+  Store even(file, Identity()), odd(file, Identity());
+  for (std::int64_t k = 0; k < 30; ++k) {
+    Add(even, 2 * k, {0, 2});
+    Add(odd, 2 * k + 1, {1, 2});
+  }
+  CHECK(even.Total() == SumOf(60));
+  CHECK(odd.Total() == SumOf(60));
+}
+
+// ---- Records ---------------------------------------------------------------------------------
+
+// Every counter different.
+Tally FullTally() {
+  Tally tally;
+  std::int64_t next = 1;
+  tally.problems = next++;
+  for (auto& count : tally.outcomes) count = next++;
+  for (auto& row : tally.verdicts) {
+    for (auto& count : row) count = next++;
+  }
+  tally.audited = next++;
+  tally.misjudged = next++;
+  tally.wrong = next++;
+  tally.with_zero_steps = next++;
+  tally.with_give_ups = next++;
+  for (Statistics* s : {&tally.sums, &tally.maxima}) {
+    ForEachField(*s, [&next](const char*, const char*, std::int64_t& value) { value = next++; });
+  }
+  for (auto& count : tally.steps) count = (std::int64_t{1} << 61) + next++;
+  return tally;
+}
+
+TEST_CASE("record: text and back is the same, to the byte") {
+  Record record;
+  record.tallies[{"psd", 2, "paper"}] = FullTally();
+  record.tallies[{"psd", 3, "paper"}];
+  record.tallies[{"psd", 2, "ties=contacts"}] = FullTally();
+  record.tallies[{"psd", 2, "paper", "complete", "exact"}].problems = 5;
+  record.signatures = {{"cycle-2c", 3}, {"stall-3c \"quoted\"", 1}};
+  const std::string text = Serialize(record);
+  CHECK(ParseRecord(text) == record);
+  CHECK(Serialize(ParseRecord(text)) == text);
+  CHECK(TallyFromJson(ToJson(FullTally())) == FullTally());
+  CHECK(ParseRecord(Serialize(Record{})) == Record{});
+}
+
+TEST_CASE("record: sums are the same in any order and grouping") {
+  const Record a = RecordOf(3), b = RecordOf(24), c = RecordOf(6);
+  Record left = a, right = c;
+  left.Merge(b);
+  left.Merge(c);
+  Record cb = c;
+  cb.Merge(b);
+  right = cb;
+  right.Merge(a);
+  CHECK(left == right);
+  CHECK(Serialize(left) == Serialize(right));
+  Record same = left;
+  same.Merge({});
+  CHECK(same == left);
+}
+
+TEST_CASE("tally: sums add, maxima do not, and long runs share the last bin") {
+  Tally tally;
+  Verdict verdict;
+  for (const std::int64_t steps : {0, 5, 62, 63, 64, 100000}) {
+    verdict.statistics = {};
+    verdict.statistics.steps = steps;
+    verdict.statistics.zero_steps = steps == 5 ? 2 : 0;
+    tally.Count(verdict);
+  }
+  CHECK(tally.problems == 6);
+  CHECK(tally.outcomes[static_cast<int>(Outcome::kSolved)] + tally.outcomes[static_cast<int>(Outcome::kUndecided)] == 6);
+  CHECK(tally.with_zero_steps == 1);
+  CHECK(tally.sums.steps == 100194);
+  CHECK(tally.maxima.steps == 100000);
+  CHECK((tally.steps[0] == 1 && tally.steps[5] == 1 && tally.steps[62] == 1 && tally.steps[63] == 3));
+  Tally twice = tally;
+  twice.Merge(tally);
+  CHECK(twice.sums.steps == 2 * tally.sums.steps);
+  CHECK(twice.maxima == tally.maxima);
+  CHECK(twice.steps[63] == 6);
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// Campaigns: files are read strictly, what they mean is canonical, and every generator and size has its turn.
+
+#include "search/campaign.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "corpus/input_error.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+class CampaignFile {
+ public:
+  explicit CampaignFile(const std::string& text) {
+    std::string pattern = (fs::temp_directory_path() / "stiction-campaign-XXXXXX").string();
+    const int descriptor = mkstemp(pattern.data());
+    REQUIRE(descriptor >= 0);
+    close(descriptor);
+    path_ = pattern;
+    std::ofstream(path_) << text;
+  }
+  CampaignFile(const CampaignFile&) = delete;
+  CampaignFile& operator=(const CampaignFile&) = delete;
+  ~CampaignFile() { fs::remove(path_); }
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Campaign Read(const std::string& text) { return ReadCampaign(CampaignFile(text).path()); }
+
+// A file with these members beside format and version.
+std::string With(const std::string& members) {
+  return R"({"format": "stiction-campaign", "version": 1)" + (members.empty() ? "" : ", " + members) + "}";
+}
+
+// ---- Files -----------------------------------------------------------------------------------
+
+TEST_CASE("campaign: what a file leaves out has its default") {
+  CHECK(Read(With("")) == Campaign{});
+  CHECK(Campaign{}.generators.size() == kGeneratorCount);
+  CHECK(Campaign{}.policies == std::vector{Policy{}});
+}
+
+TEST_CASE("campaign: every key of a file is read") {
+  const Campaign campaign = Read(With(
+      R"("seed": 9223372036854775807, "generators": ["bodies", "psd"], "contacts": [8, 1], "mu": ["0", "1/3", "0.5"],
+         "policies": ["paper", "ties=contacts"], "unit_problems": 11, "audit_every": 12,
+         "representatives_per_unit": 13, "max_drives": 14, "max_pivots": 15, "max_bits": 16)"));
+  CHECK(campaign.seed == std::numeric_limits<std::int64_t>::max());
+  CHECK(campaign.generators == std::vector{GeneratorId::kBodies, GeneratorId::kPsd});
+  CHECK(campaign.contacts == std::vector{8, 1});
+  CHECK(campaign.palette == std::vector<MuChoice>{{0, 1}, {1, 3}, {1, 2}});
+  CHECK(campaign.policies == std::vector{Policy{}, ParsePolicy("ties=contacts")});
+  CHECK(campaign.unit_problems == 11);
+  CHECK(campaign.audit_every == 12);
+  CHECK(campaign.representatives_per_unit == 13);
+  CHECK(campaign.limits == Limits{14, 15, 16});
+}
+
+TEST_CASE("campaign: a wrong file is refused with file, place, found and expected") {
+  struct Wrong {
+    std::string text, place, expected;
+  };
+  const std::string generators = "integers, psd, small, near-degenerate, duplicates, conditioned, bodies";
+  const std::vector<Wrong> wrongs = {
+      {"", "line 1, column 1", "expected JSON text"},
+      {"{", "line 1, column 2", "expected JSON text"},
+      {R"({"format": "stiction-campaign", "version": 1, "seed": 1, "seed": 2})", "seed: found a duplicate key",
+       "expected each key once"},
+      {"[]", "$: found []", "expected an object"},
+      {"3", "$: found 3", "expected an object"},
+      {"{}", "format: found nothing", "expected \"stiction-campaign\""},
+      {R"({"format": "stiction-problem", "version": 1})", "format: found \"stiction-problem\"",
+       "expected \"stiction-campaign\""},
+      {R"({"format": 1, "version": 1})", "format: found 1", "expected \"stiction-campaign\""},
+      {R"({"format": "stiction-campaign"})", "version: found nothing", "expected 1"},
+      {R"({"format": "stiction-campaign", "version": 2})", "version: found 2", "expected 1"},
+      {R"({"format": "stiction-campaign", "version": "1"})", "version: found \"1\"", "expected 1"},
+      {With(R"("threads": 2)"), "threads: found an unknown key", "expected only format, version, seed"},
+      {With(R"("seed": -1)"), "seed: found -1", "expected an integer from 0 to 9223372036854775807"},
+      {With(R"("seed": 1.0)"), "seed: found 1.0", "expected an integer from 0"},
+      {With(R"("seed": "1")"), "seed: found \"1\"", "expected an integer from 0"},
+      {With(R"("seed": 9223372036854775808)"), "seed: found 9223372036854775808", "expected an integer from 0"},
+      {With(R"("seed": null)"), "seed: found null", "expected an integer from 0"},
+      {With(R"("unit_problems": 0)"), "unit_problems: found 0", "expected an integer from 1 to 9007199254740992"},
+      {With(R"("unit_problems": 9007199254740993)"), "unit_problems: found 9007199254740993",
+       "expected an integer from 1"},
+      {With(R"("audit_every": 0)"), "audit_every: found 0", "expected an integer from 1"},
+      {With(R"("representatives_per_unit": 0)"), "representatives_per_unit: found 0", "expected an integer from 1"},
+      {With(R"("max_drives": 0)"), "max_drives: found 0", "expected an integer from 1"},
+      {With(R"("max_pivots": true)"), "max_pivots: found true", "expected an integer from 1"},
+      {With(R"("max_bits": [])"), "max_bits: found []", "expected an integer from 1"},
+      {With(R"("generators": [])"), "generators: found []", "expected a list that is not empty"},
+      {With(R"("generators": "psd")"), "generators: found \"psd\"", "expected a list that is not empty"},
+      {With(R"("generators": ["psd", 3])"), "generators[1]: found 3", "expected the name of a generator"},
+      {With(R"("generators": ["psd", "PSD"])"), "generators[1]: found \"PSD\"", "expected one of " + generators},
+      {With(R"("contacts": {})"), "contacts: found {}", "expected a list that is not empty"},
+      {With(R"("contacts": [0])"), "contacts[0]: found 0", "expected a number of contacts, 1 to 8"},
+      {With(R"("contacts": [2, 9])"), "contacts[1]: found 9", "expected a number of contacts, 1 to 8"},
+      {With(R"("contacts": [2.5])"), "contacts[0]: found 2.5", "expected a number of contacts, 1 to 8"},
+      {With(R"("mu": [])"), "mu: found []", "expected a list that is not empty"},
+      {With(R"("mu": [1])"), "mu[0]: found 1", "expected a friction coefficient as a string"},
+      {With(R"("mu": ["-1"])"), "mu[0]: found \"-1\"", "0 <= p <= 64 and 1 <= q <= 64"},
+      {With(R"("mu": ["1", "65"])"), "mu[1]: found \"65\"", "0 <= p <= 64 and 1 <= q <= 64"},
+      {With(R"("mu": ["1/65"])"), "mu[0]: found \"1/65\"", "0 <= p <= 64 and 1 <= q <= 64"},
+      {With(R"("mu": ["1/0"])"), "mu[0]: found \"1/0\"", "0 <= p <= 64 and 1 <= q <= 64"},
+      {With(R"("mu": ["one"])"), "mu[0]: found \"one\"", "0 <= p <= 64 and 1 <= q <= 64"},
+      {With(R"("policies": [])"), "policies: found []", "expected a list that is not empty"},
+      {With(R"("policies": [{}])"), "policies[0]: found {}", "expected a policy"},
+      {With(R"("policies": ["paper", "ties=none"])"), "policies[1]: found \"ties=none\"", "ties"},
+  };
+  for (const Wrong& wrong : wrongs) {
+    const CampaignFile file(wrong.text);
+    CAPTURE(wrong.text);
+    CHECK_THROWS_AS(ReadCampaign(file.path()), InputError);
+    CHECK_THROWS_WITH(ReadCampaign(file.path()), Contains(file.path().string() + ": " + wrong.place) &&
+                                                     Contains(wrong.expected));
+  }
+}
+
+TEST_CASE("campaign: a file that is not there, or a directory, is refused by name") {
+  CHECK_THROWS_AS(ReadCampaign("/no/such/campaign.json"), InputError);
+  CHECK_THROWS_WITH(ReadCampaign("/no/such/campaign.json"), Contains("/no/such/campaign.json"));
+  CHECK_THROWS_WITH(ReadCampaign("/tmp"), Contains("/tmp") && Contains("a directory"));
+}
+
+TEST_CASE("campaign: friction coefficients are small fractions, however they are written") {
+  CHECK(ParseMu("1/2") == MuChoice{1, 2});
+  CHECK(ParseMu("0.5") == MuChoice{1, 2});
+  CHECK(ParseMu("32/64") == MuChoice{1, 2});
+  CHECK(ParseMu("128/256") == MuChoice{1, 2});
+  CHECK(ParseMu("5e-1") == MuChoice{1, 2});
+  CHECK(ParseMu("0") == MuChoice{0, 1});
+  CHECK(ParseMu("64") == MuChoice{64, 1});
+  CHECK(ParseMu("1/64") == MuChoice{1, 64});
+  for (const char* text : {"", " 1", "1 ", "+1", "-0.5", "65", "1/65", "0.1e-3", "1/0", "inf", "nan", "1,5"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(ParseMu(text), InputError);
+    CHECK_THROWS_WITH(ParseMu(text), Contains(fmt::format("found '{}', expected p/q", text)));
+  }
+}
+
+// ---- Definition ------------------------------------------------------------------------------
+
+TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
+  Campaign campaign = Read(With(
+      R"("generators": ["small"], "contacts": [3, 2], "mu": ["2/4", "7"], "unit_problems": 50, "max_bits": 99)"));
+  const std::string definition = DefinitionToJson(campaign).dump();
+  CHECK(definition ==
+        R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
+        R"("unit_problems":50,"audit_every":5000,"representatives_per_unit":4,"max_drives":1000,)"
+        R"("max_pivots":10000,"max_bits":99})");
+  CHECK(Read(definition) == campaign);
+  CHECK(Read(DefinitionToJson(Campaign{}).dump()) == Campaign{});
+}
+
+TEST_CASE("campaign: the identity is the same however the file is written, and differs with its meaning") {
+  const auto identity = [](const std::string& members) { return IdentityOf(Read(With(members)), "build"); };
+  CHECK(identity(R"("seed": 1, "mu": ["1/4", "2/4", "1.0", "2", "5"], "policies": ["scan=lowest"])") == identity(""));
+  CHECK(identity(R"("policies": ["ties=contacts,give-up=second"])") ==
+        identity(R"("policies": ["give-up=second,ties=contacts,scan=lowest"])"));
+  CHECK(identity(R"("contacts": [2], "seed": 3)") == identity(R"("seed": 3, "contacts": [2])"));
+  for (const char* members :
+       {R"("seed": 2)", R"("generators": ["psd"])", R"("contacts": [2])", R"("mu": ["1"])",
+        R"("policies": ["ties=contacts"])", R"("unit_problems": 1)", R"("audit_every": 1)",
+        R"("representatives_per_unit": 1)", R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)"}) {
+    CAPTURE(members);
+    CHECK_FALSE(identity(members) == identity(""));
+  }
+  CHECK(identity("").build == "build");
+  CHECK(identity(R"("seed": 5)").definition == identity("").definition);
+  CHECK(identity(R"("policies": ["ties=contacts"])").definition == identity("").definition);
+}
+
+// Each policy is a column of the statistics: twice the same would count every problem twice.
+TEST_CASE("campaign: the same policy twice is refused") {
+  for (const char* policies : {R"(["paper", "paper"])", R"(["paper", "scan=lowest"])"}) {
+    const CampaignFile file(With(fmt::format("\"policies\": {}", policies)));
+    CHECK_THROWS_AS(ReadCampaign(file.path()), InputError);
+    CHECK_THROWS_WITH(ReadCampaign(file.path()), Contains("policies[1]"));
+  }
+}
+
+// ---- Schedule --------------------------------------------------------------------------------
+
+TEST_CASE("campaign: the schedule has every generator at every size, small sizes more often") {
+  const Campaign campaign;
+  std::map<std::pair<GeneratorId, int>, int> times;
+  for (const Task& task : Schedule(campaign)) ++times[{task.generator, task.contacts}];
+  CHECK(times.size() == campaign.generators.size() * campaign.contacts.size());
+  for (const GeneratorId generator : campaign.generators) {
+    for (const int contacts : campaign.contacts) {
+      const int expected = contacts == 2 ? 8 : contacts == 3 ? 4 : contacts == 4 ? 2 : 1;
+      CHECK(times[{generator, contacts}] == expected);
+    }
+  }
+}
+
+TEST_CASE("campaign: every generator and size has its turn in the first round") {
+  Campaign campaign;
+  campaign.generators = {GeneratorId::kBodies, GeneratorId::kPsd};
+  campaign.contacts = {4, 1, 2};
+  const std::vector<Task> schedule = Schedule(campaign);
+  REQUIRE(schedule.size() == 2 * (2 + 1 + 8));
+  std::vector<std::pair<GeneratorId, int>> first;
+  for (int i = 0; i < 6; ++i) first.emplace_back(schedule[i].generator, schedule[i].contacts);
+  using enum GeneratorId;
+  CHECK(first == std::vector<std::pair<GeneratorId, int>>{
+                     {kBodies, 4}, {kPsd, 4}, {kBodies, 1}, {kPsd, 1}, {kBodies, 2}, {kPsd, 2}});
+}
+
+TEST_CASE("campaign: a unit has half as many problems for each contact beyond two, at least one") {
+  Campaign campaign;
+  campaign.unit_problems = 100;
+  const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}); };
+  CHECK((problems(1) == 100 && problems(2) == 100 && problems(3) == 50 && problems(4) == 25 && problems(8) == 1));
+  campaign.unit_problems = 1;
+  CHECK(problems(8) == 1);
+}
+
+TEST_CASE("campaign: units for a number of problems are the fewest that hold it") {
+  Campaign campaign;
+  campaign.generators = {GeneratorId::kPsd, GeneratorId::kSmall};
+  campaign.contacts = {1, 2, 3, 8};
+  campaign.unit_problems = 9;
+  const std::vector<Task> schedule = Schedule(campaign);
+  const auto held = [&](std::int64_t units) {
+    std::int64_t problems = 0;
+    for (std::int64_t unit = 0; unit < units; ++unit)
+      problems += UnitProblems(campaign, schedule[static_cast<std::size_t>(unit) % schedule.size()]);
+    return problems;
+  };
+  for (std::int64_t problems = 1; problems < 900; ++problems) {
+    const std::int64_t units = UnitsFor(campaign, problems);
+    CAPTURE(problems, units);
+    REQUIRE(held(units) >= problems);
+    REQUIRE(held(units - 1) < problems);
+  }
+  CHECK(UnitsFor(campaign, 0) == 0);
+  CHECK(UnitsFor(campaign, std::int64_t{1} << 53) > 0);
+}
+
+}  // namespace
+}  // namespace stiction

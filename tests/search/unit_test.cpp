@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// Units: the same problems, counts and findings wherever they are run, and no allocation per problem.
+
+#include "search/unit.h"
+
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "certify/exact.h"
+#include "corpus/problem_file.h"
+#include "search/signature.h"
+
+// ---- Counting allocations --------------------------------------------------------------------
+
+// Eigen calls malloc and not operator new, so malloc itself is replaced, as glibc allows. Sanitizers replace it
+// themselves: there nothing is counted.
+#ifdef __has_feature
+#define STICTION_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define STICTION_HAS_FEATURE(feature) 0
+#endif
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !STICTION_HAS_FEATURE(address_sanitizer)
+#define STICTION_COUNTS_ALLOCATIONS
+namespace {
+std::atomic<std::int64_t> allocations = 0;
+}
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* memory);
+
+void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void free(void* memory) noexcept { __libc_free(memory); }
+}
+#endif
+
+namespace stiction {
+namespace {
+
+Campaign Small(GeneratorId generator, int contacts, std::int64_t problems) {
+  Campaign campaign;
+  campaign.generators = {generator};
+  campaign.contacts = {contacts};
+  campaign.unit_problems = problems << std::max(0, contacts - 2);  // UnitProblems takes it back
+  return campaign;
+}
+
+bool Equal(const UnitResult& left, const UnitResult& right) {
+  return left.problems == right.problems && left.record == right.record && left.candidates == right.candidates;
+}
+
+std::int64_t Sum(const Tally::Outcomes& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
+// All generators, at sizes with suspicions; two policies.
+Campaign Mixed() {
+  Campaign campaign;
+  campaign.contacts = {3, 5};
+  campaign.unit_problems = 1200;
+  campaign.audit_every = 100;
+  campaign.policies = {Policy{}, ParsePolicy("give-up=second,ties=contacts")};
+  return campaign;
+}
+constexpr std::int64_t kMixedUnits = 14;  // each generator at each size
+
+// ---- What comes out --------------------------------------------------------------------------
+
+TEST_CASE("unit: nothing but the campaign and the number decides what comes out") {
+  const Campaign campaign = Mixed();
+  UnitRunner forwards(campaign), backwards(campaign);
+  std::vector<UnitResult> first, second;
+  for (std::int64_t unit = 0; unit < kMixedUnits; ++unit) first.push_back(forwards.Run(unit));
+  for (std::int64_t unit = kMixedUnits; unit-- > 0;) second.insert(second.begin(), backwards.Run(unit));
+  std::size_t findings = 0;
+  for (std::int64_t unit = 0; unit < kMixedUnits; ++unit) {
+    CAPTURE(unit);
+    CHECK(Equal(first[unit], second[unit]));
+    CHECK(Equal(first[unit], forwards.Run(unit)));
+    findings += first[unit].candidates.size();
+  }
+  CHECK(findings > 5);  // otherwise little has been compared
+}
+
+TEST_CASE("unit: other units, seeds and generators give other problems") {
+  const Campaign campaign = Small(GeneratorId::kSmall, 3, 500);
+  UnitRunner runner(campaign);
+  CHECK_FALSE(runner.Run(0).record == runner.Run(1).record);
+  Campaign seeded = campaign;
+  seeded.seed = 2;
+  CHECK_FALSE(UnitRunner(seeded).Run(0).record == runner.Run(0).record);
+}
+
+TEST_CASE("unit: its tallies stand under its generator, size and policies") {
+  const Campaign campaign = Mixed();
+  const std::vector<Task> schedule = Schedule(campaign);
+  UnitRunner runner(campaign);
+  for (const std::int64_t unit : {std::int64_t{0}, std::int64_t{8}, static_cast<std::int64_t>(schedule.size()) + 3}) {
+    const Task task = schedule[static_cast<std::size_t>(unit) % schedule.size()];
+    const UnitResult result = runner.Run(unit);
+    CHECK(result.problems == UnitProblems(campaign, task));
+    REQUIRE(result.record.tallies.size() == 2);
+    for (const Policy& policy : campaign.policies) {
+      const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};
+      REQUIRE(result.record.tallies.contains(key));
+      CHECK(result.record.tallies.at(key).problems == result.problems);
+    }
+  }
+}
+
+TEST_CASE("unit: the counts add up") {
+  const Campaign campaign = Mixed();
+  UnitRunner runner(campaign);
+  Record total;
+  for (std::int64_t unit = 0; unit < kMixedUnits; ++unit) {
+    CAPTURE(unit);
+    const UnitResult result = runner.Run(unit);
+    total.Merge(result.record);
+    for (const auto& [key, tally] : result.record.tallies) {
+      CAPTURE(key.policy);
+      CHECK(tally.problems == Sum(tally.outcomes));
+      CHECK(tally.problems == std::accumulate(tally.steps.begin(), tally.steps.end(), std::int64_t{0}));
+      // Each run that did not end in a verified solution was run again, exactly, once.
+      std::int64_t suspicions = 0;
+      for (int outcome = 0; outcome < kOutcomeCount; ++outcome) {
+        const bool solved = outcome == static_cast<int>(Outcome::kSolved);
+        CHECK(Sum(tally.verdicts[outcome]) == (solved ? tally.wrong : tally.outcomes[outcome]));
+        suspicions += Sum(tally.verdicts[outcome]);
+      }
+      // One in audit_every, those under suspicion apart.
+      const std::int64_t audits = (tally.problems + campaign.audit_every - 1) / campaign.audit_every;
+      CHECK(tally.audited <= audits);
+      CHECK(tally.audited >= audits - suspicions);
+      CHECK(tally.misjudged <= tally.audited);
+      CHECK(tally.with_zero_steps <= tally.sums.zero_steps);
+      CHECK(tally.with_give_ups <= tally.sums.give_ups);
+      CHECK(tally.maxima.steps <= tally.sums.steps);
+    }
+  }
+  // A finding is an exact outcome other than solved, or a wrong answer, or a disagreement.
+  std::int64_t findings = 0, unsolved = 0, suspicions = 0;
+  for (const auto& [signature, count] : total.signatures) findings += count;
+  for (const auto& [key, tally] : total.tallies) {
+    for (const auto& row : tally.verdicts) {
+      unsolved += Sum(row) - row[static_cast<int>(Outcome::kSolved)];
+      suspicions += Sum(row);
+    }
+  }
+  CHECK(findings >= unsolved);
+  CHECK(findings <= suspicions);
+}
+
+TEST_CASE("unit: an exact run of a finding's problem gives what the finding says") {
+  const Campaign campaign = Mixed();
+  UnitRunner runner(campaign);
+  int checked = 0;
+  for (std::int64_t unit = 0; unit < kMixedUnits; ++unit) {
+    const UnitResult result = runner.Run(unit);
+    std::string last;
+    for (const Finding& finding : result.candidates) {
+      CAPTURE(finding.signature, finding.unit, finding.index);
+      const ExactProblem problem = RegenerateExactly(campaign, finding.unit, finding.index);
+      const ProblemFile file = ParseProblem(finding.problem, "finding");
+      CHECK(ProblemToJson(file.problem) == ProblemToJson(problem));
+      CHECK(ToJson(file).dump() == finding.problem);
+      const Policy policy = ParsePolicy(finding.policy);
+      const ExactRun run = RunExact(problem, {policy, {}, campaign.limits});
+      CHECK(Name(run.verdict.outcome) == finding.exact_outcome);
+      if (finding.kind == finding.exact_outcome) {
+        const std::string suffix = policy == Policy{} ? "" : "@" + finding.policy;
+        CHECK(finding.signature == Signature(problem, run) + suffix);
+      }
+      CHECK(finding.unit == unit);
+      CHECK(finding.index < result.problems);
+      CHECK(finding.contacts == static_cast<int>(problem.contacts.size()));
+      CHECK(result.record.signatures.contains(finding.signature));
+      CHECK_FALSE(finding.done);
+      ++checked;
+    }
+  }
+  CHECK(checked > 5);
+}
+
+TEST_CASE("unit: all signatures are counted, of the first few the first problem is kept") {
+  Campaign campaign = Small(GeneratorId::kNearDegenerate, 5, 1500);
+  campaign.representatives_per_unit = 1000;
+  const UnitResult all = UnitRunner(campaign).Run(0);
+  REQUIRE(all.candidates.size() > 3);
+  CHECK(all.candidates.size() == all.record.signatures.size());
+  for (std::size_t i = 1; i < all.candidates.size(); ++i) {
+    CHECK(all.candidates[i].index >= all.candidates[i - 1].index);
+  }
+  campaign.representatives_per_unit = 2;
+  const UnitResult two = UnitRunner(campaign).Run(0);
+  CHECK(two.record == all.record);
+  REQUIRE(two.candidates.size() == 2);
+  CHECK((two.candidates[0] == all.candidates[0] && two.candidates[1] == all.candidates[1]));
+}
+
+TEST_CASE("unit: every policy runs on the same problems as if it were alone") {
+  Campaign both = Small(GeneratorId::kSmall, 4, 2000);
+  both.policies = {Policy{}, ParsePolicy("scan=highest")};
+  const Record together = UnitRunner(both).Run(5).record;
+  for (const Policy& policy : both.policies) {
+    Campaign alone = both;
+    alone.policies = {policy};
+    for (const auto& [key, tally] : UnitRunner(alone).Run(5).record.tallies) CHECK(together.tallies.at(key) == tally);
+  }
+}
+
+// A problem of known outcome: index 0 of every unit is audited, so one problem is run both ways.
+TEST_CASE("unit: the double problem is the exact problem, so an audit agrees with it") {
+  for (const GeneratorRow& row : Generators()) {
+    if (!row.exact_in_double) continue;
+    Campaign campaign = Small(row.id, 2, 60);
+    campaign.audit_every = 1;
+    const UnitResult result = UnitRunner(campaign).Run(3);
+    const Tally& tally = result.record.tallies.begin()->second;
+    std::int64_t suspicions = 0;
+    for (const auto& verdicts : tally.verdicts) suspicions += Sum(verdicts);
+    CAPTURE(row.name);
+    CHECK(tally.audited + suspicions == 60);
+    CHECK(tally.misjudged == 0);
+  }
+}
+
+// ---- Allocations -----------------------------------------------------------------------------
+
+#ifdef STICTION_COUNTS_ALLOCATIONS
+
+// Of the unit, with a runner that has its workspace already. -1: it had a suspicion.
+std::int64_t AllocationsOf(GeneratorId generator, int contacts, std::int64_t problems, std::int64_t unit) {
+  const Campaign campaign = Small(generator, contacts, problems);
+  UnitRunner runner(campaign);
+  runner.Run(unit);
+  const std::int64_t before = allocations;
+  const UnitResult result = runner.Run(unit);
+  const std::int64_t count = allocations - before;
+  const Tally& tally = result.record.tallies.begin()->second;
+  return tally.outcomes[static_cast<int>(Outcome::kSolved)] == problems && tally.wrong == 0 ? count : -1;
+}
+
+TEST_CASE("unit: the path of a problem without suspicion allocates nothing") {
+  const std::int64_t before = allocations;
+  int* volatile memory = new int;
+  const std::int64_t counted = allocations - before;
+  delete memory;
+  REQUIRE(counted == 1);  // otherwise the rest says nothing
+  int compared = 0;
+  for (const GeneratorRow& row : Generators()) {
+    for (const int contacts : {1, 2, 3, 8}) {
+      if (contacts == 8 && !row.exact_in_double) continue;  // exact runs of their suspicions take seconds
+      for (std::int64_t unit = 0; unit < 3; ++unit) {
+        const std::int64_t problems = contacts == 8 ? 100 : 1000;
+        const std::int64_t many = AllocationsOf(row.id, contacts, 4 * problems, unit);
+        if (many < 0) continue;
+        CAPTURE(row.name, contacts, unit);
+        CHECK(many == AllocationsOf(row.id, contacts, problems, unit));
+        ++compared;
+        break;
+      }
+    }
+  }
+  CHECK(compared >= 14);
+}
+
+#endif
+
+}  // namespace
+}  // namespace stiction

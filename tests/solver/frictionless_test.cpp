@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Without friction: section 4 of [Baraff94], against solutions found by enumeration.
+
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "certify/properties.h"
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// f with a = 0 in the rows of `clamped` and f = 0 elsewhere; empty if A is singular there.
+std::optional<ExactVector> Complementary(const ExactProblem& problem, unsigned clamped) {
+  ExactMatrix M(problem.rows(), problem.rows());
+  ExactVector right(problem.rows());
+  for (int i = 0; i < problem.rows(); ++i) {
+    const bool in_C = (clamped >> i & 1) != 0;
+    right[i] = in_C ? Rational(-problem.b[i]) : Rational(0);
+    for (int j = 0; j < problem.rows(); ++j) M(i, j) = in_C ? problem.A(i, j) : Rational(i == j ? 1 : 0);
+  }
+  const auto solved = DecideRange(M, right);
+  const auto* point = std::get_if<RangePoint>(&solved);
+  return point != nullptr ? std::optional(point->x) : std::nullopt;
+}
+
+std::vector<ExactVector> EnumeratedSolutions(const ExactProblem& problem) {
+  std::vector<ExactVector> solutions;
+  for (unsigned clamped = 0; clamped < 1u << problem.rows(); ++clamped) {
+    const auto f = Complementary(problem, clamped);
+    if (f && !FindViolation(problem, *f)) solutions.push_back(*f);
+  }
+  return solutions;
+}
+
+TEST_CASE("frictionless: every policy finds the enumerated solution, and none gives up (theorems 4, 5)") {
+  for (int seed = 0; seed < 120; ++seed) {
+    CAPTURE(seed);
+    const ExactProblem problem = RandomFrictionless(1 + seed % 6, seed);
+    const auto solutions = EnumeratedSolutions(problem);
+    REQUIRE(solutions.size() == 1);  // positive definite and nondegenerate
+    for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
+      CHECK(equal.verdict.outcome == Outcome::kSolved);
+      CHECK(equal.verdict.statistics.give_ups == 0);
+      CHECK(equal.verdict.statistics.zero_steps == 0);
+      CHECK(RunExact(problem, {equal.policies.front(), {}, {}}).state.f == solutions.front());
+    }
+  }
+}
+
+TEST_CASE("frictionless: permuting contacts permutes the forces") {
+  for (int seed = 0; seed < 100; ++seed) {
+    CAPTURE(seed);
+    const ExactProblem problem = RandomFrictionless(2 + seed % 5, seed);
+    std::vector<int> rows;
+    const ExactProblem reversed = Reversed(problem, &rows);
+    const ExactVector f = RunExact(problem, {}).state.f, g = RunExact(reversed, {}).state.f;
+    for (std::size_t i = 0; i < rows.size(); ++i) CHECK(g[i] == f[rows[i]]);
+  }
+}
+
+TEST_CASE("frictionless: semidefinite problems are solved to the one acceleration there is (theorem 5)") {
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 3, index);
+    for (auto& contact : problem.contacts) contact = {ContactKind::kFrictionless, 0, {}};
+    problem.contacts.resize(6, {ContactKind::kFrictionless, 0, {}});
+    const ExactRun run = RunExact(problem, {});
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    const auto solutions = EnumeratedSolutions(problem);
+    for (const ExactVector& f : solutions) CHECK(run.a == Accelerations(problem, f));
+  }
+}
+
+TEMPLATE_TEST_CASE("frictionless: the family E_n takes 2^n - 1 pivots, 2^(k-1) of them in drive k", "", float, double,
+                   long double, Rational) {
+  // A float holds b_i of E_6 with few digits to spare, E_8 not at all.
+  for (int n = 1; n <= (std::is_same_v<TestType, float> ? 4 : 8); ++n) {
+    CAPTURE(n);
+    PublishedAlgorithm<TestType> algorithm;
+    Trace<TestType> trace;
+    const Verdict verdict = algorithm.Run(As<TestType>(ExponentialFamily(n)), &trace);
+    CHECK(verdict.outcome == Outcome::kSolved);
+    CHECK(verdict.statistics.pivots == (1 << n) - 1);
+    CHECK(verdict.statistics.drives == n);
+    CHECK(verdict.statistics.zero_steps == 0);
+    std::vector<int> in_drive(n);
+    for (const auto& pivot : trace.pivots) ++in_drive[pivot.drive - 1];
+    for (int k = 0; k < n; ++k) CHECK(in_drive[k] == 1 << k);
+  }
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm on problems with known behaviour, and how runs end.
+
+#include "solver/published.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <map>
+
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+std::vector<Rational> StepsOfPeriod(const ExactRun& run) {
+  std::vector<Rational> steps;
+  for (const auto& pivot : run.trace.pivots) {
+    if (pivot.drive > run.verdict.start) steps.push_back(pivot.s);
+  }
+  return steps;
+}
+
+const std::vector<Rational>& ReferencePeriod() {
+  static const std::vector<Rational> steps = {
+      Rational(6, 5), 0, Rational(39, 290), Rational(791, 310), 0, Rational(3, 62), Rational(19, 310),
+      Rational(1, 10), Rational(1, 9), Rational(65, 63)};
+  return steps;
+}
+
+TEST_CASE("published: the reference problem cycles step for step as the specification says") {
+  const ExactRun run = RunExact(ReferenceProblem(), {});
+  CHECK(run.verdict.outcome == Outcome::kCycle);
+  CHECK(run.verdict.start == 3);
+  CHECK(run.verdict.period == 4);
+  CHECK(StepsOfPeriod(run) == ReferencePeriod());
+}
+
+TEMPLATE_TEST_CASE("published: inexact arithmetic sees the cycle of the reference problem", "", float, double,
+                   long double) {
+  PublishedAlgorithm<TestType> algorithm;
+  Trace<TestType> trace;
+  const auto problem = As<TestType>(ReferenceProblem());
+  const Verdict verdict = algorithm.Run(problem, &trace);
+  CHECK(verdict.outcome == Outcome::kCycle);
+  CHECK(verdict.period == 4);
+  const ExactRun exact = RunExact(ReferenceProblem(), {});
+  REQUIRE(trace.pivots.size() >= exact.trace.pivots.size());
+  for (std::size_t k = 0; k < exact.trace.pivots.size(); ++k) {
+    CHECK(trace.pivots[k].limiting == exact.trace.pivots[k].limiting);
+    CHECK(trace.pivots[k].to == exact.trace.pivots[k].to);
+    CHECK(static_cast<double>(trace.pivots[k].s) ==
+          Approx(ToDouble(exact.trace.pivots[k].s)).margin(1e-4));
+  }
+}
+
+TEST_CASE("published: of the grid 1320 policies cycle on the reference problem, and 216 solve it") {
+  std::map<Outcome, std::size_t> counts;
+  for (const PolicyClass& equal : RunPolicies(ReferenceProblem(), PlanarGrid(), {})) {
+    counts[equal.verdict.outcome] += equal.policies.size();
+    if (equal.verdict.outcome != Outcome::kSolved) continue;
+    for (const Policy& policy : equal.policies) {
+      CHECK((policy.file == File::kYes && policy.drop == Drop::kVariable));
+    }
+  }
+  CHECK(counts == std::map<Outcome, std::size_t>{{Outcome::kCycle, 1320}, {Outcome::kSolved, 216}});
+}
+
+TEST_CASE("published: the reference problem's solution is the one that policies find") {
+  for (const char* name : {"file=yes,drop=variable", "scan=highest,file=yes,drop=variable"}) {
+    const ExactRun run = RunExact(ReferenceProblem(), {ParsePolicy(name), {}, {}});
+    if (run.verdict.outcome != Outcome::kSolved) continue;
+    CHECK(run.state.f == Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)}));
+  }
+}
+
+TEST_CASE("published: the problem of theory 6.3 is solved with a give-up after a zero step") {
+  const ExactRun run = RunExact(GiveUpProblem(), {});
+  CHECK(run.verdict.outcome == Outcome::kSolved);
+  CHECK(run.verdict.statistics.give_ups >= 1);
+  CHECK(run.verdict.statistics.bounces >= 1);
+  CHECK(run.verdict.statistics.zero_steps >= 1);
+  CHECK(FindViolation(GiveUpProblem(), run.state.f) == std::nullopt);
+}
+
+TEST_CASE("published: the problem of theory 6.4 depends on the reading") {
+  const ExactProblem problem = MakeProblem(
+      {10, 3}, {{6, 2, 5, 5}, {2, 6, 7, 3}, {5, 7, 10, 7}, {5, 3, 7, 10}}, {-7, 9, 1, 9});
+  const ExactRun solved = RunExact(problem, {});
+  CHECK(solved.verdict.outcome == Outcome::kSolved);
+  CHECK(solved.state.f ==
+        Vector({Rational(169, 212), Rational(-845, 106), Rational(5383, 636), Rational(-3073, 636)}));
+  const Policy v0 = ParsePolicy("file=yes,give-up=second,rezero=continue,apex=suspended");
+  CHECK(RunExact(problem, {v0, {}, {}}).verdict.outcome == Outcome::kCycle);
+}
+
+TEST_CASE("published: no contacts and no violated condition are solved without a drive") {
+  for (const Policy& policy : {Policy{}, ParsePolicy("scan=highest"), ParsePolicy("scan=most-violated,resume=round")}) {
+    for (const ExactProblem& problem : {NoContacts(), ThreeSolutions()}) {
+      const Verdict verdict = RunExact(problem, {policy, {}, {}}).verdict;
+      CHECK(verdict.outcome == Outcome::kSolved);
+      CHECK(verdict.statistics.drives == 0);
+      CHECK(verdict.statistics.outer_scans == 1);
+    }
+  }
+}
+
+TEST_CASE("published: without b in range(A) there can be a ray, with its direction") {
+  const ExactRun run = RunExact(MakeProblem({1}, {{0, 0}, {0, 0}}, {-1, 0}), {});
+  CHECK(run.verdict.outcome == Outcome::kRay);
+  CHECK(run.ray == Vector({1, 0}));
+  CHECK(RunExact(NoSolution(), {}).verdict.outcome != Outcome::kSolved);
+}
+
+TEST_CASE("published: a direction system without a solution ends in `singular`") {
+  // N1 is driven, then F1 to its bound NC-; with N2, which pushes it, A_NN - mu A_NF = 0.
+  int singular = 0;
+  for (int index = 0; index < 2000; ++index) {
+    const ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 2, index);
+    const ExactRun run = RunExact(problem, {});
+    if (run.verdict.outcome != Outcome::kSingular) continue;
+    ++singular;
+    CHECK(run.verdict.statistics.singular_directions >= 1);
+  }
+  CHECK(singular > 0);
+}
+
+// ---- Budgets ---------------------------------------------------------------------------------
+
+TEMPLATE_TEST_CASE("published: a budget that just suffices changes nothing, one less ends in `limit`", "", double,
+                   long double, Rational) {
+  const auto problem = As<TestType>(GiveUpProblem());
+  PublishedAlgorithm<TestType> algorithm;
+  const Verdict free = algorithm.Run(problem);
+  REQUIRE(free.outcome == Outcome::kSolved);
+  const auto run = [&](const Limits& limits) {
+    algorithm.options().limits = limits;
+    return algorithm.Run(problem);
+  };
+  const std::int64_t drives = free.statistics.drives, steps = free.statistics.steps;
+  CHECK(run({.drives = drives}).statistics == free.statistics);
+  CHECK(run({.pivots = steps}).statistics == free.statistics);
+  const Verdict few_drives = run({.drives = drives - 1}), few_pivots = run({.pivots = steps - 1});
+  CHECK(few_drives.outcome == Outcome::kLimit);
+  CHECK(few_drives.reason == "drives");
+  CHECK(few_pivots.outcome == Outcome::kLimit);
+  CHECK(few_pivots.reason == "pivots");
+  CHECK(few_pivots.statistics.steps == steps - 1);
+}
+
+TEST_CASE("published: forces with more bits than the budget end in `limit`") {
+  const Verdict verdict = RunExact(ReferenceProblem(), {{}, {}, {.bits = 4}}).verdict;
+  CHECK(verdict.outcome == Outcome::kLimit);
+  CHECK(verdict.reason == "bits");
+  CHECK(RunExact(ReferenceProblem(), {{}, {}, {.bits = 64}}).verdict.outcome == Outcome::kCycle);
+}
+
+// ---- What is no number -----------------------------------------------------------------------
+
+// Every number of a problem in turn: visit(reference to it).
+template <class Scalar, class Visit>
+void ForEachNumber(ContactProblem<Scalar>& problem, Visit visit) {
+  for (int i = 0; i < problem.rows(); ++i) {
+    visit(problem.b[i]);
+    for (int j = 0; j < problem.rows(); ++j) visit(problem.A(i, j));
+  }
+  for (auto& contact : problem.contacts) visit(contact.mu);
+}
+
+TEMPLATE_TEST_CASE("published: a problem with a number that is none is undecided, never solved", "", float, double,
+                   long double) {
+  auto problem = As<TestType>(ReferenceProblem());
+  PublishedAlgorithm<TestType> algorithm;
+  int position = 0;
+  ForEachNumber(problem, [&](TestType& number) {
+    const TestType kept = number;
+    for (const TestType bad :
+         {std::numeric_limits<TestType>::quiet_NaN(), std::numeric_limits<TestType>::infinity()}) {
+      CAPTURE(position, bad);
+      number = bad;
+      CHECK(Name(algorithm.Run(problem).outcome) == "undecided");
+    }
+    number = kept;
+    ++position;
+  });
+}
+
+TEST_CASE("published: an overflow on the way is undecided, never solved") {
+  const Rational tiny = Number("1e-300"), huge = Number("1e300");
+  const auto problem = As<double>(MakeProblem({1}, {{tiny, 0}, {0, tiny}}, {-huge, huge}));
+  CHECK(Name(PublishedAlgorithm<double>().Run(problem).outcome) == "undecided");
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The natural residual: zero on solutions and nowhere else.
+
+#include "solver/residual.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+Rational Residual(const ExactProblem& problem, const ExactVector& f) {
+  return NaturalResidual(problem, f, Accelerations(problem, f));
+}
+
+ExactVector RandomForces(int rows, Choices& choices) {
+  ExactVector f(rows);
+  for (Rational& x : f) x = Rational(choices.Integer(-2, 2)) / 2;
+  return f;
+}
+
+TEST_CASE("residual: zero exactly on solutions, positive elsewhere") {
+  int solutions = 0;
+  for (int index = 0; index < 400; ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    const ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 1 + index % 3, index);
+    std::vector<ExactVector> tried = {RunExact(problem, {}).state.f};
+    for (int k = 0; k < 50; ++k) tried.push_back(RandomForces(problem.rows(), choices));
+    for (const ExactVector& f : tried) {
+      const bool solves = !FindViolation(problem, f);
+      REQUIRE((Residual(problem, f) == 0) == solves);
+      REQUIRE(Residual(problem, f) >= 0);
+      solutions += solves;
+    }
+  }
+  CHECK(solutions > 400);
+}
+
+TEST_CASE("residual: the three solutions of one contact have none") {
+  for (const auto& f : {Vector({0, 0}), Vector({3, -2}), Vector({1, -1})}) CHECK(Residual(ThreeSolutions(), f) == 0);
+  CHECK(Residual(ThreeSolutions(), Vector({2, -1})) > 0);
+}
+
+TEST_CASE("residual: other units of force or acceleration do not change it") {
+  const ExactProblem problem = ReferenceProblem();
+  const ExactVector f = Vector({1, Rational(-1, 2), 2, -1});
+  const Rational residual = Residual(problem, f);
+  REQUIRE(residual > 0);
+  ExactProblem loaded = problem, heavy = problem;
+  ExactVector more = f;
+  for (int i = 0; i < 4; ++i) {
+    loaded.b[i] *= 7;
+    more[i] *= 7;
+    heavy.b[i] *= 7;
+    for (int j = 0; j < 4; ++j) heavy.A(i, j) *= 7;
+  }
+  CHECK(Residual(loaded, more) == residual);
+  CHECK(Residual(heavy, f) == residual);
+}
+
+TEST_CASE("residual: of no contacts and of a problem of zeros it is zero") {
+  CHECK(Residual(NoContacts(), Vector({})) == 0);
+  CHECK(Residual(MakeProblem({1}, {{0, 0}, {0, 0}}, {0, 0}), Vector({0, 0})) == 0);
+}
+
+TEMPLATE_TEST_CASE("residual: is that of exact arithmetic, to rounding", "", float, double, long double) {
+  const ExactProblem problem = ReferenceProblem();
+  const ExactVector f = Vector({1, Rational(-1, 2), 2, -1});
+  const auto rounded = As<TestType>(problem);
+  typename ContactProblem<TestType>::Vector g(4);
+  for (int i = 0; i < 4; ++i) g[i] = To<TestType>(f[i]);
+  const auto a = (rounded.A * g + rounded.b).eval();
+  CHECK(static_cast<double>(NaturalResidual(rounded, g, a)) == Approx(ToDouble(Residual(problem, f))).epsilon(1e-5));
+}
+
+TEMPLATE_TEST_CASE("residual: forces or accelerations that are no numbers are never small", "", float, double,
+                   long double) {
+  const auto problem = As<TestType>(ThreeSolutions());
+  using V = typename ContactProblem<TestType>::Vector;
+  for (int i = 0; i < 4; ++i) {
+    for (const TestType bad :
+         {std::numeric_limits<TestType>::quiet_NaN(), std::numeric_limits<TestType>::infinity()}) {
+      CAPTURE(i, bad);
+      V f = V::Zero(2), a = problem.b;
+      (i < 2 ? f : a)[i % 2] = bad;
+      CHECK_FALSE(NaturalResidual(problem, f, a) <= TestType(1e-6));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stiction

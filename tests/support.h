@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Problems for tests: with known behaviour, at random, and equivalent to each other.
+
+#ifndef STICTION_TESTS_SUPPORT_H_
+#define STICTION_TESTS_SUPPORT_H_
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certify/exact.h"
+#include "search/generators.h"
+
+namespace stiction::testing {
+
+using ExactVector = ExactProblem::Vector;
+using ExactMatrix = ExactProblem::Matrix;
+
+inline Rational Number(const std::string& text) { return ParseRational(text).value(); }
+
+inline ExactVector Vector(const std::vector<Rational>& values) {
+  ExactVector vector(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) vector[i] = values[i];
+  return vector;
+}
+
+inline ExactMatrix Matrix(const std::vector<std::vector<Rational>>& rows) {
+  ExactMatrix matrix(rows.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) matrix.row(i) = Vector(rows[i]).transpose();
+  return matrix;
+}
+
+// Static contacts, one per mu; a negative mu stands for a frictionless contact.
+inline ExactProblem MakeProblem(const std::vector<Rational>& mu, const std::vector<std::vector<Rational>>& A,
+                                const std::vector<Rational>& b) {
+  ExactProblem problem;
+  for (const Rational& x : mu) {
+    const bool rough = x >= 0;
+    problem.contacts.push_back({rough ? ContactKind::kStatic : ContactKind::kFrictionless, rough ? x : 0, {}});
+  }
+  problem.A = Matrix(A);
+  problem.b = Vector(b);
+  return problem;
+}
+
+// spec.md, part 4: cycles under most policies.
+inline ExactProblem ReferenceProblem() {
+  return MakeProblem({1, 1}, {{7, -2, -6, 0}, {-2, 9, -1, -7}, {-6, -1, 7, 3}, {0, -7, 3, 7}}, {2, -1, -2, 2});
+}
+
+// theory.md, 6.3: positive definite, nondegenerate, with a give-up on the way to its solution.
+inline ExactProblem GiveUpProblem() {
+  return MakeProblem({1, 2}, {{4, 1, -5, 1}, {1, 3, 1, 1}, {-5, 1, 9, -1}, {1, 1, -1, 1}},
+                     {Rational(1, 1000), 1, -1, -2});
+}
+
+// theory.md, 7: one contact with three isolated solutions, (0, 0), (3, -2), (1, -1).
+inline ExactProblem ThreeSolutions() { return MakeProblem({1}, {{1, 2}, {2, 5}}, {1, 4}); }
+
+// theory.md, 3.5: A positive semidefinite, b not in its range, no solution.
+inline ExactProblem NoSolution() { return MakeProblem({1}, {{1, -1}, {-1, 1}}, {-1, 0}); }
+
+// theory.md, 8: the frictionless algorithm takes 2^n - 1 pivots.
+inline ExactProblem ExponentialFamily(int n) {
+  ExactProblem problem;
+  problem.contacts.assign(n, {ContactKind::kFrictionless, 0, {}});
+  problem.A.resize(n, n);
+  problem.b.resize(n);
+  Rational power = 1;
+  for (int i = n; i >= 1; --i) {
+    power /= 8;
+    problem.b[i - 1] = power - 1;
+    for (int j = 1; j <= n; ++j) problem.A(i - 1, j - 1) = i == j ? 1 + 4 * (n - i) : 2 + 4 * (n - std::max(i, j));
+  }
+  return problem;
+}
+
+inline ExactProblem NoContacts() { return MakeProblem({}, {}, {}); }
+
+template <class Scalar, int Rows = Eigen::Dynamic>
+ContactProblem<Scalar, Rows> Random(GeneratorId id, int contacts, std::uint64_t index) {
+  Choices choices(ProblemSeed(1994, 2 * contacts, index));
+  ContactProblem<Scalar, Rows> problem;
+  Generate(id, contacts, kDefaultPalette, choices, problem);
+  return problem;
+}
+
+// Random problems that cycle under `paper`.
+struct CyclingSeed {
+  GeneratorId id;
+  int contacts;
+  std::uint64_t index;
+};
+inline const std::vector<CyclingSeed>& CyclingSeeds() {
+  using enum GeneratorId;
+  static const std::vector<CyclingSeed> seeds = {
+      {kIntegers, 2, 33448}, {kIntegers, 2, 94452}, {kIntegers, 2, 103791}, {kIntegers, 3, 4099},
+      {kIntegers, 3, 29345}, {kPsd, 2, 15609},      {kPsd, 2, 41295},       {kPsd, 3, 16840},
+  };
+  return seeds;
+}
+inline ExactProblem Cycling(const CyclingSeed& seed) {
+  return Random<Rational>(seed.id, seed.contacts, seed.index);
+}
+
+// A frictionless problem, positive definite; numbers so large that ties are improbable.
+inline ExactProblem RandomFrictionless(int contacts, std::uint64_t seed) {
+  Choices choices(seed);
+  const int columns = contacts + 1;
+  std::vector<std::vector<Rational>> J(contacts), A(contacts, std::vector<Rational>(contacts));
+  std::vector<Rational> b;
+  for (auto& row : J) {
+    for (int k = 0; k < columns; ++k) row.push_back(choices.Integer(-1000, 1000));
+    b.push_back(choices.Integer(-1000000, 300000));
+  }
+  for (int i = 0; i < contacts; ++i) {
+    for (int j = 0; j < contacts; ++j) {
+      A[i][j] = i == j ? 1 : 0;
+      for (int k = 0; k < columns; ++k) A[i][j] += J[i][k] * J[j][k];
+    }
+  }
+  return MakeProblem(std::vector<Rational>(contacts, -1), A, b);
+}
+
+// ---- Other number types ----------------------------------------------------------------------
+
+template <class Scalar>
+Scalar To(const Rational& x) {
+  if constexpr (kIsExact<Scalar>) {
+    return x;
+  } else {
+    return static_cast<Scalar>(ToDouble(x));
+  }
+}
+
+template <class Scalar, int Rows = Eigen::Dynamic>
+ContactProblem<Scalar, Rows> As(const ExactProblem& problem) {
+  ContactProblem<Scalar, Rows> other;
+  other.dimension = problem.dimension;
+  if constexpr (Rows == Eigen::Dynamic) {
+    other.contacts.resize(problem.contacts.size());
+    other.A.resize(problem.rows(), problem.rows());
+    other.b.resize(problem.rows());
+  }
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    other.contacts[i].kind = problem.contacts[i].kind;
+    other.contacts[i].mu = To<Scalar>(problem.contacts[i].mu);
+  }
+  for (int i = 0; i < problem.rows(); ++i) {
+    other.b[i] = To<Scalar>(problem.b[i]);
+    for (int j = 0; j < problem.rows(); ++j) other.A(i, j) = To<Scalar>(problem.A(i, j));
+  }
+  return other;
+}
+
+// ---- Equivalent problems ---------------------------------------------------------------------
+
+inline RowLayout<Eigen::Dynamic> LayoutOf(const ExactProblem& problem) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  return layout;
+}
+
+// f = s f' with a sign or unit for every row: A' = S A S, b' = S b, mu' = mu abs(s_N / s_F).
+inline ExactProblem InUnits(const ExactProblem& problem, const std::vector<Rational>& s) {
+  ExactProblem other = problem;
+  for (int i = 0; i < problem.rows(); ++i) {
+    other.b[i] *= s[i];
+    for (int j = 0; j < problem.rows(); ++j) other.A(i, j) *= s[i] * s[j];
+  }
+  const auto layout = LayoutOf(problem);
+  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
+    const int row = layout.NormalRowOf(contact);
+    if (layout.HasFriction(row)) other.contacts[contact].mu *= abs(Rational(s[row] / s[row + 1]));
+  }
+  return other;
+}
+
+// Contacts in the order of `order`; `rows` lists the old row of each new one.
+inline ExactProblem Permuted(const ExactProblem& problem, const std::vector<int>& order,
+                             std::vector<int>* rows = nullptr) {
+  const auto layout = LayoutOf(problem);
+  ExactProblem other = problem;
+  std::vector<int> old;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    other.contacts[k] = problem.contacts[order[k]];
+    const int row = layout.NormalRowOf(order[k]);
+    old.push_back(row);
+    if (layout.HasFriction(row)) old.push_back(row + 1);
+  }
+  for (int i = 0; i < problem.rows(); ++i) {
+    other.b[i] = problem.b[old[i]];
+    for (int j = 0; j < problem.rows(); ++j) other.A(i, j) = problem.A(old[i], old[j]);
+  }
+  if (rows != nullptr) *rows = old;
+  return other;
+}
+
+inline ExactProblem Reversed(const ExactProblem& problem, std::vector<int>* rows = nullptr) {
+  std::vector<int> order;
+  for (int i = static_cast<int>(problem.contacts.size()) - 1; i >= 0; --i) order.push_back(i);
+  return Permuted(problem, order, rows);
+}
+
+// A policy of the planar grid, every one as likely.
+inline Policy RandomPolicy(Choices& choices) {
+  return PlanarGrid()[choices.Integer(0, static_cast<std::int64_t>(PlanarGrid().size()) - 1)];
+}
+
+}  // namespace stiction::testing
+
+#endif  // STICTION_TESTS_SUPPORT_H_
