@@ -105,8 +105,9 @@ class Running(cli.TestCase):
         return done
 
     def test_an_interrupted_search_keeps_everything_and_can_go_on(self):
+        stored = 0  # waiting for more than there is shows that the new process is at work
         for signal_number in (signal.SIGINT, signal.SIGTERM):
-            self.interrupt(signal_number, SMALL, units=3)
+            self.interrupt(signal_number, SMALL, units=stored + 3)
             before = cli.content(self.folder / "a.store")
             self.assertGreaterEqual(len(before["units"]), 3)
             # The units were counted whole, and the same search takes up from there.
@@ -114,6 +115,7 @@ class Running(cli.TestCase):
             after = cli.content(self.folder / "a.store")
             self.assertLessEqual(set(before["units"]), set(after["units"]))
             self.assertEqual(len({row[0] for row in after["units"]}), len(after["units"]))
+            stored = len(after["units"])
         other = self.folder / "other.store"
         numbers = {row[0] for row in after["units"]}
         self.succeeds("search", *SMALL, "--store", other, "--problems", 10000)
