@@ -9,6 +9,7 @@
 #include "certify/certificate.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 namespace {
@@ -17,15 +18,9 @@ struct Rejected {
   std::string path, found, expected;
 };
 
-std::string Shortened(const Json& json) {
-  std::string text = json.dump();
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
-}
-
 // An object with exactly these keys, in any order.
 void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
-  if (!json.is_object()) throw Rejected{path, Shortened(json), "an object"};
+  if (!json.is_object()) throw Rejected{path, Shown(json), "an object"};
   for (const auto& [key, value] : json.items()) {
     if (!keys.contains(key))
       throw Rejected{path + "." + key, "an unknown key", fmt::format("{}", fmt::join(keys, ", "))};
@@ -40,17 +35,17 @@ Rational ReadNumber(const Json& json, const std::string& path) {
   if (json.is_string()) {
     if (const auto value = ParseRational(json.get_ref<const std::string&>())) return *value;
   }
-  throw Rejected{path, Shortened(json), "an exact number as a string"};
+  throw Rejected{path, Shown(json), "an exact number as a string"};
 }
 
 std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
   if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
-  throw Rejected{path, Shortened(json), fmt::format("an integer >= {}", least)};
+  throw Rejected{path, Shown(json), fmt::format("an integer >= {}", least)};
 }
 
 ExactVector ReadVector(const Json& json, const std::string& path, int size) {
   if (!json.is_array() || static_cast<int>(json.size()) != size) {
-    throw Rejected{path, Shortened(json), fmt::format("a list of {} numbers", size)};
+    throw Rejected{path, Shown(json), fmt::format("a list of {} numbers", size)};
   }
   ExactVector values(size);
   for (int i = 0; i < size; ++i) values[i] = ReadNumber(json[i], fmt::format("{}[{}]", path, i));
@@ -90,7 +85,7 @@ Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"i", "j"});
   const std::int64_t i = ReadInteger(witness["i"], "witness.i", 0),
                      j = ReadInteger(witness["j"], "witness.j", 0);
-  if (i >= problem.rows() || j >= problem.rows()) throw Rejected{"witness", Shortened(witness), "indices of A"};
+  if (i >= problem.rows() || j >= problem.rows()) throw Rejected{"witness", Shown(witness), "indices of A"};
   if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", "different entries"};
   return Json::object();
 }
@@ -100,7 +95,7 @@ Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
   const int rows = problem.rows();
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
   if (!witness["L"].is_array() || static_cast<int>(witness["L"].size()) != rows) {
-    throw Rejected{"witness.L", Shortened(witness["L"]), fmt::format("{} rows", rows)};
+    throw Rejected{"witness.L", Shown(witness["L"]), fmt::format("{} rows", rows)};
   }
   ExactMatrix L(rows, rows);
   for (int i = 0; i < rows; ++i) {
@@ -160,14 +155,15 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
 // ---- Loops -----------------------------------------------------------------------------------
 
 Policy ReadPolicy(const Json& json, const std::string& path) {
-  if (!json.is_string()) throw Rejected{path, Shortened(json), "a policy"};
+  if (!json.is_string()) throw Rejected{path, Shown(json), "a policy"};
   const std::string name = json.get<std::string>();
   try {
     const Policy policy = ParsePolicy(name);
-    if (PolicyName(policy) != name) throw Rejected{path, name, PolicyName(policy)};
+    if (PolicyName(policy) != name) throw Rejected{path, Shown(json), PolicyName(policy)};
+    if (policy.slip != Slip{}) throw Rejected{path, Shown(json), "a policy of the planar grid"};
     return policy;
   } catch (const std::invalid_argument& error) {
-    throw Rejected{path, Shortened(json), error.what()};
+    throw Rejected{path, Shown(json), error.what()};
   }
 }
 
@@ -182,11 +178,11 @@ void CompareRun(const ExactRun& run, const Json& described, const std::string& p
     const bool same_type = !expected.is_number_integer() || found.is_number_integer();
     // nlohmann::json, unlike ordered_json, compares objects whatever the order of their keys.
     if (!same_type || nlohmann::json(found) != nlohmann::json(expected)) {
-      throw Rejected{path + where, Shortened(found), Shortened(expected)};
+      throw Rejected{path + where, Shown(found), Shown(expected)};
     }
   };
   const Json& pivots = described["pivots"];
-  if (!pivots.is_array()) throw Rejected{path + ".pivots", Shortened(pivots), "a list"};
+  if (!pivots.is_array()) throw Rejected{path + ".pivots", Shown(pivots), "a list"};
   for (std::size_t k = 0; k < std::min(pivots.size(), run.trace.pivots.size()); ++k) {
     const std::string where = fmt::format("{}.pivots[{}]", path, k);
     Json found = pivots[k];
@@ -212,6 +208,13 @@ void CompareRun(const ExactRun& run, const Json& described, const std::string& p
   }
 }
 
+// Tells runs apart, however a certificate writes their numbers.
+std::string StepsAsText(const ExactRun& run, const std::vector<std::string>& names) {
+  Json steps = Json::array({LoopStateToJson(run, names)});
+  for (const Pivot<Rational>& pivot : run.trace.pivots) steps.push_back(PivotToJson(pivot, names));
+  return steps.dump();
+}
+
 Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
   RequireKeys(witness, "witness", {"runs"});
   if (!PublishedHandles(problem)) {
@@ -219,19 +222,16 @@ Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
                    "those"};
   }
   const Json& runs = witness["runs"];
-  if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shortened(runs), "at least one run"};
+  if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shown(runs), "at least one run"};
   const std::vector<std::string> names = VariableNames(problem);
   std::set<std::string> policies;
   std::set<std::string> described;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const std::string path = fmt::format("witness.runs[{}]", k);
     RequireKeys(runs[k], path, {"period", "pivots", "policies", "start", "state"});
-    if (!described.insert(nlohmann::json({runs[k]["pivots"], runs[k]["state"]}).dump()).second) {
-      throw Rejected{path, "a run that stands before", "different runs"};
-    }
     const Json& named = runs[k]["policies"];
     if (!named.is_array() || named.empty())
-      throw Rejected{path + ".policies", Shortened(named), "at least one policy"};
+      throw Rejected{path + ".policies", Shown(named), "at least one policy"};
     // A run of as many steps as the certificate describes is enough to confirm or refute it.
     Limits limits;
     limits.pivots = static_cast<std::int64_t>(runs[k]["pivots"].size()) + 1;
@@ -239,8 +239,12 @@ Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
       const std::string where = fmt::format("{}.policies[{}]", path, p);
       const Policy policy = ReadPolicy(named[p], where);
       if (!policies.insert(PolicyName(policy)).second)
-        throw Rejected{where, Shortened(named[p]), "each policy once"};
-      CompareRun(RunExact(problem, {policy, {}, limits}), runs[k], path, loop, names);
+        throw Rejected{where, Shown(named[p]), "each policy once"};
+      const ExactRun run = RunExact(problem, {policy, {}, limits});
+      CompareRun(run, runs[k], path, loop, names);
+      if (p == 0 && !described.insert(StepsAsText(run, names)).second) {
+        throw Rejected{path, "a run that stands before", "different runs"};
+      }
     }
   }
   return {{"policies", policies.size()},
@@ -275,18 +279,17 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source)
   try {
     RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
     if (certificate["format"] != "stiction-certificate") {
-      throw Rejected{"format", Shortened(certificate["format"]), "\"stiction-certificate\""};
+      throw Rejected{"format", Shown(certificate["format"]), "\"stiction-certificate\""};
     }
     if (!certificate["version"].is_number_integer() || certificate["version"] != 1) {
-      throw Rejected{"version", Shortened(certificate["version"]), "1"};
+      throw Rejected{"version", Shown(certificate["version"]), "1"};
     }
     if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
     const auto checker = Checkers().find(report.claim);
     if (checker == Checkers().end()) {
       std::vector<std::string> claims;
       for (const auto& [claim, check] : Checkers()) claims.push_back(claim);
-      throw Rejected{"claim", Shortened(certificate["claim"]),
-                     fmt::format("one of {}", fmt::join(claims, ", "))};
+      throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
     }
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
     report.facts = checker->second(problem, certificate["witness"]);

@@ -58,9 +58,12 @@ class GridRunner {
 }  // namespace
 
 std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
-                                     const Limits& limits) {
+                                     const Limits& limits, const std::function<bool()>& cancelled) {
   GridRunner runner(problem, limits);
-  for (const Policy& policy : policies) runner.Run(policy);
+  for (const Policy& policy : policies) {
+    if (cancelled()) break;
+    runner.Run(policy);
+  }
   return runner.Take();
 }
 

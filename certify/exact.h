@@ -4,6 +4,7 @@
 #ifndef STICTION_CERTIFY_EXACT_H_
 #define STICTION_CERTIFY_EXACT_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,10 @@ struct PolicyClass {
 
 // Runs every policy of the list, but policies that agree on all switches that a run consulted only once:
 // a switch is consulted where its values would act differently, so these take the same steps.
-std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
-                                     const Limits& limits);
+// Stops, with what it has, once `cancelled`.
+std::vector<PolicyClass> RunPolicies(
+    const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits,
+    const std::function<bool()>& cancelled = [] { return false; });
 
 // Whether every policy of the list ends in `outcome`; stops at the first that does not.
 bool AllEndIn(Outcome outcome, const ExactProblem& problem, const std::vector<Policy>& policies,

@@ -154,6 +154,9 @@ bool IsWord(const std::string& key) {
 
 Json ParseJson(std::string_view text, const std::string& source) {
   RefuseNul(text, source);
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    throw InputError(source, "line 1, column 1", "a byte order mark", "JSON text");
+  }
   DocumentBuilder builder(source);
   const bool parsed = Json::sax_parse(text.begin(), text.end(), &builder);
   STICTION_CHECK(parsed, "the JSON parser stopped without an error");

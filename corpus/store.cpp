@@ -66,7 +66,9 @@ class Statement {
   }
 
  private:
-  [[noreturn]] void Fail() const { throw InputError(fmt::format("store: {}", sqlite3_errmsg(db_))); }
+  [[noreturn]] void Fail() const {
+    throw InputError(fmt::format("{}: {}", sqlite3_db_filename(db_, "main"), sqlite3_errmsg(db_)));
+  }
 
   sqlite3* db_;
   sqlite3_stmt* statement_ = nullptr;
@@ -153,6 +155,15 @@ std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& w
   return differ("definition", stored.definition, wanted.definition);
 }
 
+// A database with tables of somebody else must not get ours beside them.
+void RefuseForeignDatabase(sqlite3* db, const std::filesystem::path& file) {
+  Statement tables(db, "SELECT COUNT(*), COUNT(CASE WHEN name = 'campaign' THEN 1 END) FROM sqlite_master");
+  tables.Step();
+  if (tables.Integer(0) > 0 && tables.Integer(1) == 0) {
+    throw InputError(fmt::format("{}: is no stiction store but another database", file.string()));
+  }
+}
+
 std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {
   return (unit - shard.index) / shard.count / Store::kUnitsPerBlock;
 }
@@ -168,6 +179,7 @@ Store::~Store() = default;
 
 Store::Store(const std::filesystem::path& file, const CampaignIdentity& identity)
     : db_(OpenDatabase(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)), identity_(identity) {
+  RefuseForeignDatabase(db_.get(), file);
   // A killed process loses nothing that was committed; synchronous=NORMAL gives up only the last commits of a
   // machine that loses its power.
   Execute("PRAGMA journal_mode = WAL");
@@ -189,6 +201,8 @@ Store::Store(const std::filesystem::path& file, const CampaignIdentity& identity
 Store Store::OpenToRead(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such store", file.string()));
   Store store{std::unique_ptr<sqlite3, Close>(OpenDatabase(file, SQLITE_OPEN_READWRITE))};
+  // One snapshot for all that is read: a running search may close a block between two questions.
+  store.Execute("BEGIN");
   const auto identity = store.ReadIdentity();
   if (!identity) throw InputError(fmt::format("{}: is no stiction store", file.string()));
   store.identity_ = *identity;
@@ -200,7 +214,7 @@ void Store::Execute(const std::string& sql) const {
   if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, &error) == SQLITE_OK) return;
   const std::string reason = error != nullptr ? error : "unknown";
   sqlite3_free(error);
-  throw InputError("store: " + reason);
+  throw InputError(fmt::format("{}: {}", sqlite3_db_filename(db_.get(), "main"), reason));
 }
 
 void Store::CreateTables() { Execute(kTables); }
@@ -225,8 +239,9 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
   while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
   if (values.empty()) return std::nullopt;
   if (values["format"] != kFormat || values["version"] != kVersion) {
-    throw InputError(fmt::format("store: found format {} version {}, expected {} version {}", values["format"],
-                                 values["version"], kFormat, kVersion));
+    throw InputError(fmt::format("{}: found format {} version {}, expected {} version {}",
+                                 sqlite3_db_filename(db_.get(), "main"), values["format"], values["version"],
+                                 kFormat, kVersion));
   }
   return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"],
                           values["build"]};
@@ -259,6 +274,15 @@ UnitSet Store::Units() const {
 void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
   STICTION_CHECK(shard.Owns(unit),
                  fmt::format("unit {} is not of shard {}/{}", unit, shard.index, shard.count));
+  Statement present(db_.get(),
+                    "SELECT 1 FROM units WHERE unit = ? UNION ALL "
+                    "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  present.Bind(unit).Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index));
+  if (present.Bind(BlockOf(shard, unit)).Step()) {
+    throw InputError(
+        fmt::format("{}: holds unit {} already; does another search work on the same store and shard?",
+                    sqlite3_db_filename(db_.get(), "main"), unit));
+  }
   Statement(db_.get(), "INSERT INTO units (unit, shards, shard, block, record) VALUES (?, ?, ?, ?, ?)")
       .Bind(unit)
       .Bind(static_cast<std::int64_t>(shard.count))
@@ -398,10 +422,17 @@ void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string
 
 void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
   if (Units().Contains(unit)) {
-    Statement same(db_.get(), "SELECT record FROM units WHERE unit = ?");
-    same.Bind(unit);
-    STICTION_CHECK(!same.Step() || same.Text(0) == record, fmt::format("two copies of unit {} differ", unit));
-    return;
+    // As part of the same block, finished here or not; otherwise it was counted for different shards.
+    Statement same(db_.get(), "SELECT record FROM units WHERE unit = ? AND shards = ? AND shard = ?");
+    same.Bind(unit).Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index));
+    if (same.Step()) {
+      STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of unit {} differ", unit));
+      return;
+    }
+    Statement closed(db_.get(), "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+    closed.Bind(static_cast<std::int64_t>(shard.count)).Bind(static_cast<std::int64_t>(shard.index));
+    if (closed.Bind(BlockOf(shard, unit)).Step()) return;
+    throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
   }
   InsertUnit(shard, unit, record);
   CloseBlockIfComplete(shard, BlockOf(shard, unit));

@@ -105,7 +105,15 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
   integer("max_bits", 1, kMost, campaign.limits.bits);
   if (const auto list = root.Optional("generators")) campaign.generators = ReadList(*list, ReadGenerator);
   if (const auto list = root.Optional("mu")) campaign.palette = ReadList(*list, ReadMu);
-  if (const auto list = root.Optional("policies")) campaign.policies = ReadList(*list, ReadPolicy);
+  if (const auto list = root.Optional("policies"); list && list->json() == "*") {
+    campaign.policies = PlanarGrid();
+  } else if (list) {
+    campaign.policies = ReadList(*list, ReadPolicy);
+    for (std::size_t i = 0; i < campaign.policies.size(); ++i) {
+      const auto here = campaign.policies.begin() + static_cast<std::ptrdiff_t>(i);
+      if (std::find(campaign.policies.begin(), here, *here) != here) (*list)[i].Refuse("each policy once");
+    }
+  }
   if (const auto list = root.Optional("contacts")) {
     campaign.contacts = ReadList(*list, [](const JsonPlace& place) {
       return static_cast<int>(

@@ -14,7 +14,9 @@
 
 namespace stiction {
 
-// Files: {"format": "stiction-campaign", "version": 1, ...} with any of the keys below.
+// Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
+// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "representatives_per_unit",
+// "max_drives", "max_pivots", "max_bits".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all

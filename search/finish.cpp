@@ -21,6 +21,9 @@ std::string Checked(const Json& certificate, const std::string& source) {
   return JsonText(certificate);
 }
 
+// The grid of a larger problem as it was found takes seconds; that of its minimized form is run all the same.
+constexpr int kMostContactsOfGrid = 4;
+
 bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
 
 Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
@@ -41,11 +44,32 @@ ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const 
   return file;
 }
 
+// Whether the whole grid ends in this outcome.
+bool IsWhole(const Json& grid, Outcome outcome) {
+  return grid.size() == 1 && grid.contains(std::string(Name(outcome)));
+}
+
+MinimizeOptions WhatToKeep(const ExactProblem& problem, const ExactRun& run, bool whole_grid,
+                           const Limits& limits, const std::function<bool()>& cancelled) {
+  MinimizeOptions options;
+  options.keep = run.verdict.outcome;
+  options.policies = {run.policy};
+  if (whole_grid) {
+    options.policies = PlanarGrid();
+    std::iter_swap(options.policies.begin(),
+                   std::find(options.policies.begin(), options.policies.end(), run.policy));
+  }
+  if (IsLoop(run.verdict.outcome)) options.signature = Signature(problem, run);
+  options.limits = limits;
+  options.cancelled = cancelled;
+  return options;
+}
+
 }  // namespace
 
-Json GridCounts(const ExactProblem& problem, const Limits& limits) {
+Json GridCounts(const ExactProblem& problem, const Limits& limits, const std::function<bool()>& cancelled) {
   std::array<std::int64_t, kOutcomeCount> counts = {};
-  for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), limits)) {
+  for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), limits, cancelled)) {
     counts[static_cast<int>(equal.verdict.outcome)] += static_cast<std::int64_t>(equal.policies.size());
   }
   Json json = Json::object();
@@ -63,38 +87,32 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   const Outcome outcome = run.verdict.outcome;
   Finding finished = finding;
   finished.done = true;
-  const Json grid = GridCounts(file.problem, limits);
+  Json grid = Json::object();
+  if (finding.contacts <= kMostContactsOfGrid) grid = GridCounts(file.problem, limits, cancelled);
   Json facts = {{"found", FactsOf(file.problem, run, grid)}};
   if (outcome == Outcome::kSolved) {
     finished.certificate = Checked(SolutionCertificate(file.problem, run.state.f), finding.signature);
-    finished.facts = facts.dump();
-    return finished;
+  } else {
+    if (IsLoop(outcome)) {
+      finished.certificate =
+          Checked(LoopCertificate(file.problem, outcome, {policy}, limits), finding.signature);
+    }
+    const Minimized minimized =
+        Minimize(file.problem, WhatToKeep(file.problem, run, IsWhole(grid, outcome), limits, cancelled));
+    if (minimized.cancelled || cancelled()) return std::nullopt;
+    const ExactProblem& small = minimized.problem;
+    const Json small_grid = GridCounts(small, limits, cancelled);
+    if (cancelled()) return std::nullopt;
+    const bool whole = IsWhole(small_grid, outcome);
+    finished.minimized = ToJson(Describe(small, finding, policy, whole)).dump();
+    facts["minimized"] = FactsOf(small, RunExact(small, {policy, {}, limits}), small_grid);
+    if (IsLoop(outcome)) {
+      const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
+      finished.minimized_certificate =
+          Checked(LoopCertificate(small, outcome, certified, limits), finding.signature);
+    }
   }
-  const bool whole_grid = grid.size() == 1 && grid.contains(std::string(Name(outcome)));
-  if (IsLoop(outcome)) {
-    finished.certificate = Checked(LoopCertificate(file.problem, outcome, {policy}, limits), finding.signature);
-  }
-  MinimizeOptions options;
-  options.keep = outcome;
-  options.policies = {policy};
-  if (whole_grid) {
-    options.policies = PlanarGrid();
-    std::iter_swap(options.policies.begin(),
-                   std::find(options.policies.begin(), options.policies.end(), policy));
-  }
-  if (IsLoop(outcome)) options.signature = Signature(file.problem, run);
-  options.limits = limits;
-  options.cancelled = cancelled;
-  const Minimized minimized = Minimize(file.problem, options);
-  if (minimized.cancelled) return std::nullopt;
-  finished.minimized = ToJson(Describe(minimized.problem, finding, policy, whole_grid)).dump();
-  if (IsLoop(outcome)) {
-    const std::vector<Policy> certified = whole_grid ? PlanarGrid() : std::vector<Policy>{policy};
-    finished.minimized_certificate =
-        Checked(LoopCertificate(minimized.problem, outcome, certified, limits), finding.signature);
-  }
-  facts["minimized"] = FactsOf(minimized.problem, RunExact(minimized.problem, {policy, {}, limits}),
-                               GridCounts(minimized.problem, limits));
+  if (cancelled()) return std::nullopt;
   finished.facts = facts.dump();
   return finished;
 }

@@ -12,15 +12,19 @@
 
 namespace stiction {
 
-// The finding with everything filled in, or empty if it was cancelled. A loop that the whole planar grid shows
-// is minimized so that the whole grid still shows it, any other so that its own policy does; the signature is
-// kept either way. Certificates pass CheckCertificate before they are returned (InternalError otherwise).
-// A finding that exact arithmetic solves gets the certificate of its solution and no minimized form.
+// The finding with everything filled in, or empty if it was cancelled. A loop of at most four contacts that the
+// whole planar grid shows is minimized so that the whole grid still shows it, any other so that its own policy
+// does; the signature is kept either way. Certificates pass CheckCertificate before they are returned
+// (InternalError otherwise). A finding that exact arithmetic solves gets the certificate of its solution and no
+// minimized form.
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
                                      const std::function<bool()>& cancelled);
 
 // "cycle": 1320, "solved": 216: outcomes over the whole planar grid.
-Json GridCounts(const ExactProblem& problem, const Limits& limits);
+// Fewer than all once `cancelled`.
+Json GridCounts(
+    const ExactProblem& problem, const Limits& limits,
+    const std::function<bool()>& cancelled = [] { return false; });
 
 }  // namespace stiction
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/search.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -32,7 +33,11 @@ class Search {
   Search(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options)
       : campaign_(campaign), options_(options), store_(options.store, identity), done_(store_.Units()) {
     for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
-    if (options.problems) wanted_units_ = UnitsFor(campaign, *options.problems);
+    if (!options.problems) return;
+    wanted_units_ = UnitsFor(campaign, *options.problems);
+    progress_.units_wanted =
+        (*wanted_units_ - options.shard.index + options.shard.count - 1) / options.shard.count;
+    progress_.units_done = std::min(done_.Count(), *progress_.units_wanted);
   }
 
   SearchReport Run(const std::function<void(const SearchProgress&)>& show) {
@@ -65,7 +70,6 @@ class Search {
   SearchProgress Progress() const {  // under the mutex
     SearchProgress progress = progress_;
     progress.seconds = duration<double>(Clock::now() - start_).count();
-    progress.units_wanted = wanted_units_;
     progress.pending = static_cast<std::int64_t>(pending_.size());
     return progress;
   }

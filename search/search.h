@@ -29,12 +29,12 @@ struct SearchOptions {
 
 struct SearchProgress {
   double seconds = 0;
-  std::int64_t problems = 0;  // in this call
-  std::int64_t units_done = 0;
-  std::optional<std::int64_t> units_wanted;
-  std::int64_t groups = 0;    // signatures met in this call, in the store or new
-  std::int64_t findings = 0;  // in this call
-  std::int64_t pending = 0;   // representatives to finish
+  std::int64_t problems = 0;    // in this call
+  std::int64_t units_done = 0;  // of this shard, with those of earlier calls if --problems is given
+  std::optional<std::int64_t> units_wanted;  // of this shard
+  std::int64_t groups = 0;                   // signatures met in this call, in the store or new
+  std::int64_t findings = 0;                 // in this call
+  std::int64_t pending = 0;                  // representatives to finish
 };
 
 enum class SearchEnd { kDone, kTimeUp, kInterrupted };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
 // The program `stiction`: one verb per task. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
 
@@ -44,6 +45,9 @@ int main(int argc, char** argv) {
   try {
     const int status = Main(argc, argv);
     std::cout.flush();
+    if (!std::cout || std::ferror(stdout) != 0 || std::fflush(stdout) != 0) {
+      throw stiction::InputError("standard output cannot be written");
+    }
     return status;
   } catch (const stiction::InputError& error) {
     std::cerr << "stiction: " << error.what() << "\n";

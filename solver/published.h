@@ -84,6 +84,8 @@ class PublishedAlgorithm {
     IndexSets<Rows> last_left;
   };
 
+  static constexpr std::string_view kNotFinite = "a number is not finite";
+
   void Start(const Problem& problem, Trace<Scalar>* trace);
   bool Ended() const { return ended_; }
   void End(Outcome outcome, std::string_view reason = {});
@@ -111,6 +113,8 @@ class PublishedAlgorithm {
   void FileBySign(int row);
   bool InnerStateRecurs();
   bool BudgetSpent();
+  bool IsFinite();
+  static bool IsFinite(const Problem& problem);
   void Consult(PolicySwitch s) {
     if (trace_ != nullptr) trace_->consulted |= Bit(s);
   }

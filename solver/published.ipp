@@ -18,11 +18,13 @@ namespace stiction {
 template <class Scalar, int Rows>
 Verdict PublishedAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
   Start(problem, trace);
+  if (!IsFinite(problem)) End(Outcome::kUndecided, kNotFinite);
   while (!Ended()) {
     if (OuterStateRecurs()) break;
     Sweep();
     const int violated = ScanForViolated();
     if (violated < 0) {
+      if (!IsFinite()) return verdict_;
       End(Outcome::kSolved);
     } else {
       Establish(violated);
@@ -404,11 +406,35 @@ bool PublishedAlgorithm<Scalar, Rows>::BudgetSpent() {
       if (BitLength<Scalar>::Of(state_.f[row]) > limits.bits) End(Outcome::kLimit, "bits");
     }
   } else {
-    Scalar sum = Scalar(0);
-    for (int row = 0; row < problem_->rows(); ++row) sum += Abs(state_.f[row]) + Abs(state_.a[row]);
-    if (!(sum <= std::numeric_limits<Scalar>::max())) End(Outcome::kUndecided, "a number is not finite");
+    IsFinite();
   }
   return Ended();
+}
+
+// x - x is zero for finite x only.
+template <class Scalar, int Rows>
+bool PublishedAlgorithm<Scalar, Rows>::IsFinite(const Problem& problem) {
+  if constexpr (!kIsExact<Scalar>) {
+    Scalar zero = Scalar(0);
+    for (const auto& contact : problem.contacts) zero += contact.mu - contact.mu;
+    for (int j = 0; j < problem.rows(); ++j) {
+      zero += problem.b[j] - problem.b[j];
+      for (int i = 0; i < problem.rows(); ++i) zero += problem.A(i, j) - problem.A(i, j);
+    }
+    return zero == 0;
+  }
+  return true;
+}
+
+// Ends an inexact run that has met infinity or what is not a number.
+template <class Scalar, int Rows>
+bool PublishedAlgorithm<Scalar, Rows>::IsFinite() {
+  if constexpr (!kIsExact<Scalar>) {
+    Scalar sum = Scalar(0);
+    for (int row = 0; row < problem_->rows(); ++row) sum += Abs(state_.f[row]) + Abs(state_.a[row]);
+    if (!(sum <= std::numeric_limits<Scalar>::max())) End(Outcome::kUndecided, kNotFinite);
+  }
+  return !Ended();
 }
 
 template <class Scalar, int Rows>

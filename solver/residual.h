@@ -7,6 +7,7 @@
 // which vanish together exactly where (15) and (16) hold. r = 1 / max A_ii turns accelerations into
 // forces; the result is relative to the larger of max abs(f) and max abs(b) / max A_ii.
 // Shapes: f, a rows x 1. Planar problems of frictionless and static contacts. Allocates nothing.
+// Not a number if a force or an acceleration is not finite.
 
 #ifndef STICTION_SOLVER_RESIDUAL_H_
 #define STICTION_SOLVER_RESIDUAL_H_
@@ -20,12 +21,14 @@ namespace stiction {
 
 template <class Scalar, int Rows, class Vector>
 Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
-  Scalar max_A(0), max_b(0), max_f(0), worst(0);
+  Scalar max_A(0), max_b(0), max_f(0), worst(0), zero(0);
   for (int i = 0; i < problem.rows(); ++i) {
+    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
     max_A = std::max<Scalar>(max_A, problem.A(i, i));
     max_b = std::max<Scalar>(max_b, Abs(problem.b[i]));
     max_f = std::max<Scalar>(max_f, Abs(f[i]));
   }
+  if (zero != 0) return zero;  // maxima pass over what is not a number
   const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
   int row = 0;
   for (const auto& contact : problem.contacts) {

@@ -71,7 +71,8 @@ inline ExactProblem ExponentialFamily(int n) {
   for (int i = n; i >= 1; --i) {
     power /= 8;
     problem.b[i - 1] = power - 1;
-    for (int j = 1; j <= n; ++j) problem.A(i - 1, j - 1) = i == j ? 1 + 4 * (n - i) : 2 + 4 * (n - std::max(i, j));
+    for (int j = 1; j <= n; ++j)
+      problem.A(i - 1, j - 1) = i == j ? 1 + 4 * (n - i) : 2 + 4 * (n - std::max(i, j));
   }
   return problem;
 }

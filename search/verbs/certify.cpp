@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "certify/certificate.h"
@@ -63,23 +64,29 @@ struct CheckOptions {
   bool json = false;
 };
 
+// One line, or one object, per file. A file that cannot be read does not keep the others from being checked.
 int RunCheck(const CheckOptions& o) {
-  bool all = true;
+  int exit = kExitDone;
   Json reports = Json::array();
   for (const std::string& file : o.files) {
-    const CheckReport report = CheckCertificate(ParseJson(ReadText(file), file), file);
-    all &= report.accepted;
-    reports.push_back({{"file", file}, {"accepted", report.accepted}, {"claim", report.claim}});
-    if (report.accepted) {
-      reports.back()["facts"] = report.facts;
-      if (!o.json) fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
-    } else {
-      reports.back()["reason"] = report.reason;
-      if (!o.json) fmt::print("{}: REJECTED: {}\n", file, report.reason);
+    Json entry = {{"file", file}, {"accepted", false}};
+    try {
+      const CheckReport report = CheckCertificate(ParseJson(ReadText(file), file), file);
+      entry["accepted"] = report.accepted;
+      entry["claim"] = report.claim;
+      entry[report.accepted ? "facts" : "reason"] = report.accepted ? report.facts : Json(report.reason);
+      if (!report.accepted) exit = std::max(exit, kExitNotSo);
+      if (!o.json && report.accepted) fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
+      if (!o.json && !report.accepted) fmt::print("{}: REJECTED: {}\n", file, report.reason);
+    } catch (const InputError& error) {
+      entry["reason"] = error.what();
+      exit = kExitBadInput;
+      fmt::print(stderr, "stiction: {}\n", error.what());
     }
+    reports.push_back(std::move(entry));
   }
   if (o.json) std::cout << JsonText(reports) << "\n";
-  return all ? kExitDone : kExitNotSo;
+  return exit;
 }
 
 }  // namespace

@@ -186,7 +186,8 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
     if (!expected.empty() && expected != Name(run.verdict.outcome)) fmt::print("expected: {}\n", expected);
   }
   const std::string_view wanted = expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected);
-  return Name(run.verdict.outcome) == wanted ? kExitDone : kExitNotSo;
+  if (Name(run.verdict.outcome) == wanted) return kExitDone;
+  return run.verdict.outcome == Outcome::kLimit ? kExitUndecided : kExitNotSo;
 }
 
 // `expect` for the whole grid: the most frequent outcome as "*", the policies that differ by name.

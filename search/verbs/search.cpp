@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <iostream>
 #include <thread>
@@ -41,11 +43,21 @@ struct SearchVerb {
   bool json = false;
 };
 
+// All of the text as a number.
+template <class Number>
+bool ReadNumber(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
 Shard ParseShard(const std::string& text) {
   Shard shard;
-  char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.count, &rest);
-  if (read == 2 && shard.count >= 1 && shard.index >= 0 && shard.index < shard.count) return shard;
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  if (ReadNumber(std::string_view(text).substr(0, slash), shard.index) &&
+      ReadNumber(std::string_view(text).substr(slash + 1), shard.count) && shard.index >= 0 &&
+      shard.index < shard.count) {
+    return shard;
+  }
   throw InputError(fmt::format("--shard: found '{}', expected i/N with 0 <= i < N", text));
 }
 
@@ -64,7 +76,14 @@ Campaign CampaignOf(const SearchVerb& o) {
   if (!o.policies.empty()) {
     campaign.policies.clear();
     for (const std::string& text : o.policies) {
-      for (const Policy& policy : PoliciesNamed(text)) campaign.policies.push_back(policy);
+      for (const Policy& policy : PoliciesNamed(text)) {
+        const auto& all = campaign.policies;
+        if (std::find(all.begin(), all.end(), policy) != all.end()) {
+          throw InputError(
+              fmt::format("--policy: found {} twice, expected each policy once", PolicyName(policy)));
+        }
+        campaign.policies.push_back(policy);
+      }
     }
   }
   return campaign;
@@ -180,8 +199,16 @@ void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
   verb.add_option("--contacts", o.contacts, "only these numbers of contacts")
       ->check(CLI::Range(1, kMaxContacts));
   verb.add_option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
-  verb.add_option("--policy", o.policies, "readings to run, as 'stiction policies' lists them; default paper");
-  verb.add_option("--seed", o.seed, "the one source of randomness; default 1");
+  verb.add_option(
+          "--policy", o.policies,
+          "readings to run, as 'stiction policies' lists them, or '*' for the planar grid; default paper")
+      ->check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
+  verb.add_option("--seed", o.seed, "the one source of randomness; default 1")
+      ->check([](const std::string& text) {
+        std::uint64_t seed = 0;
+        return ReadNumber(text, seed) ? ""
+                                      : fmt::format("found '{}', expected an integer from 0 to 2^64 - 1", text);
+      });
 }
 
 }  // namespace
@@ -193,7 +220,12 @@ void AddSearch(CLI::App& program, Action& action) {
   verb.add_option("--store", o->store, "SQLite file; a search goes on where its store stopped")
       ->capture_default_str();
   verb.add_option("--minutes", o->minutes, "wall clock, everything counted; default 1 without --problems")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        constexpr double kMost = 60 * 24 * 366 * 10;  // ten years; what a clock can count to is not much more
+        double minutes = 0;
+        const bool fits = ReadNumber(text, minutes) && minutes > 0 && minutes <= kMost;
+        return fits ? "" : fmt::format("found '{}', expected a number of minutes, above 0 to {}", text, kMost);
+      });
   verb.add_option("--problems", o->problems, "size of the whole campaign, rounded up to whole units")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
   verb.add_option("--shard", o->shard, "i/N: only the units u with u mod N = i")->capture_default_str();

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -34,6 +36,9 @@ void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
   ForEachField(options, [&verb, &group](const NumberRow& row, auto& value) {
     verb.add_option("--" + std::string(row.name), value, fmt::format("{} [{}]", row.help, row.unit))
         ->check(CLI::Range(row.min, row.max))
+        ->check([](const std::string& text) {  // Range lets it pass
+          return std::isnan(std::strtod(text.c_str(), nullptr)) ? "found nan, expected a number" : "";
+        })
         ->capture_default_str()
         ->group(group);
   });
@@ -56,20 +61,22 @@ ProblemFile ReadHandledProblem(const std::string& file) {
   return problem;
 }
 
+std::string PolicyError(const std::string& text, Grid grid) {
+  if (text == "*" && grid == Grid::kAllowed) return "";
+  try {
+    ParsePolicy(text);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
 void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid) {
   const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
   verb.add_option("--policy", policy,
                   fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
       ->capture_default_str()
-      ->check([grid](const std::string& text) {
-        if (text == "*" && grid == Grid::kAllowed) return std::string();
-        try {
-          ParsePolicy(text);
-          return std::string();
-        } catch (const std::invalid_argument& error) {
-          return std::string(error.what());
-        }
-      });
+      ->check([grid](const std::string& text) { return PolicyError(text, grid); });
 }
 
 void AddLimits(CLI::App& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }

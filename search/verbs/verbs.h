@@ -41,6 +41,8 @@ ProblemFile ReadHandledProblem(const std::string& file);
 
 // --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
 enum class Grid { kRefused, kAllowed };
+// Empty, or what is wrong with the text.
+std::string PolicyError(const std::string& text, Grid grid);
 void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid);
 // Limits and tolerances from their tables.
 void AddLimits(CLI::App& verb, Limits& limits);

@@ -119,9 +119,9 @@ std::string Content(const fs::path& file) {
     *static_cast<std::string*>(out) += "\n";
     return 0;
   };
-  for (const char* query : {"SELECT * FROM campaign ORDER BY key", "SELECT * FROM units ORDER BY unit",
-                            "SELECT * FROM blocks ORDER BY shards, shard, block",
-                            "SELECT * FROM findings ORDER BY signature"}) {
+  for (const char* query :
+       {"SELECT * FROM campaign ORDER BY key", "SELECT * FROM units ORDER BY unit",
+        "SELECT * FROM blocks ORDER BY shards, shard, block", "SELECT * FROM findings ORDER BY signature"}) {
     REQUIRE(sqlite3_exec(db, query, take, &text, nullptr) == SQLITE_OK);
   }
   sqlite3_close(db);
@@ -142,7 +142,8 @@ TEST_CASE("store: another campaign is refused, with the difference and the way t
     Add(store, 0);
   }
   const std::string before = Content(file);
-  const auto refused = [&file](const CampaignIdentity& other, const std::string& there, const std::string& here) {
+  const auto refused = [&file](const CampaignIdentity& other, const std::string& there,
+                               const std::string& here) {
     CHECK_THROWS_AS(Store(file, other), InputError);
     CHECK_THROWS_WITH(Store(file, other), Contains(file.string()) && Contains(there) && Contains(here) &&
                                               Contains("--store NEW_FILE"));
@@ -649,7 +650,9 @@ TEST_CASE("tally: sums add, maxima do not, and long runs share the last bin") {
     tally.Count(verdict);
   }
   CHECK(tally.problems == 6);
-  CHECK(tally.outcomes[static_cast<int>(Outcome::kSolved)] + tally.outcomes[static_cast<int>(Outcome::kUndecided)] == 6);
+  CHECK(tally.outcomes[static_cast<int>(Outcome::kSolved)] +
+            tally.outcomes[static_cast<int>(Outcome::kUndecided)] ==
+        6);
   CHECK(tally.with_zero_steps == 1);
   CHECK(tally.sums.steps == 100194);
   CHECK(tally.maxima.steps == 100000);

@@ -99,18 +99,21 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
       {With(R"("seed": "1")"), "seed: found \"1\"", "expected an integer from 0"},
       {With(R"("seed": 9223372036854775808)"), "seed: found 9223372036854775808", "expected an integer from 0"},
       {With(R"("seed": null)"), "seed: found null", "expected an integer from 0"},
-      {With(R"("unit_problems": 0)"), "unit_problems: found 0", "expected an integer from 1 to 9007199254740992"},
+      {With(R"("unit_problems": 0)"), "unit_problems: found 0",
+       "expected an integer from 1 to 9007199254740992"},
       {With(R"("unit_problems": 9007199254740993)"), "unit_problems: found 9007199254740993",
        "expected an integer from 1"},
       {With(R"("audit_every": 0)"), "audit_every: found 0", "expected an integer from 1"},
-      {With(R"("representatives_per_unit": 0)"), "representatives_per_unit: found 0", "expected an integer from 1"},
+      {With(R"("representatives_per_unit": 0)"), "representatives_per_unit: found 0",
+       "expected an integer from 1"},
       {With(R"("max_drives": 0)"), "max_drives: found 0", "expected an integer from 1"},
       {With(R"("max_pivots": true)"), "max_pivots: found true", "expected an integer from 1"},
       {With(R"("max_bits": [])"), "max_bits: found []", "expected an integer from 1"},
       {With(R"("generators": [])"), "generators: found []", "expected a list that is not empty"},
       {With(R"("generators": "psd")"), "generators: found \"psd\"", "expected a list that is not empty"},
       {With(R"("generators": ["psd", 3])"), "generators[1]: found 3", "expected the name of a generator"},
-      {With(R"("generators": ["psd", "PSD"])"), "generators[1]: found \"PSD\"", "expected one of " + generators},
+      {With(R"("generators": ["psd", "PSD"])"), "generators[1]: found \"PSD\"",
+       "expected one of " + generators},
       {With(R"("contacts": {})"), "contacts: found {}", "expected a list that is not empty"},
       {With(R"("contacts": [0])"), "contacts[0]: found 0", "expected a number of contacts, 1 to 8"},
       {With(R"("contacts": [2, 9])"), "contacts[1]: found 9", "expected a number of contacts, 1 to 8"},
@@ -130,8 +133,8 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
     const CampaignFile file(wrong.text);
     CAPTURE(wrong.text);
     CHECK_THROWS_AS(ReadCampaign(file.path()), InputError);
-    CHECK_THROWS_WITH(ReadCampaign(file.path()), Contains(file.path().string() + ": " + wrong.place) &&
-                                                     Contains(wrong.expected));
+    CHECK_THROWS_WITH(ReadCampaign(file.path()),
+                      Contains(file.path().string() + ": " + wrong.place) && Contains(wrong.expected));
   }
 }
 
@@ -173,7 +176,8 @@ TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
 
 TEST_CASE("campaign: the identity is the same however the file is written, and differs with its meaning") {
   const auto identity = [](const std::string& members) { return IdentityOf(Read(With(members)), "build"); };
-  CHECK(identity(R"("seed": 1, "mu": ["1/4", "2/4", "1.0", "2", "5"], "policies": ["scan=lowest"])") == identity(""));
+  CHECK(identity(R"("seed": 1, "mu": ["1/4", "2/4", "1.0", "2", "5"], "policies": ["scan=lowest"])") ==
+        identity(""));
   CHECK(identity(R"("policies": ["ties=contacts,give-up=second"])") ==
         identity(R"("policies": ["give-up=second,ties=contacts,scan=lowest"])"));
   CHECK(identity(R"("contacts": [2], "seed": 3)") == identity(R"("seed": 3, "contacts": [2])"));
@@ -230,7 +234,8 @@ TEST_CASE("campaign: a unit has half as many problems for each contact beyond tw
   Campaign campaign;
   campaign.unit_problems = 100;
   const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}); };
-  CHECK((problems(1) == 100 && problems(2) == 100 && problems(3) == 50 && problems(4) == 25 && problems(8) == 1));
+  CHECK(
+      (problems(1) == 100 && problems(2) == 100 && problems(3) == 50 && problems(4) == 25 && problems(8) == 1));
   campaign.unit_problems = 1;
   CHECK(problems(8) == 1);
 }

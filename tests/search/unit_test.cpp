@@ -118,7 +118,8 @@ TEST_CASE("unit: its tallies stand under its generator, size and policies") {
   const Campaign campaign = Mixed();
   const std::vector<Task> schedule = Schedule(campaign);
   UnitRunner runner(campaign);
-  for (const std::int64_t unit : {std::int64_t{0}, std::int64_t{8}, static_cast<std::int64_t>(schedule.size()) + 3}) {
+  for (const std::int64_t unit :
+       {std::int64_t{0}, std::int64_t{8}, static_cast<std::int64_t>(schedule.size()) + 3}) {
     const Task task = schedule[static_cast<std::size_t>(unit) % schedule.size()];
     const UnitResult result = runner.Run(unit);
     CHECK(result.problems == UnitProblems(campaign, task));
@@ -227,7 +228,8 @@ TEST_CASE("unit: every policy runs on the same problems as if it were alone") {
   for (const Policy& policy : both.policies) {
     Campaign alone = both;
     alone.policies = {policy};
-    for (const auto& [key, tally] : UnitRunner(alone).Run(5).record.tallies) CHECK(together.tallies.at(key) == tally);
+    for (const auto& [key, tally] : UnitRunner(alone).Run(5).record.tallies)
+      CHECK(together.tallies.at(key) == tally);
   }
 }
 

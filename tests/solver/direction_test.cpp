@@ -114,7 +114,8 @@ void CheckAgainstDense(const ExactProblem& problem, const std::vector<IndexSet>&
   for (std::size_t j = 0; j < dense.unknowns.size(); ++j) {
     const auto first = dense.columns.begin();
     const int before = Rank({first, first + static_cast<std::ptrdiff_t>(j)});
-    if (Rank({first, first + static_cast<std::ptrdiff_t>(j) + 1}) == before) CHECK(system.df()[dense.unknowns[j]] == 0);
+    if (Rank({first, first + static_cast<std::ptrdiff_t>(j) + 1}) == before)
+      CHECK(system.df()[dense.unknowns[j]] == 0);
   }
 }
 
@@ -162,7 +163,8 @@ TEMPLATE_TEST_CASE("direction: clamped and sticking forces answer so that their 
       MakeProblem({1, 1}, {{4, 0, 1, 1}, {0, 4, 0, 0}, {1, 0, 2, 0}, {1, 0, 0, 4}}, {0, 0, 0, 0});
   const auto [system, status] = Solve<TestType>(problem, {kNone, kNone, kClamped, kSticking}, 0, 1);
   CHECK(static_cast<int>(status) == static_cast<int>(Status::kRegular));
-  const ExactVector df = Vector({1, 0, Rational(-1, 2), Rational(-1, 4)}), da = Vector({Rational(13, 4), 0, 0, 0});
+  const ExactVector df = Vector({1, 0, Rational(-1, 2), Rational(-1, 4)}),
+                    da = Vector({Rational(13, 4), 0, 0, 0});
   for (int row = 0; row < 4; ++row) {
     CHECK(system.df()[row] == To<TestType>(df[row]));
     CHECK(system.da()[row] == To<TestType>(da[row]));

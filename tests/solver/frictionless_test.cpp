@@ -75,8 +75,8 @@ TEST_CASE("frictionless: semidefinite problems are solved to the one acceleratio
   }
 }
 
-TEMPLATE_TEST_CASE("frictionless: the family E_n takes 2^n - 1 pivots, 2^(k-1) of them in drive k", "", float, double,
-                   long double, Rational) {
+TEMPLATE_TEST_CASE("frictionless: the family E_n takes 2^n - 1 pivots, 2^(k-1) of them in drive k", "", float,
+                   double, long double, Rational) {
   // A float holds b_i of E_6 with few digits to spare, E_8 not at all.
   for (int n = 1; n <= (std::is_same_v<TestType, float> ? 4 : 8); ++n) {
     CAPTURE(n);

@@ -85,7 +85,7 @@ TEST_CASE("policies: every policy is read back from its name") {
   }
 }
 
-TEST_CASE("policies: any order and explicit defaults are read; names are written canonically") {
+TEST_CASE("policies: any order and explicit defaults are read, and names are written canonically") {
   CHECK(PolicyName(ParsePolicy("ties=contacts,give-up=second")) == "give-up=second,ties=contacts");
   CHECK(PolicyName(ParsePolicy("scan=lowest")) == "paper");
   CHECK(PolicyName(ParsePolicy("apex=kept,scan=highest,file=no")) == "scan=highest");
@@ -111,7 +111,8 @@ TEST_CASE("policies: a switch that stands twice is refused, even with one value"
 }
 
 TEST_CASE("policies: two policies agree on a set of switches if they have its values in common") {
-  const Policy left = ParsePolicy("scan=highest,ties=contacts"), right = ParsePolicy("scan=highest,drop=variable");
+  const Policy left = ParsePolicy("scan=highest,ties=contacts"),
+               right = ParsePolicy("scan=highest,drop=variable");
   CHECK(AgreeOn(0, left, right));
   CHECK(AgreeOn(Bit(PolicySwitch::kScan) | Bit(PolicySwitch::kResume), left, right));
   CHECK_FALSE(AgreeOn(Bit(PolicySwitch::kTies), left, right));

@@ -55,9 +55,9 @@ Step<Scalar> Find(const Case& c) {
   state.sets = c.sets;
   const Scale<Scalar> scale = MakeScale(problem, Tolerances{});
   const bool normal = layout.IsNormal(c.driven);
-  const int sign = normal                        ? 1
-                   : c.goal == DriveGoal::kZero  ? -Sign(state.f[c.driven])
-                                                 : -Sign(state.a[c.driven]);
+  const int sign = normal                       ? 1
+                   : c.goal == DriveGoal::kZero ? -Sign(state.f[c.driven])
+                                                : -Sign(state.a[c.driven]);
   DirectionSystem<Scalar, Eigen::Dynamic> direction;
   StepSize<Scalar, Eigen::Dynamic> step_size;
   direction.Resize(problem.rows());
@@ -114,30 +114,32 @@ Case MaintainedCase(const Maintained& m, const Rational& gap) {
   return c;
 }
 
-TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where its row of the table says", "", float,
-                   double, long double, Rational) {
+TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where its row of the table says", "",
+                   float, double, long double, Rational) {
   for (const Maintained& m : Limits()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, kHalf), kHalf, m.row, m.wants);
   }
 }
 
-TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go on gives a zero step", "", float, double,
-                   long double, Rational) {
+TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go on gives a zero step", "", float,
+                   double, long double, Rational) {
   for (const Maintained& m : Limits()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, 0), 0, m.row, m.wants);
   }
 }
 
-TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is in no set, does not limit", "", float,
-                   double, long double, Rational) {
+TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is in no set, does not limit", "",
+                   float, double, long double, Rational) {
   for (const Maintained& m : Limits()) {
     CAPTURE(m.what);
     for (const bool opposite : {true, false}) {
       Case c = MaintainedCase(m, 0);
-      if (opposite && m.set == kSticking && m.coupled_row == 3) c.f[3] = -c.f[3];  // at the other bound: leaves it
-      if (opposite && (m.set != kSticking || m.coupled_row == 2)) Couple(c, m.coupled_row, Rational(-m.coupling));
+      if (opposite && m.set == kSticking && m.coupled_row == 3)
+        c.f[3] = -c.f[3];  // at the other bound: leaves it
+      if (opposite && (m.set != kSticking || m.coupled_row == 2))
+        Couple(c, m.coupled_row, Rational(-m.coupling));
       if (!opposite) c.sets[2] = c.sets[3] = m.row == 3 ? kSuspended : kNone;
       const Step<TestType> step = Find<TestType>(c);
       if (opposite && m.set == kSticking && m.coupled_row == 3) {
@@ -149,15 +151,15 @@ TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is 
   }
 }
 
-TEMPLATE_TEST_CASE("step size: the driven normal stops where its acceleration is zero", "", float, double, long double,
-                   Rational) {
+TEMPLATE_TEST_CASE("step size: the driven normal stops where its acceleration is zero", "", float, double,
+                   long double, Rational) {
   Case c = FarCase(1);
   c.a[0] = -4;
   CheckLimit<TestType>(c, kHalf, 0, kClamped);
 }
 
-TEMPLATE_TEST_CASE("step size: driven friction stops at aF = 0, at its bound, or at aF = 0 if at both", "", float,
-                   double, long double, Rational) {
+TEMPLATE_TEST_CASE("step size: driven friction stops at aF = 0, at its bound, or at aF = 0 if at both", "",
+                   float, double, long double, Rational) {
   for (const int sign : {1, -1}) {  // of fF
     CAPTURE(sign);
     Case c = FarCase(1);
@@ -176,8 +178,8 @@ TEMPLATE_TEST_CASE("step size: driven friction stops at aF = 0, at its bound, or
   }
 }
 
-TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its normal force falls", "", float, double,
-                   long double, Rational) {
+TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its normal force falls", "", float,
+                   double, long double, Rational) {
   Case c = FarCase(1);
   c.driven = 1;
   c.A = {{1, 1}, {1, 2}};  // dfN = -1
@@ -187,15 +189,15 @@ TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its 
   CheckLimit<TestType>(c, kHalf, 1, kAtUpper);
 }
 
-TEMPLATE_TEST_CASE("step size: friction driven to zero stops there and nowhere before", "", float, double, long double,
-                   Rational) {
+TEMPLATE_TEST_CASE("step size: friction driven to zero stops there and nowhere before", "", float, double,
+                   long double, Rational) {
   for (const int sign : {1, -1}) {
     Case c = FarCase(1);
     c.driven = 1;
     c.goal = DriveGoal::kZero;
     c.sets[0] = kClamped;
     c.f = {Rational(1, 4), Rational(sign, 2)};  // outside its bound
-    c.a = {0, Rational(sign, 4)};                // aF = 0 after half of the step
+    c.a = {0, Rational(sign, 4)};               // aF = 0 after half of the step
     CheckLimit<TestType>(c, kHalf, 1, kNone);
   }
 }
@@ -240,10 +242,11 @@ TEMPLATE_TEST_CASE("step size: within a set the lowest row limits, and the tie r
   CHECK_FALSE(Find<TestType>(c).order_matters);
 }
 
-TEMPLATE_TEST_CASE("step size: ties=sets takes friction in the order CF, NC-, NC+ after normals", "", float, double,
-                   long double, Rational) {
+TEMPLATE_TEST_CASE("step size: ties=sets takes friction in the order CF, NC-, NC+ after normals", "", float,
+                   double, long double, Rational) {
   Case c = FarCase(5);
-  const auto add = [&c](int contact, IndexSet set, const Rational& coupling, const Rational& f_f, const Rational& a) {
+  const auto add = [&c](int contact, IndexSet set, const Rational& coupling, const Rational& f_f,
+                        const Rational& a) {
     const int normal = 2 * contact;
     c.sets[normal] = kClamped;
     c.f[normal] = 1;
@@ -264,8 +267,8 @@ TEMPLATE_TEST_CASE("step size: ties=sets takes friction in the order CF, NC-, NC
   }
 }
 
-TEMPLATE_TEST_CASE("step size: the driven variable comes before all others of a tie", "", float, double, long double,
-                   Rational) {
+TEMPLATE_TEST_CASE("step size: the driven variable comes before all others of a tie", "", float, double,
+                   long double, Rational) {
   Case c = TiedCase();
   c.a[0] = -3;  // da = 8 - 1 - 1
   for (const Ties ties : {Ties::kSets, Ties::kContacts}) {

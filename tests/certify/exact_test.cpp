@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs of the whole grid: policies share a run only if they take the same steps.
+
+#include "certify/exact.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// Every policy of the grid run by itself, against the class that speaks for it.
+void CheckAgainstBruteForce(const ExactProblem& problem) {
+  std::set<std::string> seen;
+  for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
+    for (const Policy& policy : equal.policies) {
+      CAPTURE(PolicyName(policy), PolicyName(equal.policies.front()));
+      CHECK(seen.insert(PolicyName(policy)).second);
+      const Verdict verdict = RunExact(problem, {policy, {}, {}}).verdict;
+      REQUIRE(verdict.outcome == equal.verdict.outcome);
+      REQUIRE(verdict.start == equal.verdict.start);
+      REQUIRE(verdict.period == equal.verdict.period);
+      REQUIRE(verdict.statistics == equal.verdict.statistics);
+    }
+  }
+  CHECK(seen.size() == PlanarGrid().size());
+}
+
+TEST_CASE("policy classes: on problems that cycle the grid ends as it does policy by policy") {
+  CheckAgainstBruteForce(ReferenceProblem());
+  for (const CyclingSeed& seed : CyclingSeeds()) {
+    CAPTURE(seed.index);
+    CheckAgainstBruteForce(Cycling(seed));
+  }
+}
+
+TEST_CASE("policy classes: on other problems too") {
+  CheckAgainstBruteForce(GiveUpProblem());
+  CheckAgainstBruteForce(NoContacts());
+  CheckAgainstBruteForce(NoSolution());
+  for (const int index : {2104, 2202, 2458}) {  // where the order of ties matters
+    CheckAgainstBruteForce(Random<Rational>(GeneratorId::kSmall, 3, index));
+  }
+  for (int index = 0; index < 30; ++index) {
+    CAPTURE(index);
+    const auto id = index % 2 == 0 ? GeneratorId::kSmall : GeneratorId::kDuplicates;
+    CheckAgainstBruteForce(Random<Rational>(id, 2 + index % 2, index));
+  }
+}
+
+TEST_CASE("policy classes: all end in an outcome if each does") {
+  const std::vector<Policy> cycling = {Policy{}, ParsePolicy("ties=contacts"), ParsePolicy("resume=round")};
+  CHECK(AllEndIn(Outcome::kCycle, ReferenceProblem(), cycling, {}));
+  CHECK_FALSE(AllEndIn(Outcome::kCycle, ReferenceProblem(), PlanarGrid(), {}));
+  CHECK(AllEndIn(Outcome::kSolved, ThreeSolutions(), PlanarGrid(), {}));
+  CHECK(AllEndIn(Outcome::kSolved, ReferenceProblem(), {}, {}));
+}
+
+TEST_CASE("variables are named by kind and contact, counted from one") {
+  const ExactProblem problem = MakeProblem({-1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0});
+  CHECK(VariableNames(problem) == std::vector<std::string>{"N1", "N2", "F2"});
+}
+
+}  // namespace
+}  // namespace stiction

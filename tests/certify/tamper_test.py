@@ -1,0 +1,340 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Alters certificates and shows them to both checkers.
+
+  tamper_test.py STICTION SOURCES        the program, and the folder with certify/check_certificate.py
+
+A certificate of every claim is made with `stiction certify`; every value in it is altered in turn, and
+`stiction check` and check_certificate.py judge each altered certificate. This fails if the two differ, or if
+one that is altered in its form is accepted, or one altered in a value of which this file cannot show, from
+the numbers alone, that it is true all the same. Python standard library only.
+"""
+
+import copy
+import importlib.util
+import json
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+BATCH = 500  # files in one call of the program
+POLICIES = ["paper", "ties=contacts", "resume=round", "file=yes"]
+
+
+# --- Problems ----------------------------------------------------------------------
+
+def problem(contacts, A, b):
+    kinds = [{"kind": "frictionless"} if mu is None else {"kind": "static", "mu": mu} for mu in contacts]
+    return {"format": "stiction-problem", "version": 1, "name": "tampered", "dimension": 2,
+            "contacts": kinds, "A": A, "b": b}
+
+
+REFERENCE = problem(["1", "1"], [["7", "-2", "-6", "0"], ["-2", "9", "-1", "-7"], ["-6", "-1", "7", "3"],
+                                 ["0", "-7", "3", "7"]], ["2", "-1", "-2", "2"])
+INDEFINITE = copy.deepcopy(REFERENCE)
+INDEFINITE["A"][1][1] = "0"
+SINGULAR = problem(["1", None], [["1", "1", "0"], ["1", "1", "0"], ["0", "0", "2"]], ["-1", "-1", "-3/2"])
+ASYMMETRIC = copy.deepcopy(SINGULAR)
+ASYMMETRIC["A"][0][2] = "1"
+OUTSIDE = problem(["1"], [["1", "-1"], ["-1", "1"]], ["-1", "0"])
+
+# claim that is made, what is asked for, problem
+CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symmetric", SINGULAR),
+          ("not-symmetric", "symmetric", ASYMMETRIC), ("psd", "psd", SINGULAR), ("not-psd", "psd", INDEFINITE),
+          ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
+          ("cycle", "cycle", REFERENCE)]
+
+
+def make(stiction, folder, claim, asked, described):
+    """The certificate; of a cycle only the policies of POLICIES."""
+    file = folder / "problem.json"
+    file.write_text(json.dumps(described))
+    command = [stiction, "certify", file, "--claim", asked, "-o", "-"]
+    command += ["--policy", "*"] if claim == "cycle" else []
+    certificate = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    assert certificate["claim"] == claim, (certificate["claim"], claim)
+    if claim == "cycle":
+        runs = certificate["witness"]["runs"]
+        for run in runs:
+            run["policies"] = [policy for policy in run["policies"] if policy in POLICIES]
+        certificate["witness"]["runs"] = [run for run in runs if run["policies"]]
+    return certificate
+
+
+# --- Whether a claim is true, by its equation --------------------------------------
+
+def dot(x, y):
+    return sum((u * v for u, v in zip(x, y, strict=True)), Fraction(0))
+
+
+def numbers(values):
+    return [Fraction(value) for value in values]
+
+
+def rows(values):
+    return [numbers(row) for row in values]
+
+
+def solves(contacts, A, b, f, a):
+    if a != [dot(row, f) + x for row, x in zip(A, b, strict=True)]:
+        return False
+    row = 0
+    for contact in contacts:
+        fN, aN = f[row], a[row]
+        if min(fN, aN) != 0:
+            return False
+        row += 1
+        if contact["kind"] == "frictionless":
+            continue
+        fF, aF, bound = f[row], a[row], Fraction(contact["mu"]) * fN
+        if not (-bound <= fF <= bound and aF * fF <= 0 and (aF == 0 or abs(fF) == bound)):
+            return False
+        row += 1
+    return True
+
+
+def factors(A, L, D):
+    n = range(len(A))
+    shape = all(L[i][j] == (i == j) for i in n for j in n if j >= i)
+    scaled = [[x * d for x, d in zip(row, D, strict=True)] for row in L]
+    return shape and min(D) >= 0 and all(dot(scaled[i], L[j]) == A[i][j] for i in n for j in n)
+
+
+def normalized(value):
+    """Numbers in strings written in one way."""
+    if isinstance(value, dict):
+        return {key: normalized(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [normalized(item) for item in value]
+    try:
+        return str(Fraction(value)) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def part_of(altered, original):
+    """Each run is one of the original, of the same problem, for some of its policies."""
+    def known(run):
+        return any(set(run["policies"]) <= set(other["policies"]) and run["policies"] != []
+                   and normalized({**run, "policies": 0}) == normalized({**other, "policies": 0})
+                   for other in original["witness"]["runs"])
+    runs = altered["witness"]["runs"]
+    return normalized(altered["problem"]) == normalized(original["problem"]) and runs and all(map(known, runs))
+
+
+def is_true(altered, original):
+    claim, witness = original["claim"], altered["witness"]
+    if altered["claim"] != claim:
+        return False
+    if claim == "cycle":
+        return part_of(altered, original)
+    A, b = rows(altered["problem"]["A"]), numbers(altered["problem"]["b"])
+    if claim == "solution-exists":
+        return solves(altered["problem"]["contacts"], A, b, numbers(witness["f"]), numbers(witness["a"]))
+    if claim == "symmetric":
+        return A == [list(column) for column in zip(*A)]
+    if claim == "not-symmetric":
+        return A[witness["i"]][witness["j"]] != A[witness["j"]][witness["i"]]
+    if claim == "psd":
+        return factors(A, rows(witness["L"]), numbers(witness["D"]))
+    if claim == "in-range":
+        return [dot(row, numbers(witness["x"])) for row in A] == b
+    value = Fraction(witness["value"])
+    if claim == "not-psd":
+        x = numbers(witness["x"])
+        return dot(x, [dot(row, x) for row in A]) == value < 0
+    y = numbers(witness["y"])
+    return all(dot(y, column) == 0 for column in zip(*A)) and dot(y, b) == value != 0
+
+
+# --- Altering ----------------------------------------------------------------------
+
+WORDS = ["C", "NC-", "NC+", "none", "suspended", "N1", "F2", "establish", "zero", "cycle", "stall", "psd",
+         "symmetric", "static", "frictionless", "sliding", "file=yes,drop=variable", "ties=sets",
+         "ties=contacts,resume=round", "slip=redirect", "file=yes", "resume=round"]
+NOT_NUMBERS = [" 1", "1 ", "+1", "1/0", "0x1", ".5", "1.", "1_0", "1e10001", "\u0661", ""]
+
+
+def places(value, path=()):
+    yield path
+    for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
+        yield from places(value[key], path + (key,))
+
+
+def at(document, path):
+    for key in path:
+        document = document[key]
+    return document
+
+
+def edited(document, path, edit):
+    """A copy in which edit(parent, key) was applied; the document itself is below the key "root"."""
+    holder = {"root": copy.deepcopy(document)}
+    path = ("root",) + path
+    edit(at(holder, path[:-1]), path[-1])
+    return holder["root"]
+
+
+def is_later_pivot(path):
+    """Pivots are all alike: those after the first two are altered in fewer ways."""
+    return "pivots" in path and path[-1] != "pivots" and path[path.index("pivots") + 1] > 1
+
+
+def other_values(path, value):
+    """(value, whether the form differs)"""
+    few = is_later_pivot(path)
+    for other in (None, [], "1") if few else (None, True, 1, 1.5, "1", "x", [], {}):
+        if type(other) is not type(value) or isinstance(value, (list, dict)):
+            yield other, True
+    if isinstance(value, int):
+        yield from ((other, False) for other in (value + 1, value - 1, -value, 0))
+        yield from ((other, True) for other in (float(value), 2**64 - 1))
+    elif isinstance(value, str):
+        try:
+            x = Fraction(value)
+        except ValueError:
+            yield value + "x", True
+            if len(path) == 1 or path[-2] == "policies":
+                yield "a" + "\u00e9" * 60, True
+            yield from ((other, False) for other in WORDS[::3 if few else 1])
+        else:
+            yield from ((str(other), False) for other in (x + 1, -x, 0, x / 2))
+            yield f"{x.numerator}0/{x.denominator}0", False
+            yield from ((other, True) for other in NOT_NUMBERS[::5 if few else 1])
+
+
+def alterations(original):
+    """(what was done, altered certificate, whether its form differs)"""
+    for path in places(original):
+        value, name = at(original, path), "$" + "".join(f"[{key!r}]" for key in path)
+        for other, form in other_values(path, value):
+            yield (f"{name} = {other!r}", form,
+                   edited(original, path, lambda parent, key, other=other: parent.__setitem__(key, other)))
+        if isinstance(value, dict):
+            yield f"{name}: an unknown key", True, edited(original, path + ("extra",), lambda parent, key:
+                                                          parent.__setitem__(key, "1"))
+            for key in value:
+                yield f"{name}: without {key}", True, edited(original, path + (key,), lambda parent, key:
+                                                             parent.__delitem__(key))
+        if isinstance(value, list):
+            open_list = path[-1] in ("policies", "runs")  # with fewer of them it can still be true
+            for i in range(len(value)):
+                yield f"{name}: without item {i}", not open_list, edited(
+                    original, path + (i,), lambda parent, key: parent.__delitem__(key))
+                yield f"{name}: item {i} twice", True, edited(
+                    original, path + (i,), lambda parent, key: parent.insert(key, copy.deepcopy(parent[key])))
+    if original["claim"] == "cycle":
+        yield from split_runs(original)
+
+
+def split_runs(original):
+    """One run in two, the second written with other spellings of its numbers."""
+    for i, run in enumerate(original["witness"]["runs"]):
+        for respelled in (False, True) if len(run["policies"]) > 1 else ():
+            certificate = copy.deepcopy(original)
+            runs = certificate["witness"]["runs"]
+            runs[i]["policies"], second = run["policies"][:1], copy.deepcopy(run)
+            second["policies"] = run["policies"][1:]
+            if respelled:
+                second["pivots"][0]["step"] += "/1" if "/" not in second["pivots"][0]["step"] else ""
+                x = Fraction(second["pivots"][0]["step"])
+                second["pivots"][0]["step"] = f"{x.numerator * 2}/{x.denominator * 2}"
+            runs.append(second)
+            yield f"run {i} in two, respelled: {respelled}", True, certificate
+
+
+def broken_texts(text):
+    """Texts that no JSON document is, or an ambiguous one."""
+    return [("a key twice", text.replace('"version": 1,', '"version": 1, "version": 1,', 1)),
+            ("NaN", text.replace('"version": 1,', '"version": NaN,', 1)),
+            ("a comma too many", text.replace("]", ",]", 1)), ("a byte order mark", "\ufeff" + text),
+            ("text after the end", text + "1"), ("half of it", text[: len(text) // 2]), ("nothing", "")]
+
+
+# --- Both checkers -----------------------------------------------------------------
+
+def program_verdicts(stiction, files):
+    """Accepted or not, of each file. A call that ends neither way is narrowed down to the file that did it."""
+    result = subprocess.run([stiction, "check", "--json", *files], capture_output=True)
+    if result.returncode in (0, 1):
+        verdicts = [report["accepted"] for report in json.loads(result.stdout)]
+        assert len(verdicts) == len(files) and all(verdicts) == (result.returncode == 0)
+        return verdicts
+    if len(files) == 1:
+        return [f"exit {result.returncode}: {result.stderr.decode(errors='replace').strip()[:200]}"]
+    middle = len(files) // 2
+    return program_verdicts(stiction, files[:middle]) + program_verdicts(stiction, files[middle:])
+
+
+def script_verdict(script, file):
+    try:
+        script.check(script.load(file))
+        return True
+    except script.Rejected:
+        return False
+
+
+def load_script(path):
+    specification = importlib.util.spec_from_file_location("check_certificate", path)
+    script = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(script)
+    return script
+
+
+def judge(stiction, script, folder, original, failures):
+    """Returns how many were refused, and how many were accepted because they are true."""
+    refused = accepted = 0
+    altered = [("nothing", False, original)]
+    altered += [case for case in alterations(original) if json.dumps(case[2]) != json.dumps(original)]
+    for first in range(0, len(altered), BATCH):
+        batch = altered[first:first + BATCH]
+        files = [folder / f"{i}.json" for i in range(len(batch))]
+        for file, (_, _, certificate) in zip(files, batch):
+            file.write_text(json.dumps(certificate, ensure_ascii=False), encoding="utf-8")
+        for file, (what, form, certificate), program in zip(files, batch, program_verdicts(stiction, files)):
+            python = script_verdict(script, file)
+            if program is not python:
+                failures.append(f"{original['claim']}, {what}: stiction check: {program}, "
+                                f"check_certificate.py: {python}")
+            elif python and (form or not is_true(certificate, original)):
+                failures.append(f"{original['claim']}, {what}: accepted by both")
+            refused += not python
+            accepted += python
+    return refused, accepted
+
+
+def judge_texts(stiction, script, folder, original, failures):
+    """Texts that are no certificate: neither checker accepts, neither fails by itself."""
+    for what, text in broken_texts(json.dumps(original)):
+        file = folder / "broken.json"
+        file.write_text(text, encoding="utf-8")
+        for name, command in (("stiction check", [stiction, "check"]),
+                              ("check_certificate.py", [sys.executable, script.__file__])):
+            status = subprocess.run([*command, file], capture_output=True).returncode
+            if status not in (1, 2):
+                failures.append(f"{what}: {name}: exit {status}")
+
+
+def main(stiction, sources):
+    script, failures = load_script(Path(sources) / "certify/check_certificate.py"), []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for claim, asked, described in CLAIMS:
+            original = make(stiction, folder, claim, asked, described)
+            if script.check(original) is None or not is_true(original, original):
+                failures.append(f"{claim}: the certificate itself is not true")
+            refused, accepted = judge(stiction, script, folder, original, failures)
+            if refused < 100:
+                failures.append(f"{claim}: only {refused} altered certificates refused")
+            print(f"{claim}: {refused} refused, {accepted} accepted that are true")
+        judge_texts(stiction, script, folder, original, failures)
+    for failure in failures[:50]:
+        print("FAILED:", failure)
+    print(f"{len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

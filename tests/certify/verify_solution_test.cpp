@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact check of a solution.
+
+#include "certify/verify_solution.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+using Catch::Contains;
+
+TEST_CASE("verify solution: a = A f + b") {
+  CHECK(Accelerations(ReferenceProblem(), Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)})) ==
+        Vector({0, 0, 0, Rational(6, 7)}));
+}
+
+TEST_CASE("verify solution: every solution of a problem is accepted, and what lies between is not") {
+  for (const auto& f : {Vector({0, 0}), Vector({3, -2}), Vector({1, -1})}) {
+    CHECK(FindViolation(ThreeSolutions(), f) == std::nullopt);
+  }
+  CHECK(FindViolation(ThreeSolutions(), Vector({2, Rational(-3, 2)})) != std::nullopt);
+}
+
+TEST_CASE("verify solution: the broken condition is named, with the contact and the number") {
+  // One contact with A = 1, mu = 2: a = f + b.
+  const auto violation = [](const Rational& b_n, const Rational& b_f, const Rational& f_n,
+                            const Rational& f_f) {
+    return FindViolation(MakeProblem({-1, 2}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, b_n, b_f}),
+                         Vector({0, f_n, f_f}))
+        .value_or("none");
+  };
+  CHECK(violation(-1, -2, 1, 2) == "none");  // sticks at its limit
+  CHECK(violation(-1, -3, 1, 2) == "none");  // slips
+  CHECK(violation(3, 0, -1, 0) == "contact 2: fN >= 0 is broken, found -1");
+  CHECK(violation(-1, 0, 0, 0) == "contact 2: aN >= 0 is broken, found -1");
+  CHECK(violation(-1, 0, 3, 0) == "contact 2: fN aN = 0 is broken, found 6");
+  CHECK(violation(-1, -3, 1, 3) == "contact 2: abs(fF) <= mu fN is broken, found -1");
+  CHECK(violation(-1, 3, 1, Rational(-5, 2)) == "contact 2: abs(fF) <= mu fN is broken, found -1/2");
+  CHECK(violation(-1, Rational(-3, 2), 1, 2) == "contact 2: aF fF <= 0 is broken, found 1");
+  CHECK(violation(-1, -3, 1, 1) == "contact 2: aF (mu fN - abs(fF)) = 0 is broken, found -2");
+}
+
+TEST_CASE("verify solution: a solution with one force moved is refused wherever the solution is isolated") {
+  int moved = 0;
+  for (int index = 0; index < 500; ++index) {
+    CAPTURE(index);
+    ExactProblem problem = Random<Rational>(GeneratorId::kIntegers, 1 + index % 3, index);
+    for (int i = 0; i < problem.rows(); ++i) problem.A(i, i) += 1;  // definite: every solution is isolated
+    const ExactRun run = RunExact(problem, {});
+    if (run.verdict.outcome != Outcome::kSolved) continue;
+    REQUIRE(FindViolation(problem, run.state.f) == std::nullopt);
+    for (int row = 0; row < problem.rows(); ++row) {
+      for (const Rational& by : {Rational(1, 1000000), Rational(-1, 1000000)}) {
+        ExactVector f = run.state.f;
+        f[row] += by;
+        CHECK(FindViolation(problem, f) != std::nullopt);
+        ++moved;
+      }
+    }
+  }
+  CHECK(moved > 1000);
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction certify, check and minimize on files; the independent checker agrees."""
+
+import json
+import subprocess
+import sys
+
+import cli
+
+
+class Certificates(cli.TestCase):
+    def check(self, certificate, accepted):
+        """Both checkers say the same."""
+        done = self.succeeds("check", certificate, "--json", code=0 if accepted else 1)
+        self.assertEqual([entry["accepted"] for entry in done.json()], [accepted])
+        independent = subprocess.run([sys.executable, cli.ROOT / "certify/check_certificate.py", certificate],
+                                     capture_output=True, text=True)
+        self.assertEqual(independent.returncode, 0 if accepted else 1, independent.stdout + independent.stderr)
+        return done.json()[0]
+
+    def test_every_claim_and_its_negation(self):
+        asymmetric = {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]}
+        indefinite = {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]}
+        outside = {**cli.SOLVED, "A": [["1", "1"], ["1", "1"]]}
+        for problem, claim, certified in [
+            (cli.SOLVED, "solution-exists", "solution-exists"),
+            (cli.REFERENCE, "solution-exists", "solution-exists"),
+            (cli.REFERENCE, "cycle", "cycle"),
+            (cli.SOLVED, "symmetric", "symmetric"), (asymmetric, "symmetric", "not-symmetric"),
+            (cli.SOLVED, "psd", "psd"), (indefinite, "psd", "not-psd"),
+            (cli.SOLVED, "in-range", "in-range"), (outside, "in-range", "not-in-range"),
+        ]:
+            with self.subTest(problem=problem["name"], claim=claim):
+                file, out = self.file("p.json", problem), self.folder / "c.json"
+                done = self.succeeds("certify", file, "-o", out, "--claim", claim, "--json").json()
+                self.assertEqual(done["claim"], certified)
+                self.assertEqual(json.loads(out.read_text())["claim"], certified)
+                self.assertEqual(self.check(out, accepted=True)["claim"], certified)
+                text = self.succeeds("certify", file, "-o", out, "--claim", claim).out
+                self.assertEqual(text, f"{out}: {certified}\n")
+                self.assertIn(f"{out}: accepted: {certified}", self.succeeds("check", out).out)
+
+    def test_no_claim_is_made_without_a_witness(self):
+        out = self.folder / "c.json"
+        for problem, claim in [(cli.SOLVED, "cycle"), (cli.REFERENCE, "stall")]:
+            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, code=3)
+            self.assertIn("undecided", done.out)
+            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, "--json", code=3)
+            self.assertEqual(done.json()["claim"], "undecided")
+            self.assertFalse(out.exists())
+
+    def test_a_cycle_under_all_policies_that_show_it(self):
+        out = self.folder / "c.json"
+        file = self.file("p.json", cli.REFERENCE)
+        self.succeeds("certify", file, "-o", out, "--claim", "cycle", "--policy", "*")
+        cycles = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]["cycle"]
+        self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
+
+    def test_a_changed_certificate_is_rejected(self):
+        out, bad = self.folder / "c.json", self.folder / "bad.json"
+        self.succeeds("certify", self.file("p.json", cli.REFERENCE), "-o", out, "--claim", "cycle")
+        text = out.read_text()
+        for old, new in [('"65/63"', '"64/63"'), ('"cycle"', '"stall"'), ('"version": 1', '"version": 2')]:
+            self.assertIn(old, text)
+            bad.write_text(text.replace(old, new, 1))
+            self.assertTrue(self.check(bad, accepted=False)["reason"])
+        # One of several.
+        done = self.succeeds("check", out, bad, out, code=1).out.splitlines()
+        self.assertEqual([": REJECTED: " in line for line in done], [False, True, False])
+        done = self.succeeds("check", out, bad, "--json", code=1).json()
+        self.assertEqual([entry["accepted"] for entry in done], [True, False])
+
+    def test_json_that_is_no_certificate_is_rejected(self):
+        for value in [{}, [], 3, None, cli.REFERENCE, {"format": "stiction-certificate", "version": 1}]:
+            self.check(self.file("c.json", json.dumps(value)), accepted=False)
+
+    def test_standard_output_holds_the_certificate_alone(self):
+        file = self.file("p.json", cli.SOLVED)
+        for arguments in [(), ("--json",)]:
+            done = self.succeeds("certify", file, "-o", "-", *arguments)
+            self.assertEqual(done.json()["claim"], "solution-exists")
+            self.assertNotEqual(done.err, "")
+
+    def test_a_certificate_that_cannot_be_written(self):
+        file = self.file("p.json", cli.SOLVED)
+        for out in [self.folder / "no/such/c.json", self.folder, "/dev/full"]:
+            self.refuses("certify", file, "-o", out, says=[out, "cannot be written"])
+            self.refuses("minimize", file, "-o", out, says=[out, "cannot be written"])
+
+    def test_an_asymmetric_matrix_is_not_called_semidefinite(self):
+        file = self.file("p.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})
+        self.refuses("certify", file, "-o", self.folder / "c.json", "--claim", "psd")
+
+
+class Minimize(cli.TestCase):
+    def minimize(self, problem, *arguments):
+        out = self.folder / "m.json"
+        done = self.succeeds("minimize", self.file("p.json", problem), "-o", out, "--json", *arguments)
+        return out, done.json()
+
+    def test_the_result_shows_the_same_and_says_so(self):
+        out, done = self.minimize(cli.REFERENCE)
+        self.assertEqual(done["keep"], "cycle")
+        key = ["contacts", "rows", "nonzeros", "bits"]
+        self.assertLessEqual([done["after"][k] for k in key], [done["before"][k] for k in key])
+        self.assertGreater(done["accepted"], 0)
+        self.assertEqual(json.loads(out.read_text())["expect"], {"paper": "cycle"})
+        self.succeeds("replay", out)
+        self.assertEqual(self.succeeds("solve", out, "--json", code=1).json()["assumptions"], [])
+
+    def test_minimizing_again_changes_nothing(self):
+        out, done = self.minimize(cli.REFERENCE)
+        once = json.loads(out.read_text())
+        again, done = self.minimize(once)
+        self.assertEqual(done["accepted"], 0)
+        twice = json.loads(again.read_text())
+        for key in ("contacts", "A", "b"):
+            self.assertEqual(twice[key], once[key])
+
+    def test_another_policy_and_outcome(self):
+        policy = "give-up=second"
+        outcome = cli.run("solve", self.file("p.json", cli.REFERENCE), "--json", "--policy", policy).json()["outcome"]
+        out, done = self.minimize(cli.REFERENCE, "--policy", policy)
+        self.assertEqual(done["keep"], outcome)
+        self.succeeds("replay", out, "--policy", policy)
+
+    def test_the_signature_can_be_kept(self):
+        out, _ = self.minimize(cli.REFERENCE, "--keep-signature")
+        result = self.succeeds("replay", out, "--json").json()
+        self.assertEqual((result["period"], len([p for p in result["pivots"] if p["drive"] > result["start"]])), (4, 10))
+
+    def test_the_whole_grid(self):
+        out, done = self.minimize(cli.SOLVED, "--keep", "solved:*")
+        self.assertEqual(done["after"]["contacts"], 0)
+        self.assertEqual(json.loads(out.read_text())["expect"], {"*": "solved"})
+        self.succeeds("replay", out, "--all-policies")
+        self.refuses("minimize", self.file("p.json", cli.REFERENCE), "-o", "-", "--keep", "cycle:*",
+                     says="not every policy")
+
+    def test_standard_output_holds_the_problem_alone(self):
+        done = self.succeeds("minimize", self.file("p.json", cli.REFERENCE), "-o", "-", "--json")
+        self.assertEqual(done.json()["format"], "stiction-problem")
+        self.assertEqual(json.loads(done.err)["keep"], "cycle")
+
+    def test_what_the_problem_does_not_show_cannot_be_kept(self):
+        self.refuses("minimize", self.file("p.json", cli.REFERENCE), "-o", "-", "--keep", "solved",
+                     says="ends in cycle, not in solved")
+        indefinite = {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]}
+        self.refuses("minimize", self.file("p.json", indefinite), "-o", "-", says="minimize:")
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The program under test, its problems and its stores. Used by the tests beside this file."""
+
+import json
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLES = {
+    "campaign": "key",
+    "blocks": "shards, shard, block",
+    "units": "unit",
+    "findings": "signature",
+}
+
+# spec.md, part 4: the reference point. Cycles under the reference policy, solved under others.
+REFERENCE = {
+    "format": "stiction-problem", "version": 1, "name": "two-contact-cycle", "dimension": 2,
+    "contacts": [{"kind": "static", "mu": "1"}, {"kind": "static", "mu": "1"}],
+    "A": [["7", "-2", "-6", "0"], ["-2", "9", "-1", "-7"], ["-6", "-1", "7", "3"], ["0", "-7", "3", "7"]],
+    "b": ["2", "-1", "-2", "2"],
+}
+PERIOD = ["6/5", "0", "39/290", "791/310", "0", "3/62", "19/310", "1/10", "1/9", "65/63"]
+
+# One contact that comes to rest: f = (1/2, -1/3).
+SOLVED = {
+    "format": "stiction-problem", "version": 1, "name": "one-contact", "dimension": 2,
+    "contacts": [{"kind": "static", "mu": "1"}],
+    "A": [["2", "0"], ["0", "3"]], "b": ["-1", "1"],
+}
+
+program = ""  # set by main()
+
+
+class Run:
+    """What one call of the program left behind."""
+
+    def __init__(self, code, out, err):
+        self.code, self.out, self.err = code, out, err
+
+    def json(self):
+        return json.loads(self.out)
+
+
+def run(*arguments, cwd=None, timeout=120):
+    done = subprocess.run([program, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return Run(done.returncode, done.stdout, done.stderr)
+
+
+def content(store):
+    """Every row of every table of a store, in order."""
+    db = sqlite3.connect(f"file:{store}?mode=ro", uri=True)
+    try:
+        return {table: db.execute(f"SELECT * FROM {table} ORDER BY {order}").fetchall()
+                for table, order in TABLES.items()}
+    finally:
+        db.close()
+
+
+def total(store):
+    """The sum of all records of a store, added here and not by the program."""
+    db = sqlite3.connect(f"file:{store}?mode=ro", uri=True)
+    tallies, signatures = {}, {}
+    for (text,) in db.execute("SELECT record FROM blocks UNION ALL SELECT record FROM units"):
+        record = json.loads(text)
+        for tally in record["tallies"]:
+            key = tuple(tally.pop(name) for name in ("generator", "contacts", "policy", "method", "arithmetic"))
+            tallies[key] = add(tallies[key], tally) if key in tallies else tally
+        for signature, count in record["signatures"].items():
+            signatures[signature] = signatures.get(signature, 0) + count
+    db.close()
+    return tallies, signatures
+
+
+def add(left, right, plus=lambda a, b: a + b):
+    if isinstance(left, dict):
+        return {key: add(left[key], right[key], max if key == "maxima" else plus) for key in left}
+    if isinstance(left, list):
+        longer, shorter = sorted((left, right), key=len, reverse=True)
+        return [add(a, b, plus) for a, b in zip(longer, shorter)] + longer[len(shorter):]
+    return plus(left, right)
+
+
+class TestCase(unittest.TestCase):
+    """Tests in a folder of their own."""
+
+    maxDiff = 2000
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="stiction-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def file(self, name, value):
+        """Writes text, or a value as JSON."""
+        path = self.folder / name
+        path.write_text(value if isinstance(value, str) else json.dumps(value))
+        return path
+
+    def succeeds(self, *arguments, code=0, **options):
+        done = run(*arguments, **options)
+        self.assertEqual(done.code, code, f"{arguments}\n{done.out}\n{done.err}")
+        self.assertPlain(done)
+        return done
+
+    def refuses(self, *arguments, says=(), **options):
+        """Bad usage or input: exit 2, a message on standard error, nothing on standard output."""
+        done = run(*arguments, **options)
+        self.assertEqual(done.code, 2, f"{arguments}\n{done.out}\n{done.err}")
+        self.assertEqual(done.out, "")
+        self.assertNotEqual(done.err.strip(), "")
+        self.assertPlain(done)
+        for text in says if isinstance(says, (list, tuple)) else [says]:
+            self.assertIn(str(text), done.err)
+        return done
+
+    def assertPlain(self, done):
+        """No colour and no cursor movement: nothing here is a terminal."""
+        for stream in (done.out, done.err):
+            self.assertNotIn("\x1b", stream)
+            self.assertNotIn("\r", stream)
+
+    def assertSameContent(self, left, right, tables=tuple(TABLES)):
+        left, right = content(left), content(right)
+        for table in tables:
+            self.assertEqual(len(left[table]), len(right[table]), table)
+            for mine, theirs in zip(left[table], right[table]):
+                self.assertEqual(mine, theirs, table)
+
+
+def main():
+    """Runs the tests of the calling script: NAME.py PATH_TO_STICTION [SOURCES] [unittest arguments]."""
+    global program, ROOT
+    if len(sys.argv) < 2:
+        sys.exit(f"usage: {sys.argv[0]} PATH_TO_STICTION")
+    program = os.path.abspath(sys.argv[1])
+    rest = sys.argv[2:]
+    if rest and os.path.isdir(rest[0]):
+        ROOT = Path(rest.pop(0)).resolve()
+    unittest.main(argv=[sys.argv[0], *rest])

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction solve and replay on files: outputs and exit codes of spec.md, part 3."""
+
+from fractions import Fraction
+
+import cli
+
+
+def changed(problem, **members):
+    return {**problem, **members}
+
+
+def product(A, x):
+    return [sum(Fraction(a) * Fraction(v) for a, v in zip(row, x)) for row in A]
+
+
+class Solve(cli.TestCase):
+    def assertSolution(self, problem, f):
+        """The conditions (1) and (18) of the paper, exactly, for static contacts."""
+        f = [Fraction(x) for x in f]
+        a = [x + Fraction(b) for x, b in zip(product(problem["A"], f), problem["b"])]
+        for i, contact in enumerate(problem["contacts"]):
+            mu = Fraction(contact["mu"])
+            fn, ff, an, af = f[2 * i], f[2 * i + 1], a[2 * i], a[2 * i + 1]
+            self.assertTrue(fn >= 0 and an >= 0 and fn * an == 0)
+            self.assertLessEqual(abs(ff), mu * fn)
+            self.assertLessEqual(ff * af, 0)
+            self.assertTrue(af == 0 or abs(ff) == mu * fn)
+
+    def test_a_solution_is_exact_and_exits_with_0(self):
+        file = self.file("p.json", cli.SOLVED)
+        result = self.succeeds("solve", file, "--json").json()
+        self.assertEqual(result["outcome"], "solved")
+        self.assertEqual(result["f"], ["1/2", "-1/3"])
+        self.assertEqual(result["a"], ["0", "0"])
+        self.assertEqual(result["assumptions"], [])
+        self.assertEqual((result["method"], result["arithmetic"], result["policy"]), ("baraff", "exact", "paper"))
+        self.assertGreater(result["statistics"]["drives"], 0)
+        text = self.succeeds("solve", file).out
+        self.assertEqual(text.splitlines()[0], "solved")
+        self.assertIn('["1/2","-1/3"]', text)
+
+    def test_other_readings_solve_what_the_reference_policy_does_not(self):
+        file = self.file("p.json", cli.REFERENCE)
+        outcomes = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["policies"]
+        solving = [policy for policy, entry in outcomes.items() if entry["outcome"] == "solved"]
+        self.assertGreater(len(solving), 3)
+        for policy in solving[:3]:
+            result = self.succeeds("solve", file, "--json", "--policy", policy).json()
+            self.assertEqual(result["f"], ["1", "-6/7", "25/14", "-25/14"])  # its only solution
+            self.assertSolution(cli.REFERENCE, result["f"])
+
+    def test_a_cycle_exits_with_1(self):
+        file = self.file("p.json", cli.REFERENCE)
+        result = self.succeeds("solve", file, "--json", code=1).json()
+        self.assertEqual((result["outcome"], result["start"], result["period"]), ("cycle", 3, 4))
+        self.assertEqual(self.succeeds("solve", file, code=1).out.splitlines()[0], "cycle, start 3, period 4")
+
+    def test_no_contacts_at_all_are_solved(self):
+        file = self.file("p.json", changed(cli.SOLVED, contacts=[], A=[], b=[]))
+        self.assertEqual(self.succeeds("solve", file, "--json").json()["f"], [])
+        self.succeeds("replay", file)
+
+    def test_a_budget_exits_with_3_and_says_which(self):
+        file = self.file("p.json", cli.REFERENCE)
+        for option, reason in [("--max-drives", "drives"), ("--max-pivots", "pivots"), ("--max-bits", "bits")]:
+            with self.subTest(option=option):
+                result = self.succeeds("solve", file, "--json", option, 1, code=3).json()
+                self.assertEqual((result["outcome"], result["reason"]), ("limit", reason))
+
+    def test_rounded_arithmetics(self):
+        file = self.file("p.json", cli.SOLVED)
+        for arithmetic in ["float", "double", "long-double"]:
+            with self.subTest(arithmetic=arithmetic):
+                result = self.succeeds("solve", file, "--json", "--arithmetic", arithmetic).json()
+                self.assertEqual((result["outcome"], result["arithmetic"]), ("solved", arithmetic))
+                self.assertAlmostEqual(result["f"][0], 0.5, 6)
+                self.assertAlmostEqual(result["f"][1], -1 / 3, 6)
+                self.assertLessEqual(result["residual"], 1e-6)
+                # What they suspect is claimed only after an exact run.
+                cycle = self.succeeds("solve", self.file("c.json", cli.REFERENCE), "--json", "--arithmetic",
+                                      arithmetic, code=1).json()
+                self.assertEqual((cycle["outcome"], cycle["start"], cycle["period"]), ("cycle", 3, 4))
+                self.assertIn(cycle["suspected"]["outcome"], ["cycle", "stall", "limit"])
+
+    def test_what_is_not_built_is_refused(self):
+        file = self.file("p.json", cli.SOLVED)
+        for arithmetic in ["quad", "interval", "filtered", "decimal"]:
+            self.refuses("solve", file, "--arithmetic", arithmetic, says=[arithmetic, "not built", "exact"])
+        for method in ["complete", "lemke", "enumerate", "ipopt", "fast", "gauss"]:
+            self.refuses("solve", file, "--method", method, says=[method, "not built", "baraff"])
+
+    def test_assumptions_that_fail_have_exact_witnesses(self):
+        def failed(**members):
+            problem = changed(cli.SOLVED, **members)
+            done = cli.run("solve", self.file("p.json", problem), "--json")
+            self.assertIn(done.code, [0, 1, 3])
+            return problem, {entry["assumption"]: entry for entry in done.json()["assumptions"]}
+
+        problem, entries = failed(A=[["2", "1"], ["0", "3"]])
+        i, j = entries["symmetric"]["i"], entries["symmetric"]["j"]
+        self.assertNotEqual(problem["A"][i][j], problem["A"][j][i])
+
+        problem, entries = failed(A=[["1", "2"], ["2", "1"]])
+        x = [Fraction(v) for v in entries["psd"]["x"]]
+        value = sum(v * w for v, w in zip(x, product(problem["A"], x)))
+        self.assertLess(value, 0)
+        self.assertEqual(value, Fraction(entries["psd"]["value"]))
+
+        problem, entries = failed(A=[["1", "1"], ["1", "1"]], b=["-1", "1"])
+        y = entries["in-range"]["y"]
+        self.assertEqual(product(problem["A"], y), [0, 0])
+        value = sum(Fraction(v) * Fraction(b) for v, b in zip(y, problem["b"]))
+        self.assertNotEqual(value, 0)
+        self.assertEqual(value, Fraction(entries["in-range"]["value"]))
+        self.assertNotIn("psd", entries)
+
+    def test_what_the_method_does_not_handle_is_refused_by_place(self):
+        space = changed(cli.SOLVED, dimension=3, A=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
+                        b=["-1", "0", "0"])
+        bilateral = changed(cli.SOLVED, contacts=[{"kind": "bilateral"}], A=[["1"]], b=["-1"])
+        sliding = changed(cli.SOLVED, contacts=[{"kind": "sliding", "mu": "1", "slip": "1"}])
+        for problem, says in [(space, "dimension: found 3"), (bilateral, "contacts[0].kind: found bilateral"),
+                              (sliding, "contacts[0].kind: found sliding")]:
+            file = self.file("p.json", problem)
+            for verb in [("solve",), ("replay",), ("minimize", "-o", "-"), ("certify", "-o", "-")]:
+                self.refuses(*verb, file, says=[file, says])
+        frictionless = changed(cli.SOLVED, contacts=[{"kind": "frictionless"}], A=[["2"]], b=["-1"])
+        self.assertEqual(self.succeeds("solve", self.file("p.json", frictionless), "--json").json()["f"], ["1/2"])
+
+    def test_wrong_problems_are_refused_by_place(self):
+        for members, says in [
+            ({"version": 2}, "version: found 2"),
+            ({"A": [["1", "0"]]}, "A"),
+            ({"b": ["1", "nan"]}, "b[1]: found \"nan\""),
+            ({"b": ["1", "1/0"]}, "b[1]"),
+            ({"contacts": [{"kind": "static"}]}, "contacts[0].mu"),
+            ({"contacts": [{"kind": "static", "mu": "-1"}]}, "contacts[0].mu"),
+            ({"extra": 1}, "extra: found an unknown key"),
+            ({"expect": {"paper": "fine"}}, "expect"),
+            ({"expect": {"paper": "solved", "scan=lowest": "cycle"}}, "expect"),
+        ]:
+            with self.subTest(members=members):
+                file = self.file("p.json", changed(cli.SOLVED, **members))
+                self.refuses("solve", file, "--json", says=[file, says, "expected"])
+
+
+class Replay(cli.TestCase):
+    def test_the_reference_point_as_json(self):
+        result = self.succeeds("replay", self.file("p.json", cli.REFERENCE), "--json", code=1).json()
+        self.assertEqual((result["outcome"], result["start"], result["period"]), ("cycle", 3, 4))
+        self.assertEqual((result["policy"], result["expected"]), ("paper", ""))
+        period = [pivot for pivot in result["pivots"] if pivot["drive"] > 3]
+        self.assertEqual([pivot["step"] for pivot in period], cli.PERIOD)
+        self.assertEqual(result["statistics"]["steps"], len(result["pivots"]))
+        self.assertEqual(result["statistics"]["drives"], 7)
+        self.assertNotIn("f", result["pivots"][0])
+
+    def test_every_step_as_json(self):
+        result = self.succeeds("replay", self.file("p.json", cli.REFERENCE), "--json", "--step", code=1).json()
+        f = [Fraction(0)] * 4
+        for pivot in result["pivots"]:
+            f = [x + Fraction(pivot["step"]) * Fraction(d) for x, d in zip(f, pivot["df"])]
+            a = [x + Fraction(b) for x, b in zip(product(cli.REFERENCE["A"], f), cli.REFERENCE["b"])]
+            self.assertEqual([Fraction(x) for x in pivot["f"]], f)
+            self.assertEqual([Fraction(x) for x in pivot["a"]], a)
+        self.assertEqual([Fraction(x) for x in result["f"]], f)
+
+    def test_the_reference_point_as_text(self):
+        file = self.file("p.json", cli.REFERENCE)
+        lines = self.succeeds("replay", file, code=1).out.splitlines()
+        self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper")
+        self.assertEqual(lines[-1], "cycle: the state after 3 drives stands again 4 drives later, for ever")
+        self.assertEqual([line.split()[4] for line in lines[2:-1]][-10:], cli.PERIOD)
+        steps = self.succeeds("replay", file, "--step", code=1).out
+        for text in ["f = 0, a = b = (2, -1, -2, 2)", "Drive 7:", "df = (", "s = 65/63:", "CF = {"]:
+            self.assertIn(text, steps)
+        self.assertEqual(steps.splitlines()[-1], lines[-1])
+
+    def test_expect_decides_the_exit_code(self):
+        for problem, expect, code in [
+            (cli.SOLVED, None, 0), (cli.REFERENCE, None, 1),
+            (cli.REFERENCE, {"paper": "cycle"}, 0), (cli.REFERENCE, {"paper": "solved"}, 1),
+            (cli.REFERENCE, {"scan=lowest": "cycle"}, 0), (cli.REFERENCE, {"*": "cycle"}, 0),
+            (cli.REFERENCE, {"*": "solved", "paper": "cycle"}, 0), (cli.REFERENCE, {"ties=contacts": "cycle"}, 1),
+            (cli.SOLVED, {"paper": "cycle"}, 1), (cli.SOLVED, {"ties=contacts": "cycle"}, 0),
+        ]:
+            with self.subTest(problem=problem["name"], expect=expect):
+                file = self.file("p.json", problem if expect is None else changed(problem, expect=expect))
+                text = self.succeeds("replay", file, code=code).out
+                result = self.succeeds("replay", file, "--json", code=code).json()
+                wanted = (expect or {}).get("paper") or (expect or {}).get("scan=lowest") or (expect or {}).get("*", "")
+                self.assertEqual(result["expected"], wanted)
+                self.assertEqual("expected: " in text, code == 1 and wanted != "")
+
+    def test_a_policy_is_reported_in_its_canonical_name(self):
+        result = self.succeeds("replay", self.file("p.json", cli.SOLVED), "--json", "--policy",
+                               "ties=contacts,scan=lowest,give-up=second").json()
+        self.assertEqual(result["policy"], "give-up=second,ties=contacts")
+
+    def test_all_policies(self):
+        file = self.file("p.json", cli.REFERENCE)
+        result = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()
+        self.assertEqual(len(result["policies"]), 1536)
+        self.assertEqual(sum(result["counts"].values()), 1536)
+        counts = {}
+        for entry in result["policies"].values():
+            counts[entry["outcome"]] = counts.get(entry["outcome"], 0) + 1
+        self.assertEqual(counts, result["counts"])
+        self.assertEqual(result["policies"]["paper"], {"outcome": "cycle", "start": 3, "period": 4})
+        self.assertEqual(len(result["unexpected"]), 1536 - counts["solved"])
+        text = self.succeeds("replay", file, "--all-policies", code=1).out
+        self.assertIn(f"cycle: {counts['cycle']} policies", text)
+        self.assertIn("cycle      paper\n", text)
+
+        # Each of some policies alone ends as in the grid.
+        for policy in list(result["policies"])[::311]:
+            one = cli.run("replay", file, "--json", "--policy", policy).json()
+            self.assertEqual((one["policy"], one["outcome"]), (policy, result["policies"][policy]["outcome"]))
+
+        expect = {policy: entry["outcome"] for policy, entry in result["policies"].items()}
+        self.succeeds("replay", self.file("e.json", changed(cli.REFERENCE, expect=expect)), "--all-policies")
+        expect["paper"] = "solved"
+        wrong = self.succeeds("replay", self.file("e.json", changed(cli.REFERENCE, expect=expect)), "--all-policies",
+                              "--json", code=1).json()
+        self.assertEqual(wrong["unexpected"], ["paper"])
+        self.succeeds("replay", self.file("s.json", cli.SOLVED), "--all-policies")
+
+
+if __name__ == "__main__":
+    cli.main()

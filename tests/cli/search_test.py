@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction search, status, merge and report: the same units leave the same store, however they were run."""
+
+import json
+import shutil
+import sqlite3
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import cli
+
+PROBLEMS = 190000  # 1036 units: one block and some
+CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
+            "contacts": [2, 3], "unit_problems": 220}
+
+
+class Search(cli.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.common = Path(tempfile.mkdtemp(prefix="stiction-search-"))
+        cls.campaign = cls.common / "campaign.json"
+        cls.campaign.write_text(json.dumps(CAMPAIGN))
+        cls.reference = cls.common / "reference.store"
+        cls.done = cls.search(cls.reference, "--threads", 1)
+        assert cls.done.code == 0, cls.done.err
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.common)
+
+    @classmethod
+    def search(cls, store, *arguments, problems=PROBLEMS):
+        return cli.run("search", cls.campaign, "--store", store, "--problems", problems, *arguments)
+
+    def completes(self, store, *arguments, **options):
+        done = self.search(store, *arguments, **options)
+        self.assertEqual(done.code, 0, done.err)
+        return done
+
+    def copy(self, name):
+        return Path(shutil.copy(self.reference, self.folder / name))
+
+    # ---- The same content ----
+
+    def test_the_reference_has_what_is_compared_below(self):
+        rows = cli.content(self.reference)
+        self.assertEqual(len(rows["blocks"]), 1)
+        self.assertGreater(len(rows["units"]), 5)
+        self.assertGreater(len(rows["findings"]), 2)
+        tallies, signatures = cli.total(self.reference)
+        self.assertGreaterEqual(sum(tally["problems"] for tally in tallies.values()), PROBLEMS)
+        for tally in tallies.values():
+            self.assertEqual(sum(tally["outcomes"]), tally["problems"])
+            self.assertEqual(sum(tally["steps"]), tally["problems"])
+        self.assertGreaterEqual(set(signatures), {row[0] for row in rows["findings"]})
+        with sqlite3.connect(self.reference) as db:
+            pending = db.execute("SELECT COUNT(*) FROM findings WHERE done = 0").fetchone()
+        db.close()
+        self.assertEqual(pending, (0,))  # a campaign run to the end has finished them all
+
+    def test_threads_do_not_matter(self):
+        for threads in (2, 3):
+            self.completes(self.folder / f"{threads}.store", "--threads", threads)
+            self.assertSameContent(self.folder / f"{threads}.store", self.reference)
+
+    def test_a_resumed_search_is_the_same_as_one_in_one_go(self):
+        store = self.folder / "a.store"
+        for problems in (1, 30000, 30001, 120000, PROBLEMS):
+            self.completes(store, "--threads", 2, problems=problems)
+        self.assertSameContent(store, self.reference)
+
+    def test_a_finished_campaign_stays_as_it_is(self):
+        store = self.copy("a.store")
+        for problems in (PROBLEMS, PROBLEMS, 1000):
+            done = self.completes(store, problems=problems)
+            self.assertSameContent(store, self.reference)
+            self.assertEqual(done.out.replace(str(store), ""), self.done.out.replace(str(self.reference), ""))
+
+    def test_options_mean_the_same_as_a_campaign_file(self):
+        by_options, by_file = self.folder / "o.store", self.folder / "f.store"
+        common = ["--problems", 5000, "--store"]
+        self.succeeds("search", *common, by_options, "--generator", "psd", "small", "--contacts", 2, 3, "--mu", "1/2",
+                      "1", "--policy", "paper", "ties=contacts,scan=highest", "--seed", 9)
+        file = self.file("c.json", {
+            "format": "stiction-campaign", "version": 1, "seed": 9, "generators": ["psd", "small"],
+            "contacts": [2, 3], "mu": ["0.5", "1"], "policies": ["paper", "scan=highest,ties=contacts"]})
+        self.succeeds("search", file, *common, by_file)
+        self.assertSameContent(by_options, by_file)
+
+    # ---- Shards and merging ----
+
+    def test_merged_shards_are_the_unsharded_search(self):
+        shards = [self.folder / f"{i}.store" for i in range(2)]
+        for i, shard in enumerate(shards):
+            self.completes(shard, "--threads", 1, "--shard", f"{i}/2")
+        merged = self.folder / "merged.store"
+        self.succeeds("merge", merged, *shards)
+        self.assertEqual(cli.total(merged), cli.total(self.reference))
+        self.assertSameContent(merged, self.reference, ["campaign", "findings"])
+        before = [cli.content(shard) for shard in shards]
+
+        # In another order, and as often as you like.
+        other = self.folder / "other.store"
+        self.succeeds("merge", other, shards[1])
+        self.succeeds("merge", other, merged, shards[0], other)
+        self.assertSameContent(other, merged)
+        self.assertEqual([cli.content(shard) for shard in shards], before)
+
+        # Both shards into one file.
+        both = self.folder / "both.store"
+        for i in (1, 0):
+            self.completes(both, "--shard", f"{i}/2")
+        self.assertSameContent(both, merged)
+
+        # A search goes on where the merged stores stopped: there is nothing left to do.
+        self.completes(merged)
+        self.assertSameContent(merged, other)
+
+    def test_units_of_overlapping_shards_are_refused(self):
+        half = self.folder / "half.store"
+        self.completes(half, "--shard", "0/2")
+        out = self.copy("out.store")
+        self.refuses("merge", out, half, says="unit")
+        self.assertSameContent(out, self.reference)
+
+    def test_two_copies_of_a_block_that_differ_exit_with_70_and_name_it(self):
+        changed, out = self.copy("changed.store"), self.copy("out.store")
+        with sqlite3.connect(changed) as db:
+            db.execute("UPDATE blocks SET record = replace(record, '\"wrong\":0', '\"wrong\":1')")
+        db.close()
+        done = cli.run("merge", out, changed)
+        self.assertEqual(done.code, 70)
+        self.assertIn("block 0 of shard 0/1", done.err)
+        self.assertSameContent(out, self.reference)
+
+    def test_merge_refuses_what_does_not_belong_together(self):
+        other = self.folder / "other.store"
+        self.completes(other, "--seed", 5, problems=1)
+        out = self.folder / "out.store"
+        self.refuses("merge", out, self.reference, other, says=["seed", "4", "5"])
+        self.refuses("merge", other, self.reference, says=["seed", "4", "5"])
+        for wrong in (self.folder / "none.store", self.file("text", "no store " * 99), self.folder):
+            self.refuses("merge", self.folder / "new.store", wrong, says=wrong)
+            self.assertFalse((self.folder / "new.store").exists())
+
+    # ---- Another campaign ----
+
+    def test_another_campaign_on_the_same_store_is_refused(self):
+        store = self.copy("a.store")
+        for arguments, says in [(("--seed", 5), "seed"), (("--mu", 1), "definition"), (("--contacts", 2), "definition"),
+                                (("--generator", "psd"), "definition"), (("--policy", "ties=contacts"), "policies")]:
+            with self.subTest(arguments=arguments):
+                done = self.search(store, *arguments)
+                self.assertEqual((done.code, done.out), (2, ""))
+                for text in (str(store), f"its {says}" if says != "policies" else "its set of policies", "--store"):
+                    self.assertIn(text, done.err)
+                self.assertSameContent(store, self.reference)
+
+    # ---- Refusals ----
+
+    def test_wrong_options_are_refused_before_a_store_is_made(self):
+        store = self.folder / "a.store"
+        for arguments in [
+            ("--problems", 0), ("--problems", -1), ("--problems", "many"), ("--problems", 1.5),
+            ("--minutes", 0), ("--minutes", -1), ("--minutes", "nan"), ("--minutes", "inf"), ("--minutes", "1e300"),
+            ("--threads", 0), ("--threads", "all"), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
+            ("--mu", "-1"), ("--mu", "x"), ("--mu", "65"), ("--policy", "nonsense"), ("--policy", "ties=none"),
+            ("--policy", "paper", "scan=lowest"),
+            ("--seed", -1), ("--seed", 2**64), ("--seed", "x"), ("--seed", 1.5),
+            ("--shard", "2/2"), ("--shard", "-1/2"), ("--shard", "0/0"), ("--shard", "1"), ("--shard", "a/b"),
+            ("--shard", "0/2x"), ("--shard", f"0/{2**32 + 1}"),
+        ]:
+            with self.subTest(arguments=arguments):
+                for file in self.folder.iterdir():  # of a failure before
+                    file.unlink()
+                limit = [] if arguments[0] in ("--problems", "--minutes") else ["--problems", 1]
+                done = cli.run("search", "--generator=psd", "--contacts=1", "--store", store, *limit, *arguments)
+                self.assertEqual((done.code, done.out), (2, ""), done.err)
+                self.assertNotIn("internal error", done.err)
+                self.assertFalse(store.exists())
+        store = self.folder / "b.store"
+        self.refuses("search", self.file("c.json", {**CAMPAIGN, "contacts": [9]}), "--store", store,
+                     says="contacts[0]: found 9")
+        self.refuses("search", self.file("c.json", "{"), "--store", store, says="line 1")
+        self.refuses("search", self.folder / "none.json", "--store", store, says="none.json")
+        self.assertFalse(store.exists())
+
+    def test_places_where_no_store_can_be(self):
+        text = self.file("text", "no store " * 99)
+        for store in [self.folder / "no/such/folder.store", self.folder, text / "a.store", text, "/proc/a.store"]:
+            with self.subTest(store=store):
+                self.refuses("search", "--problems", 1, "--store", store, says=store)
+                self.refuses("status", store, says=store)
+                self.refuses("report", store, "-o", self.folder / "report", says=store)
+        self.assertEqual(text.read_text(), "no store " * 99)
+        self.assertFalse((self.folder / "report").exists())
+        self.refuses("status", self.folder / "none.store", says="none.store: no such store")
+
+    # ---- Output ----
+
+    def test_json_is_all_there_is_on_standard_output(self):
+        done = self.completes(self.copy("a.store"), "--json")
+        summary = done.json()
+        self.assertEqual((summary["seed"], summary["pending"]), (4, 0))
+        tallies, signatures = cli.total(self.reference)
+        self.assertEqual(summary["problems"], sum(tally["problems"] for tally in tallies.values()))
+        self.assertEqual(sum(summary["findings"].values()), sum(signatures.values()))
+        self.assertEqual(sum(summary["groups"].values()), len(signatures))
+        self.assertEqual(summary["suspicions"], sum(sum(map(sum, t["verdicts"])) for t in tallies.values()))
+        self.assertEqual(self.succeeds("status", self.reference, "--json").json(), summary)
+        self.assertIn("seed 4", done.err)
+        self.assertPlain(done)
+
+    def test_status_says_what_the_search_said(self):
+        before = cli.content(self.reference)
+        text = self.succeeds("status", self.reference).out
+        self.assertEqual(text, self.done.out)
+        self.assertRegex(text, r"19\d,\d\d\d problems in 1,03\d units, seed 4")
+        self.assertEqual(cli.content(self.reference), before)
+
+    def test_the_default_store_is_in_the_working_folder(self):
+        self.succeeds("search", self.campaign, "--problems", 1, cwd=self.folder)
+        self.succeeds("status", "stiction.store", cwd=self.folder)
+
+    def test_the_certificates_of_a_store_are_accepted(self):
+        files = []
+        for i, row in enumerate(cli.content(self.reference)["findings"]):
+            for certificate in (row[11], row[13]):
+                if certificate:
+                    files.append(self.file(f"{i}-{len(files)}.json", certificate))
+            if row[12]:
+                self.succeeds("replay", self.file(f"{i}.json", row[12]))
+        self.assertGreater(len(files), 1)
+        self.succeeds("check", *files)
+
+    def test_status_of_a_running_search(self):
+        store = self.folder / "a.store"
+        search = subprocess.Popen([cli.program, "search", self.campaign, "--store", store, "--minutes", "1", "--threads", "1"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            units = [0]
+            end = time.monotonic() + 30
+            while len(set(units)) < 5 and time.monotonic() < end:
+                done = cli.run("status", store, "--json")
+                if done.code == 0:
+                    units.append(done.json()["units"])
+                    per_unit = done.json()["problems"] / max(1, units[-1])
+                    self.assertTrue(units[-1] == 0 or 110 <= per_unit <= 220)
+                else:
+                    self.assertEqual((done.code, units), (2, [0]))  # there is no store yet
+            self.assertEqual(units, sorted(units))
+            self.assertGreaterEqual(len(set(units)), 5)
+            self.assertIsNone(search.poll())
+        finally:
+            search.kill()
+            search.wait()
+
+    def test_a_report_is_the_same_each_time(self):
+        def files(folder):
+            return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+        one, two = self.folder / "one", self.folder / "two"
+        done = self.succeeds("report", self.reference, "-o", one)
+        self.assertEqual(done.out, f"{one}/index.html\n")
+        for _ in range(2):
+            self.succeeds("report", self.reference, "-o", two)
+            self.assertEqual(files(two), files(one))
+        self.assertTrue(files(one)[Path("index.html")].lower().startswith(b"<!doctype html>"))
+        problems = [path for path in (one / "findings").glob("*.json") if path.name.count(".") == 1]
+        self.assertGreater(len(problems), 2)
+        for problem in problems:
+            self.assertIn(cli.run("replay", problem).code, (0, 1))
+        self.succeeds("check", *(one / "findings").glob("*.certificate.json"))
+        self.refuses("report", self.reference, "-o", "/proc/report", says="/proc/report")
+        self.refuses("report", self.reference, "-o", self.file("file", ""), says="file")
+
+
+if __name__ == "__main__":
+    cli.main()

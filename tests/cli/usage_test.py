@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Help, bad usage, and what happens to output that nobody reads."""
+
+import math
+import subprocess
+
+import cli
+
+VERBS = ["search", "replay", "report", "solve", "certify", "check", "minimize", "status", "merge", "policies", "bench"]
+
+# spec.md, part 4; the first value is the reference policy.
+SWITCHES = {
+    "scan": ["lowest", "normals-first", "most-violated", "highest"],
+    "resume": ["restart", "round"],
+    "admit": ["lazy", "eager"],
+    "file": ["no", "yes"],
+    "give-up": ["first", "previous", "second"],
+    "drop": ["contact", "variable"],
+    "rezero": ["rescan", "continue"],
+    "ties": ["sets", "contacts"],
+    "apex": ["kept", "suspended"],
+    "slip": ["literal", "redirect", "polygon"],
+}
+
+
+class Usage(cli.TestCase):
+    def test_help_of_the_program_names_every_verb_and_the_exit_codes(self):
+        done = self.succeeds("--help")
+        self.assertEqual(done.err, "")
+        for verb in VERBS:
+            self.assertRegex(done.out, rf"(?m)^  {verb} ")
+        self.assertIn("Exit: 0", done.out)
+
+    def test_help_of_every_verb(self):
+        for verb in VERBS:
+            with self.subTest(verb=verb):
+                done = self.succeeds(verb, "--help")
+                self.assertIn("Usage:", done.out)
+                self.assertEqual(done.err, "")
+                self.assertEqual(self.succeeds(verb, "-h").out, done.out)
+
+    def test_bad_usage(self):
+        problem = self.file("problem.json", cli.SOLVED)
+        for arguments in [
+            (), ("solv",), ("--nonsense",),
+            ("solve",), ("replay",), ("certify",), ("check",), ("minimize",), ("status",), ("merge",), ("report",),
+            ("solve", problem, "--nonsense"), ("solve", problem, problem),
+            ("certify", problem), ("minimize", problem), ("merge", self.folder / "out"),
+            ("report", self.folder / "a.store"),
+            ("solve", problem, "--policy"), ("solve", problem, "--policy", "scan=lowst"),
+            ("replay", problem, "--policy", "*"), ("replay", problem, "--policy", "scan=lowest,scan=highest"),
+            ("solve", problem, "--max-drives", "0"), ("solve", problem, "--max-bits", "x"),
+            ("solve", problem, "--force-tolerance", "-1"), ("solve", problem, "--force-tolerance", "nan"),
+            ("certify", problem, "-o", self.folder / "c", "--claim", "nonsense"),
+            ("minimize", problem, "-o", self.folder / "m", "--keep", "nonsense"),
+            ("policies", "x"), ("bench", "--suite", "nonsense"), ("bench", "--contacts", "9"), ("bench", "--repeat", "0"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.refuses(*arguments)
+
+    def test_files_that_cannot_be_read(self):
+        out = self.folder / "out"
+        broken = self.file("broken.json", '{"format": ')
+        for before, after in [(["solve"], []), (["replay"], []), (["replay", "--all-policies"], []),
+                              (["certify"], ["-o", out]), (["minimize"], ["-o", out]), (["check"], [])]:
+            for file, says in [(self.folder / "none.json", "No such file"), (self.folder, "a directory"),
+                               (broken, "line 1, column 12"), (self.file("empty.json", ""), "line 1, column 1"),
+                               (self.file("nul.json", "{\0}"), "NUL")]:
+                with self.subTest(verb=before, file=file.name):
+                    self.refuses(*before, file, *after, says=[file, says])
+                    self.assertFalse(out.exists())
+
+    def test_an_unreadable_file(self):
+        file = self.file("secret.json", cli.SOLVED)
+        file.chmod(0)
+        try:
+            file.read_text()
+            self.skipTest("this user may read everything")
+        except PermissionError:
+            self.refuses("solve", file, says=[file, "Permission denied"])
+
+    def test_policies_are_those_of_the_specification(self):
+        rows = self.succeeds("policies", "--json").json()
+        self.assertEqual([row["switch"] for row in rows], list(SWITCHES))
+        for row in rows:
+            values = [value["value"] for value in row["values"]]
+            self.assertEqual(sorted(values), sorted(SWITCHES[row["switch"]]))
+            self.assertEqual(values[0], SWITCHES[row["switch"]][0])
+            self.assertTrue(row["reads"] and row["question"] and all(v["meaning"] for v in row["values"]))
+        self.assertEqual([row["switch"] for row in rows if not row["planar"]], ["slip"])
+        grid = math.prod(len(row["values"]) for row in rows if row["planar"])
+        text = self.succeeds("policies").out
+        self.assertIn(f"Planar grid: {grid} policies", text)
+        for values in SWITCHES.values():
+            for value in values:
+                self.assertIn(f"    {value} ", text)
+
+    def test_output_that_cannot_be_written_is_not_success(self):
+        problem = self.file("problem.json", cli.SOLVED)
+        for arguments in [("policies",), ("policies", "--json"), ("solve", problem, "--json"), ("replay", problem)]:
+            with self.subTest(arguments=arguments):
+                with open("/dev/full", "w") as full:
+                    done = subprocess.run([cli.program, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(b"output", done.stderr)
+
+    def test_a_reader_that_goes_away_is_no_internal_error(self):
+        problem = self.file("problem.json", cli.REFERENCE)
+        done = subprocess.run(["bash", "-c", '"$0" replay --all-policies "$1" | head -n 1; echo ${PIPESTATUS[0]}',
+                               cli.program, problem], capture_output=True, text=True)
+        self.assertNotIn("internal error", done.stderr)
+        self.assertIn(done.stdout.split()[-1], ["1", "141"])  # all was written before, or SIGPIPE
+
+
+if __name__ == "__main__":
+    cli.main()

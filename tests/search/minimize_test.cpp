@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The minimizer: what it returns is simpler, shows the same, and cannot be made simpler by it.
+
+#include "search/minimize.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/properties.h"
+#include "search/signature.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+using Catch::Contains;
+
+bool Same(const ExactProblem& x, const ExactProblem& y) { return ProblemToJson(x) == ProblemToJson(y); }
+
+std::string Lack(const ExactProblem& problem, const MinimizeOptions& options) {
+  try {
+    (void)Minimize(problem, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST_CASE("minimize: outcome and assumptions are kept, the problem becomes simpler and cannot become simpler") {
+  for (const CyclingSeed& seed : CyclingSeeds()) {
+    CAPTURE(seed.index, seed.contacts);
+    const ExactProblem problem = Cycling(seed);
+    const Minimized small = Minimize(problem, {});
+    CHECK(RunExact(small.problem, {}).verdict.outcome == Outcome::kCycle);
+    CHECK(MeetsAssumptions(small.problem));
+    CHECK(SimplicityOf(small.problem) < SimplicityOf(problem));
+    CHECK(small.accepted > 0);
+    CHECK(small.candidates >= small.accepted);
+    CHECK_FALSE(small.cancelled);
+    const Minimized again = Minimize(small.problem, {});
+    CHECK(Same(again.problem, small.problem));
+    CHECK(again.accepted == 0);
+  }
+}
+
+TEST_CASE("minimize: the signature asked for is kept") {
+  const ExactProblem problem = Cycling(CyclingSeeds().front());
+  MinimizeOptions options;
+  options.signature = Signature(problem, RunExact(problem, {}));
+  const ExactProblem small = Minimize(problem, options).problem;
+  CHECK(Signature(small, RunExact(small, {})) == *options.signature);
+}
+
+TEST_CASE("minimize: what every policy asked for shows, every one still shows") {
+  std::vector<Policy> policies;
+  for (const PolicyClass& equal : RunPolicies(ReferenceProblem(), PlanarGrid(), {})) {
+    if (equal.verdict.outcome == Outcome::kCycle)
+      policies.insert(policies.end(), equal.policies.begin(), equal.policies.end());
+  }
+  REQUIRE(policies.size() == 1320);
+  MinimizeOptions options;
+  options.policies = policies;
+  const ExactProblem small = Minimize(ReferenceProblem(), options).problem;
+  CHECK(AllEndIn(Outcome::kCycle, small, policies, {}));
+  CHECK_FALSE(SimplicityOf(ReferenceProblem()) < SimplicityOf(small));
+}
+
+TEST_CASE("minimize: a cycle that the whole grid shows is kept under the whole grid") {
+  int found = 0;
+  for (const CyclingSeed& seed : CyclingSeeds()) {
+    const ExactProblem problem = Cycling(seed);
+    if (!AllEndIn(Outcome::kCycle, problem, PlanarGrid(), {})) continue;
+    ++found;
+    MinimizeOptions options;
+    options.policies = PlanarGrid();
+    const ExactProblem small = Minimize(problem, options).problem;
+    CHECK(AllEndIn(Outcome::kCycle, small, PlanarGrid(), {}));
+    CHECK(MeetsAssumptions(small));
+  }
+  CHECK(found > 0);
+}
+
+TEST_CASE("minimize: a problem that is not interesting is refused with what it lacks") {
+  CHECK_THAT(Lack(ThreeSolutions(), {}), Contains("under paper it ends in solved, not in cycle"));
+  ExactProblem problem = ReferenceProblem();
+  problem.A(0, 1) += 1;
+  CHECK_THAT(Lack(problem, {}), Contains("not symmetric"));
+  problem.A(1, 0) += 1;
+  problem.A(1, 1) = 0;
+  CHECK_THAT(Lack(problem, {}), Contains("not positive semidefinite"));
+  CHECK_THAT(Lack(NoSolution(), {}), Contains("not in range(A)"));
+  MinimizeOptions grid;
+  grid.policies = PlanarGrid();
+  CHECK_THAT(Lack(ReferenceProblem(), grid), Contains("not every policy"));
+  MinimizeOptions other;
+  other.signature = "cycle-2c-1d-1s";
+  CHECK_THAT(Lack(ReferenceProblem(), other), Contains("another signature"));
+}
+
+TEST_CASE("minimize: a solved problem shrinks to nothing") {
+  MinimizeOptions options;
+  options.keep = Outcome::kSolved;
+  CHECK(Minimize(GiveUpProblem(), options).problem.contacts.empty());
+}
+
+TEST_CASE("minimize: once cancelled, what was reached is returned and still interesting") {
+  const ExactProblem problem = Cycling(CyclingSeeds().back());
+  int asked = 0;
+  MinimizeOptions options;
+  options.cancelled = [&asked] { return ++asked > 200; };
+  const Minimized stopped = Minimize(problem, options);
+  CHECK(stopped.cancelled);
+  CHECK(RunExact(stopped.problem, {}).verdict.outcome == Outcome::kCycle);
+  CHECK(MeetsAssumptions(stopped.problem));
+}
+
+TEST_CASE("simplicity: contacts count before rows, then nonzeros, bits and magnitude") {
+  const ExactProblem two = MakeProblem({-1, -1}, {{0, 0}, {0, 0}}, {0, 0});
+  const ExactProblem one = MakeProblem({1}, {{1000, 1000}, {1000, 1000}}, {1000, 1000});
+  const ExactProblem smooth = MakeProblem({-1}, {{1000}}, {1000});
+  const ExactProblem sparse = MakeProblem({1}, {{1000, 0}, {0, 1000}}, {1000, 1000});
+  const ExactProblem shorter = MakeProblem({1}, {{1000, 0}, {0, 1000}}, {1000, 500});
+  const ExactProblem smaller = MakeProblem({1}, {{1000, 0}, {0, 1000}}, {1000, 999});
+  const std::vector<ExactProblem> rising = {NoContacts(), smooth, shorter, smaller, sparse, one, two};
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    for (std::size_t j = 0; j < rising.size(); ++j) {
+      CAPTURE(i, j);
+      CHECK((SimplicityOf(rising[i]) < SimplicityOf(rising[j])) == (i < j));
+    }
+  }
+  const ExactProblem negative = MakeProblem({-1}, {{1000}}, {-1000});
+  CHECK(SimplicityOf(smooth) < SimplicityOf(negative));
+  const ExactProblem fraction = MakeProblem({-1}, {{1000}}, {Rational(1000, 7)});
+  CHECK(SimplicityOf(smooth) < SimplicityOf(fraction));
+}
+
+}  // namespace
+}  // namespace stiction
