@@ -44,24 +44,24 @@ inline ExactProblem MakeProblem(const std::vector<Rational>& mu, const std::vect
   return problem;
 }
 
-// spec.md, part 4: cycles under most policies.
+// Cycles under most policies.
 inline ExactProblem ReferenceProblem() {
   return MakeProblem({1, 1}, {{7, -2, -6, 0}, {-2, 9, -1, -7}, {-6, -1, 7, 3}, {0, -7, 3, 7}}, {2, -1, -2, 2});
 }
 
-// theory.md, 6.3: positive definite, nondegenerate, with a give-up on the way to its solution.
+// Positive definite, nondegenerate, with a give-up on the way to its solution.
 inline ExactProblem GiveUpProblem() {
   return MakeProblem({1, 2}, {{4, 1, -5, 1}, {1, 3, 1, 1}, {-5, 1, 9, -1}, {1, 1, -1, 1}},
                      {Rational(1, 1000), 1, -1, -2});
 }
 
-// theory.md, 7: one contact with three isolated solutions, (0, 0), (3, -2), (1, -1).
+// One contact with three isolated solutions, (0, 0), (3, -2), (1, -1).
 inline ExactProblem ThreeSolutions() { return MakeProblem({1}, {{1, 2}, {2, 5}}, {1, 4}); }
 
-// theory.md, 3.5: A positive semidefinite, b not in its range, no solution.
+// A positive semidefinite, b not in its range, no solution.
 inline ExactProblem NoSolution() { return MakeProblem({1}, {{1, -1}, {-1, 1}}, {-1, 0}); }
 
-// theory.md, 8: the frictionless algorithm takes 2^n - 1 pivots.
+// The frictionless algorithm takes 2^n - 1 pivots.
 inline ExactProblem ExponentialFamily(int n) {
   ExactProblem problem;
   problem.contacts.assign(n, {ContactKind::kFrictionless, 0, {}});

@@ -19,7 +19,7 @@ TABLES = {
     "findings": "signature",
 }
 
-# spec.md, part 4: the reference point. Cycles under the reference policy, solved under others.
+# Cycles under the reference policy, solved under others.
 REFERENCE = {
     "format": "stiction-problem", "version": 1, "name": "two-contact-cycle", "dimension": 2,
     "contacts": [{"kind": "static", "mu": "1"}, {"kind": "static", "mu": "1"}],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""stiction solve and replay on files: outputs and exit codes of spec.md, part 3."""
+"""stiction solve and replay on files: outputs and exit codes."""
 
 from fractions import Fraction
 

@@ -8,7 +8,7 @@ import cli
 
 VERBS = ["search", "replay", "report", "solve", "certify", "check", "minimize", "status", "merge", "policies", "bench"]
 
-# spec.md, part 4; the first value is the reference policy.
+# The first value is the reference policy.
 SWITCHES = {
     "scan": ["lowest", "normals-first", "most-violated", "highest"],
     "resume": ["restart", "round"],

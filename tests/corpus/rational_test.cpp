@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact numbers: the grammar of spec.md part 2, and the nearest double.
+// Exact numbers: their grammar, and the nearest double.
 
 #include "corpus/rational.h"
 

@@ -528,7 +528,7 @@ TEST_CASE("conditioned: eigenvalues fall geometrically from 1 to 100^-k, k = 0..
   CHECK(exponents == std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8});
 }
 
-// theory.md 6.4, "Real rigid bodies", first example: W = diag(1/3, 1/3, 4/3), F = (1, -15, 18).
+// One rigid body at rest on two contacts: W = diag(1/3, 1/3, 4/3), F = (1, -15, 18).
 TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed by hand") {
   constexpr std::array<MuChoice, 2> kPalette = {{{2, 1}, {10, 1}}};
   const Record choices = {1, 0,   1,              // mu = (2, 10)

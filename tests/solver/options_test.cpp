@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of policy switches, and policies as text (spec.md, part 4).
+// The table of policy switches, and policies as text.
 
 #include "solver/options.h"
 

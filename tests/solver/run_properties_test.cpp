@@ -184,10 +184,10 @@ TEST_CASE("run: a solution meets the conditions, a cycle returns to its state an
   });
   CHECK(outcomes[Outcome::kSolved] > 7000);
   CHECK(outcomes[Outcome::kCycle] >= static_cast<int>(CyclingSeeds().size()));
-  CHECK(outcomes[Outcome::kRay] == 0);  // theory.md, 6.2 d
+  CHECK(outcomes[Outcome::kRay] == 0);  // impossible for b in range(A)
 }
 
-TEST_CASE("run: no drive ever stalls under any policy, and none is unlimited (readings.md 6, theory.md 6.2)") {
+TEST_CASE("run: no drive ever stalls under any policy, and none is unlimited (readings.md 6)") {
   const auto no_stall = [](const ExactProblem& problem) {
     for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
       CAPTURE(PolicyName(equal.policies.front()));
