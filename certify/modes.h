@@ -27,7 +27,7 @@
 // hence the convex hull of their union. An infeasible prefix ends the search below it with one Farkas vector
 // (no_solution.h), which refutes all its completions.
 //
-// Source        theory.md, 9. The cost of the worst case is the product of the numbers of modes.
+// Cost          in the worst case the product of the numbers of modes.
 // Exactness     programs with integer data, solved by CGAL's QP_solver over Gmpz, Bland's rule. Nothing that
 //               it says is believed: witnesses and Farkas vectors are verified here over rationals.
 // Determinism   the result depends on the problem alone.

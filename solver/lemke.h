@@ -22,11 +22,12 @@
 //              - (z + t v)'M(z + t v) >= 0 for all t >= 0 with v'Mv = 0 = z'Mv gives v'Mz >= 0;
 //              - so 0 = v'w gives q'v = -v'Mz - z0 e'v < 0.
 //              For symmetric A: f = (vN, v+ - v-) has f in K, A f = 0 and b'f = q'v < 0, which b in range(A)
-//              excludes. So every problem that satisfies the paper's assumptions is solved (theory.md, 3.4),
+//              excludes. So every problem that satisfies the paper's assumptions is solved,
 //              and a ray proves that (H) fails. It does not prove that there is no solution.
 // Finite       the lexicographic rule: rows of (inv(B) q, inv(B)) are lexicographically positive and no basis
 //              recurs. The path ends as soon as z0 can leave at the smallest ratio, even in a tie.
-// Source       theory.md, 2 and 3.
+// Source       R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, 3.8 and 4.4
+//              (numbers to be checked).
 // Shapes       m = contacts + 3 static contacts; a dense tableau m x (m + 1). Units: f in N, a in m/s^2.
 // Exactness    only + - * / and signs. Over inexact scalars signs are relative to the column (option
 //              `pivot`), equal quotients to the option `force`. An answer whose natural residual exceeds the
@@ -42,7 +43,7 @@
 
 namespace stiction {
 
-// The covering vector d of q + d z0: 1 in every row, as in theory.md; or 1 m/s^2 in the rows of accelerations
+// The covering vector d of q + d z0: 1 in every row; or 1 m/s^2 in the rows of accelerations
 // and 1/max A_ii N in those of force limits. The second path does not depend on the units of the data, and is
 // the one to take over inexact scalars: where A is far from 1 the first mixes magnitudes.
 enum class Cover : std::uint8_t { kOnes, kUnits };

@@ -106,7 +106,7 @@ void CheckEnumeration(const ExactProblem& problem, const Enumeration& enumeratio
   }
 }
 
-// ---- Examples of theory.md -------------------------------------------------------------------
+// ---- Known examples --------------------------------------------------------------------------
 
 TEST_CASE("modes: the scripted wedge has no solution for mu >= 1, and one for mu < 1") {
   ExactProblem wedge = NoSolution();
@@ -191,7 +191,7 @@ TEST_CASE("modes: three isolated solutions of one contact, nine of two") {
 }
 
 TEST_CASE("modes: solution sets that are no point are said to be none") {
-  // theory.md, 7: all f with fN - fF = 1, fN in [2/3, 2], stick.
+  // All f with fN - fF = 1, fN in [2/3, 2], stick.
   const ExactProblem bounded = MakeProblem({Rational(1, 2)}, {{1, -1}, {-1, 1}}, {-1, 1});
   const Enumeration segment = EnumerateModes(bounded);
   CheckEnumeration(bounded, segment);
@@ -285,7 +285,7 @@ TEST_CASE("modes: the answer of the published algorithm lies in a word found, on
       const ExactProblem problem = Random<Rational>(id, 2, index);
       const Enumeration enumeration = EnumerateModes(problem);
       CheckEnumeration(problem, enumeration);
-      CHECK_FALSE(enumeration.solutions.empty());  // theory.md, 3.4
+      CHECK_FALSE(enumeration.solutions.empty());
       const ExactRun run = RunExact(problem, {});
       if (run.verdict.outcome != Outcome::kSolved) continue;
       int words = 0;

@@ -179,7 +179,7 @@ TEMPLATE_TEST_CASE("complete: every arithmetic takes the path with the descent",
   }
 }
 
-// A body with two contacts at rest (theory.md 6.4): rows n, t of each contact over x, y, angle.
+// A body with two contacts at rest: rows n, t of each contact over x, y, angle.
 ExactProblem BodyProblem() {
   const std::vector<std::vector<Rational>> J = {{Rational(3, 5), Rational(4, 5), Rational(3, 5)},
                                                 {Rational(-4, 5), Rational(3, 5), Rational(-4, 5)},

@@ -17,7 +17,7 @@ namespace {
 using namespace testing;
 
 // Positive definite, numbers so large that ties are improbable, one mu of a list or one per contact, b_N
-// negative with probability 3/5: about the distribution of complete-driving.md, part 5.
+// negative with probability 3/5.
 ExactProblem RandomDefinite(int contacts, std::uint64_t seed) {
   Choices choices(seed);
   const int rows = 2 * contacts;
@@ -189,7 +189,7 @@ TEST_CASE("lemke: a ray shows that b is not in range(A); it can end a problem th
 }
 
 TEST_CASE("lemke: a stuck problem that solves itself with f = 0 needs no pivot though (H) fails") {
-  LemkeAlgorithm<Rational> lemke;  // theory.md, 3.5
+  LemkeAlgorithm<Rational> lemke;
   const ExactProblem problem = MakeProblem({2}, {{1, -1}, {-1, 1}}, {1, -2});
   CHECK(lemke.Run(problem).outcome == Outcome::kSolved);
   CHECK_FALSE(FindViolation(problem, lemke.f()));
@@ -209,7 +209,7 @@ ExactProblem WithDecoupledFriction(const ExactProblem& normals, const Rational& 
   return problem;
 }
 
-// complete-driving.md, 5: 2^n + 2n, which is the count with free tangential accelerations that are not zero.
+// 2^n + 2n, which is the count with free tangential accelerations that are not zero.
 TEST_CASE("lemke: the exponential family is exponential here too") {
   LemkeAlgorithm<Rational> lemke;
   for (int n = 2; n <= 8; ++n) {
