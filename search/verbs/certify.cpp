@@ -76,10 +76,15 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
 }
 
+// Loops are claimed of problems that the published algorithm handles, existence of planar ones.
+ProblemFile ReadFor(const CertifyOptions& o) {
+  if (o.all || o.claim == "solution-exists") return ReadPlanarProblem(o.file);
+  return o.claim == "cycle" || o.claim == "stall" ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+}
+
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all) throw InputError("certify: expected -o CERT, or --all");
-  const bool runs_method = o.claim == "cycle" || o.claim == "stall";
-  const ProblemFile file = runs_method ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  const ProblemFile file = ReadFor(o);
   if (o.all) return ListSolutions(o, file);
   const Json certificate = Certify(o, file);
   const bool certified = !certificate.is_null();
@@ -141,6 +146,7 @@ void AddCertify(CLI::App& program, Action& action) {
           "stall")
       ->capture_default_str()
       ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "cycle", "stall"}));
+  verb.add_flag("--all", o->all, "list all contact modes that have solutions; writes no certificate");
   AddPolicyOption(verb, o->policy, Grid::kAllowed);
   AddLimits(verb, o->limits);
   verb.add_flag("--json", o->json, "machine output");

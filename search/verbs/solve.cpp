@@ -215,7 +215,8 @@ int Solve(const SolveOptions& o) {
   if (o.method == "enumerate" && o.arithmetic != "exact") {
     throw InputError("--method enumerate: expected --arithmetic exact");
   }
-  const ProblemFile file = o.method == "enumerate" ? ReadProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  const ProblemFile file =
+      o.method == "enumerate" ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
