@@ -14,7 +14,7 @@ namespace stiction {
 
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 
-// Requires: f is a solution (FindViolation is empty); otherwise InternalError.
+// Requires: f is a solution (FindLawViolation is empty); otherwise InternalError.
 Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
 // `symmetric` or `not-symmetric`.
 Json SymmetryCertificate(const ExactProblem& problem);

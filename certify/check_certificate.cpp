@@ -7,6 +7,7 @@
 #include <set>
 
 #include "certify/certificate.h"
+#include "certify/no_solution.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
@@ -60,15 +61,13 @@ void RequireEqual(const Rational& found, const Rational& expected, const std::st
 
 Json CheckSolution(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"a", "f"});
-  if (!PublishedHandles(problem)) {
-    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts",
-                   "those"};
-  }
+  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
   const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
   const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
   const ExactVector answer = Accelerations(problem, f);
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));
-  if (const auto violation = FindViolation(problem, f)) throw Rejected{"witness.f", *violation, "a solution"};
+  if (const auto violation = FindLawViolation(problem, f))
+    throw Rejected{"witness.f", *violation, "a solution"};
   return Json::object();
 }
 
@@ -253,11 +252,19 @@ Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
           {"period", runs[0]["period"]}};
 }
 
+Json CheckNone(const ExactProblem& problem, const Json& witness) {
+  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
+  const NoSolutionCheck check = CheckNoSolution(problem, witness);
+  if (check.fault) throw Rejected{check.fault->path, check.fault->found, check.fault->expected};
+  return check.facts;
+}
+
 using Checker = std::function<Json(const ExactProblem&, const Json&)>;
 
 const std::map<std::string, Checker>& Checkers() {
   static const std::map<std::string, Checker> checkers = {
       {"solution-exists", CheckSolution},
+      {"no-solution", CheckNone},
       {"symmetric", CheckSymmetric},
       {"not-symmetric", CheckNotSymmetric},
       {"psd", CheckSemidefinite},

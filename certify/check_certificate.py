@@ -288,12 +288,112 @@ def violated(problem, f, a, row):
 def check_solution(problem, witness):
     fields(witness, "$.witness", "f", "a")
     f, a = (vector(witness[k], f"$.witness.{k}", len(problem.b)) for k in "fa")
-    variables = problem.variables
     equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")
-    for row, x in enumerate(variables):
-        need(not violated(problem, f, a, row), f"$.witness.f[{row}]", f[row],
-             f"a force that meets {'(15)' if row == x.normal else '(16)'} with a = {a[row]}")
+    for i, contact, rows in planar_contacts(problem):
+        force, answer = ([values[row] for row in rows] for values in (f, a))
+        need(any(in_mode(mode, contact, force, answer) for mode in modes_of(contact)),
+             f"$.witness.f[{rows[0]}]", force[0],
+             f"a force by the law of a {contact.kind} contact (number {i + 1})",
+             f"; f = {', '.join(map(brief, force))}, a = {', '.join(map(brief, answer))}")
     return f"{len(problem.contacts)} contacts"
+
+
+# --- Contact modes (certify/README.md, Modes) ----------------------------------------
+
+def planar_contacts(problem):
+    """(number, contact, its rows) for each contact of a planar problem."""
+    need(problem.dimension == 2, "$.problem.dimension", problem.dimension,
+         "2: others are not supported by this checker for this claim")
+    row = 0
+    for i, contact in enumerate(problem.contacts):
+        rows = range(row, row + (1 if contact.mu is None else 2))
+        yield i, contact, rows
+        row = rows.stop
+
+
+def modes_of(contact):
+    if contact.kind == "bilateral":
+        return ("hold",)
+    if contact.kind == "static" and contact.mu > 0:
+        return ("break", "stick", "slip+", "slip-")
+    return ("break", "touch")
+
+
+def with_friction(values):
+    """Normal and friction entry; zero for the friction of a contact that has none."""
+    return (*values, Fraction(0))[:2]
+
+
+def limit(contact):
+    """mu u: under `touch` a contact has fF = -mu u fN."""
+    return contact.mu * int(contact.slip) if contact.kind == "sliding" else Fraction(0)
+
+
+def in_mode(mode, contact, f, a):
+    """Whether a contact with forces f and accelerations a meets the conditions of the mode."""
+    (fN, fF), (aN, aF) = with_friction(f), with_friction(a)
+    if mode == "hold":
+        return aN == 0
+    if mode == "break":
+        return fN == fF == 0 <= aN
+    if mode == "touch":
+        return aN == 0 <= fN and fF == -limit(contact) * fN
+    if mode == "stick":
+        return aN == aF == 0 and abs(fF) <= contact.mu * fN
+    sense = 1 if mode == "slip+" else -1
+    return aN == 0 <= fN and fF == -sense * contact.mu * fN and sense * aF >= 0
+
+
+def never_negative(mode, contact, y, g):
+    """Whether yN aN - gN fN + yF aF - gF fF >= 0 wherever a contact is in the mode."""
+    (yN, yF), (gN, gF) = with_friction(y), with_friction(g)
+    if mode == "hold":
+        return gN == 0
+    if mode == "break":
+        return yN >= 0 == yF
+    if mode == "touch":
+        return gN <= limit(contact) * gF and yF == 0
+    if mode == "stick":
+        return gN <= -contact.mu * abs(gF)
+    sense = 1 if mode == "slip+" else -1
+    return gN <= sense * contact.mu * gF and sense * yF >= 0
+
+
+def check_refutation(problem, prefix, y, place):
+    """y'b < 0, and y'(a - A f) >= 0 in every word that begins with the prefix."""
+    yb, g = dot(y, problem.b), times(zip(*problem.A), y)
+    need(yb < 0, place, yb, "y'b < 0")
+    for i, contact, rows in planar_contacts(problem):
+        for mode in prefix[i:i + 1] or modes_of(contact):
+            need(never_negative(mode, contact, [y[row] for row in rows], [g[row] for row in rows]),
+                 place, f"a term of contact {i + 1} that can be negative",
+                 f"none in mode {mode}")
+
+
+def check_no_solution(problem, witness):
+    fields(witness, "$.witness", "prefixes")
+    choices = [modes_of(contact) for _, contact, _ in planar_contacts(problem)]
+    following = [1]  # words for the last 0, 1, ... contacts
+    for modes in reversed(choices):
+        following.append(following[-1] * len(modes))
+    covered, prefixes = 0, {}
+    for at, entry in items(witness["prefixes"], "$.witness.prefixes"):
+        fields(entry, at, "modes", "y")
+        named = items(entry["modes"], at + ".modes")
+        need(len(named) <= len(choices), at + ".modes", len(named), f"<= {len(choices)} modes")
+        prefix = tuple(one_of(mode, where, modes) for (where, mode), modes in zip(named, choices))
+        need(prefix not in prefixes, at + ".modes", prefix,
+             f"no prefix twice, see {prefixes.get(prefix)}")
+        prefixes[prefix] = at
+        check_refutation(problem, prefix, vector(entry["y"], at + ".y", len(problem.b)), at + ".y")
+        covered += following[len(choices) - len(prefix)]
+    for prefix, at in prefixes.items():
+        for length in range(len(prefix)):
+            need(prefix[:length] not in prefixes, at + ".modes", prefix,
+                 f"no prefix that begins with another, {prefixes.get(prefix[:length])}")
+    need(covered == following[-1], "$.witness.prefixes", covered,
+         f"{following[-1]} words covered, all of them")
+    return f"{following[-1]} words, {len(prefixes)} prefixes"
 
 
 # --- The published algorithm: sections 4.1-4.3 and 5.2-5.5, as solver/readings.md ---
@@ -639,6 +739,7 @@ def check_runs(claim, problem, witness):
 
 CLAIMS = {
     "solution-exists": check_solution,
+    "no-solution": check_no_solution,
     "symmetric": check_symmetric,
     "not-symmetric": check_not_symmetric,
     "psd": check_psd,
@@ -678,10 +779,12 @@ def check_file(path):
 EPILOG = """claims:
   symmetric, psd, in-range, and these with not- before
                    for every valid problem
-  solution-exists, cycle, stall
-                   for planar problems of static and frictionless contacts;
-                   cycle and stall run the published algorithm again, from
-                   f = 0, under every policy that the certificate names
+  solution-exists, no-solution
+                   for planar problems; no-solution by a Farkas vector for
+                   every word of contact modes, or prefix of words
+  cycle, stall     for planar problems of static and frictionless contacts:
+                   run the published algorithm again, from f = 0, under
+                   every policy that the certificate names
 
 exit status:
   0  every certificate was accepted

@@ -5,6 +5,8 @@
 
 #include <type_traits>
 
+#include "solver/complete.ipp"
+#include "solver/lemke.ipp"
 #include "solver/published.ipp"
 
 namespace stiction {
@@ -12,6 +14,8 @@ namespace stiction {
 static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
 
 template class PublishedAlgorithm<Rational>;
+template class CompleteDriving<Rational>;
+template class LemkeAlgorithm<Rational>;
 
 ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
   PublishedAlgorithm<Rational> algorithm(options);

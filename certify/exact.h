@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published algorithm over rationals: one run, or the whole grid of policies.
+// The methods over rationals; the published algorithm for one policy, or for the whole grid.
 
 #ifndef STICTION_CERTIFY_EXACT_H_
 #define STICTION_CERTIFY_EXACT_H_
@@ -9,11 +9,15 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
+#include "solver/complete.h"
+#include "solver/lemke.h"
 #include "solver/published.h"
 
 namespace stiction {
 
 extern template class PublishedAlgorithm<Rational>;
+extern template class CompleteDriving<Rational>;
+extern template class LemkeAlgorithm<Rational>;
 
 // What recurs in a loop, and where a run stands when it ends (readings.md, 2 and 3).
 struct ExactState {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "certify/certificate.h"
+#include "certify/modes.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "solver/check.h"
@@ -71,7 +72,7 @@ Json LoopStateToJson(const ExactRun& run, const std::vector<std::string>& names)
 }
 
 Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
-  const auto violation = FindViolation(problem, f);
+  const auto violation = FindLawViolation(problem, f);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate("solution-exists", problem,
                          {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});

@@ -2,6 +2,7 @@
 #include "corpus/statistics.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace stiction {
 namespace {
@@ -100,6 +101,12 @@ Tally TallyFromJson(const Json& json) {
 void Record::Merge(const Record& other) {
   for (const auto& [key, tally] : other.tallies) tallies[key].Merge(tally);
   for (const auto& [signature, count] : other.signatures) signatures[signature] += count;
+  for (const auto& [contacts, tally] : other.existence) {
+    std::vector<std::int64_t> theirs;
+    ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
+    auto next = theirs.begin();
+    ForEachCounter(existence[contacts], [&next](const char*, std::int64_t& mine) { mine += *next++; });
+  }
 }
 
 std::string Serialize(const Record& record) {
@@ -115,7 +122,16 @@ std::string Serialize(const Record& record) {
   }
   Json signatures = Json::object();
   for (const auto& [signature, count] : record.signatures) signatures[signature] = count;
-  return Json{{"tallies", std::move(tallies)}, {"signatures", std::move(signatures)}}.dump();
+  Json existence = Json::array();
+  for (const auto& [contacts, tally] : record.existence) {
+    Json entry = {{"contacts", contacts}};
+    ForEachCounter(tally, [&entry](const char* name, std::int64_t value) { entry[name] = value; });
+    existence.push_back(std::move(entry));
+  }
+  return Json{{"tallies", std::move(tallies)},
+              {"signatures", std::move(signatures)},
+              {"existence", std::move(existence)}}
+      .dump();
 }
 
 Record ParseRecord(const std::string& text) {
@@ -129,6 +145,11 @@ Record ParseRecord(const std::string& text) {
   }
   for (const auto& [signature, count] : json.at("signatures").items()) {
     record.signatures[signature] = count.get<std::int64_t>();
+  }
+  for (const Json& entry : json.at("existence")) {
+    ForEachCounter(
+        record.existence[entry.at("contacts").get<int>()],
+        [&entry](const char* name, std::int64_t& value) { value = entry.at(name).get<std::int64_t>(); });
   }
   return record;
 }

@@ -82,10 +82,33 @@ struct Tally {
 Json ToJson(const Tally& tally);
 Tally TallyFromJson(const Json& json);
 
+// Complete driving on the problems that were run exactly, by number of contacts.
+struct ExistenceTally {
+  std::int64_t problems = 0;
+  std::int64_t solved = 0;  // with a solution that stood exact verification
+  std::int64_t pieces = 0;
+  std::int64_t with_folds = 0;
+  std::int64_t with_descents = 0;
+  std::int64_t with_ties = 0;
+
+  bool operator==(const ExistenceTally&) const = default;
+};
+
+template <class Tally, class Visit>
+void ForEachCounter(Tally& tally, Visit visit) {
+  visit("problems", tally.problems);
+  visit("solved", tally.solved);
+  visit("pieces", tally.pieces);
+  visit("with_folds", tally.with_folds);
+  visit("with_descents", tally.with_descents);
+  visit("with_ties", tally.with_ties);
+}
+
 // All that a unit, a block or a whole campaign counts.
 struct Record {
   std::map<TallyKey, Tally> tallies;
   std::map<std::string, std::int64_t> signatures;  // findings by signature
+  std::map<int, ExistenceTally> existence;         // by contacts
 
   void Merge(const Record& other);
   bool operator==(const Record&) const = default;

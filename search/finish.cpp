@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "certify/certificate.h"
+#include "certify/existence.h"
 #include "corpus/json_text.h"
 #include "search/minimize.h"
 #include "search/signature.h"
@@ -42,6 +43,17 @@ ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const 
                      {"minimized", true}};
   file.expect[whole_grid ? "*" : PolicyName(policy)] = finding.exact_outcome;
   return file;
+}
+
+// The solution that the published algorithm misses.
+Json ExistenceOf(const ExactProblem& problem, const Limits& limits) {
+  const CompleteRun complete = RunComplete(problem, limits);
+  Json json = {{"outcome", Name(complete.verdict.outcome)},
+               {"pieces", complete.verdict.statistics.pieces},
+               {"folds", complete.verdict.statistics.folds},
+               {"descents", complete.verdict.statistics.descents}};
+  if (complete.verdict.outcome == Outcome::kSolved) json["f"] = VectorToJson(complete.f);
+  return json;
 }
 
 // Whether the whole grid ends in this outcome.
@@ -89,7 +101,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   finished.done = true;
   Json grid = Json::object();
   if (finding.contacts <= kMostContactsOfGrid) grid = GridCounts(file.problem, limits, cancelled);
-  Json facts = {{"found", FactsOf(file.problem, run, grid)}};
+  Json facts = {{"found", FactsOf(file.problem, run, grid)}, {"existence", ExistenceOf(file.problem, limits)}};
   if (outcome == Outcome::kSolved) {
     finished.certificate = Checked(SolutionCertificate(file.problem, run.state.f), finding.signature);
   } else {

@@ -28,6 +28,7 @@ struct Digest {
                wrong = 0;
   std::map<std::string, std::int64_t> findings;  // by kind, all counted
   std::map<std::string, std::int64_t> groups;    // by kind
+  ExistenceTally existence;
   std::int64_t finished = 0, pending = 0, whole_grid = 0;
   std::vector<Finding> simplest;
 };
@@ -51,6 +52,12 @@ Digest DigestOf(const Store& store) {
     digest.wrong += tally.wrong;
   }
   for (const auto& [key, count] : problems) digest.problems += count;
+  for (const auto& [contacts, tally] : total.existence) {
+    digest.existence.problems += tally.problems;
+    digest.existence.solved += tally.solved;
+    digest.existence.with_folds += tally.with_folds;
+    digest.existence.with_descents += tally.with_descents;
+  }
   for (const auto& [signature, count] : total.signatures) {
     digest.findings[KindOf(signature)] += count;
     ++digest.groups[KindOf(signature)];
@@ -109,6 +116,8 @@ Json SummaryToJson(const Store& store) {
           {"audited", digest.audited},
           {"misjudged", digest.misjudged},
           {"wrong", digest.wrong},
+          {"existence_checked", digest.existence.problems},
+          {"existence_solved", digest.existence.solved},
           {"minimized", simplest}};
 }
 
@@ -125,6 +134,10 @@ std::string SummaryText(const Store& store, const std::string& file) {
       "  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
       Thousands(digest.confirmed), Thousands(digest.suspicions), Thousands(digest.misjudged),
       Thousands(digest.audited), Thousands(digest.wrong));
+  text += fmt::format(
+      "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
+      Thousands(digest.existence.solved), Thousands(digest.existence.problems),
+      Thousands(digest.existence.with_folds));
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Thousands(digest.finished), Thousands(digest.pending), Thousands(digest.whole_grid));
   if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "certify/exact.h"
+#include "certify/existence.h"
+#include "certify/verify_solution.h"
 #include "search/generators.ipp"
 #include "search/signature.h"
 #include "solver/published.ipp"
@@ -43,6 +45,7 @@ class Collector {
       ++tally.audited;
       tally.misjudged += exact != inexact;
     }
+    CertifyExistence(index, policy, inexact, run, problem);
     const bool same_problem = Row(task_.generator).exact_in_double;
     if (exact != Outcome::kSolved) {
       Find(index, policy, inexact, run, std::string(Name(exact)), Signature(problem, run), problem);
@@ -53,6 +56,25 @@ class Collector {
       Find(index, policy, inexact, run, "disagreement",
            fmt::format("disagreement-{}-{}-{}c", Name(inexact), Name(exact), task_.contacts), problem);
     }
+  }
+
+  // All generators promise A positive semidefinite and b in range(A), so complete driving must end in a
+  // solution that stands exact verification. Anything else would outrank all other findings.
+  void CertifyExistence(std::int64_t index, std::size_t policy, Outcome inexact, const ExactRun& published,
+                        const ExactProblem& problem) {
+    const CompleteRun complete = RunComplete(problem, campaign_.limits);
+    const bool solved = complete.verdict.outcome == Outcome::kSolved && !FindViolation(problem, complete.f);
+    const CompleteStatistics& s = complete.verdict.statistics;
+    ExistenceTally& tally = result_.record.existence[task_.contacts];
+    ++tally.problems;
+    tally.solved += solved;
+    tally.pieces += s.pieces;
+    tally.with_folds += s.folds > 0;
+    tally.with_descents += s.descents > 0;
+    tally.with_ties += s.ties > 0;
+    if (solved) return;
+    Find(index, policy, inexact, published, "existence",
+         fmt::format("existence-{}-{}c", Name(complete.verdict.outcome), task_.contacts), problem);
   }
 
   UnitResult Take() { return std::move(result_); }

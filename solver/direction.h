@@ -13,10 +13,15 @@
 // Singular   With mu A_.F folded into the columns the matrix is not symmetric, and can be singular even
 //            for A positive definite. A consistent singular system takes zero for every unknown whose
 //            column depends on the columns before it (row order); an inconsistent one has no direction.
+// Oriented   Complete driving goes on where the matrix is singular, and backwards where its determinant is
+//            negative: it asks for the null vector of the k x (k + 1) system, driven variable included,
+//            with the orientation of Cramer's rule (complete_driving.md, 4).
 // Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized.
 
 #ifndef STICTION_SOLVER_DIRECTION_H_
 #define STICTION_SOLVER_DIRECTION_H_
+
+#include <optional>
 
 #include "solver/state.h"
 
@@ -36,6 +41,12 @@ class DirectionSystem {
   Status Solve(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
                int sign, const Scale<Scalar>& scale);
 
+  // The sign d of the determinant of the reduced matrix; df and da are then the oriented null vector, with
+  // df_d = d * side for the driven variable: at rest for d = 0. Empty if the null vector is not unique.
+  std::optional<int> SolveOriented(const Problem& problem, const RowLayout<Rows>& layout,
+                                   const IndexSets<Rows>& sets, int driven, int side,
+                                   const Scale<Scalar>& scale);
+
   const Vector& df() const { return df_; }
   const Vector& da() const { return da_; }
 
@@ -47,10 +58,13 @@ class DirectionSystem {
                 int sign);
   Status Eliminate(const Scale<Scalar>& scale);
   void BackSubstitute(int rank);
+  void SolveHomogeneous(int orientation);
   void Spread(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
               int sign);
 
   int unknowns_ = 0;
+  int rank_ = 0;                      // of the reduced matrix
+  bool odd_swaps_ = false;            // whether the elimination swapped rows an odd number of times
   RowArray<int, Rows> unknown_;       // row of each unknown
   RowArray<int, Rows> pivot_column_;  // column of the pivot in each row of the eliminated system
   Augmented M_;                       // reduced matrix, right side in column unknowns_

@@ -32,6 +32,28 @@ auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const RowLayou
   return status;
 }
 
+template <class Scalar, int Rows>
+std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& problem,
+                                                                const RowLayout<Rows>& layout,
+                                                                const IndexSets<Rows>& sets, int driven,
+                                                                int side, const Scale<Scalar>& scale) {
+  Assemble(problem, layout, sets, driven, side);
+  const Status status = Eliminate(scale);
+  if (status == Status::kSingular || rank_ + 1 < unknowns_) return std::nullopt;
+  int sign = odd_swaps_ ? -1 : 1;
+  for (int i = 0; i < rank_; ++i) sign *= Sign(M_(i, pivot_column_[i]));
+  if (status == Status::kInconsistent) {
+    SolveHomogeneous(sign);
+    Spread(problem, layout, sets, driven, 0);
+    return 0;
+  }
+  if (sign < 0) {
+    for (int i = 0; i < unknowns_; ++i) x_[i] = -x_[i];
+  }
+  Spread(problem, layout, sets, driven, sign * side);
+  return sign;
+}
+
 // The sign of the limit at which the friction of a normal row is held, 0 if it is not.
 template <int Rows>
 int FrictionLimitSign(const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int row) {
@@ -76,6 +98,7 @@ void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const RowLa
 template <class Scalar, int Rows>
 auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Status {
   int rank = 0;
+  odd_swaps_ = false;
   for (int column = 0; column < unknowns_; ++column) {
     int best = -1;
     for (int i = rank; i < unknowns_; ++i) {
@@ -84,7 +107,10 @@ auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Sta
       if (kIsExact<Scalar>) break;
     }
     if (best < 0) continue;
-    if (best != rank) M_.row(rank).swap(M_.row(best));
+    if (best != rank) {
+      M_.row(rank).swap(M_.row(best));
+      odd_swaps_ = !odd_swaps_;
+    }
     pivot_column_[rank] = column;
     for (int i = rank + 1; i < unknowns_; ++i) {
       if (Sign(M_(i, column)) == 0) continue;
@@ -93,6 +119,7 @@ auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Sta
     }
     ++rank;
   }
+  rank_ = rank;
   for (int i = rank; i < unknowns_; ++i) {
     if (Sign(M_(i, unknowns_), scale.rate) != 0) return Status::kInconsistent;
   }
@@ -109,6 +136,28 @@ void DirectionSystem<Scalar, Rows>::BackSubstitute(int rank) {
     for (int k = i + 1; k < rank; ++k) value -= M_(i, pivot_column_[k]) * x_[pivot_column_[k]];
     x_[column] = value / M_(i, column);
   }
+}
+
+// Cramer's rule where the determinant is zero, for rank k - 1: with the right side in place of the one column
+// without a pivot, the determinant is the product of the pivots and the last right side, times the sign of
+// the permutation that brings that column, whose pivot is in the last row, into place.
+template <class Scalar, int Rows>
+void DirectionSystem<Scalar, Rows>::SolveHomogeneous(int orientation) {
+  int free = 0;
+  while (free < rank_ && pivot_column_[free] == free) ++free;
+  int sign = orientation * Sign(M_(rank_, unknowns_));
+  if ((rank_ - free) % 2 != 0) sign = -sign;
+  for (int i = 0; i < rank_; ++i) {
+    if (sign > 0) {
+      M_(i, unknowns_) = -M_(i, free);
+    } else {
+      M_(i, unknowns_) = M_(i, free);
+    }
+  }
+  // A row below the free column's place has no entry in it: it was eliminated, or is zero by choice.
+  for (int i = free; i < rank_; ++i) M_(i, unknowns_) = Scalar(0);
+  BackSubstitute(rank_);
+  x_[free] = Scalar(sign);
 }
 
 // df from the unknowns, the driven variable and the limits; da = A df, exactly zero in C and CF.

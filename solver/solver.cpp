@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published algorithm over floating-point scalars. Exact scalars are instantiated in certify.
+// The methods over floating-point scalars. Exact scalars are instantiated in certify.
 
+#include "solver/complete.ipp"
+#include "solver/lemke.ipp"
 #include "solver/published.ipp"
 
 namespace stiction {
@@ -8,5 +10,13 @@ namespace stiction {
 template class PublishedAlgorithm<float>;
 template class PublishedAlgorithm<double>;
 template class PublishedAlgorithm<long double>;
+
+template class CompleteDriving<float>;
+template class CompleteDriving<double>;
+template class CompleteDriving<long double>;
+
+template class LemkeAlgorithm<float>;
+template class LemkeAlgorithm<double>;
+template class LemkeAlgorithm<long double>;
 
 }  // namespace stiction

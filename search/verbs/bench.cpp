@@ -81,7 +81,8 @@ void AddBench(CLI::App& program, Action& action) {
       ->capture_default_str()
       ->check(CLI::IsMember({"search"}));
   verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
-  verb.add_option("--problems", o->problems, "problems per run at two contacts, a quarter for each contact more")
+  verb.add_option("--problems", o->problems,
+                  "problems per run at two contacts, a quarter for each contact more")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat, "counted runs")->capture_default_str()->check(CLI::Range(1, 1000));

@@ -2,11 +2,13 @@
 // stiction certify, stiction check: claims with exact witnesses, made and verified.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
 
 #include "certify/certificate.h"
+#include "certify/existence.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
 
@@ -18,21 +20,55 @@ struct CertifyOptions {
   std::string output;
   std::string claim = "solution-exists";
   std::string policy = "paper";
+  bool all = false;
   bool json = false;
   Limits limits;
 };
 
-// The first policy of the grid that ends in a solution gives the witness; null if none does.
-Json ExistenceCertificate(const ExactProblem& problem, const Limits& limits) {
-  for (const Policy& policy : PlanarGrid()) {
-    const ExactRun run = RunExact(problem, {policy, {}, limits});
-    if (run.verdict.outcome == Outcome::kSolved) return SolutionCertificate(problem, run.state.f);
+void ShowProgress(const EnumerationProgress& progress) {
+  fmt::print(stderr, "\r\033[K{:.1f} % of all mode words, {} linear programs, {} solutions",
+             100 * progress.decided, progress.programs, progress.solutions);
+}
+
+EnumerationOptions WithProgress(EnumerationOptions options) {
+  if (isatty(STDERR_FILENO) == 0) return options;
+  options.progress = [](const EnumerationProgress& progress) {
+    if (progress.prefixes % 64 == 0) ShowProgress(progress);
+    return true;
+  };
+  return options;
+}
+
+// All words that have solutions, with a witness each.
+int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
+  const Enumeration modes = EnumerateModes(file.problem, WithProgress({}));
+  Json words = Json::array();
+  for (const WordSolution& solution : modes.solutions) {
+    Json word = Json::array();
+    for (const Mode mode : solution.word) word.push_back(Name(mode));
+    words.push_back({{"modes", word}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
+    if (!o.json) {
+      fmt::print("{}{}: f = {}\n", word.dump(), solution.unique ? "" : " (more than one)",
+                 VectorToJson(solution.f).dump());
+    }
   }
-  return nullptr;
+  const bool complete = modes.end == EnumerationEnd::kComplete;
+  if (o.json) {
+    std::cout << JsonText({{"complete", complete},
+                           {"words", words},
+                           {"distinct_witnesses", modes.distinct_witnesses},
+                           {"programs", modes.programs}})
+              << "\n";
+  } else {
+    fmt::print("{} words with solutions, {} distinct witnesses; {} linear programs{}\n", words.size(),
+               modes.distinct_witnesses, modes.programs, complete ? "" : "; not complete");
+  }
+  return complete ? kExitDone : kExitUndecided;
 }
 
 Json Certify(const CertifyOptions& o, const ProblemFile& file) {
-  if (o.claim == "solution-exists") return ExistenceCertificate(file.problem, o.limits);
+  if (o.claim == "solution-exists")
+    return DecideExistence(file.problem, o.limits, WithProgress({})).certificate;
   if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
   if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
   if (o.claim == "in-range") return RangeCertificate(file.problem);
@@ -40,9 +76,16 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
 }
 
+// Loops are claimed of problems that the published algorithm handles, existence of planar ones.
+ProblemFile ReadFor(const CertifyOptions& o) {
+  if (o.all || o.claim == "solution-exists") return ReadPlanarProblem(o.file);
+  return o.claim == "cycle" || o.claim == "stall" ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+}
+
 int RunCertify(const CertifyOptions& o) {
-  const bool runs_method = o.claim == "solution-exists" || o.claim == "cycle" || o.claim == "stall";
-  const ProblemFile file = runs_method ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  if (o.output.empty() && !o.all) throw InputError("certify: expected -o CERT, or --all");
+  const ProblemFile file = ReadFor(o);
+  if (o.all) return ListSolutions(o, file);
   const Json certificate = Certify(o, file);
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
@@ -54,7 +97,7 @@ int RunCertify(const CertifyOptions& o) {
   } else if (certified) {
     out << fmt::format("{}: {}\n", o.output, claim.get<std::string>());
   } else {
-    out << fmt::format("undecided: no run under the policies asked for shows '{}'\n", o.claim);
+    out << fmt::format("undecided: nothing that was run shows '{}'\n", o.claim);
   }
   return certified ? kExitDone : kExitUndecided;
 }
@@ -76,7 +119,8 @@ int RunCheck(const CheckOptions& o) {
       entry["claim"] = report.claim;
       entry[report.accepted ? "facts" : "reason"] = report.accepted ? report.facts : Json(report.reason);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
-      if (!o.json && report.accepted) fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
+      if (!o.json && report.accepted)
+        fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
       if (!o.json && !report.accepted) fmt::print("{}: REJECTED: {}\n", file, report.reason);
     } catch (const InputError& error) {
       entry["reason"] = error.what();
@@ -95,13 +139,14 @@ void AddCertify(CLI::App& program, Action& action) {
   auto o = std::make_shared<CertifyOptions>();
   CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("-o,--output", o->output, "certificate to write; - is standard output")->required();
+  verb.add_option("-o,--output", o->output, "certificate to write; - is standard output");
   verb.add_option(
           "--claim", o->claim,
           "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, cycle, "
           "stall")
       ->capture_default_str()
       ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "cycle", "stall"}));
+  verb.add_flag("--all", o->all, "list all contact modes that have solutions; writes no certificate");
   AddPolicyOption(verb, o->policy, Grid::kAllowed);
   AddLimits(verb, o->limits);
   verb.add_flag("--json", o->json, "machine output");

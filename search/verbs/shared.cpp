@@ -46,17 +46,22 @@ void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
 
 }  // namespace
 
-ProblemFile ReadHandledProblem(const std::string& file) {
+ProblemFile ReadPlanarProblem(const std::string& file) {
   ProblemFile problem = ReadProblem(file);
   if (problem.problem.dimension != 2) {
     throw InputError(file, "dimension", std::to_string(problem.problem.dimension),
-                     "2: method baraff is built for the plane only");
+                     "2: built for the plane only");
   }
+  return problem;
+}
+
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& method) {
+  ProblemFile problem = ReadPlanarProblem(file);
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
     throw InputError(file, fmt::format("contacts[{}].kind", i), KindName(kind),
-                     "frictionless or static: method baraff is built for these");
+                     "frictionless or static: method " + method + " is built for these");
   }
   return problem;
 }

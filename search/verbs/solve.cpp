@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "certify/certificate.h"
+#include "certify/existence.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
@@ -24,11 +26,13 @@ struct SolveOptions {
   bool json = false;
 };
 
-// What came out, in the terms of JSON; `exact` says whether it is a claim or only what rounded numbers showed.
+// What came out, in the terms of JSON.
 struct Solved {
   Verdict verdict;
   Json f, a, ray;
   Json residual;
+  Json statistics;
+  Json word;  // cells of complete driving
 };
 
 Json RunToJson(const Verdict& verdict) {
@@ -41,11 +45,68 @@ Json RunToJson(const Verdict& verdict) {
   return json;
 }
 
-Solved SolveExactly(const ExactProblem& problem, const PublishedOptions& options) {
+template <class S>
+Json CountersToJson(const S& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+Solved SolveByPublished(const ExactProblem& problem, const PublishedOptions& options) {
   const ExactRun run = RunExact(problem, options);
-  Solved solved{run.verdict, VectorToJson(run.state.f), VectorToJson(run.a), nullptr, nullptr};
+  Solved solved{run.verdict, VectorToJson(run.state.f), VectorToJson(run.a), {}, {}, {}, {}};
   if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
+  solved.statistics = CountersToJson(run.verdict.statistics);
   return solved;
+}
+
+Solved SolveByComplete(const ExactProblem& problem, const Limits& limits) {
+  const CompleteRun run = RunComplete(problem, limits);
+  Solved solved;
+  solved.verdict.outcome = run.verdict.outcome;
+  solved.verdict.reason = run.verdict.reason;
+  solved.f = VectorToJson(run.f);
+  solved.a = VectorToJson(run.a);
+  if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
+  solved.statistics = CountersToJson(run.verdict.statistics);
+  solved.word = run.word;
+  return solved;
+}
+
+Solved SolveByLemke(const ExactProblem& problem, const Limits& limits) {
+  const LemkeRun run = RunLemke(problem, limits);
+  Solved solved;
+  solved.verdict = run.verdict;
+  if (run.verdict.outcome == Outcome::kSolved) {
+    solved.f = VectorToJson(run.f);
+    solved.a = VectorToJson(run.a);
+  }
+  if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
+  solved.statistics = {{"pivots", run.verdict.statistics.pivots}};
+  return solved;
+}
+
+// The first solution in the order of the mode words. That there is none is a claim of `certify`.
+Solved SolveByModes(const ExactProblem& problem) {
+  EnumerationOptions options;
+  options.first_solution_only = true;
+  const Enumeration modes = EnumerateModes(problem, options);
+  Solved solved;
+  solved.verdict.outcome = modes.solutions.empty() ? Outcome::kUndecided : Outcome::kSolved;
+  if (modes.ProvesNoSolution()) solved.verdict.reason = "no mode has a solution; see certify";
+  if (!modes.solutions.empty()) {
+    solved.f = VectorToJson(modes.solutions.front().f);
+    solved.a = VectorToJson(Accelerations(problem, modes.solutions.front().f));
+  }
+  solved.statistics = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  return solved;
+}
+
+Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
+  if (method == "complete") return SolveByComplete(problem, options.limits);
+  if (method == "lemke") return SolveByLemke(problem, options.limits);
+  if (method == "enumerate") return SolveByModes(problem);
+  return SolveByPublished(problem, options);
 }
 
 // The problem in rounded numbers; `rounded` receives the same problem exactly.
@@ -80,28 +141,58 @@ Json NumbersToJson(const Vector& values) {
   return json;
 }
 
+// Fills in what all inexact methods share: forces, accelerations, residual.
 template <class Scalar>
-Solved SolveRounded(const ExactProblem& problem, const PublishedOptions& options, ExactProblem& rounded) {
-  const ContactProblem<Scalar> inexact = Round<Scalar>(problem, rounded);
-  PublishedAlgorithm<Scalar> algorithm(options);
-  Solved solved;
-  solved.verdict = algorithm.Run(inexact);
-  const auto& f = algorithm.state().f;
+void Describe(const ContactProblem<Scalar>& problem, const typename ContactProblem<Scalar>::Vector& f,
+              Solved& solved) {
+  if (f.size() != problem.rows()) return;
+  const typename ContactProblem<Scalar>::Vector a = problem.A * f + problem.b;
   solved.f = NumbersToJson(f);
-  solved.a = NumbersToJson(algorithm.state().a);
-  if (solved.verdict.outcome == Outcome::kSolved) {
-    const typename ContactProblem<Scalar>::Vector a = inexact.A * f + inexact.b;
-    solved.residual = static_cast<double>(NaturalResidual(inexact, f, a));
+  solved.a = NumbersToJson(a);
+  if (solved.verdict.outcome != Outcome::kSolved) return;
+  solved.residual = static_cast<double>(NaturalResidual(problem, f, a));
+}
+
+template <class Scalar>
+Solved SolveRounded(const std::string& method, const ExactProblem& problem, const PublishedOptions& options,
+                    ExactProblem& rounded) {
+  const ContactProblem<Scalar> inexact = Round<Scalar>(problem, rounded);
+  Solved solved;
+  if (method == "complete") {
+    CompleteOptions complete;
+    complete.tolerances = options.tolerances;
+    complete.limits = options.limits;
+    CompleteDriving<Scalar> driving(complete);
+    const CompleteVerdict verdict = driving.Run(inexact);
+    solved.verdict.outcome = verdict.outcome;
+    solved.verdict.reason = verdict.reason;
+    solved.statistics = CountersToJson(verdict.statistics);
+    solved.word = driving.Word();
+    Describe(inexact, driving.state().f, solved);
+  } else if (method == "lemke") {
+    LemkeOptions lemke;
+    lemke.cover = Cover::kUnits;
+    lemke.tolerances = options.tolerances;
+    lemke.limits = options.limits;
+    LemkeAlgorithm<Scalar> algorithm(lemke);
+    solved.verdict = algorithm.Run(inexact);
+    solved.statistics = {{"pivots", solved.verdict.statistics.pivots}};
+    if (solved.verdict.outcome == Outcome::kSolved) Describe(inexact, algorithm.f(), solved);
+  } else {
+    PublishedAlgorithm<Scalar> algorithm(options);
+    solved.verdict = algorithm.Run(inexact);
+    solved.statistics = CountersToJson(solved.verdict.statistics);
+    Describe(inexact, algorithm.state().f, solved);
   }
   return solved;
 }
 
-Solved SolveIn(const std::string& arithmetic, const ExactProblem& problem, const PublishedOptions& options,
-               ExactProblem& rounded) {
-  if (arithmetic == "float") return SolveRounded<float>(problem, options, rounded);
-  if (arithmetic == "double") return SolveRounded<double>(problem, options, rounded);
-  if (arithmetic == "long-double") return SolveRounded<long double>(problem, options, rounded);
-  return SolveExactly(problem, options);
+Solved SolveIn(const std::string& method, const std::string& arithmetic, const ExactProblem& problem,
+               const PublishedOptions& options, ExactProblem& rounded) {
+  if (arithmetic == "float") return SolveRounded<float>(method, problem, options, rounded);
+  if (arithmetic == "double") return SolveRounded<double>(method, problem, options, rounded);
+  if (arithmetic == "long-double") return SolveRounded<long double>(method, problem, options, rounded);
+  return SolveExactly(method, problem, options);
 }
 
 int ExitOf(Outcome outcome) {
@@ -121,29 +212,34 @@ void PrintForPeople(const Json& result) {
 }
 
 int Solve(const SolveOptions& o) {
-  const ProblemFile file = ReadHandledProblem(o.file);
+  if (o.method == "enumerate" && o.arithmetic != "exact") {
+    throw InputError("--method enumerate: expected --arithmetic exact");
+  }
+  const ProblemFile file =
+      o.method == "enumerate" ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
-  const Solved solved = SolveIn(o.arithmetic, file.problem, options, rounded);
+  const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
   Json result = RunToJson(solved.verdict);
   Outcome outcome = solved.verdict.outcome;
   // What rounded numbers suspect is run again exactly, on the problem that they solved, before it is claimed.
   if (o.arithmetic != "exact" && outcome != Outcome::kSolved) {
     const Json suspected = result;
-    const Solved exact = SolveExactly(rounded, options);
+    const Solved exact = SolveExactly(o.method, rounded, options);
     outcome = exact.verdict.outcome;
     result = RunToJson(exact.verdict);
     result["suspected"] = suspected;
   }
   result["method"] = o.method;
   result["arithmetic"] = o.arithmetic;
-  result["policy"] = PolicyName(options.policy);
+  if (o.method == "baraff") result["policy"] = PolicyName(options.policy);
+  if (!solved.word.is_null()) result["word"] = solved.word;
   result["f"] = solved.f;
   result["a"] = solved.a;
   if (!solved.ray.is_null()) result["ray"] = solved.ray;
   if (!solved.residual.is_null()) result["residual"] = solved.residual;
   result["assumptions"] = FailedAssumptions(file.problem);
-  result["statistics"] = StatisticsToJson(solved.verdict.statistics);
+  result["statistics"] = solved.statistics;
   if (o.json) {
     std::cout << JsonText(result) << "\n";
   } else {
@@ -164,9 +260,14 @@ void AddSolve(CLI::App& program, Action& action) {
   auto o = std::make_shared<SolveOptions>();
   CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("--method", o->method, "baraff: the published algorithm")
+  verb.add_option("--method", o->method,
+                  "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
+                  "Lemke's method, "
+                  "lexicographic; enumerate: all contact modes")
       ->capture_default_str()
-      ->check([](const std::string& text) { return OnlyBuilt(text, {"baraff"}, "method"); });
+      ->check([](const std::string& text) {
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate"}, "method");
+      });
   verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
       ->capture_default_str()
       ->check([](const std::string& text) {

@@ -36,8 +36,11 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A problem that the published algorithm handles; InputError that names the contact otherwise.
-ProblemFile ReadHandledProblem(const std::string& file);
+// A problem that the pivoting methods handle (PublishedHandles); InputError that names the contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& method = "baraff");
+
+// A planar problem of any kinds; InputError otherwise.
+ProblemFile ReadPlanarProblem(const std::string& file);
 
 // --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
 enum class Grid { kRefused, kAllowed };

@@ -596,7 +596,8 @@ TEST_CASE("report: findings of interest come first") {
                        {often.signature, 9},
                        {other.signature, 10},
                        {large.signature, 100},
-                       {"cycle-1c-1d-1s-counted", 7}}};
+                       {"cycle-1c-1d-1s-counted", 7}},
+                      {}};
   const std::vector<Finding> findings = {large, often, other, rare, small, whole};
   const auto discoveries = Discoveries(record, findings);
   std::vector<std::string> order;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/existence.h"
+
+#include "certify/certificate.h"
+#include "certify/no_solution.h"
+
+namespace stiction {
+
+CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep) {
+  CompleteOptions options;
+  options.limits = limits;
+  CompleteDriving<Rational> driving(options);
+  CompleteRun run;
+  run.verdict = driving.Run(problem, keep == KeepPath::kYes ? &run.path : nullptr);
+  run.f = driving.state().f;
+  run.a = driving.state().a;
+  if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
+  run.word = driving.Word();
+  return run;
+}
+
+LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
+  LemkeOptions options;
+  options.limits = limits;
+  LemkeAlgorithm<Rational> lemke(options);
+  LemkeRun run;
+  run.verdict = lemke.Run(problem);
+  if (run.verdict.outcome == Outcome::kSolved) {
+    run.f = lemke.f();
+    run.a = lemke.a();
+  } else if (run.verdict.outcome == Outcome::kRay) {
+    run.ray = lemke.ray();
+  }
+  return run;
+}
+
+Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
+                          const EnumerationOptions& options) {
+  if (PublishedHandles(problem)) {
+    const CompleteRun complete = RunComplete(problem, limits);
+    if (complete.verdict.outcome == Outcome::kSolved)
+      return {SolutionCertificate(problem, complete.f), "complete"};
+    const LemkeRun lemke = RunLemke(problem, limits);
+    if (lemke.verdict.outcome == Outcome::kSolved) return {SolutionCertificate(problem, lemke.f), "lemke"};
+  }
+  EnumerationOptions first = options;
+  first.first_solution_only = true;
+  const Enumeration modes = EnumerateModes(problem, first);
+  if (!modes.solutions.empty()) return {SolutionCertificate(problem, modes.solutions.front().f), "enumerate"};
+  if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};
+  return {nullptr, "none"};
+}
+
+}  // namespace stiction

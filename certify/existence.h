@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Existence: a solution with its certificate, a proof that there is none, or neither.
+//
+// The cheapest method first: complete driving, which ends in a solution whenever A is symmetric positive
+// semidefinite and b in range(A) (solver/complete_driving.md); then Lemke's method, whose path is another; then
+// all contact modes, which decide every planar problem that is small enough.
+
+#ifndef STICTION_CERTIFY_EXISTENCE_H_
+#define STICTION_CERTIFY_EXISTENCE_H_
+
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "certify/modes.h"
+#include "solver/complete.h"
+
+namespace stiction {
+
+struct CompleteRun {
+  CompleteVerdict verdict;
+  Path<Rational> path;  // only where asked for
+  ExactVector f, a;
+  ExactVector ray;  // of a ray, otherwise empty
+  std::string word;
+};
+enum class KeepPath { kNo, kYes };
+CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep = KeepPath::kNo);
+
+struct LemkeRun {
+  Verdict verdict;
+  ExactVector f, a, ray;
+};
+LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits);
+
+struct Existence {
+  // `solution-exists` or `no-solution`; null if undecided.
+  Json certificate;
+  std::string_view method;  // that decided: complete, lemke, enumerate; or "none"
+};
+
+// Planar problems (otherwise InputError).
+Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
+                          const EnumerationOptions& options = {});
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXISTENCE_H_

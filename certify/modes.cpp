@@ -1,0 +1,547 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/modes.h"
+
+#include <CGAL/Gmpz.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <deque>
+#include <set>
+#include <variant>
+
+#include "certify/no_solution.h"
+#include "certify/verify_solution.h"
+#include "solver/check.h"
+
+namespace stiction {
+
+std::string_view Name(Mode mode) {
+  static constexpr std::array<std::string_view, 6> kNames = {"hold",  "break", "touch",
+                                                             "stick", "slip+", "slip-"};
+  return kNames[static_cast<int>(mode)];
+}
+
+namespace {
+
+using enum Mode;
+
+bool HasFrictionModes(const Contact<Rational>& contact) {
+  return contact.kind == ContactKind::kStatic && contact.mu > 0;
+}
+
+}  // namespace
+
+std::span<const Mode> ModesOf(const Contact<Rational>& contact) {
+  static constexpr std::array<Mode, 1> kBilateral = {kHold};
+  static constexpr std::array<Mode, 2> kOneSided = {kBreak, kTouch};
+  static constexpr std::array<Mode, 4> kFriction = {kBreak, kStick, kSlipPlus, kSlipMinus};
+  if (contact.kind == ContactKind::kBilateral) return kBilateral;
+  if (HasFrictionModes(contact)) return kFriction;
+  return kOneSided;
+}
+
+// ---- The laws themselves -----------------------------------------------------------------------
+
+namespace {
+
+std::optional<std::string> Broken(std::size_t contact, const char* condition, const Rational& found) {
+  return fmt::format("contact {}: {} is broken, found {}", contact + 1, condition, ToString(found));
+}
+
+std::optional<std::string> ContactViolation(std::size_t i, const Contact<Rational>& contact, int row,
+                                            const ExactVector& f, const ExactVector& a) {
+  if (contact.kind == ContactKind::kBilateral) {
+    return a[row] == 0 ? std::nullopt : Broken(i, "aN = 0", a[row]);
+  }
+  if (f[row] < 0) return Broken(i, "fN >= 0", f[row]);
+  if (a[row] < 0) return Broken(i, "aN >= 0", a[row]);
+  if (f[row] != 0 && a[row] != 0) return Broken(i, "fN aN = 0", f[row] * a[row]);
+  if (!contact.HasFrictionRows()) return std::nullopt;
+  const Rational bound = contact.mu * f[row];
+  if (contact.kind == ContactKind::kSliding) {
+    const Rational excess = f[row + 1] + bound * contact.slip[0];
+    return excess == 0 ? std::nullopt : Broken(i, "fF + mu u fN = 0", excess);
+  }
+  const Rational slack = bound - abs(f[row + 1]), power = a[row + 1] * f[row + 1];
+  if (slack < 0) return Broken(i, "abs(fF) <= mu fN", slack);
+  if (power > 0) return Broken(i, "aF fF <= 0", power);
+  if (a[row + 1] != 0 && slack != 0) return Broken(i, "aF (mu fN - abs(fF)) = 0", a[row + 1] * slack);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> FindLawViolation(const ExactProblem& problem, const ExactVector& f) {
+  const ExactVector a = Accelerations(problem, f);
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    if (auto violation = ContactViolation(i, problem.contacts[i], row, f, a)) return violation;
+    row += problem.contacts[i].HasFrictionRows() ? 2 : 1;
+  }
+  return std::nullopt;
+}
+
+// ---- Modes as cones ----------------------------------------------------------------------------
+
+namespace {
+
+enum class Relation { kFree, kZero, kAtLeastZero, kAtMostZero };
+
+// The part of the law of one contact: forces are combinations of `edges` with coefficients >= 0 (or free),
+// accelerations have the signs of the relations.
+struct Cone {
+  struct Edge {
+    Rational f_t;  // of the force (1, f_t)
+    bool free = false;
+  };
+  std::vector<Edge> edges;
+  Relation a_n = Relation::kZero, a_t = Relation::kFree;
+};
+
+// fF of the force with fN = 1 of a contact that has one direction only.
+Rational SingleEdge(const Contact<Rational>& contact) {
+  return contact.kind == ContactKind::kSliding ? Rational(-contact.mu * contact.slip[0]) : Rational(0);
+}
+
+Cone ConeOf(const Contact<Rational>& contact, Mode mode) {
+  const Rational mu = contact.mu;
+  switch (mode) {
+    case kHold:
+      return {{{0, true}}, Relation::kZero, Relation::kFree};
+    case kBreak:
+      return {{}, Relation::kAtLeastZero, Relation::kFree};
+    case kTouch:
+      return {{{SingleEdge(contact)}}, Relation::kZero, Relation::kFree};
+    case kStick:
+      return {{{mu}, {-mu}}, Relation::kZero, Relation::kZero};
+    case kSlipPlus:
+      return {{{-mu}}, Relation::kZero, Relation::kAtLeastZero};
+    case kSlipMinus:
+      return {{{mu}}, Relation::kZero, Relation::kAtMostZero};
+  }
+  STICTION_CHECK(false, "no such mode");
+}
+
+// What all modes of the contact imply.
+Cone RelaxedCone(const Contact<Rational>& contact) {
+  if (contact.kind == ContactKind::kBilateral) return ConeOf(contact, kHold);
+  Cone cone = ConeOf(contact, HasFrictionModes(contact) ? kStick : kTouch);
+  cone.a_n = Relation::kAtLeastZero;
+  cone.a_t = Relation::kFree;
+  return cone;
+}
+
+bool Holds(Relation relation, const Rational& value) {
+  switch (relation) {
+    case Relation::kFree:
+      return true;
+    case Relation::kZero:
+      return value == 0;
+    case Relation::kAtLeastZero:
+      return value >= 0;
+    case Relation::kAtMostZero:
+      return value <= 0;
+  }
+  return false;
+}
+
+bool IsInCone(const Contact<Rational>& contact, const Cone& cone, int row, const ExactVector& f,
+              const ExactVector& a) {
+  const bool rough = contact.HasFrictionRows();
+  if (!Holds(cone.a_n, a[row]) || (rough && !Holds(cone.a_t, a[row + 1]))) return false;
+  if (contact.kind == ContactKind::kBilateral) return true;
+  if (f[row] < 0) return false;
+  if (!rough) return !cone.edges.empty() || f[row] == 0;
+  if (cone.edges.empty()) return f[row] == 0 && f[row + 1] == 0;
+  if (cone.edges.size() == 1) return f[row + 1] == cone.edges[0].f_t * f[row];
+  return abs(f[row + 1]) <= contact.mu * f[row];
+}
+
+}  // namespace
+
+bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const ExactVector& f,
+                const ExactVector& a) {
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    const Cone cone = i < prefix.size() ? ConeOf(contact, prefix[i]) : RelaxedCone(contact);
+    if (!IsInCone(contact, cone, row, f, a)) return false;
+    row += contact.HasFrictionRows() ? 2 : 1;
+  }
+  return true;
+}
+
+// ---- Linear programs over integers --------------------------------------------------------------
+
+namespace {
+
+// Find x with x_j >= 0 where j is not free, and coefficients x + constant {=, >=, <=} 0 in every row.
+struct LinearSystem {
+  struct Row {
+    std::vector<mpz_class> coefficients;
+    mpz_class constant;
+    Relation relation;
+  };
+  std::vector<bool> free;  // by variable
+  std::vector<Row> rows;
+};
+
+using Point = std::vector<Rational>;  // x
+
+// By row, >= 0 on rows >= 0, <= 0 on rows <= 0: combination'coefficients <= 0 (= 0 where x_j is free), and
+// combination'constant < 0.
+using Combination = std::vector<mpz_class>;
+
+mpz_class FromCgal(const CGAL::Gmpz& x) { return mpz_class(x.mpz()); }
+
+CGAL::Comparison_result ToCgal(Relation relation) {
+  if (relation == Relation::kZero) return CGAL::EQUAL;
+  return relation == Relation::kAtLeastZero ? CGAL::LARGER : CGAL::SMALLER;
+}
+
+// Without variables QP_solver is not asked: a row decides by itself.
+std::variant<Point, Combination> SolveWithoutVariables(const LinearSystem& system) {
+  for (std::size_t i = 0; i < system.rows.size(); ++i) {
+    if (Holds(system.rows[i].relation, system.rows[i].constant)) continue;
+    Combination combination(system.rows.size());
+    combination[i] = -sgn(system.rows[i].constant);
+    return combination;
+  }
+  return Point();
+}
+
+// A free variable is the difference of two. Bland's rule, since degenerate programs are the usual case here
+// and QP_solver's other rules may cycle.
+std::variant<Point, Combination> Solve(const LinearSystem& system) {
+  const int variables = static_cast<int>(system.free.size()), rows = static_cast<int>(system.rows.size());
+  if (variables == 0) return SolveWithoutVariables(system);
+  CGAL::Quadratic_program<CGAL::Gmpz> program(CGAL::SMALLER, true, 0, false, 0);
+  for (int i = 0; i < rows; ++i) {
+    const LinearSystem::Row& row = system.rows[i];
+    program.set_r(i, ToCgal(row.relation));
+    program.set_b(i, -CGAL::Gmpz(row.constant.get_mpz_t()));
+    for (int j = 0, column = 0; j < variables; ++j) {
+      const CGAL::Gmpz coefficient(row.coefficients[j].get_mpz_t());
+      program.set_a(column++, i, coefficient);
+      if (system.free[j]) program.set_a(column++, i, -coefficient);
+    }
+  }
+  CGAL::Quadratic_program_options options;
+  options.set_pricing_strategy(CGAL::QP_BLAND);
+  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), options);
+  if (solution.is_infeasible()) {
+    Combination combination;
+    auto lambda = solution.infeasibility_certificate_begin();
+    for (int i = 0; i < rows; ++i, ++lambda) combination.push_back(-FromCgal(*lambda));
+    return combination;
+  }
+  STICTION_CHECK(solution.is_optimal(), "a feasibility program is either infeasible or solved");
+  Point x;
+  auto value = solution.variable_values_begin();
+  const auto next = [&value] {
+    const auto quotient = *value++;
+    Rational number(FromCgal(quotient.numerator()), FromCgal(quotient.denominator()));
+    number.canonicalize();
+    return number;
+  };
+  for (int j = 0; j < variables; ++j) {
+    x.push_back(next());
+    if (system.free[j]) x.back() -= next();
+  }
+  return x;
+}
+
+int Rank(std::vector<std::vector<Rational>> rows, int columns) {
+  int rank = 0;
+  for (int column = 0; column < columns; ++column) {
+    std::size_t pivot = rank;
+    while (pivot < rows.size() && rows[pivot][column] == 0) ++pivot;
+    if (pivot == rows.size()) continue;
+    std::swap(rows[rank], rows[pivot]);
+    for (std::size_t i = rank + 1; i < rows.size(); ++i) {
+      const Rational factor = rows[i][column] / rows[rank][column];
+      if (factor == 0) continue;
+      for (int j = column; j < columns; ++j) rows[i][j] -= factor * rows[rank][j];
+    }
+    ++rank;
+  }
+  return rank;
+}
+
+// Whether x is the only solution. Let N d >= 0, E d = 0 be the conditions that are tight at x, for a change d
+// of x. There is no d /= 0 if and only if these rows have full rank and a combination of them with every
+// coefficient of N positive vanishes (Stiemke): one more linear program, scaled to coefficients >= 1.
+bool IsOnlySolution(const LinearSystem& system, const Point& x) {
+  const std::size_t variables = x.size();
+  std::vector<std::vector<mpz_class>> normals;
+  std::vector<bool> free;
+  for (const LinearSystem::Row& row : system.rows) {
+    Rational value = row.constant;
+    for (std::size_t j = 0; j < variables; ++j) value += row.coefficients[j] * x[j];
+    if (value != 0) continue;
+    normals.push_back(row.coefficients);
+    if (row.relation == Relation::kAtMostZero) {
+      for (mpz_class& coefficient : normals.back()) coefficient = -coefficient;
+    }
+    free.push_back(row.relation == Relation::kZero);
+  }
+  for (std::size_t j = 0; j < variables; ++j) {
+    if (system.free[j] || x[j] != 0) continue;
+    normals.emplace_back(variables)[j] = 1;
+    free.push_back(false);
+  }
+  std::vector<std::vector<Rational>> rational;
+  for (const auto& normal : normals) rational.emplace_back(normal.begin(), normal.end());
+  if (Rank(rational, static_cast<int>(variables)) < static_cast<int>(variables)) return false;
+  LinearSystem dual;
+  dual.free = free;
+  for (std::size_t j = 0; j < variables; ++j) {
+    LinearSystem::Row& row = dual.rows.emplace_back(LinearSystem::Row{{}, 0, Relation::kZero});
+    for (std::size_t k = 0; k < normals.size(); ++k) {
+      row.coefficients.push_back(normals[k][j]);
+      if (!free[k]) row.constant += normals[k][j];
+    }
+  }
+  return variables == 0 || std::holds_alternative<Point>(Solve(dual));
+}
+
+// ---- The search ---------------------------------------------------------------------------------
+
+// A f + b with rows scaled to integers, for the force (1, f_t) of a contact at a time.
+class IntegerRows {
+ public:
+  explicit IntegerRows(const ExactProblem& problem) : problem_(problem) {
+    for (int i = 0; i < problem.rows(); ++i) {
+      mpz_class scale = problem.b[i].get_den();
+      int row = 0;
+      for (const auto& contact : problem.contacts) {
+        scale = lcm(scale, problem.A(i, row).get_den());
+        if (contact.HasFrictionRows()) {
+          const Rational limit = contact.mu * problem.A(i, row + 1);
+          scale = lcm(scale, limit.get_den());
+          ++row;
+        }
+        ++row;
+      }
+      scale_.push_back(scale);
+    }
+  }
+
+  const mpz_class& scale(int i) const { return scale_[i]; }
+  mpz_class Constant(int i) const { return Scaled(i, problem_.b[i]); }
+  mpz_class Coefficient(int i, int normal_row, const Cone::Edge& edge) const {
+    if (edge.f_t == 0) return Scaled(i, problem_.A(i, normal_row));
+    return Scaled(i, problem_.A(i, normal_row) + edge.f_t * problem_.A(i, normal_row + 1));
+  }
+
+ private:
+  mpz_class Scaled(int i, const Rational& x) const {
+    const Rational scaled = x * scale_[i];
+    STICTION_ASSERT(scaled.get_den() == 1, "a scaled row has integers only");
+    return scaled.get_num();
+  }
+
+  const ExactProblem& problem_;
+  std::vector<mpz_class> scale_;  // by row of A
+};
+
+class Enumerator {
+ public:
+  Enumerator(const ExactProblem& problem, const EnumerationOptions& options)
+      : problem_(problem), options_(options), integers_(problem) {
+    layout_.Assign(problem.contacts);
+  }
+
+  Enumeration Run() {
+    ModeWord prefix;
+    Search(prefix, nullptr, 1.0);
+    std::set<std::vector<std::string>> witnesses;
+    for (const WordSolution& solution : result_.solutions) {
+      std::vector<std::string> text;
+      for (const Rational& x : solution.f) text.push_back(ToString(x));
+      witnesses.insert(std::move(text));
+    }
+    result_.distinct_witnesses = static_cast<std::int64_t>(witnesses.size());
+    return std::move(result_);
+  }
+
+ private:
+  struct Witness {
+    ExactVector f, a;
+  };
+  // A linear system in the coefficients of the edges of all contacts, and what stands where in it.
+  struct Program {
+    LinearSystem system;
+    std::vector<std::pair<int, Cone::Edge>> variables;  // normal row of the contact, edge
+    std::vector<int> rows;                              // row of A
+  };
+
+  bool Ended() const { return result_.end != EnumerationEnd::kComplete; }
+
+  // `near`: a witness of the prefix without its last mode. `share`: the part of all words below the prefix.
+  void Search(ModeWord& prefix, const Witness* near, double share) {
+    ++result_.prefixes;
+    Witness own;
+    const Witness* witness = near;
+    if (near != nullptr && MeetsModes(problem_, prefix, near->f, near->a)) {
+      ++result_.reused_witnesses;
+    } else if (Refute(prefix)) {
+      ++result_.reused_vectors;
+      return Report(share);
+    } else if (!SolveProgram(prefix, own)) {
+      return Report(share);
+    } else {
+      witness = &own;
+    }
+    if (prefix.size() == problem_.contacts.size()) {
+      AddSolution(prefix, *witness);
+      return Report(share);
+    }
+    const auto modes = ModesOf(problem_.contacts[prefix.size()]);
+    for (const Mode mode : modes) {
+      prefix.push_back(mode);
+      Search(prefix, witness, share / static_cast<double>(modes.size()));
+      prefix.pop_back();
+      if (Ended()) return;
+    }
+  }
+
+  // Whether a recent Farkas vector refutes the prefix too.
+  bool Refute(const ModeWord& prefix) {
+    for (const FarkasVector& farkas : known_) {
+      if (!Refutes(problem_, prefix, farkas)) continue;
+      result_.refuted.push_back({prefix, farkas.y});
+      return true;
+    }
+    return false;
+  }
+
+  // Whether the prefix is feasible: then `witness` is filled, otherwise a refutation is noted. Neither, and
+  // false, if the budget is spent.
+  bool SolveProgram(const ModeWord& prefix, Witness& witness) {
+    if (result_.programs == options_.programs) {
+      result_.end = EnumerationEnd::kLimit;
+      return false;
+    }
+    ++result_.programs;
+    const Program program = MakeProgram(prefix);
+    const auto answer = Solve(program.system);
+    if (const Point* x = std::get_if<Point>(&answer)) {
+      witness.f = ForceOf(program, *x);
+      witness.a = Accelerations(problem_, witness.f);
+      STICTION_CHECK(MeetsModes(problem_, prefix, witness.f, witness.a), "a linear program solved wrongly");
+      return true;
+    }
+    NoteRefutation(prefix, program, std::get<Combination>(answer));
+    return false;
+  }
+
+  void NoteRefutation(const ModeWord& prefix, const Program& program, const Combination& combination) {
+    std::vector<mpz_class> integers(problem_.rows());
+    mpz_class divisor = 0;
+    for (std::size_t k = 0; k < program.rows.size(); ++k) {
+      mpz_class& entry = integers[program.rows[k]];
+      entry = combination[k] * integers_.scale(program.rows[k]);
+      divisor = gcd(divisor, entry);
+    }
+    ExactVector y(problem_.rows());
+    for (int i = 0; i < y.size(); ++i) y[i] = divisor == 0 ? integers[i] : mpz_class(integers[i] / divisor);
+    const FarkasVector farkas = MakeFarkasVector(problem_, y);
+    const auto gap = FindRefutationGap(problem_, prefix, farkas);
+    STICTION_CHECK(!gap, "a Farkas vector of a linear program is wrong: " + gap.value_or(""));
+    result_.refuted.push_back({prefix, y});
+    known_.push_front(farkas);
+    if (known_.size() > kKnown) known_.pop_back();
+  }
+
+  Program MakeProgram(const ModeWord& prefix) const {
+    Program program;
+    std::vector<Relation> relations;
+    for (int i = 0; i < layout_.ContactCount(); ++i) {
+      const auto& contact = problem_.contacts[i];
+      const int row = layout_.NormalRowOf(i);
+      const Cone cone = i < static_cast<int>(prefix.size()) ? ConeOf(contact, prefix[i]) : RelaxedCone(contact);
+      for (const Cone::Edge& edge : cone.edges) {
+        program.variables.emplace_back(row, edge);
+        program.system.free.push_back(edge.free);
+      }
+      const auto add_row = [&](int index, Relation relation) {
+        if (relation == Relation::kFree) return;
+        program.rows.push_back(index);
+        relations.push_back(relation);
+      };
+      add_row(row, cone.a_n);
+      if (contact.HasFrictionRows()) add_row(row + 1, cone.a_t);
+    }
+    for (std::size_t k = 0; k < program.rows.size(); ++k) {
+      const int i = program.rows[k];
+      LinearSystem::Row& row =
+          program.system.rows.emplace_back(LinearSystem::Row{{}, integers_.Constant(i), relations[k]});
+      for (const auto& [normal, edge] : program.variables) {
+        row.coefficients.push_back(integers_.Coefficient(i, normal, edge));
+      }
+    }
+    return program;
+  }
+
+  ExactVector ForceOf(const Program& program, const Point& x) const {
+    ExactVector f = ExactVector::Constant(problem_.rows(), Rational(0));
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const auto& [row, edge] = program.variables[k];
+      f[row] += x[k];
+      if (edge.f_t != 0) f[row + 1] += edge.f_t * x[k];
+    }
+    return f;
+  }
+
+  void AddSolution(const ModeWord& word, const Witness& witness) {
+    const auto violation = FindLawViolation(problem_, witness.f);
+    STICTION_CHECK(!violation, "a mode has a solution that breaks a law: " + violation.value_or(""));
+    result_.solutions.push_back({word, witness.f, IsUnique(word, witness.f)});
+    if (options_.first_solution_only) result_.end = EnumerationEnd::kFirstSolution;
+  }
+
+  // Coordinates of f along the edges of the word; they are unique, since edges of a contact are independent.
+  bool IsUnique(const ModeWord& word, const ExactVector& f) const {
+    const Program program = MakeProgram(word);
+    Point x;
+    for (std::size_t k = 0; k < program.variables.size(); ++k) {
+      const auto& [row, edge] = program.variables[k];
+      const bool second = k > 0 && program.variables[k - 1].first == row;
+      const bool two = second || (k + 1 < program.variables.size() && program.variables[k + 1].first == row);
+      x.push_back(two ? Rational((f[row] + f[row + 1] / edge.f_t) / 2) : f[row]);
+    }
+    return IsOnlySolution(program.system, x);
+  }
+
+  void Report(double share) {
+    decided_ += share;
+    if (!options_.progress || Ended()) return;
+    const EnumerationProgress progress = {decided_, result_.prefixes, result_.programs,
+                                          static_cast<std::int64_t>(result_.solutions.size())};
+    if (!options_.progress(progress)) result_.end = EnumerationEnd::kCancelled;
+  }
+
+  static constexpr std::size_t kKnown = 64;  // Farkas vectors tried again
+
+  const ExactProblem& problem_;
+  const EnumerationOptions& options_;
+  RowLayout<Eigen::Dynamic> layout_;
+  IntegerRows integers_;
+  std::deque<FarkasVector> known_;  // the latest first
+  double decided_ = 0;
+  Enumeration result_;
+};
+
+}  // namespace
+
+Enumeration EnumerateModes(const ExactProblem& problem, const EnumerationOptions& options) {
+  if (problem.dimension != 2) {
+    throw InputError(fmt::format("method enumerate: a problem of dimension {}, expected 2", problem.dimension));
+  }
+  return Enumerator(problem, options).Run();
+}
+
+}  // namespace stiction

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The claim `no-solution`: Farkas vectors that refute every contact mode, made and checked.
+//
+// For a vector y let g = A'y. Every solution satisfies a - A f = b, hence
+//
+//   y'b = y'(a - A f) = sum over contacts of  yN aN - gN fN + yF aF - gF fF,
+//
+// and a contact's term is >= 0 throughout its mode (modes.h) if and only if
+//
+//   hold    gN = 0                          stick   gN + mu abs(gF) <= 0
+//   break   yN >= 0, yF = 0                 slip+   gN - mu gF <= 0, yF >= 0
+//   touch   gN - mu u gF <= 0, yF = 0       slip-   gN + mu gF <= 0, yF <= 0
+//
+// (u: the slip of a sliding contact; gF, yF where there is a friction row; for mu = 0 the middle is gN <= 0.)
+// So if y'b < 0, y refutes every word in which each contact has a mode of which this holds. By Farkas's lemma
+// an infeasible word has such a vector.
+//
+// Independent of the linear programs: this file needs products and signs only.
+
+#ifndef STICTION_CERTIFY_NO_SOLUTION_H_
+#define STICTION_CERTIFY_NO_SOLUTION_H_
+
+#include <optional>
+#include <string>
+
+#include "certify/modes.h"
+
+namespace stiction {
+
+struct FarkasVector {
+  ExactVector y;
+  ExactVector g;   // A'y
+  Rational value;  // y'b
+};
+
+FarkasVector MakeFarkasVector(const ExactProblem& problem, const ExactVector& y);
+
+// Whether the contact's term is >= 0 throughout the mode. `row` is the contact's normal row.
+bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas);
+
+// Whether the vector refutes every completion of the prefix.
+bool Refutes(const ExactProblem& problem, const ModeWord& prefix, const FarkasVector& farkas);
+
+// Why it does not; empty if it does.
+std::optional<std::string> FindRefutationGap(const ExactProblem& problem, const ModeWord& prefix,
+                                             const FarkasVector& farkas);
+
+// The certificate. Requires: enumeration.ProvesNoSolution(), of this problem; otherwise InternalError.
+Json NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration);
+
+// What is wrong with a witness, in the words of CheckReport::reason.
+struct WitnessFault {
+  std::string path, found, expected;
+};
+
+struct NoSolutionCheck {
+  std::optional<WitnessFault> fault;  // empty: accepted
+  Json facts;                         // of an accepted witness: words, prefixes
+};
+
+// Checks the witness of a certificate against the problem alone. Never throws for a bad witness.
+NoSolutionCheck CheckNoSolution(const ExactProblem& problem, const Json& witness);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_NO_SOLUTION_H_

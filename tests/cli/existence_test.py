@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Existence of every corpus problem, decided by the program, accepted by both checkers; methods side by side."""
+
+import importlib.util
+import json
+import pathlib
+
+import cli
+
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
+NO_SOLUTION = {"no-solution-scripted-wedge", "no-solution-zero-matrix"}
+
+
+def independent_checker():
+    specification = importlib.util.spec_from_file_location("checker", SOURCES / "certify/check_certificate.py")
+    checker = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(checker)
+    return checker
+
+
+class Existence(cli.TestCase):
+    def problems(self):
+        found = sorted((SOURCES / "corpus").glob("*.json"))
+        self.assertGreater(len(found), 20)
+        return found
+
+    def test_every_problem_of_the_corpus_is_decided_and_both_checkers_agree(self):
+        checker = independent_checker()
+        for problem in self.problems():
+            with self.subTest(problem=problem.name):
+                certificate = self.folder / f"{problem.stem}.certificate.json"
+                self.succeeds("certify", problem, "-o", certificate)
+                claim = json.loads(certificate.read_text())["claim"]
+                self.assertEqual(claim, "no-solution" if problem.stem in NO_SOLUTION else "solution-exists")
+                self.succeeds("check", certificate)
+                self.assertTrue(checker.check(checker.load(certificate)).startswith(claim))
+
+    def test_complete_driving_and_lemke_solve_what_the_published_algorithm_loops_on(self):
+        for problem in self.problems():
+            for method in ("complete", "lemke", "enumerate"):
+                with self.subTest(problem=problem.name, method=method):
+                    done = cli.run("solve", problem, "--method", method, "--json")
+                    if problem.stem in NO_SOLUTION:
+                        self.assertIn(done.json()["outcome"], ("ray", "undecided"))
+                    else:
+                        self.assertEqual((done.code, done.json()["outcome"]), (0, "solved"))
+
+    def test_doubles_agree_with_exact_numbers(self):
+        for problem in self.problems():
+            if problem.stem in NO_SOLUTION:
+                continue
+            with self.subTest(problem=problem.name):
+                exact = cli.run("solve", problem, "--method", "complete", "--json").json()
+                double = cli.run("solve", problem, "--method", "complete", "--arithmetic", "double", "--json").json()
+                self.assertEqual(double["outcome"], "solved")
+                self.assertLess(double["residual"], 1e-8)
+                self.assertEqual(double["word"], exact["word"])
+
+    def test_all_lists_every_solution_of_the_contact_with_three(self):
+        done = self.succeeds("certify", SOURCES / "corpus/three-solutions-one-contact.json", "--all", "--json")
+        found = {tuple(word["f"]) for word in done.json()["words"]}
+        self.assertEqual(found, {("0", "0"), ("3", "-2"), ("1", "-1")})
+
+    def test_a_sliding_contact_without_a_solution(self):
+        problem = self.folder / "rod.json"
+        problem.write_text(json.dumps({
+            "format": "stiction-problem", "version": 1, "name": "rod", "dimension": 2,
+            "contacts": [{"kind": "sliding", "mu": "2", "slip": "1"}],
+            "A": [["8/5", "6/5"], ["6/5", "17/5"]], "b": ["-10", "0"]}))
+        certificate = self.folder / "rod.certificate.json"
+        self.succeeds("certify", problem, "-o", certificate)
+        self.assertEqual(json.loads(certificate.read_text())["claim"], "no-solution")
+        self.succeeds("check", certificate)
+        checker = independent_checker()
+        checker.check(checker.load(certificate))
+
+
+if __name__ == "__main__":
+    cli.main()
