@@ -29,6 +29,8 @@ import sys
 from collections import namedtuple
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import product
+from math import prod
 
 sys.set_int_max_str_digits(0)  # numbers may have more than 4300 digits
 
@@ -396,6 +398,76 @@ def check_no_solution(problem, witness):
     return f"{following[-1]} words, {len(prefixes)} prefixes"
 
 
+# --- Safe and unsafe: determinants of the reduced matrix (certify/README.md) -----------
+
+def determinant(M):
+    """By Gaussian elimination of a copy of the rows M."""
+    M, result = [list(row) for row in M], Fraction(1)
+    for k in range(len(M)):
+        p = next((i for i in range(k, len(M)) if M[i][k]), None)
+        if p is None:
+            return Fraction(0)
+        if p != k:
+            M[k], M[p], result = M[p], M[k], -result
+        result *= M[k][k]
+        for i in range(k + 1, len(M)):
+            if factor := M[i][k] / M[k][k]:
+                M[i] = [x - factor * y for x, y in zip(M[i], M[k])]
+    return result
+
+
+def reduced(problem, word):
+    """The rows of the reduced matrix of a word."""
+    kept, columns, by_column = [], [], list(zip(*problem.A))
+    for mode, (_, contact, rows) in zip(word, planar_contacts(problem)):
+        if mode == "break":
+            continue
+        kept += rows if mode == "stick" else rows[:1]
+        if mode in ("touch", "stick"):
+            columns += [by_column[row] for row in kept[len(columns):]]
+        else:
+            along = -contact.mu if mode == "slip+" else contact.mu
+            columns.append([x + along * y for x, y in zip(*(by_column[row] for row in rows))])
+    return [[column[row] for column in columns] for row in kept]
+
+
+def reduced_determinant(problem, word, stated, place):
+    """det R(word), which must be the number that is stated."""
+    value = determinant(reduced(problem, word))
+    stated = exact(stated, place)
+    need(stated == value, place, stated, value, f" (the reduced determinant of {brief(tuple(word))})")
+    return value
+
+
+def words_of(problem):
+    """The number of all words, and the modes of each contact; static and frictionless ones."""
+    choices = [modes_of(problem.contacts[variable.contact]) for variable in problem.variables
+               if variable.name[0] == "N"]
+    return prod(map(len, choices)), choices
+
+
+def check_safe(problem, witness):
+    fields(witness, "$.witness", "determinants")
+    count, choices = words_of(problem)
+    smallest = Fraction(1)  # that of the word in which every contact breaks
+    stated = items(witness["determinants"], "$.witness.determinants", count)
+    for word, (at, value) in zip(product(*choices), stated):
+        value = reduced_determinant(problem, word, value, at)
+        need(value > 0, at, value, "a determinant > 0")
+        smallest = min(smallest, value)
+    return f"{count} words, smallest determinant {brief(smallest)}"
+
+
+def check_unsafe(problem, witness):
+    fields(witness, "$.witness", "word", "determinant")
+    choices = words_of(problem)[1]
+    named = items(witness["word"], "$.witness.word", len(choices))
+    word = [one_of(mode, at, modes) for (at, mode), modes in zip(named, choices)]
+    value = reduced_determinant(problem, word, witness["determinant"], "$.witness.determinant")
+    need(value <= 0, "$.witness.determinant", value, "a determinant <= 0")
+    return f"{' '.join(word)}, determinant {brief(value)}"
+
+
 # --- The published algorithm: sections 4.1-4.3 and 5.2-5.5, as solver/readings.md ---
 
 SWITCHES = {  # the value of the reference policy `paper` first
@@ -744,6 +816,8 @@ CLAIMS = {
     "not-symmetric": check_not_symmetric,
     "psd": check_psd,
     "not-psd": check_not_psd,
+    "safe": check_safe,
+    "unsafe": check_unsafe,
     "in-range": check_in_range,
     "not-in-range": check_not_in_range,
     "cycle": lambda problem, witness: check_runs("cycle", problem, witness),
@@ -782,6 +856,8 @@ EPILOG = """claims:
   solution-exists, no-solution
                    for planar problems; no-solution by a Farkas vector for
                    every word of contact modes, or prefix of words
+  safe, unsafe     for planar problems of static and frictionless contacts:
+                   whether all determinants of reduced matrices are positive
   cycle, stall     for planar problems of static and frictionless contacts:
                    run the published algorithm again, from f = 0, under
                    every policy that the certificate names

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Safe problems: where every reduced determinant is positive, the path of forces never turns back.
+//
+// For a word of modes W (modes.h) let R(W) be the reduced matrix of [Baraff94], 5.3:
+//
+//   mode of a contact    rows    columns             complete_driving.md
+//   break                none    none                B
+//   touch                N       A_N                 0
+//   stick                N, F    A_N, A_F            S
+//   slip+, slip-         N       A_N - mu A_F, A_N + mu A_F     -, +
+//
+// *Safe*: det R(W) > 0 for all words of all contacts. This is a property of A and mu alone. Contacts that are
+// absent, or whose variables are not established yet, ask for no more:
+//
+//   - a contact that is not there is one in `break`: same rows, same columns;
+//   - a static contact with mu > 0 that is clamped but has no friction yet has the column A_N, the mean of
+//   those
+//     of slip- and slip+, and the same row. A determinant is linear in each column; so with any number of such
+//     contacts it is the mean of the determinants of words, and positive in a safe problem.
+//
+// What follows (proved; complete_driving.md, 4, and here), whatever else A is, symmetric or not:
+//
+//   - in a stage with driven variable v, side df_v = 1 and side da_v = det R(W with v) / det R(W) > 0 on every
+//     piece: no fold, no descent, and no ray, since a_v reaches zero. So for every b there is a solution;
+//   - for nondegenerate b it is the only one: another would be the end of a path that joins two solutions of
+//     opposite sign;
+//   - under `apex=suspended` (readings.md) the published algorithm gives nothing up, in whatever order it takes
+//     the variables (b nondegenerate for that order too): the pieces before and behind a facet have df_v of one
+//     sign, so no step of length zero leads back through the facet just crossed.
+//
+// Not so under `apex=kept`, hence `paper`: there a friction variable can be in CF while fN = 0, with row F and
+// column A_F. That is a fifth mode, of which safety says nothing; safe_test.cpp has a safe problem of two
+// contacts in which `paper` gives up. If the determinants with this mode are positive too, none was seen to
+// (checked).
+//
+// A positive definite is safe for all mu small enough: for mu = 0 the determinants are principal minors.
+//
+// Decided by elimination down the tree of words: det R(W) is the product of the pivot blocks of its contacts in
+// the successive Schur complements. They are positive as long as all determinants are, so no zero is divided
+// by. Checked without it: every matrix is written down and its determinant found by Gaussian elimination.
+
+#ifndef STICTION_CERTIFY_SAFE_H_
+#define STICTION_CERTIFY_SAFE_H_
+
+#include <optional>
+#include <vector>
+
+#include "certify/modes.h"
+#include "certify/no_solution.h"
+
+namespace stiction {
+
+// More words than these, the first so many of them positive, are not decided: InputError.
+inline constexpr int kMaxSafetyWords = 1 << 16;
+
+// det R(W). Requires: one mode for every contact, of its kind; slip+-, stick for mu = 0 too.
+Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word);
+
+struct Safety {
+  // In the order of words: the last contact's mode changes fastest, each in the order of ModesOf.
+  std::vector<Rational>
+      determinants;  // of all words; of an unsafe problem up to the first that is not positive
+  std::optional<ModeWord> unsafe_word;  // that one
+};
+
+// The functions below require a planar problem of frictionless and static contacts; otherwise InputError.
+Safety DecideSafety(const ExactProblem& problem);
+
+// `safe` or `unsafe`.
+Json SafetyCertificate(const ExactProblem& problem);
+
+struct SafetyCheck {
+  std::optional<WitnessFault> fault;  // empty: accepted
+  Json facts;                         // of an accepted witness: words, smallest; word, determinant
+};
+
+// Check the witness of a certificate against the problem alone. Never throw for a bad witness.
+SafetyCheck CheckSafe(const ExactProblem& problem, const Json& witness);
+SafetyCheck CheckUnsafe(const ExactProblem& problem, const Json& witness);
+
+// ---- One friction coefficient for all --------------------------------------------------------
+
+// mu*, the least upper bound of all m such that A is safe for 0 < mu < m, mu that of every static contact.
+// It is the smallest positive root of any det R(W), a polynomial in mu, and A is not safe for mu = mu*; or it
+// is zero, where some det R(W) is not positive for small mu > 0.
+struct SafetyThreshold {
+  ModeWord word;                     // the first whose polynomial has the root
+  std::vector<Rational> polynomial;  // det R(word): coefficients of 1, mu, mu^2, ...
+  // low < mu* <= high, at most 2^-20 apart and with no other root there; or low = mu* = high, as for
+  // every rational mu* with a denominator <= 1000.
+  Rational low, high;
+};
+
+// Empty if A is safe for all mu > 0. The problem's own mu, and b, do not matter. At most kMaxSafetyWords words.
+std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_SAFE_H_
