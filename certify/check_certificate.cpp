@@ -9,6 +9,7 @@
 #include "certify/certificate.h"
 #include "certify/no_solution.h"
 #include "certify/properties.h"
+#include "certify/safe.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 
@@ -259,12 +260,22 @@ Json CheckNone(const ExactProblem& problem, const Json& witness) {
   return check.facts;
 }
 
+// Claims of safe.h.
+template <SafetyCheck (*check)(const ExactProblem&, const Json&)>
+Json CheckSafety(const ExactProblem& problem, const Json& witness) {
+  const SafetyCheck result = check(problem, witness);
+  if (result.fault) throw Rejected{result.fault->path, result.fault->found, result.fault->expected};
+  return result.facts;
+}
+
 using Checker = std::function<Json(const ExactProblem&, const Json&)>;
 
 const std::map<std::string, Checker>& Checkers() {
   static const std::map<std::string, Checker> checkers = {
       {"solution-exists", CheckSolution},
       {"no-solution", CheckNone},
+      {"safe", CheckSafety<CheckSafe>},
+      {"unsafe", CheckSafety<CheckUnsafe>},
       {"symmetric", CheckSymmetric},
       {"not-symmetric", CheckNotSymmetric},
       {"psd", CheckSemidefinite},

@@ -9,6 +9,7 @@
 
 #include "certify/certificate.h"
 #include "certify/existence.h"
+#include "certify/safe.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
 
@@ -21,6 +22,7 @@ struct CertifyOptions {
   std::string claim = "solution-exists";
   std::string policy = "paper";
   bool all = false;
+  bool safe = false;
   bool json = false;
   Limits limits;
 };
@@ -72,20 +74,52 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
   if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
   if (o.claim == "in-range") return RangeCertificate(file.problem);
+  if (o.claim == "safe") return SafetyCertificate(file.problem);
   const Outcome loop = o.claim == "cycle" ? Outcome::kCycle : Outcome::kStall;
   return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
+}
+
+// Whether all reduced determinants are positive, and for which uniform friction they are.
+int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
+  Json result = {{"safe", !DecideSafety(file.problem).unsafe_word.has_value()}};
+  if (const auto threshold = FindSafetyThreshold(file.problem)) {
+    Json word = Json::array(), polynomial = Json::array();
+    for (const Mode mode : threshold->word) word.push_back(Name(mode));
+    for (const Rational& coefficient : threshold->polynomial) polynomial.push_back(ToString(coefficient));
+    result["threshold"] = {{"low", ToString(threshold->low)},
+                           {"high", ToString(threshold->high)},
+                           {"word", word},
+                           {"polynomial", polynomial}};
+  }
+  if (!o.output.empty()) WriteText(o.output, JsonText(SafetyCertificate(file.problem), 1) + "\n");
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  if (o.json) {
+    out << JsonText(result) << "\n";
+    return kExitDone;
+  }
+  out << (result["safe"].get<bool>() ? "safe" : "unsafe") << "\n";
+  if (!result.contains("threshold")) {
+    out << "safe for every uniform mu > 0\n";
+  } else {
+    const Json& t = result["threshold"];
+    out << fmt::format("uniform mu: safe below mu* in [{}, {}], where the determinant of {} vanishes\n",
+                       t["low"].get<std::string>(), t["high"].get<std::string>(), t["word"].dump());
+  }
+  return kExitDone;
 }
 
 // Loops are claimed of problems that the published algorithm handles, existence of planar ones.
 ProblemFile ReadFor(const CertifyOptions& o) {
   if (o.all || o.claim == "solution-exists") return ReadPlanarProblem(o.file);
-  return o.claim == "cycle" || o.claim == "stall" ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  const bool handled = o.safe || o.claim == "safe" || o.claim == "cycle" || o.claim == "stall";
+  return handled ? ReadHandledProblem(o.file) : ReadProblem(o.file);
 }
 
 int RunCertify(const CertifyOptions& o) {
-  if (o.output.empty() && !o.all) throw InputError("certify: expected -o CERT, or --all");
+  if (o.output.empty() && !o.all && !o.safe) throw InputError("certify: expected -o CERT, --all or --safe");
   const ProblemFile file = ReadFor(o);
   if (o.all) return ListSolutions(o, file);
+  if (o.safe) return ShowThreshold(o, file);
   const Json certificate = Certify(o, file);
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
@@ -142,10 +176,14 @@ void AddCertify(CLI::App& program, Action& action) {
   verb.add_option("-o,--output", o->output, "certificate to write; - is standard output");
   verb.add_option(
           "--claim", o->claim,
-          "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, cycle, "
-          "stall")
+          "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, safe, "
+          "cycle, stall")
       ->capture_default_str()
-      ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "cycle", "stall"}));
+      ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "safe", "cycle", "stall"}));
+  verb.add_flag(
+      "--safe", o->safe,
+      "the friction coefficient below which A is safe for the published algorithm (see certify/README.md), and "
+      "with -o a certificate whether the problem is");
   verb.add_flag("--all", o->all, "list all contact modes that have solutions; writes no certificate");
   AddPolicyOption(verb, o->policy, Grid::kAllowed);
   AddLimits(verb, o->limits);

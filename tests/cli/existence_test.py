@@ -61,6 +61,16 @@ class Existence(cli.TestCase):
         found = {tuple(word["f"]) for word in done.json()["words"]}
         self.assertEqual(found, {("0", "0"), ("3", "-2"), ("1", "-1")})
 
+    def test_safety_of_the_reference_problem(self):
+        problem = SOURCES / "corpus/two-contact-cycle.json"
+        certificate = self.folder / "unsafe.json"
+        done = self.succeeds("certify", problem, "--safe", "-o", certificate, "--json").json()
+        self.assertEqual((done["safe"], done["threshold"]["low"], done["threshold"]["high"]), (False, "1/3", "1/3"))
+        self.assertEqual(json.loads(certificate.read_text())["claim"], "unsafe")
+        self.succeeds("check", certificate)
+        checker = independent_checker()
+        checker.check(checker.load(certificate))
+
     def test_a_sliding_contact_without_a_solution(self):
         problem = self.folder / "rod.json"
         problem.write_text(json.dumps({
