@@ -8,6 +8,7 @@
 
 #include "certify/certificate.h"
 #include "certify/existence.h"
+#include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
@@ -102,10 +103,28 @@ Solved SolveByModes(const ExactProblem& problem) {
   return solved;
 }
 
+// Ipopt proposes, exact arithmetic decides.
+Solved SolveByIpopt(const ExactProblem& problem) {
+  IpoptProposer proposer;
+  ProposalStatistics statistics;
+  const auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
+  Solved solved;
+  solved.verdict.outcome = f ? Outcome::kSolved : Outcome::kUndecided;
+  if (!f) solved.verdict.reason = "no point that Ipopt proposed led to a solution";
+  if (f) {
+    solved.f = VectorToJson(*f);
+    solved.a = VectorToJson(Accelerations(problem, *f));
+  }
+  solved.statistics = {
+      {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
+  return solved;
+}
+
 Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
   if (method == "complete") return SolveByComplete(problem, options.limits);
   if (method == "lemke") return SolveByLemke(problem, options.limits);
   if (method == "enumerate") return SolveByModes(problem);
+  if (method == "ipopt") return SolveByIpopt(problem);
   return SolveByPublished(problem, options);
 }
 
@@ -212,11 +231,11 @@ void PrintForPeople(const Json& result) {
 }
 
 int Solve(const SolveOptions& o) {
-  if (o.method == "enumerate" && o.arithmetic != "exact") {
-    throw InputError("--method enumerate: expected --arithmetic exact");
+  const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
+  if (any_kind && o.arithmetic != "exact") {
+    throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const ProblemFile file =
-      o.method == "enumerate" ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  const ProblemFile file = any_kind ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
@@ -263,10 +282,10 @@ void AddSolve(CLI::App& program, Action& action) {
   verb.add_option("--method", o->method,
                   "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
                   "Lemke's method, "
-                  "lexicographic; enumerate: all contact modes")
+                  "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate"}, "method");
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
       });
   verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
       ->capture_default_str()

@@ -37,7 +37,7 @@ class Existence(cli.TestCase):
 
     def test_complete_driving_and_lemke_solve_what_the_published_algorithm_loops_on(self):
         for problem in self.problems():
-            for method in ("complete", "lemke", "enumerate"):
+            for method in ("complete", "lemke", "enumerate", "ipopt"):
                 with self.subTest(problem=problem.name, method=method):
                     done = cli.run("solve", problem, "--method", method, "--json")
                     if problem.stem in NO_SOLUTION:

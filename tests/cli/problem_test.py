@@ -87,7 +87,7 @@ class Solve(cli.TestCase):
         file = self.file("p.json", cli.SOLVED)
         for arithmetic in ["quad", "interval", "filtered", "decimal"]:
             self.refuses("solve", file, "--arithmetic", arithmetic, says=[arithmetic, "not built", "exact"])
-        for method in ["ipopt", "fast", "gauss"]:
+        for method in ["fast", "gauss"]:
             self.refuses("solve", file, "--method", method, says=[method, "not built", "baraff"])
 
     def test_assumptions_that_fail_have_exact_witnesses(self):
