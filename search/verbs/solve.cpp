@@ -11,6 +11,7 @@
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
+#include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
 #include "solver/residual.h"
 
@@ -22,6 +23,8 @@ struct SolveOptions {
   std::string method = "baraff";
   std::string arithmetic = "exact";
   std::string policy = "paper";
+  std::string law = "baraff";
+  int sides = 8;
   Limits limits;
   Tolerances tolerances;
   bool json = false;
@@ -230,7 +233,25 @@ void PrintForPeople(const Json& result) {
   }
 }
 
+int Show(const Json& result, bool json, Outcome outcome) {
+  if (json) {
+    std::cout << JsonText(result) << "\n";
+  } else {
+    PrintForPeople(result);
+  }
+  return ExitOf(outcome);
+}
+
+int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
+  SolvedInSpace solved =
+      SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
+  solved.result["assumptions"] = FailedAssumptions(problem);
+  return Show(solved.result, o.json, solved.outcome);
+}
+
 int Solve(const SolveOptions& o) {
+  if (const ProblemFile any = ReadProblem(o.file); any.problem.dimension == 3) return SolveIn3D(o, any.problem);
+  if (o.method == "fast") throw InputError("--method fast: built for space only");
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
@@ -259,12 +280,7 @@ int Solve(const SolveOptions& o) {
   if (!solved.residual.is_null()) result["residual"] = solved.residual;
   result["assumptions"] = FailedAssumptions(file.problem);
   result["statistics"] = solved.statistics;
-  if (o.json) {
-    std::cout << JsonText(result) << "\n";
-  } else {
-    PrintForPeople(result);
-  }
-  return ExitOf(outcome);
+  return Show(result, o.json, outcome);
 }
 
 // Refuses what the specification names and this build does not have.
@@ -279,13 +295,15 @@ void AddSolve(CLI::App& program, Action& action) {
   auto o = std::make_shared<SolveOptions>();
   CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("--method", o->method,
-                  "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
-                  "Lemke's method, "
-                  "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
+  verb.add_option(
+          "--method", o->method,
+          "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
+          "Lemke's method, "
+          "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly; fast: "
+          "in space, Newton's method with complete driving behind it")
       ->capture_default_str()
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt", "fast"}, "method");
       });
   verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
       ->capture_default_str()
@@ -293,6 +311,15 @@ void AddSolve(CLI::App& program, Action& action) {
         return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
       });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
+  verb.add_option(
+          "--law", o->law,
+          "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
+          "free; exact. coulomb: friction opposite to the acceleration; exact arithmetic gives a proved "
+          "bound on the angle. Inexact arithmetics solve coulomb, which implies baraff")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"baraff", "coulomb"}));
+  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
+      ->capture_default_str();
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
