@@ -43,7 +43,7 @@ enum class Law : std::uint8_t { kNone, kHold, kBreak, kFree, kCorner, kEdge, kIn
 
 struct SpaceCell {
   Law law = Law::kNone;
-  int side = 0;  // k of a corner or an edge
+  int side = 0;  // k of a corner or an edge; 1 of a bilateral contact that depends on those before it
 
   auto operator<=>(const SpaceCell&) const = default;
 };

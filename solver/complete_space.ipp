@@ -73,7 +73,7 @@ void SpatialDriving<Scalar>::HoldBilateral() {
       SetCell(driven_, {Law::kHold, 0});
       continue;
     }
-    word_[i] = {Law::kHold, 0};  // without a column
+    SetCell(driven_, {Law::kHold, 1});
     const int sign = Sign(a_[row], scale_.acceleration);
     if (sign == 0) continue;
     if (sign > 0) df_ = Vector(-df_);
@@ -358,7 +358,7 @@ auto SpatialDriving<Scalar>::ShapeOf(int contact, const SpaceCell& cell) const -
       if (contact == driven_ && stage_ == SpaceStage::kNormal) shape.facets = {DrivenAmount(), StageEnd()};
       return shape;
     case Law::kHold:
-      shape.columns = shape.rows = {normal};
+      if (cell.side == 0) shape.columns = shape.rows = {normal};
       return shape;
     case Law::kBreak:
       if (HasFriction(contact)) {

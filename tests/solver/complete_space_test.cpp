@@ -130,6 +130,8 @@ int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
       case Law::kBreak:
         break;
       case Law::kHold:
+        if (cell.side == 1) break;  // dependent
+        [[fallthrough]];
       case Law::kFree:
         columns.push_back(unit(1));
         rows.push_back(unit(1));
@@ -175,7 +177,7 @@ int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
 }
 
 struct PathCounts {
-  int folds = 0, descents = 0, ties = 0, flat = 0;
+  int folds = 0, descents = 0, ties = 0;
 };
 
 void CheckPath(const ExactProblem& problem, const Polygons& polygons, const SpaceRun& run, PathCounts& counts) {
@@ -187,7 +189,6 @@ void CheckPath(const ExactProblem& problem, const Polygons& polygons, const Spac
     CHECK(piece.da == ExactVector(problem.A * piece.df));
     CHECK(visited.emplace(piece.driven, piece.stage, piece.word).second);
     CHECK(piece.s >= 0);
-    counts.flat += determinant == 0;
   }
   counts.folds += run.verdict.statistics.folds > 0;
   counts.descents += run.verdict.statistics.descents > 0;
@@ -245,7 +246,7 @@ TEST_CASE("space: definite problems are solved, and every path is as the proof s
 
 TEST_CASE("space: singular and degenerate problems are solved") {
   PathCounts counts;
-  for (int index = 0; index < 240; ++index) {
+  for (int index = 0; index < 300; ++index) {
     CAPTURE(index);
     Choices choices(5000 + index);
     const int n = 1 + index % 3;
@@ -254,7 +255,295 @@ TEST_CASE("space: singular and degenerate problems are solved") {
     CheckSolved(problem, AllWith(problem, index % 2 == 0 ? 8 : 4), counts);
   }
   CHECK(counts.ties > 100);
-  CHECK(counts.flat > 0);
+}
+
+TEST_CASE("space: four contacts, more corners, corners of one's own") {
+  PathCounts counts;
+  for (int index = 0; index < 12; ++index) {
+    CAPTURE(index);
+    Choices choices(9000 + index);
+    const auto contacts = StaticContacts(4, choices);
+    const ExactProblem problem = RandomInSpace(contacts, index % 2 == 0 ? 13 : 6, 5, index % 2 == 0, choices);
+    Polygons polygons = AllWith(problem, 4 + 4 * (index % 3));
+    CHECK(polygons[1].Insert(OnCircle(Rational(1, 7))));
+    CHECK(polygons[2].Insert(OnCircle(Rational(-9, 4))));
+    CheckSolved(problem, polygons, counts);
+  }
+}
+
+// The kinds of all four, and smooth static contacts.
+std::vector<Contact<Rational>> MixedContacts(int count, Choices& choices) {
+  std::vector<Contact<Rational>> contacts = StaticContacts(count, choices);
+  for (auto& contact : contacts) {
+    const auto pick = choices.Integer(0, 4);
+    if (pick == 0) contact = {ContactKind::kBilateral, 0, {}};
+    if (pick == 1) contact = {ContactKind::kFrictionless, 0, {}};
+    if (pick == 2) contact.mu = 0;
+  }
+  return contacts;
+}
+
+TEST_CASE("space: bilateral, frictionless, smooth and static contacts mix, degenerate or not") {
+  PathCounts counts;
+  int held = 0;
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    Choices choices(20000 + index);
+    const auto contacts = MixedContacts(2 + index % 3, choices);
+    for (const auto& contact : contacts) held += contact.kind == ContactKind::kBilateral;
+    const ExactProblem problem =
+        RandomInSpace(contacts, 2 + index % 5, index % 2 == 0 ? 1 : 50, index % 3 == 0, choices);
+    CheckSolved(problem, AllWith(problem, 4), counts);
+  }
+  CHECK(held > 100);
+  CHECK(counts.ties > 30);
+}
+
+// Every contact twice.
+TEST_CASE("space: duplicated contacts are solved") {
+  PathCounts counts;
+  for (int index = 0; index < 40; ++index) {
+    CAPTURE(index);
+    Choices choices(40000 + index);
+    const int n = 1 + index % 2;
+    auto contacts = StaticContacts(n, choices);
+    const ExactProblem single = RandomInSpace(contacts, 3 * n + 1, 9, true, choices);
+    contacts.insert(contacts.end(), contacts.begin(), contacts.end());
+    ExactProblem twice = single;
+    twice.contacts = contacts;
+    std::vector<int> rows;
+    for (int copy = 0; copy < 2; ++copy) {
+      for (int row = 0; row < 3 * n; ++row) rows.push_back(row);
+    }
+    twice.A = ExactMatrix(single.A(rows, rows));
+    twice.b = ExactVector(single.b(rows));
+    CheckSolved(twice, AllWith(twice, 8), counts);
+  }
+}
+
+// b + e e_N + (e^2, e^3, ...) for a number e that is small enough here.
+ExactProblem Perturbed(ExactProblem problem) {
+  Rational e = 1;
+  mpz_mul_2exp(e.get_den_mpz_t(), e.get_den_mpz_t(), 300);
+  Rational power = e;
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    problem.b[row] += e;
+    for (const int end = row + (contact.HasFrictionRows() ? 3 : 1); row < end; ++row) {
+      power *= e;
+      problem.b[row] += power;
+    }
+  }
+  return problem;
+}
+
+TEST_CASE("space: ties are told as a small perturbation of b tells them") {
+  int tied = 0;
+  for (int index = 0; index < 120; ++index) {
+    CAPTURE(index);
+    Choices choices(60000 + index);
+    const int n = 1 + index % 3;
+    const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 1 + index % 6, 1, false, choices);
+    const Polygons polygons = AllWith(problem, index % 2 == 0 ? 8 : 4);
+    const SpaceRun symbolic = RunSpace(problem, polygons), real = RunSpace(Perturbed(problem), polygons);
+    tied += symbolic.verdict.statistics.ties > 0;
+    CHECK(real.verdict.statistics.ties == 0);
+    REQUIRE(symbolic.path.size() == real.path.size());
+    for (std::size_t k = 0; k < real.path.size(); ++k) {
+      CHECK(symbolic.path[k].word == real.path[k].word);
+      CHECK(symbolic.path[k].df == real.path[k].df);
+    }
+    CHECK(symbolic.word == real.word);
+  }
+  CHECK(tied > 50);
+}
+
+// Forces that all contacts allow, whatever the accelerations.
+bool IsInCone(const ExactProblem& problem, const Polygons& polygons, const ExactVector& v) {
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    if (contact.kind != ContactKind::kBilateral && v[row] < 0) return false;
+    if (contact.HasFrictionRows()) {
+      for (int k = 0; k < polygons[i].sides(); ++k) {
+        if (Dot(polygons[i].normal(k), Tangential(v, row)) > contact.mu * v[row] * polygons[i].reach(k))
+          return false;
+      }
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return true;
+}
+
+TEST_CASE("space: where b is not in the range of A, a ray is a certificate") {
+  PathCounts counts;
+  int rays = 0, solved = 0;
+  for (int index = 0; index < 250; ++index) {
+    CAPTURE(index);
+    Choices choices(80000 + index);
+    ExactProblem problem =
+        RandomInSpace(MixedContacts(1 + index % 3, choices), 1 + index % 4, 2, false, choices);
+    for (Rational& x : problem.b) x = choices.Integer(-3, 3);
+    if (IsInRange(problem)) continue;
+    const Polygons polygons = AllWith(problem, 8);
+    const SpaceRun run = RunSpace(problem, polygons);
+    CheckPath(problem, polygons, run, counts);
+    if (run.verdict.outcome == Outcome::kSolved) {
+      ++solved;
+      CheckLaw(problem, polygons, run.f);
+      continue;
+    }
+    REQUIRE(run.verdict.outcome == Outcome::kRay);
+    ++rays;
+    CHECK(problem.b.dot(run.ray) < 0);
+    CHECK(ExactVector(problem.A * run.ray) == ExactVector::Zero(problem.rows()));
+    CHECK(IsInCone(problem, polygons, run.ray));
+  }
+  CHECK(rays > 30);
+  CHECK(solved > 30);
+}
+
+TEST_CASE("space: a problem of the plane, put into space, is solved by forces of the plane") {
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    const int n = 1 + index % 3;
+    const auto plane = Random<Rational>(static_cast<GeneratorId>(index % kGeneratorCount), n, index);
+    ExactProblem problem;
+    problem.dimension = 3;
+    problem.contacts = plane.contacts;
+    problem.A = ExactMatrix::Zero(3 * n, 3 * n);
+    problem.b = ExactVector::Zero(3 * n);
+    const auto in_space = [](int row) { return row / 2 * 3 + row % 2; };
+    for (int i = 0; i < 2 * n; ++i) {
+      problem.b[in_space(i)] = plane.b[i];
+      for (int j = 0; j < 2 * n; ++j) problem.A(in_space(i), in_space(j)) = plane.A(i, j);
+    }
+    for (int i = 0; i < n; ++i) problem.A(3 * i + 2, 3 * i + 2) = 1;  // ay = fy
+    const SpaceRun run = RunSpace(problem, AllWith(problem, 4));
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    ExactVector f(2 * n);
+    for (int i = 0; i < 2 * n; ++i) f[i] = run.f[in_space(i)];
+    CHECK(FindViolation(plane, f).value_or("") == "");
+    for (int i = 0; i < n; ++i) CHECK(run.f[3 * i + 2] == 0);
+  }
+}
+
+TEST_CASE("space: sliding contacts end in a solution or a ray") {
+  PathCounts counts;
+  std::map<Outcome, int> outcomes;
+  for (int index = 0; index < 120; ++index) {
+    CAPTURE(index);
+    Choices choices(90000 + index);
+    auto contacts = StaticContacts(1 + index % 3, choices);
+    contacts[0].kind = ContactKind::kSliding;
+    contacts[0].slip = OnCircle(Rational(Rational(choices.Integer(-4, 4)) / 3));
+    const ExactProblem problem = RandomInSpace(contacts, 7, 3, true, choices);
+    const Polygons polygons = AllWith(problem, 4);
+    const SpaceRun run = RunSpace(problem, polygons);
+    ++outcomes[run.verdict.outcome];
+    if (run.verdict.outcome != Outcome::kSolved) continue;
+    CheckLaw(problem, polygons, run.f);
+    const Rational limit = contacts[0].mu * run.f[0];
+    CHECK(run.f[1] == -limit * contacts[0].slip[0]);
+    CHECK(run.f[2] == -limit * contacts[0].slip[1]);
+  }
+  CHECK(outcomes[Outcome::kSolved] + outcomes[Outcome::kRay] == 120);
+  CHECK(outcomes[Outcome::kRay] > 0);
+}
+
+TEST_CASE("space: bilateral contacts that contradict each other are a ray") {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(2, {ContactKind::kBilateral, 0, {}});
+  problem.A = Matrix({{2, 2}, {2, 2}});
+  problem.b = Vector({1, 1});
+  const Polygons polygons = AllWith(problem, 4);
+  const SpaceRun agreed = RunSpace(problem, polygons);
+  CHECK(agreed.verdict.outcome == Outcome::kSolved);
+  CHECK(agreed.f == Vector({Rational(-1, 2), 0}));
+  problem.b = Vector({1, 2});
+  const SpaceRun torn = RunSpace(problem, polygons);
+  CHECK(torn.verdict.outcome == Outcome::kRay);
+  CHECK(torn.ray == Vector({1, -1}));
+}
+
+TEST_CASE("space: a budget ends the run") {
+  Choices choices(1);
+  const ExactProblem problem = RandomInSpace(StaticContacts(3, choices), 10, 1000, true, choices);
+  Driving driving;
+  driving.options().limits.pivots = 2;
+  const CompleteVerdict verdict = driving.Run(problem, AllWith(problem, 8));
+  CHECK(verdict.outcome == Outcome::kLimit);
+  CHECK(verdict.statistics.pieces == 2);
+}
+
+TEST_CASE("space: doubles take the exact path, or are undecided") {
+  int same = 0, undecided = 0;
+  for (int index = 0; index < 200; ++index) {
+    CAPTURE(index);
+    Choices choices(70000 + index);
+    const int n = 1 + index % 4;
+    const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 3 * n + 1, index % 2 == 0 ? 1000 : 2,
+                                               index % 2 == 0, choices);
+    const Polygons polygons = AllWith(problem, 8);
+    SpatialDriving<double>::Polygons rounded;
+    for (const auto& polygon : polygons)
+      rounded.emplace_back(polygon, [](const Rational& x) { return ToDouble(x); });
+    SpatialDriving<double> driving;
+    const CompleteVerdict verdict = driving.Run(As<double>(problem), rounded);
+    undecided += verdict.outcome == Outcome::kUndecided;
+    if (verdict.outcome != Outcome::kSolved) continue;
+    same += driving.word() == RunSpace(problem, polygons).word;
+  }
+  CHECK(undecided < 20);
+  CHECK(same > 150);
+}
+
+// ---- Null vectors ----------------------------------------------------------------------------
+
+TEST_CASE("null vector: components are the minors, up to one positive factor") {
+  Choices choices(7);
+  int singular = 0, dependent = 0;
+  for (int index = 0; index < 400; ++index) {
+    const int k = 1 + index % 4;
+    RowMajorMatrix<Rational> M(k, k + 1);
+    for (Rational& x : M.reshaped()) x = choices.Integer(-1, 1);
+    const auto minor = [&M, k](int without) {
+      ExactMatrix square(k, k);
+      for (int j = 0, to = 0; j <= k; ++j) {
+        if (j != without) square.col(to++) = M.col(j);
+      }
+      std::vector<int> order(k);
+      Rational sum = 0;  // over all permutations
+      for (int i = 0; i < k; ++i) order[i] = i;
+      do {
+        Rational product = 1;
+        for (int i = 0; i < k; ++i) {
+          product *= square(i, order[i]);
+          for (int j = 0; j < i; ++j) {
+            if (order[j] > order[i]) product = -product;
+          }
+        }
+        sum += product;
+      } while (std::next_permutation(order.begin(), order.end()));
+      return sum;
+    };
+    std::vector<Rational> wanted;
+    for (int j = 0; j <= k; ++j) wanted.push_back(((k - j) % 2 == 0 ? 1 : -1) * minor(j));
+    RowMajorMatrix<Rational> copy = M;
+    const auto z = OrientedNullVector(copy, Rational(0));
+    const bool zero = std::all_of(wanted.begin(), wanted.end(), [](const Rational& x) { return x == 0; });
+    CHECK(z.has_value() == !zero);
+    dependent += zero;
+    if (!z) continue;
+    singular += wanted[k] == 0;
+    for (int i = 0; i <= k; ++i) {
+      CHECK(Sign((*z)[i]) == Sign(wanted[i]));
+      for (int j = 0; j < i; ++j) CHECK((*z)[i] * wanted[j] == (*z)[j] * wanted[i]);
+    }
+  }
+  CHECK(singular > 20);
+  CHECK(dependent > 20);
 }
 
 }  // namespace
