@@ -150,15 +150,15 @@ void SpatialDriving<Scalar>::ComputeAccelerations() {
   }
 }
 
-// The natural residual of residual.h, with the polygon in place of the disc.
+// The natural residual of planar contacts (residual.h), friction with the polygon in place of the interval;
+// relative to max abs(b) / max A_ii.
 template <class Scalar>
 Scalar SpatialDriving<Scalar>::Residual() const {
   const Scalar nothing(0);
-  Scalar max_A(0), max_b(0), max_f(0), worst(0);
+  Scalar max_A(0), max_b(0), worst(0);
   for (int i = 0; i < problem_->rows(); ++i) {
     max_A = std::max<Scalar>(max_A, problem_->A(i, i));
     max_b = std::max<Scalar>(max_b, Abs(problem_->b[i]));
-    max_f = std::max<Scalar>(max_f, Abs(f_[i]));
   }
   const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
   for (std::size_t i = 0; i < word_.size(); ++i) {
@@ -179,8 +179,7 @@ Scalar SpatialDriving<Scalar>::Residual() const {
     }
     for (int c = 0; c < 2; ++c) worst = std::max<Scalar>(worst, Abs(Scalar(f_[row + 1 + c] - wanted[c])));
   }
-  const Scalar scale = std::max<Scalar>(max_f, max_b * r);
-  return scale > 0 ? Scalar(worst / scale) : worst;
+  return max_b > 0 ? Scalar(worst / (max_b * r)) : worst;
 }
 
 // What the theory excludes is an internal error over exact scalars, and rounding over inexact ones.

@@ -7,9 +7,10 @@
 //   disc
 //
 // whose zeros are the solutions. It is piecewise smooth; Newton's method with a line search converges near a
-// solution, quadratically. Starts, in this order: a few sweeps of projected Gauss-Seidel steps (contact by
-// contact a projected step of the map of residual.h), where asked for; then the solutions of complete driving
-// on polygons of more and more sides, which exist wherever A is semidefinite and b in range(A).
+// solution, quadratically. Where its step and a damped one fail, sweeps of projected Gauss-Seidel steps stand
+// in. Starts, in this order: a few sweeps of projected Gauss-Seidel steps (contact by contact a projected step
+// of the map of residual.h), where asked for; then the solutions of complete driving on polygons of more and
+// more sides, which exist wherever A is semidefinite and b in range(A).
 //
 // Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
 // CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
@@ -101,6 +102,7 @@ class CoulombSolver {
   void Sweep(int count);
   void Newton();
   bool LineSearch(const Vector& step);
+  Vector DampedStep(const Matrix& J, const Vector& map) const;
   Scalar Note();
   Vector Map(const Vector& f, const Vector& a) const;
   Matrix Slope() const;

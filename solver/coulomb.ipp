@@ -4,6 +4,7 @@
 #ifndef STICTION_SOLVER_COULOMB_IPP_
 #define STICTION_SOLVER_COULOMB_IPP_
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -127,21 +128,37 @@ template <class Scalar>
 void CoulombSolver<Scalar>::Newton() {
   ++statistics_.starts;
   Scalar before = Note();
-  int idle = 0;
+  constexpr int kMostSweeps = 1000;
+  int idle = 0, rest = 20;
   for (int step = 0; step < options_.newton_steps && problem_->rows() > 0; ++step) {
-    if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon() || (Reached() && idle > 1)) return;
+    if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon() || (Reached() && idle > 4)) return;
     ++statistics_.newton_steps;
-    const Vector change = Slope().partialPivLu().solve(Vector(-Map(f_, a_)));
-    if (!change.allFinite() || !LineSearch(change)) Sweep(5);
+    const Matrix J = Slope();
+    const Vector map = Map(f_, a_);
+    if (!LineSearch(J.partialPivLu().solve(-map)) && !LineSearch(DampedStep(J, map))) {
+      if (rest > kMostSweeps) return;
+      Sweep(rest);
+      rest *= 2;
+    }
     const Scalar residual = Note();
     idle = residual < before / 2 ? 0 : idle + 1;
     before = residual;
   }
 }
 
+// The step of Levenberg and Marquardt: it stays bounded where J is singular.
+template <class Scalar>
+auto CoulombSolver<Scalar>::DampedStep(const Matrix& J, const Vector& map) const -> Vector {
+  Matrix normal = J.transpose() * J;
+  const Scalar damping = map.squaredNorm() / (map.squaredNorm() + f_.squaredNorm()) * normal.trace();
+  normal.diagonal().array() += damping / static_cast<Scalar>(f_.size());
+  return normal.ldlt().solve(-J.transpose() * map);
+}
+
 // f += t step for the first t = 1, 1/2, 1/4, ... that makes the map smaller; false if there is none.
 template <class Scalar>
 bool CoulombSolver<Scalar>::LineSearch(const Vector& step) {
+  if (!step.allFinite()) return false;
   const Scalar present = Map(f_, a_).squaredNorm();
   for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
     const Vector f = f_ + t * step;

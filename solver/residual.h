@@ -17,7 +17,8 @@
 // The static part vanishes exactly where f is in the cone, F = a + mu abs(aF) e_N in its dual cone, and f.F =
 // 0. Now F in the dual cone says aN >= 0; and f.F = fN aN + (mu fN abs(aF) + fF.aF), neither term negative. So
 // it vanishes exactly where fN aN = 0 and, if fN > 0 and aF /= 0, fF = -mu fN aF / abs(aF): Coulomb's law.
-// F is De Saxce's change of variables (cited from memory).
+// F is De Saxce's change of variables (cited from memory). The result is relative to max abs(b) / max A_ii
+// alone: beside forces that grow without end, any violation would be small.
 
 #ifndef STICTION_SOLVER_RESIDUAL_H_
 #define STICTION_SOLVER_RESIDUAL_H_
@@ -75,12 +76,11 @@ std::array<Scalar, 3> ProjectOnCone(const std::array<Scalar, 3>& x, const Scalar
 template <class Scalar, class Vector>
 Scalar CoulombResidual(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
   using std::hypot;
-  Scalar max_A = 0, max_b = 0, max_f = 0, worst = 0, zero = 0;
+  Scalar max_A = 0, max_b = 0, worst = 0, zero = 0;
   for (int i = 0; i < problem.rows(); ++i) {
     zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
     max_A = std::max(max_A, problem.A(i, i));
     max_b = std::max(max_b, Abs(problem.b[i]));
-    max_f = std::max(max_f, Abs(f[i]));
   }
   if (zero != 0) return zero;
   const Scalar r = max_A > 0 ? 1 / max_A : Scalar(1);
@@ -102,8 +102,7 @@ Scalar CoulombResidual(const ContactProblem<Scalar>& problem, const Vector& f, c
     worst = std::max(worst, gap);
     row += contact.HasFrictionRows() ? 3 : 1;
   }
-  const Scalar scale = std::max(max_f, max_b * r);
-  return scale > 0 ? worst / scale : worst;
+  return max_b > 0 ? worst / (max_b * r) : worst;
 }
 
 }  // namespace stiction
