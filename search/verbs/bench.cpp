@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <iostream>
+#include <limits>
 
 #include "corpus/json_text.h"
 #include "search/bench/suite.h"
@@ -106,7 +107,9 @@ void AddBench(CLI::App& program, Action& action) {
   verb.add_option("--repeat", o->repeat, "search: counted runs")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  verb.add_option("--seed", o->seed, "of the problems")->capture_default_str()->check(CLI::NonNegativeNumber);
+  verb.add_option("--seed", o->seed, "of the problems")
+      ->capture_default_str()
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   verb.add_option_function<std::string>(
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
           "search: this one alone; methods: instead of the positive definite family")
