@@ -24,7 +24,7 @@ struct Measure {
   std::int64_t descents = 0;
   std::int64_t give_ups = 0;
   double seconds = 0;          // without the verification of the answer
-  double library_seconds = 0;  // as Ipopt's process says: without transport and exact arithmetic
+  double library_seconds = 0;  // part of it: in Ipopt's process
 
   bool Solved() const { return outcome == Outcome::kSolved && !wrong; }
 };
