@@ -32,8 +32,8 @@ struct Method {
   std::string Title() const { return name + " " + (reading.empty() ? "" : "(" + reading + ") ") + arithmetic; }
 };
 
-// Places in the list of methods, for tables that name them. kAsComplete: under the policy that files and suspends
-// as complete driving does.
+// Places in the list of methods, for tables that name them. kAsComplete: under the policy that files and
+// suspends as complete driving does.
 enum MethodPlace { kComplete, kPaper, kSuspended, kAsComplete, kLemke, kLemkeUnits, kCompleteDouble, kIpopt };
 inline constexpr std::array kPublished = {kPaper, kSuspended, kAsComplete};
 // Starts Ipopt's process: InputError if it cannot be run.
