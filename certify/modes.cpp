@@ -121,7 +121,7 @@ Cone ConeOf(const Contact<Rational>& contact, Mode mode) {
     case kSlipMinus:
       return {{{mu}}, Relation::kZero, Relation::kAtMostZero};
   }
-  STICTION_CHECK(false, "no such mode");
+  STICTION_FAIL("no such mode");
 }
 
 // What all modes of the contact imply.

@@ -90,7 +90,7 @@ void CompleteDriving<Scalar, Rows>::Solved() {
 // What the theory excludes is an internal error over exact scalars, and rounding over inexact ones.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Impossible(const char* what) {
-  if constexpr (kIsExact<Scalar>) STICTION_CHECK(false, what);
+  if constexpr (kIsExact<Scalar>) STICTION_FAIL(what);
   End(Outcome::kUndecided, what);
 }
 
