@@ -4,7 +4,11 @@
 #include "solver/elimination.ipp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "search/bench/plain_rational.h"
+#include "solver/complete.ipp"
+#include "solver/published.ipp"
 #include "tests/support.h"
 
 namespace stiction {
@@ -147,6 +151,45 @@ TEST_CASE("elimination: over doubles the largest entry is the pivot, and small o
   system(1, 1) = 1 + 1e-12;
   system.Run(2, 2, 3, 1e-9);
   CHECK(system.rank() == 1);
+}
+
+template <class Run, class Plain>
+void CheckSame(const Run& run, const Plain& plain) {
+  REQUIRE(run.size() == plain.size());
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    CHECK(run[i].limiting == plain[i].limiting);
+    CHECK(run[i].s == plain[i].s);
+    CHECK(run[i].df == plain[i].df.template cast<Rational>());
+    CHECK(run[i].da == plain[i].da.template cast<Rational>());
+    CHECK(run[i].f == plain[i].f.template cast<Rational>());
+    CHECK(run[i].sets == plain[i].sets);
+  }
+}
+
+TEST_CASE("elimination: runs over rationals and over rationals of unknown integers take the same steps") {
+  static_assert(kFractionFree<Rational> && !kFractionFree<PlainRational>);
+  int inexact_mu = 0;
+  for (int index = 0; index < 280; ++index) {
+    CAPTURE(index);
+    ExactProblem problem =
+        Random<Rational>(static_cast<GeneratorId>(index % kGeneratorCount), 1 + index % 5, index);
+    if (index % 3 == 0) {  // so that columns are scaled
+      for (auto& contact : problem.contacts) contact.mu *= Rational(2, 3);
+      ++inexact_mu;
+    }
+    const ContactProblem<PlainRational> plain = Plain(problem);
+    Path<Rational> path;
+    Path<PlainRational> plain_path;
+    CompleteDriving<Rational>().Run(problem, &path);
+    CompleteDriving<PlainRational>().Run(plain, &plain_path);
+    CheckSame(path, plain_path);
+    Trace<Rational> trace;
+    Trace<PlainRational> plain_trace;
+    const Verdict verdict = PublishedAlgorithm<Rational>().Run(problem, &trace);
+    CHECK(PublishedAlgorithm<PlainRational>().Run(plain, &plain_trace).outcome == verdict.outcome);
+    CheckSame(trace.pivots, plain_trace.pivots);
+  }
+  CHECK(inexact_mu > 90);
 }
 
 }  // namespace
