@@ -26,6 +26,9 @@ struct BenchOptions {
 // The methods side by side on the same problems (methods.cpp).
 int BenchMethods(const BenchOptions& options);
 
+// Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
+int BenchLinearAlgebra(const BenchOptions& options);
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_BENCH_SUITE_H_
