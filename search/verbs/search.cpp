@@ -17,6 +17,7 @@
 #include "corpus/json_text.h"
 #include "reports/report.h"
 #include "search/summary.h"
+#include "search/unit.h"
 #include "search/verbs/verbs.h"
 
 namespace stiction {
@@ -184,6 +185,25 @@ int RunStatus(const std::string& file, bool json) {
   return kExitDone;
 }
 
+struct ProblemVerb {
+  std::string store, output = "-";
+  std::int64_t unit = 0, index = 0;
+};
+
+int RunProblem(const ProblemVerb& o) {
+  const Store store = Store::OpenToRead(o.store);
+  const Campaign campaign = CampaignOf(store.identity(), o.store);
+  if (!store.Units().Contains(o.unit))
+    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, o.unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), o.unit));
+  if (o.index >= problems) {
+    throw InputError(
+        fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, o.index, o.unit, problems - 1));
+  }
+  WriteText(o.output, Print(RegenerateFile(campaign, o.unit, o.index)));
+  return kExitDone;
+}
+
 int RunMerge(const std::string& out, const std::vector<std::string>& files) {
   const Store first = Store::OpenToRead(files.front());
   Store merged(out, first.identity());
@@ -259,6 +279,19 @@ void AddMerge(CLI::App& program, Action& action) {
   verb.add_option("OUT", *out, "store to write or to add to")->required();
   verb.add_option("STORE", *files, "stores to take in")->required();
   verb.callback([=, &action] { action = [=] { return RunMerge(*out, *files); }; });
+}
+
+void AddProblem(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ProblemVerb>();
+  CLI::App& verb =
+      *program.add_subcommand("problem", "Write any problem that a search tried, as a problem file");
+  verb.add_option("STORE", o->store, "store of a search")->required();
+  verb.add_option("UNIT", o->unit, "number of the unit")->required()->check(CLI::NonNegativeNumber);
+  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("-o,--output", o->output, "file to write; - is standard output")->capture_default_str();
+  verb.callback([o, &action] { action = [o] { return RunProblem(*o); }; });
 }
 
 void AddReport(CLI::App& program, Action& action) {
