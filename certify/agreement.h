@@ -35,6 +35,9 @@ struct MethodAnswer {
   ExactVector f;  // if solved
 };
 
+// All modes of more contacts are not tried in a search: 4^n words.
+inline constexpr int kMostContactsEnumerated = 3;
+
 struct Answers {
   std::vector<MethodAnswer> methods;
   std::optional<Enumeration> modes;  // where they were tried

@@ -21,7 +21,7 @@ constexpr std::size_t kLongestName = 200;  // file systems allow 255, and extens
 
 // A signature names drives and steps of its loop: "cycle-2c-4d-10s-...".
 std::optional<LoopLength> LoopLengthOf(const std::string& signature) {
-  static const std::regex pattern("^(?:safe-)?(?:cycle|stall)-\\d+c-(\\d{1,18})d-(\\d{1,18})s-.*");
+  static const std::regex pattern("^(?:safe-)?(?:cycle|stall)-\\d+c-(\\d{1,18})d-(\\d{1,18})s(?:[-@].*)?");
   std::smatch match;
   if (!std::regex_match(signature, match, pattern)) return std::nullopt;
   return LoopLength{std::stoll(match[1]), std::stoll(match[2])};

@@ -150,7 +150,7 @@ std::string CampaignLabel(const std::string& key) {
       {"mu", "friction palette"},
       {"unit_problems", "problems of a unit"},
       {"audit_every", "audited: one problem in"},
-      {"lemke_every", "by Lemke’s method too, of the refuted suspicions: one in"},
+      {"lemke_every", "by Lemke’s method too, of the suspicions: one in"},
       {"enumerate_every", "all modes tried, of exact runs of few contacts: one in"},
       {"representatives_per_unit", "new representatives per unit, at most"},
       {"max_drives", "budget, drives"},

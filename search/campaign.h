@@ -14,8 +14,6 @@
 
 namespace stiction {
 
-inline constexpr int kMostContactsEnumerated = 3;
-
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
 // "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "lemke_every",
 // "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits".
@@ -28,10 +26,11 @@ struct Campaign {
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
   std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
   // Of the problems that are run exactly, all are run by complete driving too; one in so many, drawn by their
-  // seeds, also by Lemke's method (audited problems and exact findings: all); and of those of at most
-  // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes.
-  std::int64_t lemke_every = 20;
-  std::int64_t enumerate_every = 200;
+  // seeds, also by Lemke's method (audited problems: all); and of those of at most kMostContactsEnumerated
+  // contacts one in so many is enumerated: all of up to 4^n contact modes. Representatives are run by all when
+  // finished.
+  std::int64_t lemke_every = 100;
+  std::int64_t enumerate_every = 1000;
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
 

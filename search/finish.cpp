@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "certify/agreement.h"
 #include "certify/certificate.h"
 #include "certify/existence.h"
 #include "certify/modes.h"
@@ -118,6 +119,23 @@ struct Unfinished {
   Json grid;
 };
 
+// All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
+// signature.
+void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits) {
+  const CompleteRun complete = RunComplete(found.problem, limits);
+  const LemkeRun lemke = RunLemke(found.problem, limits);
+  Answers answers{{{"complete", complete.verdict.outcome, complete.f},
+                   {"baraff", found.run.verdict.outcome, found.run.state.f},
+                   {"lemke", lemke.verdict.outcome, lemke.f}},
+                  {}};
+  if (finding.contacts <= kMostContactsEnumerated) answers.modes = EnumerateModes(found.problem);
+  const auto disagreement = FindDisagreement(found.problem, answers);
+  if (!disagreement || finding.kind == kDisagreementOfMethods) return;
+  finding.kind = kDisagreementOfMethods;
+  facts["disagreement"] = disagreement->reason;
+  facts["answers"] = AnswersToJson(answers);
+}
+
 // Fills in what concerns the problem as found.
 void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits,
                   const std::function<bool()>& cancelled) {
@@ -171,8 +189,10 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);
   Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   CertifyFound(finished, facts, found, limits, cancelled);
+  if (!cancelled()) CompareMethods(finished, facts, found, limits);
   // What methods disagree about is kept as it is.
-  const bool minimize = found.run.verdict.outcome != Outcome::kSolved && finding.kind != kDisagreementOfMethods;
+  const bool minimize =
+      found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods;
   if (minimize && !cancelled()) MinimizeFound(finished, facts, found, limits, cancelled);
   if (cancelled()) return std::nullopt;
   finished.facts = facts.dump();

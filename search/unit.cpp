@@ -10,7 +10,6 @@
 #include "certify/exact.h"
 #include "certify/existence.h"
 #include "certify/safe.h"
-#include "certify/verify_solution.h"
 #include "corpus/kinds.h"
 #include "search/generators.ipp"
 #include "search/signature.h"
@@ -62,7 +61,7 @@ class Collector {
       tally.misjudged += exact != inexact;
     }
     const Place place = {index, policy, inexact};
-    Compare(place, run, problem, /*with_lemke=*/!suspected || exact != Outcome::kSolved);
+    Compare(place, run, problem, /*with_lemke=*/!suspected);
     if (!suspected) CheckSafety(place, run, problem);
     const bool same_problem = Row(task_.generator).exact_in_double;
     if (exact != Outcome::kSolved) {
@@ -91,9 +90,8 @@ class Collector {
   // FindDisagreement requires. Lemke's method where asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
     const CompleteRun complete = RunComplete(problem, campaign_.limits);
-    CountExistence(complete, problem);
-    Answers answers{{{"baraff", published.verdict.outcome, published.state.f},
-                     {"complete", complete.verdict.outcome, complete.f}},
+    Answers answers{{{"complete", complete.verdict.outcome, complete.f},
+                     {"baraff", published.verdict.outcome, published.state.f}},
                     {}};
     AgreementTally& tally = result_.record.agreement[task_.contacts];
     const std::uint64_t draw = Mix(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_),
@@ -108,8 +106,9 @@ class Collector {
       answers.modes = EnumerateModes(problem);
       CountModes(tally, problem, *answers.modes);
     }
-    if (const auto disagreement = FindDisagreement(problem, answers))
-      FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
+    const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
+    CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
+    if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
   }
 
   void FindDisagreementOfMethods(const Place& place, const ExactRun& published,
@@ -121,11 +120,11 @@ class Collector {
          Json{{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}});
   }
 
-  void CountExistence(const CompleteRun& complete, const ExactProblem& problem) {
-    const CompleteStatistics& s = complete.verdict.statistics;
+  void CountExistence(const CompleteVerdict& verdict, bool wrong) {
+    const CompleteStatistics& s = verdict.statistics;
     ExistenceTally& tally = result_.record.existence[task_.contacts];
     ++tally.problems;
-    tally.solved += complete.verdict.outcome == Outcome::kSolved && !FindViolation(problem, complete.f);
+    tally.solved += verdict.outcome == Outcome::kSolved && !wrong;
     tally.pieces += s.pieces;
     tally.with_folds += s.folds > 0;
     tally.with_descents += s.descents > 0;

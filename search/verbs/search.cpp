@@ -38,7 +38,7 @@ struct SearchVerb {
   std::vector<int> contacts;
   std::optional<std::uint64_t> seed;
   std::optional<double> minutes;
-  std::optional<std::int64_t> problems, audit_every;
+  std::optional<std::int64_t> problems, audit_every, enumerate_every;
   std::string shard = "0/1";
   int threads = 0;
   bool json = false;
@@ -66,6 +66,7 @@ Campaign CampaignOf(const SearchVerb& o) {
   Campaign campaign = o.campaign.empty() ? Campaign{} : ReadCampaign(o.campaign);
   if (o.seed) campaign.seed = *o.seed;
   if (o.audit_every) campaign.audit_every = *o.audit_every;
+  if (o.enumerate_every) campaign.enumerate_every = *o.enumerate_every;
   if (!o.contacts.empty()) campaign.contacts = o.contacts;
   if (!o.generators.empty()) {
     campaign.generators.clear();
@@ -227,6 +228,10 @@ void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
   verb.add_option(
           "--audit-every", o.audit_every,
           "run one problem in so many exactly though nothing is suspected, existence included; 1 audits all")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  verb.add_option(
+          "--enumerate-every", o.enumerate_every,
+          "try all contact modes of one in so many problems of at most three contacts that are run exactly")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
   verb.add_option("--seed", o.seed, "the one source of randomness; default 1")
       ->check([](const std::string& text) {

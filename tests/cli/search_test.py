@@ -166,7 +166,7 @@ class Search(cli.TestCase):
         for arguments in [
             ("--problems", 0), ("--problems", -1), ("--problems", "many"), ("--problems", 1.5),
             ("--minutes", 0), ("--minutes", -1), ("--minutes", "nan"), ("--minutes", "inf"), ("--minutes", "1e300"),
-            ("--threads", 0), ("--threads", "all"), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
+            ("--threads", 0), ("--threads", "all"), ("--audit-every", 0), ("--enumerate-every", 0), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
             ("--mu", "-1"), ("--mu", "x"), ("--mu", "65"), ("--policy", "nonsense"), ("--policy", "ties=none"),
             ("--policy", "paper", "scan=lowest"),
             ("--seed", -1), ("--seed", 2**64), ("--seed", "x"), ("--seed", 1.5),

@@ -170,7 +170,7 @@ TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
   const std::string definition = DefinitionToJson(campaign).dump();
   CHECK(definition ==
         R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
-        R"("unit_problems":50,"audit_every":5000,"lemke_every":20,"enumerate_every":200,)"
+        R"("unit_problems":50,"audit_every":5000,"lemke_every":100,"enumerate_every":1000,)"
         R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99})");
   CHECK(Read(definition) == campaign);
   CHECK(Read(DefinitionToJson(Campaign{}).dump()) == Campaign{});

@@ -74,7 +74,7 @@ def main():
     parser.add_argument("--contacts", nargs="+", default=["1", "2", "3", "4", "5", "6"])
     o = parser.parse_args()
     program = os.path.abspath(o.program)
-    subprocess.run([program, "search", "--audit-every", "1", "--contacts", *o.contacts, "--problems", str(o.problems),
+    subprocess.run([program, "search", "--audit-every", "1", "--enumerate-every", "20", "--contacts", *o.contacts, "--problems", str(o.problems),
                     "--seed", str(o.seed), "--store", o.store], check=True)
     summary = json.loads(subprocess.run([program, "status", o.store, "--json"], check=True, capture_output=True).stdout)
     with sqlite3.connect(o.store) as db:
