@@ -14,7 +14,7 @@ import cli
 
 PROBLEMS = 190000  # 1036 units: one block and some
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 220}
+            "contacts": [2, 3], "unit_problems": 220, "enumerate_every": 3}
 
 
 class Search(cli.TestCase):

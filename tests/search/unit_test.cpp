@@ -276,7 +276,7 @@ TEST_CASE("unit: methods are compared, and all modes tried, as often as the camp
   for (const auto& [count, problems] : tally.solutions) solutions += problems;
   CHECK(words == tally.enumerated);
   CHECK(solutions == tally.regular);
-  CHECK(tally.regular > 50);
+  CHECK(tally.regular > 10);
   CHECK(tally.regular < tally.enumerated);
 
   campaign.enumerate_every = 10;
@@ -292,18 +292,19 @@ TEST_CASE("unit: methods are compared, and all modes tried, as often as the camp
 }
 
 TEST_CASE("unit: Lemke's method runs on all audits, and by lot on suspicions") {
-  Campaign campaign = Small(GeneratorId::kNearDegenerate, 3, 400);
+  Campaign campaign = Small(GeneratorId::kConditioned, 2, 1000);
   campaign.audit_every = 1000000;
   const auto counts = [&campaign](std::int64_t every) {
     campaign.lemke_every = every;
     const Record record = UnitRunner(campaign).Run(0).record;
-    return std::pair(record.agreement.at(3).compared, record.existence.at(3).problems);
+    return std::pair(record.agreement.at(2).compared, record.existence.at(2).problems);
   };
   const auto [all, problems] = counts(1);
   CHECK(all == problems);
+  CHECK(problems > 5);
   const auto [some, same] = counts(1000000);
   CHECK(same == problems);
-  CHECK((some > 0 && some < problems));
+  CHECK(some <= 1);  // the first problem, audited
 }
 
 // Too small a budget makes a method end otherwise than it must: a wrong method as a unit sees one.
@@ -319,12 +320,15 @@ TEST_CASE("unit: a method that does not solve is a grave finding with all answer
       [](const Finding& finding) { return finding.signature == "disagreement-of-methods-complete-limit-3c"; });
   REQUIRE(found != result.candidates.end());  // kept beside the one representative of other kinds
   CHECK(found->kind == kDisagreementOfMethods);
-  CHECK(result.record.signatures.at(found->signature) == result.record.agreement.at(3).disagreements);
+  std::int64_t counted = 0;
+  for (const auto& [signature, count] : result.record.signatures)
+    counted += KindOf(signature) == kDisagreementOfMethods ? count : 0;
+  CHECK(counted == result.record.agreement.at(3).disagreements);
   const Json facts = Json::parse(found->facts);
   CHECK(facts.at("disagreement") == "complete ended in limit, expected solved");
-  REQUIRE(facts.at("answers").size() >= 3);
-  CHECK(facts.at("answers")[1].at("method") == "complete");
-  CHECK(facts.at("answers")[1].at("outcome") == "limit");
+  REQUIRE(facts.at("answers").size() >= 2);
+  CHECK(facts.at("answers")[0].at("method") == "complete");
+  CHECK(facts.at("answers")[0].at("outcome") == "limit");
 }
 
 // ---- Allocations -----------------------------------------------------------------------------
