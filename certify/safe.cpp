@@ -165,6 +165,11 @@ Json WordToJson(const ModeWord& word) {
 
 }  // namespace
 
+std::optional<bool> IsSafeIfSmall(const ExactProblem& problem) {
+  if (problem.contacts.size() > kMostContactsOfSafety) return std::nullopt;
+  return !DecideSafety(problem).unsafe_word.has_value();
+}
+
 Json SafetyCertificate(const ExactProblem& problem) {
   const Safety safety = DecideSafety(problem);
   Json witness;
