@@ -6,6 +6,7 @@
 #include "certify/verify_solution.h"
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
+#include "solver/elimination.ipp"
 
 namespace stiction {
 
@@ -65,35 +66,23 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
   return system;
 }
 
-// M x = right by Gauss and Jordan; unknowns without a pivot as in x. False if contradictory.
-bool SolveWith(ExactMatrix M, ExactVector right, ExactVector& x) {
+// x with M x = right; unknowns without a pivot stay as they are. False if the equations contradict each other.
+bool SolveWith(const ExactMatrix& M, ExactVector right, ExactVector& x) {
   const int size = static_cast<int>(M.rows());
-  std::vector<int> pivot_column;
-  for (int column = 0; column < size; ++column) {
-    const int rank = static_cast<int>(pivot_column.size());
-    int pivot = rank;
-    while (pivot < size && M(pivot, column) == 0) ++pivot;
-    if (pivot == size) continue;
-    M.row(rank).swap(M.row(pivot));
-    std::swap(right[rank], right[pivot]);
-    for (int i = 0; i < size; ++i) {
-      if (i == rank || M(i, column) == 0) continue;
-      const Rational factor = M(i, column) / M(rank, column);
-      for (int j = column; j < size; ++j) M(i, j) -= factor * M(rank, j);
-      right[i] -= factor * right[rank];
-    }
-    pivot_column.push_back(column);
-  }
-  const int rank = static_cast<int>(pivot_column.size());
-  for (int i = rank; i < size; ++i) {
-    if (right[i] != 0) return false;
-  }
-  for (int i = 0; i < rank; ++i) {
-    Rational value = right[i];
-    for (int j = pivot_column[i] + 1; j < size; ++j) {
-      if (M(i, j) != 0) value -= M(i, j) * x[j];  // other pivots' columns are zero here
-    }
-    x[pivot_column[i]] = value / M(i, pivot_column[i]);
+  ExactVector guess = x;
+  Elimination<Rational> elimination;
+  elimination.Assign(M);
+  elimination.Run(size, size, size);
+  for (int i = 0; i < elimination.rank(); ++i) guess[elimination.pivot_column(i)] = 0;
+  ExactMatrix augmented(size, size + 1);
+  augmented << M, right - M * guess;
+  elimination.Assign(augmented);
+  elimination.Run(size, size, size + 1);
+  if (!elimination.IsConsistent(size)) return false;
+  elimination.BackSubstitute(size);
+  for (int i = 0; i < elimination.rank(); ++i) {
+    const int column = elimination.pivot_column(i);
+    x[column] = elimination.Solution(column);
   }
   return true;
 }

@@ -29,6 +29,7 @@ int Main(int argc, char** argv) {
   AddMinimize(program, action);
   AddStatus(program, action);
   AddMerge(program, action);
+  AddProblem(program, action);
   AddPolicies(program, action);
   AddBench(program, action);
   try {

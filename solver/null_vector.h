@@ -5,8 +5,7 @@
 //
 // So z is continuous where columns are replaced (complete_driving.md, 4), and the sign of its last component is
 // that of the determinant of the first k columns. If that determinant is not zero, the last component is +-1.
-// Cost: O(k^3). Over inexact scalars the largest entry of a column is its pivot, and what is at most
-// `tolerance` is zero.
+// Cost: O(k^3), by elimination.h; over inexact scalars pivots up to `tolerance` are zero.
 
 #ifndef STICTION_SOLVER_NULL_VECTOR_H_
 #define STICTION_SOLVER_NULL_VECTOR_H_
@@ -15,56 +14,33 @@
 #include <optional>
 #include <vector>
 
-#include "solver/scalar.h"
+#include "solver/elimination.ipp"
 
 namespace stiction {
 
 template <class Scalar>
 using RowMajorMatrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Empty if the rank of M is below k. Destroys M.
+// Empty if the rank of M is below k.
 template <class Scalar>
-std::optional<std::vector<Scalar>> OrientedNullVector(RowMajorMatrix<Scalar>& M, const Scalar& tolerance) {
+std::optional<std::vector<Scalar>> OrientedNullVector(const RowMajorMatrix<Scalar>& M,
+                                                      const Scalar& tolerance) {
   const int k = static_cast<int>(M.rows());
-  std::vector<int> pivot_column;
-  int free = k, sign = 1;
-  for (int column = 0; column <= k && static_cast<int>(pivot_column.size()) < k; ++column) {
-    const int rank = static_cast<int>(pivot_column.size());
-    int best = -1;
-    for (int i = rank; i < k; ++i) {
-      if (Sign(M(i, column), tolerance) == 0) continue;
-      if (best < 0 || (!kIsExact<Scalar> && Abs(M(i, column)) > Abs(M(best, column)))) best = i;
-      if (kIsExact<Scalar>) break;
-    }
-    if (best < 0) {
-      if (free < k || column == k) return std::nullopt;
-      free = column;
-      continue;
-    }
-    if (best != rank) {
-      M.row(rank).swap(M.row(best));
-      sign = -sign;
-    }
-    sign *= Sign(M(rank, column));
-    for (int i = rank + 1; i < k; ++i) {
-      if (Sign(M(i, column)) == 0) continue;
-      const Scalar factor = M(i, column) / M(rank, column);
-      for (int j = column + 1; j <= k; ++j) {
-        if (kIsExact<Scalar> && Sign(M(rank, j)) == 0) continue;
-        M(i, j) -= factor * M(rank, j);
-      }
-    }
-    pivot_column.push_back(column);
-  }
-  std::vector<Scalar> z(k + 1, Scalar(0));
-  z[free] = Scalar((k - free) % 2 == 0 ? sign : -sign);
-  for (int i = k - 1; i >= 0; --i) {
-    Scalar value(0);
-    for (int j = pivot_column[i] + 1; j <= k; ++j) {
-      if (kIsExact<Scalar> && Sign(z[j]) == 0) continue;
-      value -= M(i, j) * z[j];
-    }
-    z[pivot_column[i]] = value / M(i, pivot_column[i]);
+  Elimination<Scalar> elimination;
+  elimination.Assign(M);
+  elimination.Run(k, k + 1, k + 1, tolerance);
+  if (elimination.rank() < k) return std::nullopt;
+  int free = 0;
+  while (free < k && elimination.pivot_column(free) == free) ++free;
+  // With z_free = +-1 the others solve the system whose right side is the free column. Its rows behind that
+  // place are zero: eliminated, or zero by choice.
+  for (int i = free; i < k; ++i) elimination(i, free) = typename Elimination<Scalar>::Entry(0);
+  elimination.BackSubstitute(free);
+  const int sign = (k - free) % 2 == 0 ? elimination.Orientation() : -elimination.Orientation();
+  std::vector<Scalar> z;
+  for (int j = 0; j <= k; ++j) {
+    const Scalar x = j == free ? Scalar(-1) : elimination.Solution(j);
+    z.push_back(sign > 0 ? Scalar(-x) : x);
   }
   return z;
 }

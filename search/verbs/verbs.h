@@ -30,6 +30,7 @@ void AddMinimize(CLI::App& program, Action& action);
 void AddSearch(CLI::App& program, Action& action);
 void AddStatus(CLI::App& program, Action& action);
 void AddMerge(CLI::App& program, Action& action);
+void AddProblem(CLI::App& program, Action& action);
 void AddReport(CLI::App& program, Action& action);
 void AddBench(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);

@@ -177,7 +177,7 @@ int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
 }
 
 struct PathCounts {
-  int folds = 0, descents = 0, ties = 0;
+  int folds = 0, descents = 0, ties = 0, flat = 0;
 };
 
 void CheckPath(const ExactProblem& problem, const Polygons& polygons, const SpaceRun& run, PathCounts& counts) {
@@ -189,6 +189,7 @@ void CheckPath(const ExactProblem& problem, const Polygons& polygons, const Spac
     CHECK(piece.da == ExactVector(problem.A * piece.df));
     CHECK(visited.emplace(piece.driven, piece.stage, piece.word).second);
     CHECK(piece.s >= 0);
+    counts.flat += determinant == 0;
   }
   counts.folds += run.verdict.statistics.folds > 0;
   counts.descents += run.verdict.statistics.descents > 0;
@@ -255,6 +256,19 @@ TEST_CASE("space: singular and degenerate problems are solved") {
     CheckSolved(problem, AllWith(problem, index % 2 == 0 ? 8 : 4), counts);
   }
   CHECK(counts.ties > 100);
+}
+
+TEST_CASE("space: where the reduced determinant is zero, the path goes on") {
+  PathCounts counts;
+  for (int index = 0; index < 400; ++index) {
+    CAPTURE(index);
+    Choices choices(15000 + index);
+    auto contacts = StaticContacts(2, choices);
+    for (auto& contact : contacts) contact.mu = choices.Integer(1, 3);
+    const ExactProblem problem = RandomInSpace(contacts, 6, 1, true, choices);
+    CheckSolved(problem, AllWith(problem, 4), counts);
+  }
+  CHECK(counts.flat > 0);
 }
 
 TEST_CASE("space: four contacts, more corners, corners of one's own") {
