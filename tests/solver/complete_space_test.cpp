@@ -513,6 +513,51 @@ TEST_CASE("space: doubles take the exact path, or are undecided") {
   CHECK(same > 150);
 }
 
+// ---- Polygons --------------------------------------------------------------------------------
+
+TEST_CASE("polygon: corners are points of the circle, in order, symmetric to quarter turns") {
+  for (const int sides : {4, 8, 12, 32}) {
+    const FrictionPolygon<Rational> polygon(sides);
+    REQUIRE(polygon.sides() == sides);
+    for (int k = 0; k < sides; ++k) {
+      CHECK(Dot(polygon.corner(k), polygon.corner(k)) == 1);
+      CHECK(Cross(polygon.corner(k), polygon.corner(k + 1)) > 0);
+      CHECK(polygon.corner(k + sides / 4) == Planar<Rational>{-polygon.corner(k)[1], polygon.corner(k)[0]});
+      CHECK(Dot(polygon.normal(k), polygon.corner(k)) == polygon.reach(k));
+      CHECK(Dot(polygon.normal(k), polygon.corner(k + 1)) == polygon.reach(k));
+    }
+  }
+  CHECK(FrictionPolygon<Rational>(4).InnerRadiusSquared() == Rational(1, 2));
+  CHECK(FrictionPolygon<Rational>(8).InnerRadiusSquared() == Rational(4, 5));
+  CHECK(FrictionPolygon<Rational>(16).InnerRadiusSquared() == Rational(16, 17));
+  CHECK_THROWS_AS(FrictionPolygon<Rational>(6), InternalError);
+}
+
+TEST_CASE("polygon: a corner is added once, in its place") {
+  FrictionPolygon<Rational> polygon(4);
+  const Planar<Rational> corner = OnCircle(Rational(-3));  // in the third quadrant
+  CHECK(polygon.Insert(corner));
+  CHECK(!polygon.Insert(corner));
+  CHECK(!polygon.Insert({Rational(0), Rational(1)}));
+  REQUIRE(polygon.sides() == 5);
+  CHECK(polygon.corner(3) == corner);
+  CHECK(polygon.reach(4) == Cross(polygon.corner(4), polygon.corner(0)));
+}
+
+TEST_CASE("polygon: the projection is the nearest point") {
+  Choices choices(11);
+  for (int index = 0; index < 300; ++index) {
+    const FrictionPolygon<Rational> polygon(4 + 4 * (index % 3));
+    const Rational radius = choices.Integer(0, 3);
+    const Planar<Rational> x = {choices.Integer(-5, 5), choices.Integer(-5, 5)}, p = polygon.Project(x, radius);
+    const Planar<Rational> gap = {x[0] - p[0], x[1] - p[1]};
+    for (int k = 0; k < polygon.sides(); ++k) {
+      CHECK(Dot(polygon.normal(k), p) <= radius * polygon.reach(k));
+      CHECK(radius * Dot(gap, polygon.corner(k)) <= Dot(gap, p));  // no corner is nearer to x
+    }
+  }
+}
+
 // ---- Null vectors ----------------------------------------------------------------------------
 
 TEST_CASE("null vector: components are the minors, up to one positive factor") {
