@@ -251,7 +251,8 @@ int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
 
 int Solve(const SolveOptions& o) {
   if (const ProblemFile any = ReadProblem(o.file); any.problem.dimension == 3) return SolveIn3D(o, any.problem);
-  if (o.method == "fast") throw InputError("--method fast: not built for the plane; expected --method baraff or complete");
+  if (o.method == "fast")
+    throw InputError("--method fast: not built for the plane; expected --method baraff or complete");
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
