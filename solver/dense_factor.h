@@ -46,9 +46,11 @@ class DenseFactor {
 
   // y becomes inv(M) y.
   void SolveSymmetric(Scalar* y) const {
-    for (int j = 0; j < size_; ++j) Subtract(y[j], At(j), y, j + 1, size_);
-    for (int j = 0; j < size_; ++j) y[j] *= inverse_[j];
-    for (int j = size_ - 1; j >= 0; --j) {
+    for (int j = 0; j < size_; ++j) {
+      Subtract(y[j], At(j), y, j + 1, size_);
+      y[j] *= inverse_[j];
+    }
+    for (int j = size_ - 2; j >= 0; --j) {
       if (!IsDropped(j)) y[j] -= Dot(At(j), y, j + 1, size_);
     }
   }
@@ -120,11 +122,16 @@ class DenseFactor {
   const Scalar* At(int j) const { return W_.data() + j * W_.rows(); }
 
   // y(i) -= factor column(i), begin <= i < end
-  static void Subtract(Scalar factor, const Scalar* column, Scalar* y, int begin, int end) {
+  static void Subtract(Scalar factor, const Scalar* __restrict column, Scalar* __restrict y, int begin, int end) {
     for (int i = begin; i < end; ++i) y[i] -= factor * column[i];
   }
 
   static Scalar Dot(const Scalar* x, const Scalar* y, int begin, int end) {
+    if (end - begin < 8) {
+      Scalar sum = Scalar(0);
+      for (int i = begin; i < end; ++i) sum += x[i] * y[i];
+      return sum;
+    }
     using Segment = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
     return Segment(x + begin, end - begin).dot(Segment(y + begin, end - begin));
   }

@@ -107,7 +107,7 @@ class FastSolver {
   bool Find();
   void FallBack();
   bool Verify();
-  void Project();
+  bool Project();
   void AddColumn(int row, Scalar factor);
 
   // Gauss-Seidel.
@@ -119,6 +119,7 @@ class FastSolver {
   // Exchanges.
   bool ExchangeUntilSettled();
   bool SolveCells();
+  bool EquationsHold() const;
   void ListUnknowns();
   bool SolveSymmetric();
   bool SolveGeneral();
@@ -140,18 +141,18 @@ class FastSolver {
   FastOptions options_;
   const Problem* problem_ = nullptr;
   FastVerdict verdict_;
-  Vector f_, a_;
+  Vector f_, a_, inverse_;  // inverse_: of the diagonal of A
   std::vector<Cell> cells_, next_;
   std::vector<int> row_of_;           // normal row by contact
   bool frictionless_ = false;         // one row per contact
   bool distrust_ = false;             // A was seen to be unsymmetric
-  Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), pivot_ = Scalar(0);
-  Scalar least_a_ = Scalar(0), least_f_ = Scalar(0);  // what counts as a violation
+  Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), unit_ = Scalar(0);     // unit_ = 1 / max_A_
+  Scalar pivot_ = Scalar(0), zero_a_ = Scalar(0), zero_f_ = Scalar(0);  // tolerances, relative,
+  Scalar least_a_ = Scalar(0), least_f_ = Scalar(0);                    // and of the last forces
 
   // The reduced system of the cells.
   int size_ = 0;
-  std::vector<int> unknowns_;  // rows of A whose force is free
-  std::vector<int> owner_;     // their contacts
+  std::vector<int> unknowns_;  // rows of A whose force is free; without friction rows, also contacts
   std::vector<Scalar> limit_;  // fF / fN of a normal whose friction follows it, or 0
   std::vector<Scalar> u_;      // forces of the unknowns
   bool symmetric_ = false, dropped_ = false;

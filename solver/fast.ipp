@@ -16,7 +16,10 @@
 namespace stiction {
 
 // Numbers that were measured (bench --suite peers), not derived.
-inline constexpr int kFirstSweeps = 3;
+#ifndef SW
+#define SW 3
+#endif
+inline constexpr int kFirstSweeps = SW;
 inline constexpr int kMoreSweeps = 20;
 inline constexpr int kRounds = 3;    // of sweeps and exchanges
 inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
@@ -43,14 +46,14 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
   verdict_ = {};
   f_.resize(rows);
   a_.resize(rows);
+  inverse_.resize(rows);
   cells_.resize(contacts);
   next_.resize(contacts);
   row_of_.resize(contacts);
-  if (static_cast<int>(unknowns_.size()) < rows) {
-    unknowns_.resize(rows);
-    owner_.resize(rows);
-    limit_.resize(rows);
-    u_.resize(rows);
+  if (static_cast<int>(unknowns_.size()) <= rows) {
+    unknowns_.resize(rows + 1);
+    limit_.resize(rows + 1);
+    u_.resize(rows + 1);
     factor_.Reserve(rows);
   }
   int row = 0;
@@ -64,10 +67,15 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
   for (int i = 0; i < rows; ++i) {
     f_[i] = Scalar(0);
     a_[i] = problem.b[i];
+    inverse_[i] = problem.A(i, i) > 0 ? 1 / problem.A(i, i) : Scalar(0);
     max_A_ = std::max(max_A_, Scalar(std::abs(problem.A(i, i))));
     max_b_ = std::max(max_b_, Scalar(std::abs(problem.b[i])));
   }
-  pivot_ = std::max(Scalar(options_.tolerances.pivot), 8 * std::numeric_limits<Scalar>::epsilon());
+  unit_ = max_A_ > 0 ? 1 / max_A_ : Scalar(0);
+  const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
+  pivot_ = std::max(Scalar(options_.tolerances.pivot), least);
+  zero_a_ = std::max(Scalar(options_.tolerances.acceleration), least);
+  zero_f_ = std::max(Scalar(options_.tolerances.force), least);
 }
 
 // Whether a contact's friction has cells of its own.
@@ -118,6 +126,7 @@ void FastSolver<Scalar>::FallBack() {
   driving_.options() = {options_.tolerances, options_.limits, options_.residual};
   const CompleteVerdict driven = driving_.Run(*problem_);
   f_ = driving_.state().f;
+  SetAccelerations();
   for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i] = driving_.CellOf(static_cast<int>(i));
   const bool verified = Verify();
   verdict_.outcome = driven.outcome;
@@ -127,36 +136,43 @@ void FastSolver<Scalar>::FallBack() {
   verdict_.reason = "the residual is above the tolerance";
 }
 
-// The residual of f alone: all of A and b enters, so that one number that is not finite spoils it.
+// The residual of f alone: a is A f + b already, unless a force had to be moved. All of A enters, so that one
+// number that is not finite spoils the answer.
 template <class Scalar>
 bool FastSolver<Scalar>::Verify() {
-  Project();
-  a_ = problem_->b;
-  for (int row = 0; row < problem_->rows(); ++row) AddColumn(row, f_[row]);
+  if (Project()) SetAccelerations();
+  const Scalar spoiled = (problem_->A.array() - problem_->A.array()).sum();
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-  return NaturalResidual(*problem_, f_, a_) <= std::max(Scalar(options_.residual), least);
+  return NaturalResidual(*problem_, f_, a_) + spoiled <= std::max(Scalar(options_.residual), least);
 }
 
-// The nearest forces that the laws allow.
+// The nearest forces that the laws allow; whether they differ from f.
 template <class Scalar>
-void FastSolver<Scalar>::Project() {
+bool FastSolver<Scalar>::Project() {
+  bool changed = false;
+  const auto set = [this, &changed](int row, Scalar force) {
+    changed |= force != f_[row];
+    f_[row] = force;
+  };
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Contact<Scalar>& contact = problem_->contacts[i];
     const int row = row_of_[i];
-    if (contact.kind != ContactKind::kBilateral && f_[row] < 0) f_[row] = Scalar(0);
+    if (contact.kind != ContactKind::kBilateral) set(row, std::max(f_[row], Scalar(0)));
     if (!contact.HasFrictionRows()) continue;
     const Scalar bound = contact.mu * f_[row];
-    f_[row + 1] = contact.kind == ContactKind::kSliding ? Scalar(-contact.slip[0] * bound)
-                                                        : std::clamp(f_[row + 1], Scalar(-bound), bound);
+    set(row + 1, contact.kind == ContactKind::kSliding
+                     ? Scalar(-contact.slip[0] * bound)
+                     : std::clamp(f_[row + 1], Scalar(-bound), bound));
   }
+  return changed;
 }
 
 // a += A(:, row) factor
 template <class Scalar>
 void FastSolver<Scalar>::AddColumn(int row, Scalar factor) {
   const int rows = problem_->rows();
-  const Scalar* column = problem_->A.data() + static_cast<std::ptrdiff_t>(row) * rows;
-  Scalar* a = a_.data();
+  const Scalar* __restrict column = problem_->A.data() + static_cast<std::ptrdiff_t>(row) * rows;
+  Scalar* __restrict a = a_.data();
   for (int i = 0; i < rows; ++i) a[i] += factor * column[i];
 }
 
@@ -169,11 +185,8 @@ void FastSolver<Scalar>::Sweep(int sweeps) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const Contact<Scalar>& contact = problem_->contacts[i];
       const int row = row_of_[i];
-      const Scalar diagonal = problem_->A(row, row);
-      if (diagonal > 0) {
-        const Scalar step = -a_[row] / diagonal;
-        Push(row, contact.kind == ContactKind::kBilateral ? step : std::max(step, Scalar(-f_[row])));
-      }
+      const Scalar step = -a_[row] * inverse_[row];
+      Push(row, contact.kind == ContactKind::kBilateral ? step : std::max(step, Scalar(-f_[row])));
       if (contact.HasFrictionRows()) SweepFriction(contact, row + 1);
     }
   }
@@ -181,14 +194,10 @@ void FastSolver<Scalar>::Sweep(int sweeps) {
 
 template <class Scalar>
 void FastSolver<Scalar>::SweepFriction(const Contact<Scalar>& contact, int row) {
-  const Scalar bound = contact.mu * f_[row - 1], diagonal = problem_->A(row, row);
-  Scalar wanted = f_[row];
-  if (contact.kind == ContactKind::kSliding) {
-    wanted = -contact.slip[0] * bound;
-  } else {
-    if (diagonal > 0) wanted -= a_[row] / diagonal;
-    wanted = std::clamp(wanted, Scalar(-bound), bound);
-  }
+  const Scalar bound = contact.mu * f_[row - 1];
+  const Scalar wanted = contact.kind == ContactKind::kSliding
+                            ? Scalar(-contact.slip[0] * bound)
+                            : std::clamp(Scalar(f_[row] - a_[row] * inverse_[row]), Scalar(-bound), bound);
   Push(row, wanted - f_[row]);
 }
 
@@ -205,14 +214,11 @@ void FastSolver<Scalar>::TakeCells() {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Contact<Scalar>& contact = problem_->contacts[i];
     const int row = row_of_[i];
-    cells_[i] = Cell::kFree;
-    if (contact.kind == ContactKind::kBilateral) continue;
-    if (!(f_[row] > 0)) {
-      cells_[i] = Cell::kBreak;
-    } else if (HasFrictionCells(contact)) {
-      const Scalar bound = contact.mu * f_[row];
-      cells_[i] = f_[row + 1] >= bound ? Cell::kUpper : f_[row + 1] <= -bound ? Cell::kLower : Cell::kStick;
-    }
+    const bool closed = (f_[row] > 0) | (contact.kind == ContactKind::kBilateral);
+    cells_[i] = closed ? Cell::kFree : Cell::kBreak;
+    if (!HasFrictionCells(contact) || !closed) continue;
+    const Scalar bound = contact.mu * f_[row];
+    cells_[i] = f_[row + 1] >= bound ? Cell::kUpper : f_[row + 1] <= -bound ? Cell::kLower : Cell::kStick;
   }
 }
 
@@ -224,7 +230,11 @@ bool FastSolver<Scalar>::ExchangeUntilSettled() {
   for (int left = kSingles; left > 0; left -= patience < 0) {
     if (!SolveCells()) return false;
     const int moves = ListMoves();
-    if (moves == 0) return true;
+    if (moves == 0) {
+      if (distrust_ || EquationsHold()) return true;
+      distrust_ = true;
+      continue;
+    }
     if (moves < fewest) {
       fewest = moves;
       patience = kPatience;
@@ -244,35 +254,47 @@ bool FastSolver<Scalar>::SolveCells() {
   ListUnknowns();
   if (!(symmetric_ && !distrust_ ? SolveSymmetric() : SolveGeneral())) return false;
   SetForces();
-  SetAccelerations();
-  Scalar max_f = max_A_ > 0 ? Scalar(max_b_ / max_A_) : Scalar(0), kept = Scalar(0);
-  for (int row = 0; row < problem_->rows(); ++row) max_f = std::max(max_f, Scalar(std::abs(f_[row])));
-  for (int j = 0; j < size_; ++j) kept = std::max(kept, Scalar(std::abs(a_[unknowns_[j]])));
-  least_f_ = std::max(Scalar(options_.tolerances.force), pivot_) * max_f;
-  least_a_ = std::max(Scalar(options_.tolerances.acceleration), pivot_) * max_A_ * max_f;
-  if (distrust_ || !(kept > 1000 * least_a_)) return true;
-  distrust_ = true;  // only the lower triangle was read, and the equations do not hold
-  return SolveCells();
+  Scalar max_f = max_b_ * unit_;
+  for (int j = 0; j < size_; ++j) max_f = std::max(max_f, Scalar(std::abs(u_[j])));
+  least_f_ = zero_f_ * max_f;
+  least_a_ = zero_a_ * max_A_ * max_f;
+  return true;
 }
 
+// Whether the accelerations of the unknowns are zero. Only the lower triangle of A is read in a symmetric
+// solution, and a dropped equation may be inconsistent.
+template <class Scalar>
+bool FastSolver<Scalar>::EquationsHold() const {
+  Scalar worst = Scalar(0);
+  for (int j = 0; j < size_; ++j) worst = std::max(worst, Scalar(std::abs(a_[unknowns_[j]])));
+  return !(worst > 1000 * least_a_);
+}
+
+// Written without branches, since which contacts are closed is hard to predict: entries beyond size_ are
+// written too.
 template <class Scalar>
 void FastSolver<Scalar>::ListUnknowns() {
   size_ = 0;
   symmetric_ = true;
-  const auto add = [this](int row, int contact, Scalar limit) {
+  const auto add = [this](int row, Scalar limit, bool kept) {
     unknowns_[size_] = row;
-    owner_[size_] = contact;
     limit_[size_] = limit;
-    u_[size_++] = -problem_->b[row];
-    symmetric_ &= limit == 0;
+    u_[size_] = -problem_->b[row];
+    size_ += kept;
   };
   for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
-    if (cells_[i] == Cell::kBreak) continue;
     const Contact<Scalar>& contact = problem_->contacts[i];
-    const int sign = (cells_[i] == Cell::kUpper) - (cells_[i] == Cell::kLower);
-    const bool slides = contact.kind == ContactKind::kSliding;
-    add(row_of_[i], i, slides ? Scalar(-contact.slip[0] * contact.mu) : Scalar(sign * contact.mu));
-    if (cells_[i] == Cell::kStick) add(row_of_[i] + 1, i, Scalar(0));
+    const Cell cell = cells_[i];
+    if (!contact.HasFrictionRows()) {
+      add(row_of_[i], Scalar(0), cell != Cell::kBreak);
+      continue;
+    }
+    const int sign = (cell == Cell::kUpper) - (cell == Cell::kLower);
+    const Scalar along = contact.kind == ContactKind::kSliding ? Scalar(-contact.slip[0]) : Scalar(sign);
+    const Scalar limit = along * contact.mu;
+    add(row_of_[i], limit, cell != Cell::kBreak);
+    add(row_of_[i] + 1, Scalar(0), cell == Cell::kStick);
+    symmetric_ &= (cell == Cell::kBreak) | (limit == 0);
   }
 }
 
@@ -309,12 +331,18 @@ bool FastSolver<Scalar>::SolveGeneral() {
   return true;
 }
 
+// f of the unknowns, and a = A f + b.
 template <class Scalar>
 void FastSolver<Scalar>::SetForces() {
   f_.setZero();
+  a_ = problem_->b;
   for (int j = 0; j < size_; ++j) {
-    f_[unknowns_[j]] = u_[j];
-    if (limit_[j] != 0) f_[unknowns_[j] + 1] = limit_[j] * u_[j];
+    const int row = unknowns_[j];
+    f_[row] = u_[j];
+    AddColumn(row, u_[j]);
+    if (limit_[j] == 0) continue;
+    f_[row + 1] = limit_[j] * u_[j];
+    AddColumn(row + 1, f_[row + 1]);
   }
 }
 
@@ -342,13 +370,12 @@ Cell FastSolver<Scalar>::NextCell(int i) const {
   const Contact<Scalar>& contact = problem_->contacts[i];
   const int normal = row_of_[i], friction = normal + 1;
   const Cell cell = cells_[i];
-  if (cell == Cell::kBreak) {
-    if (!(a_[normal] < -least_a_)) return cell;
-    if (!HasFrictionCells(contact)) return Cell::kFree;
-    return a_[friction] < 0 ? Cell::kUpper : Cell::kLower;
-  }
-  if (contact.kind == ContactKind::kBilateral) return cell;
-  if (f_[normal] < -least_f_) return Cell::kBreak;
+  const bool open = cell == Cell::kBreak;
+  const bool closes = open & (a_[normal] < -least_a_);
+  const bool opens = !open & (contact.kind != ContactKind::kBilateral) & (f_[normal] < -least_f_);
+  if (!HasFrictionCells(contact)) return closes ? Cell::kFree : opens ? Cell::kBreak : cell;
+  if (closes) return a_[friction] < 0 ? Cell::kUpper : Cell::kLower;
+  if (opens) return Cell::kBreak;
   if (cell == Cell::kStick) {
     const Scalar bound = contact.mu * f_[normal] + least_f_;
     return f_[friction] > bound ? Cell::kUpper : f_[friction] < -bound ? Cell::kLower : cell;
@@ -377,7 +404,6 @@ bool FastSolver<Scalar>::ActiveSet() {
     if (!Enter(contact)) return false;
     Descend();
     SetForces();
-    SetAccelerations();
   }
   return false;
 }
@@ -388,14 +414,14 @@ bool FastSolver<Scalar>::StartActiveSet() {
   while (true) {
     bool left = false;
     for (int j = 0; j < size_; ++j) {
-      const bool bilateral = problem_->contacts[owner_[j]].kind == ContactKind::kBilateral;
+      const bool bilateral = problem_->contacts[unknowns_[j]].kind == ContactKind::kBilateral;
       if (!factor_.IsDropped(j) && (bilateral || u_[j] > 0)) continue;
       if (bilateral) return false;
-      cells_[owner_[j]] = Cell::kBreak;
+      cells_[unknowns_[j]] = Cell::kBreak;
       left = true;
     }
     if (!left) return true;
-    if (!SolveCells() || distrust_) return false;
+    if (!SolveCells()) return false;
   }
 }
 
@@ -413,7 +439,7 @@ bool FastSolver<Scalar>::Enter(int contact) {
   for (int j = 0; j < size_; ++j) u_[j] = problem_->A(unknowns_[j], contact);
   if (!factor_.Append(u_.data(), problem_->A(contact, contact), pivot_)) return false;
   ++verdict_.statistics.updates;
-  unknowns_[size_] = owner_[size_] = contact;
+  unknowns_[size_] = contact;
   limit_[size_++] = Scalar(0);
   cells_[contact] = Cell::kFree;
   return true;
@@ -440,7 +466,7 @@ template <class Scalar>
 int FastSolver<Scalar>::Blocking(Scalar& step) const {
   int blocking = -1;
   for (int j = 0; j < size_; ++j) {
-    if (!(u_[j] < 0) || problem_->contacts[owner_[j]].kind == ContactKind::kBilateral) continue;
+    if (!(u_[j] < 0) || problem_->contacts[unknowns_[j]].kind == ContactKind::kBilateral) continue;
     const Scalar f = f_[unknowns_[j]], reach = f / (f - u_[j]);
     if (blocking >= 0 && reach >= step) continue;
     blocking = j;
@@ -453,10 +479,10 @@ template <class Scalar>
 void FastSolver<Scalar>::Leave(int j) {
   ++verdict_.statistics.updates;
   f_[unknowns_[j]] = Scalar(0);
-  cells_[owner_[j]] = Cell::kBreak;
+  cells_[unknowns_[j]] = Cell::kBreak;
   factor_.Remove(j);
   --size_;
-  for (int k = j; k < size_; ++k) unknowns_[k] = owner_[k] = unknowns_[k + 1];
+  for (int k = j; k < size_; ++k) unknowns_[k] = unknowns_[k + 1];
 }
 
 }  // namespace stiction
