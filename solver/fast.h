@@ -27,6 +27,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -98,7 +99,8 @@ class FastSolver {
   const Vector& a() const { return a_; }
   // Cell of every contact; of use after a solved run.
   const std::vector<Cell>& cells() const { return cells_; }
-  // Memory in use, in bytes, complete driving apart.
+  std::string Word() const;
+  // Memory held, in bytes, complete driving apart.
   std::size_t MemoryBytes() const;
 
  private:

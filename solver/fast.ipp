@@ -16,10 +16,9 @@
 namespace stiction {
 
 // Numbers that were measured (bench --suite peers), not derived.
-#ifndef SW
-#define SW 3
-#endif
-inline constexpr int kFirstSweeps = SW;
+inline constexpr int kFirstSweeps = 2;
+inline constexpr int kManyRows = 12;      // above which
+inline constexpr int kFirstOfMany = 4;    // sweeps pay
 inline constexpr int kMoreSweeps = 20;
 inline constexpr int kRounds = 3;    // of sweeps and exchanges
 inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
@@ -87,7 +86,7 @@ bool HasFrictionCells(const Contact<Scalar>& contact) {
 template <class Scalar>
 void FastSolver<Scalar>::Guess(std::span<const Cell> guess) {
   if (guess.size() != cells_.size()) {
-    Sweep(kFirstSweeps);
+    Sweep(problem_->rows() > kManyRows ? kFirstOfMany : kFirstSweeps);
     return TakeCells();
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -134,6 +133,20 @@ void FastSolver<Scalar>::FallBack() {
   if (verified || driven.outcome != Outcome::kSolved) return;
   verdict_.outcome = Outcome::kUndecided;
   verdict_.reason = "the residual is above the tolerance";
+}
+
+template <class Scalar>
+std::string FastSolver<Scalar>::Word() const {
+  std::string word;
+  for (const Cell cell : cells_) word += Name(cell);
+  return word;
+}
+
+template <class Scalar>
+std::size_t FastSolver<Scalar>::MemoryBytes() const {
+  return sizeof(*this) + (f_.size() + a_.size() + inverse_.size() + limit_.size() + u_.size()) * sizeof(Scalar) +
+         (unknowns_.size() + row_of_.size()) * sizeof(int) + (cells_.size() + next_.size()) * sizeof(Cell) +
+         factor_.MemoryBytes();
 }
 
 // The residual of f alone: a is A f + b already, unless a force had to be moved. All of A enters, so that one

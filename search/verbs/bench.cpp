@@ -79,6 +79,7 @@ struct Suite {
 constexpr std::array kSuites = {
     Suite{"search", "problems a second of the search's hot path", BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
+    Suite{"peers", "stiction beside other packages, by the program stiction-peers", BenchPeers},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -102,7 +103,7 @@ void AddBench(CLI::App& program, Action& action) {
   verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
   verb.add_option("--problems", o->problems,
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
-                  "methods: problems of each number of contacts (default 800)")
+                  "methods, peers: problems of each number of contacts (default 800, 400)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat, "search: counted runs")
       ->capture_default_str()

@@ -12,6 +12,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
+#include "solver/fast.h"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -140,7 +141,8 @@ ContactProblem<Scalar> Round(const ExactProblem& problem, ExactProblem& rounded)
   ContactProblem<Scalar> result;
   result.dimension = problem.dimension;
   for (Contact<Rational>& contact : rounded.contacts)
-    result.contacts.push_back({contact.kind, round(contact.mu), {}});
+    result.contacts.push_back(
+        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
   result.A.resize(problem.rows(), problem.rows());
   result.b.resize(problem.rows());
   for (int i = 0; i < problem.rows(); ++i) {
@@ -197,6 +199,17 @@ Solved SolveRounded(const std::string& method, const ExactProblem& problem, cons
     solved.verdict = algorithm.Run(inexact);
     solved.statistics = {{"pivots", solved.verdict.statistics.pivots}};
     if (solved.verdict.outcome == Outcome::kSolved) Describe(inexact, algorithm.f(), solved);
+  } else if (method == "fast") {
+    FastOptions fast;
+    fast.tolerances = options.tolerances;
+    fast.limits = options.limits;
+    FastSolver<Scalar> solver(fast);
+    const FastVerdict verdict = solver.Run(inexact);
+    solved.verdict.outcome = verdict.outcome;
+    solved.verdict.reason = verdict.reason;
+    solved.statistics = CountersToJson(verdict.statistics);
+    if (verdict.outcome == Outcome::kSolved) solved.word = solver.Word();
+    Describe(inexact, solver.f(), solved);
   } else {
     PublishedAlgorithm<Scalar> algorithm(options);
     solved.verdict = algorithm.Run(inexact);
@@ -235,14 +248,18 @@ int Solve(const SolveOptions& o) {
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const ProblemFile file = any_kind ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  const bool fast = o.method == "fast";
+  if (fast && o.arithmetic == "exact") {
+    throw InputError("--method fast: expected --arithmetic float, double or long-double");
+  }
+  const ProblemFile file = any_kind || fast ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
   Json result = RunToJson(solved.verdict);
   Outcome outcome = solved.verdict.outcome;
   // What rounded numbers suspect is run again exactly, on the problem that they solved, before it is claimed.
-  if (o.arithmetic != "exact" && outcome != Outcome::kSolved) {
+  if (o.arithmetic != "exact" && outcome != Outcome::kSolved && !fast) {
     const Json suspected = result;
     const Solved exact = SolveExactly(o.method, rounded, options);
     outcome = exact.verdict.outcome;
@@ -282,21 +299,26 @@ void AddSolve(CLI::App& program, Action& action) {
   verb.add_option("--method", o->method,
                   "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
                   "Lemke's method, "
-                  "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
+                  "lexicographic; fast: cells guessed and verified, complete driving behind it (inexact "
+                  "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
       });
-  verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
-      });
+  CLI::Option* arithmetic = verb.add_option("--arithmetic", o->arithmetic,
+                                            "float, double, long-double or exact (rational); the default of "
+                                            "method fast is double");
+  arithmetic->capture_default_str()->check([](const std::string& text) {
+    return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
+  });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
+  verb.callback([o, arithmetic, &action] {
+    if (o->method == "fast" && arithmetic->count() == 0) o->arithmetic = "double";
+    action = [o] { return Solve(*o); };
+  });
 }
 
 }  // namespace stiction
