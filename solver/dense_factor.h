@@ -126,7 +126,8 @@ class DenseFactor {
   const Scalar* At(int j) const { return W_.data() + j * W_.rows(); }
 
   // y(i) -= factor column(i), begin <= i < end
-  static void Subtract(Scalar factor, const Scalar* __restrict column, Scalar* __restrict y, int begin, int end) {
+  static void Subtract(Scalar factor, const Scalar* __restrict column, Scalar* __restrict y, int begin,
+                       int end) {
     for (int i = begin; i < end; ++i) y[i] -= factor * column[i];
   }
 

@@ -145,9 +145,9 @@ class FastSolver {
   FastVerdict verdict_;
   Vector f_, a_, inverse_;  // inverse_: of the diagonal of A
   std::vector<Cell> cells_, next_;
-  std::vector<int> row_of_;           // normal row by contact
-  bool frictionless_ = false;         // one row per contact
-  bool distrust_ = false;             // A was seen to be unsymmetric
+  std::vector<int> row_of_;                                             // normal row by contact
+  bool frictionless_ = false;                                           // one row per contact
+  bool distrust_ = false;                                               // A was seen to be unsymmetric
   Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), unit_ = Scalar(0);     // unit_ = 1 / max_A_
   Scalar pivot_ = Scalar(0), zero_a_ = Scalar(0), zero_f_ = Scalar(0);  // tolerances, relative,
   Scalar least_a_ = Scalar(0), least_f_ = Scalar(0);                    // and of the last forces

@@ -17,12 +17,12 @@ namespace stiction {
 
 // Numbers that were measured (bench --suite peers), not derived.
 inline constexpr int kFirstSweeps = 2;
-inline constexpr int kManyRows = 12;      // above which
-inline constexpr int kFirstOfMany = 4;    // sweeps pay
+inline constexpr int kManyRows = 12;    // above which
+inline constexpr int kFirstOfMany = 4;  // sweeps pay
 inline constexpr int kMoreSweeps = 20;
 inline constexpr int kRounds = 3;    // of sweeps and exchanges
 inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
-inline constexpr int kSingles = 30;  // then exchanges of one contact each
+inline constexpr int kSingles = 10;  // then exchanges of one contact each
 
 // ---- The run ---------------------------------------------------------------------------------
 
@@ -144,7 +144,8 @@ std::string FastSolver<Scalar>::Word() const {
 
 template <class Scalar>
 std::size_t FastSolver<Scalar>::MemoryBytes() const {
-  return sizeof(*this) + (f_.size() + a_.size() + inverse_.size() + limit_.size() + u_.size()) * sizeof(Scalar) +
+  return sizeof(*this) +
+         (f_.size() + a_.size() + inverse_.size() + limit_.size() + u_.size()) * sizeof(Scalar) +
          (unknowns_.size() + row_of_.size()) * sizeof(int) + (cells_.size() + next_.size()) * sizeof(Cell) +
          factor_.MemoryBytes();
 }
@@ -173,9 +174,8 @@ bool FastSolver<Scalar>::Project() {
     if (contact.kind != ContactKind::kBilateral) set(row, std::max(f_[row], Scalar(0)));
     if (!contact.HasFrictionRows()) continue;
     const Scalar bound = contact.mu * f_[row];
-    set(row + 1, contact.kind == ContactKind::kSliding
-                     ? Scalar(-contact.slip[0] * bound)
-                     : std::clamp(f_[row + 1], Scalar(-bound), bound));
+    set(row + 1, contact.kind == ContactKind::kSliding ? Scalar(-contact.slip[0] * bound)
+                                                       : std::clamp(f_[row + 1], Scalar(-bound), bound));
   }
   return changed;
 }

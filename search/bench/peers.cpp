@@ -6,6 +6,8 @@
 // solved twice in a row, which would teach the processor its branches. Every answer is then checked: wrong is
 // a natural residual above 1e-6, or not a number; silent is wrong and called a success.
 
+#include "search/bench/peers.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <malloc.h>
@@ -20,7 +22,6 @@
 
 #include "corpus/json_text.h"
 #include "search/bench/measure.h"
-#include "search/bench/peers.h"
 #include "search/choices.h"
 #include "solver/complete.h"
 #include "solver/fast.h"
@@ -69,7 +70,8 @@ PeerProblem MakeProblem(int contacts, bool friction, bool full_rank, std::uint64
   problem.b = full_rank ? y : Eigen::VectorXd(J * y);
   for (int i = 0; i < contacts; ++i) {
     const double mu = 0.1 + 0.45 * (1 + Draw(choices));
-    problem.contacts.push_back({friction ? ContactKind::kStatic : ContactKind::kFrictionless, friction ? mu : 0, {}});
+    problem.contacts.push_back(
+        {friction ? ContactKind::kStatic : ContactKind::kFrictionless, friction ? mu : 0, {}});
   }
   return problem;
 }
@@ -234,7 +236,8 @@ std::vector<Row> PlanarRows() {
   units.cover = Cover::kUnits;
   return {
       {"Eigen LU", "", [] { return std::make_unique<Lu>(); }, true},
-      {"Siconos NSGS 1e-9", "libsiconos-numerics-dev", [] { return MakeSiconos(SiconosMethod::kFriction2dNsgs); }},
+      {"Siconos NSGS 1e-9", "libsiconos-numerics-dev",
+       [] { return MakeSiconos(SiconosMethod::kFriction2dNsgs); }},
       {"Siconos Lemke", "libsiconos-numerics-dev", [] { return MakeSiconos(SiconosMethod::kFriction2dLemke); }},
       {"ODE findex", "libode-dev", [] { return MakeOde(true); }},
       {"DART findex", "libdart-external-odelcpsolver-dev", [] { return MakeDart(true); }},
@@ -252,7 +255,8 @@ std::vector<Table> Tables() {
       {"full", "frictionless, A of full rank", frictionless, false, true, FrictionlessRows()},
       {"half", "frictionless, A of rank n/2, b in its range", frictionless, false, false, FrictionlessRows()},
       {"planar", "planar static friction, A of full rank, mu per contact", planar, true, true, PlanarRows()},
-      {"planar-half", "planar static friction, A of half rank, b in its range", planar, true, false, PlanarRows()},
+      {"planar-half", "planar static friction, A of half rank, b in its range", planar, true, false,
+       PlanarRows()},
   };
 }
 
@@ -289,7 +293,8 @@ Json MeasureTable(const Table& table, const PeersOptions& o) {
   }
   Json rows = Json::array();
   if (!o.json) {
-    fmt::print("\n{}: time / LU of A, answers wrong/silent/tried where any is wrong\n{:20}", table.title, "contacts");
+    fmt::print("\n{}: time / LU of A, answers wrong/silent/tried where any is wrong\n{:20}", table.title,
+               "contacts");
     for (const int size : sizes) fmt::print("{:>17}", size);
     fmt::print("\n{:20}", "LU, microseconds");
     for (const auto& column : columns) fmt::print("{:>17.2f}", 1e6 * column[0].seconds.median);
@@ -369,8 +374,9 @@ std::optional<double> Exponent(const GrowthMethod& method) {
 }
 
 Json GrowthJson(const std::string& name, int contacts, const Growth& growth) {
-  return {{"method", name},          {"contacts", contacts},   {"solved", growth.solved},
-          {"seconds", growth.seconds}, {"bytes", growth.bytes}, {"per_contact", growth.counts}};
+  return {{"method", name},          {"contacts", contacts},
+          {"solved", growth.solved}, {"seconds", growth.seconds},
+          {"bytes", growth.bytes},   {"per_contact", growth.counts}};
 }
 
 Json MeasureGrowth(bool friction, const PeersOptions& o) {
@@ -414,7 +420,9 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
     exponents[method.name] = exponent ? Json(*exponent) : Json();
     if (!o.json && exponent) fmt::print("{}: time like contacts^{:.1f} above 20\n", method.name, *exponent);
   }
-  return {{"name", friction ? "growth-planar" : "growth-frictionless"}, {"points", points}, {"exponents", exponents}};
+  return {{"name", friction ? "growth-planar" : "growth-frictionless"},
+          {"points", points},
+          {"exponents", exponents}};
 }
 
 // ---- The program -----------------------------------------------------------------------------
@@ -442,14 +450,17 @@ int main(int argc, char** argv) {
   CLI::App program("stiction beside the solvers of other packages", "stiction-peers");
   std::vector<std::string> tables = {"growth"};
   for (const auto& table : stiction::Tables()) tables.push_back(table.name);
-  program.add_option("--table", o.tables, "tables to measure")->capture_default_str()->check(CLI::IsMember(tables));
+  program.add_option("--table", o.tables, "tables to measure")
+      ->capture_default_str()
+      ->check(CLI::IsMember(tables));
   program.add_option("--contacts", o.contacts, "numbers of contacts, instead of each table's own")
       ->check(CLI::Range(1, 2000));
   program.add_option("--problems", o.problems, "of a size; half and an eighth of it above 10 and 30 contacts")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   program.add_option("--seconds", o.seconds, "time for each row and size")->capture_default_str();
-  program.add_option("--cap", o.cap, "a row that needs more seconds for one problem shows '-'")->capture_default_str();
+  program.add_option("--cap", o.cap, "a row that needs more seconds for one problem shows '-'")
+      ->capture_default_str();
   program.add_option("--seed", o.seed, "of the problems")->capture_default_str();
   program.add_flag("--json", o.json, "machine output");
   try {
