@@ -255,7 +255,9 @@ TEST_CASE("fast: a bilateral contact pulls, and a sliding one obeys equation (24
 TEST_CASE("fast: a matrix that is not symmetric is noticed") {
   FastSolver<double> solver;
   const auto problem = As<double>(MakeProblem({-1, -1}, {{2, -1}, {1, 2}}, {-1, -3}));
-  REQUIRE(solver.Run(problem).outcome == Outcome::kSolved);
+  const FastVerdict verdict = solver.Run(problem);
+  REQUIRE(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.fallbacks == 0);
   CHECK(solver.f().isApprox(Eigen::Vector2d(1, 1)));
 }
 
