@@ -32,10 +32,6 @@ class DenseFactor {
     swaps_.resize(size);
   }
 
-  std::size_t MemoryBytes() const {
-    return (W_.size() + inverse_.size() + work_.size()) * sizeof(Scalar) + swaps_.size() * sizeof(int);
-  }
-
   // Entries of column j of M, to be written before M is factored.
   Scalar* Column(int j) { return W_.data() + j * W_.rows(); }
   int size() const { return size_; }

@@ -100,8 +100,6 @@ class FastSolver {
   // Cell of every contact; of use after a solved run.
   const std::vector<Cell>& cells() const { return cells_; }
   std::string Word() const;
-  // Memory held, in bytes, complete driving apart.
-  std::size_t MemoryBytes() const;
 
  private:
   void Start(const Problem& problem);
@@ -109,6 +107,7 @@ class FastSolver {
   bool Find();
   void FallBack();
   bool Verify();
+  bool IsSymmetric() const;
   bool Project();
   void AddColumn(int row, Scalar factor);
 
@@ -121,7 +120,6 @@ class FastSolver {
   // Exchanges.
   bool ExchangeUntilSettled();
   bool SolveCells();
-  bool EquationsHold() const;
   void ListUnknowns();
   bool SolveSymmetric();
   bool SolveGeneral();
@@ -147,7 +145,7 @@ class FastSolver {
   std::vector<Cell> cells_, next_;
   std::vector<int> row_of_;                                             // normal row by contact
   bool frictionless_ = false;                                           // one row per contact
-  bool distrust_ = false;                                               // A was seen to be unsymmetric
+  bool distrust_ = false;                                               // A is not symmetric
   Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), unit_ = Scalar(0);     // unit_ = 1 / max_A_
   Scalar pivot_ = Scalar(0), zero_a_ = Scalar(0), zero_f_ = Scalar(0);  // tolerances, relative,
   Scalar least_a_ = Scalar(0), least_f_ = Scalar(0);                    // and of the last forces

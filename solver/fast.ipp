@@ -16,9 +16,7 @@
 namespace stiction {
 
 // Numbers that were measured (bench --suite peers), not derived.
-inline constexpr int kFirstSweeps = 2;
-inline constexpr int kManyRows = 12;    // above which
-inline constexpr int kFirstOfMany = 4;  // sweeps pay
+inline constexpr int FirstSweeps(int rows) { return rows <= 4 ? 1 : rows <= 12 ? 2 : 4; }
 inline constexpr int kMoreSweeps = 20;
 inline constexpr int kRounds = 3;    // of sweeps and exchanges
 inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
@@ -30,7 +28,12 @@ template <class Scalar>
 FastVerdict FastSolver<Scalar>::Run(const Problem& problem, std::span<const Cell> guess) {
   Start(problem);
   Guess(guess);
-  if (Find() && Verify()) {
+  bool found = Find() && Verify();
+  if (!found && !IsSymmetric()) {  // only one triangle was read where the cells suggest symmetry
+    distrust_ = true;
+    found = Find() && Verify();
+  }
+  if (found) {
     verdict_.outcome = Outcome::kSolved;
   } else {
     FallBack();
@@ -86,7 +89,7 @@ bool HasFrictionCells(const Contact<Scalar>& contact) {
 template <class Scalar>
 void FastSolver<Scalar>::Guess(std::span<const Cell> guess) {
   if (guess.size() != cells_.size()) {
-    Sweep(problem_->rows() > kManyRows ? kFirstOfMany : kFirstSweeps);
+    Sweep(FirstSweeps(problem_->rows()));
     return TakeCells();
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -142,14 +145,6 @@ std::string FastSolver<Scalar>::Word() const {
   return word;
 }
 
-template <class Scalar>
-std::size_t FastSolver<Scalar>::MemoryBytes() const {
-  return sizeof(*this) +
-         (f_.size() + a_.size() + inverse_.size() + limit_.size() + u_.size()) * sizeof(Scalar) +
-         (unknowns_.size() + row_of_.size()) * sizeof(int) + (cells_.size() + next_.size()) * sizeof(Cell) +
-         factor_.MemoryBytes();
-}
-
 // The residual of f alone: a is A f + b already, unless a force had to be moved. All of A enters, so that one
 // number that is not finite spoils the answer.
 template <class Scalar>
@@ -157,7 +152,18 @@ bool FastSolver<Scalar>::Verify() {
   if (Project()) SetAccelerations();
   const Scalar spoiled = (problem_->A.array() - problem_->A.array()).sum();
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-  return NaturalResidual(*problem_, f_, a_) + spoiled <= std::max(Scalar(options_.residual), least);
+  const Residual<Scalar> residual = MeasureResidual(*problem_, f_, a_);
+  return residual.worst + spoiled <= std::max(Scalar(options_.residual), least) * residual.scale;
+}
+
+template <class Scalar>
+bool FastSolver<Scalar>::IsSymmetric() const {
+  for (int j = 0; j < problem_->rows(); ++j) {
+    for (int i = 0; i < j; ++i) {
+      if (problem_->A(i, j) != problem_->A(j, i)) return false;
+    }
+  }
+  return true;
 }
 
 // The nearest forces that the laws allow; whether they differ from f.
@@ -221,17 +227,18 @@ void FastSolver<Scalar>::Push(int row, Scalar step) {
   AddColumn(row, step);
 }
 
-// The cells of the forces that a sweep leaves.
+// The cells of the forces that a step of all contacts at once, without a product, would leave.
 template <class Scalar>
 void FastSolver<Scalar>::TakeCells() {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Contact<Scalar>& contact = problem_->contacts[i];
     const int row = row_of_[i];
-    const bool closed = (f_[row] > 0) | (contact.kind == ContactKind::kBilateral);
+    const Scalar normal = f_[row] - a_[row] * inverse_[row];
+    const bool closed = (normal > 0) | (contact.kind == ContactKind::kBilateral);
     cells_[i] = closed ? Cell::kFree : Cell::kBreak;
     if (!HasFrictionCells(contact) || !closed) continue;
-    const Scalar bound = contact.mu * f_[row];
-    cells_[i] = f_[row + 1] >= bound ? Cell::kUpper : f_[row + 1] <= -bound ? Cell::kLower : Cell::kStick;
+    const Scalar bound = contact.mu * normal, friction = f_[row + 1] - a_[row + 1] * inverse_[row + 1];
+    cells_[i] = friction >= bound ? Cell::kUpper : friction <= -bound ? Cell::kLower : Cell::kStick;
   }
 }
 
@@ -243,11 +250,7 @@ bool FastSolver<Scalar>::ExchangeUntilSettled() {
   for (int left = kSingles; left > 0; left -= patience < 0) {
     if (!SolveCells()) return false;
     const int moves = ListMoves();
-    if (moves == 0) {
-      if (distrust_ || EquationsHold()) return true;
-      distrust_ = true;
-      continue;
-    }
+    if (moves == 0) return true;
     if (moves < fewest) {
       fewest = moves;
       patience = kPatience;
@@ -274,26 +277,17 @@ bool FastSolver<Scalar>::SolveCells() {
   return true;
 }
 
-// Whether the accelerations of the unknowns are zero. Only the lower triangle of A is read in a symmetric
-// solution, and a dropped equation may be inconsistent.
-template <class Scalar>
-bool FastSolver<Scalar>::EquationsHold() const {
-  Scalar worst = Scalar(0);
-  for (int j = 0; j < size_; ++j) worst = std::max(worst, Scalar(std::abs(a_[unknowns_[j]])));
-  return !(worst > 1000 * least_a_);
-}
-
 // Written without branches, since which contacts are closed is hard to predict: entries beyond size_ are
 // written too.
 template <class Scalar>
 void FastSolver<Scalar>::ListUnknowns() {
-  size_ = 0;
+  int size = 0;
   symmetric_ = true;
-  const auto add = [this](int row, Scalar limit, bool kept) {
-    unknowns_[size_] = row;
-    limit_[size_] = limit;
-    u_[size_] = -problem_->b[row];
-    size_ += kept;
+  const auto add = [this, &size](int row, Scalar limit, bool kept) {
+    unknowns_[size] = row;
+    limit_[size] = limit;
+    u_[size] = -problem_->b[row];
+    size += kept;
   };
   for (int i = 0; i < static_cast<int>(cells_.size()); ++i) {
     const Contact<Scalar>& contact = problem_->contacts[i];
@@ -309,6 +303,7 @@ void FastSolver<Scalar>::ListUnknowns() {
     add(row_of_[i] + 1, Scalar(0), cell == Cell::kStick);
     symmetric_ &= (cell == Cell::kBreak) | (limit == 0);
   }
+  size_ = size;
 }
 
 template <class Scalar>
