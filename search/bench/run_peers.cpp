@@ -14,7 +14,8 @@ namespace stiction {
 
 int BenchPeers(const BenchOptions& options) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
-  std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed)};
+  std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed), "--seconds",
+                                    std::to_string(0.06 * options.repeat)};
   if (options.json) words.push_back("--json");
   if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
   if (!options.contacts.empty()) words.push_back("--contacts");
