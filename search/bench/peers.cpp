@@ -37,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kWrong = 1e-6;
 
 struct PeersOptions {
-  std::vector<std::string> tables = {"full", "half", "planar", "growth"};
+  std::vector<std::string> tables = {"full", "half", "planar", "planar-half", "growth"};
   std::vector<int> contacts;
   int problems = 400;
   double seconds = 0.3;
