@@ -18,6 +18,7 @@ namespace stiction {
 // Numbers that were measured (bench --suite peers), not derived.
 inline constexpr int FirstSweeps(int rows) { return rows <= 4 ? 1 : rows <= 12 ? 2 : 4; }
 inline constexpr int kMoreSweeps = 20;
+inline constexpr int kFewRows = 16;  // up to which complete driving costs less than more sweeps
 inline constexpr int kRounds = 3;    // of sweeps and exchanges
 inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
 inline constexpr int kSingles = 10;  // then exchanges of one contact each
@@ -109,7 +110,8 @@ template <class Scalar>
 bool FastSolver<Scalar>::Find() {
   if (ExchangeUntilSettled()) return true;
   if (frictionless_ && !distrust_) return ActiveSet();
-  for (int round = 1; round < kRounds; ++round) {
+  const int rounds = problem_->rows() > kFewRows ? kRounds : 1;
+  for (int round = 1; round < rounds; ++round) {
     Project();
     SetAccelerations();
     Sweep(kMoreSweeps);
