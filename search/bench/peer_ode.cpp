@@ -21,6 +21,8 @@ namespace stiction {
 #ifdef STICTION_PEER_ODE
 namespace {
 
+static_assert(std::is_same_v<dReal, double>, "ODE built for doubles");
+
 bool complained = false;
 void Complain(int, const char*, va_list) { complained = true; }
 
