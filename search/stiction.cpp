@@ -29,6 +29,9 @@ int Main(int argc, char** argv) {
   AddMinimize(program, action);
   AddStatus(program, action);
   AddMerge(program, action);
+  AddImport(program, action);
+  AddExport(program, action);
+  AddSurvey(program, action);
   AddPolicies(program, action);
   AddBench(program, action);
   try {
