@@ -164,7 +164,7 @@ RangeDistance BoundRangeDistance(const SparseProblem& problem) {
 
 bool IsRegularModuloPrime(const SparseProblem& problem) {
   constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
-  const mpz_class prime = std::to_string(kPrime).c_str();
+  const mpz_class prime(std::to_string(kPrime));
   const auto multiply = [](std::uint64_t x, std::uint64_t y) {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::uint64_t>(static_cast<Wide>(x) * y % kPrime);

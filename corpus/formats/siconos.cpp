@@ -242,25 +242,29 @@ int ReadHeader(Words& words, SiconosKind kind, SparseProblem& problem) {
 
 }  // namespace
 
+// Only an LCP of n = 2 in blocks and one planar contact in csparse begin alike, and differ in the word CSparse.
 SiconosKind SiconosKindOf(const std::string& text, const std::string& source) {
   Words words(text, source);
-  std::array<double, 5> first = {};
-  for (double& value : first) {
-    const std::string_view word = words.Next();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) value = -1;
+  std::array<std::string_view, 7> first;
+  for (std::string_view& word : first) word = words.Next();
+  const auto number = [&first](int k) {
+    int value = -1;
+    const auto [end, error] = std::from_chars(first[k].data(), first[k].data() + first[k].size(), value);
+    return error == std::errc() && end == first[k].data() + first[k].size() ? value : -1;
+  };
+  const auto is_type = [&](int k) {
+    return number(k) == 0 || number(k) == 1 || (number(k) == 2 && first[k + 4] == "CSparse");
+  };
+  const int n = number(0), contacts = number(1);
+  const double rows = static_cast<double>(n) * contacts;
+  if ((n == 2 || n == 3) && contacts >= 0 && is_type(2) && number(3) == rows && number(4) == rows) {
+    return SiconosKind::kFriction;
   }
-  const auto is_type = [](double value) { return value == 0 || value == 1 || value == 2; };
-  const bool lcp = first[0] >= 0 && is_type(first[1]) && first[2] == first[0] && first[3] == first[0];
-  const double rows = first[0] * first[1];
-  const bool friction = (first[0] == 2 || first[0] == 3) && first[1] >= 0 && is_type(first[2]) &&
-                        first[3] == rows && first[4] == rows;
-  if (lcp == friction) {
-    throw InputError(source, "line 1", lcp ? "what may be either" : "neither",
-                     "an LCP (n, storage type, n, n) or a friction problem (dimension, contacts, storage type, "
-                     "rows, columns); --format decides");
-  }
-  return lcp ? SiconosKind::kLcp : SiconosKind::kFriction;
+  if (n >= 0 && is_type(1) && number(2) == n && number(3) == n) return SiconosKind::kLcp;
+  throw InputError(
+      source, "line 1", "neither of them",
+      "an LCP (n, storage type, n, n, ...) or a friction problem (dimension, contacts, storage type, "
+      "rows, columns, ...); --format says what it should be");
 }
 
 SparseProblem ParseSiconos(const std::string& text, SiconosKind kind, const std::string& source) {

@@ -34,7 +34,7 @@ namespace stiction {
 enum class SiconosKind { kLcp, kFriction };
 enum class SiconosStorage { kDense, kBlocks, kTriplet, kColumns };
 
-// Which of the two a text is, by its first five numbers; InputError, naming `source`, if neither or both.
+// Which of the two a text is, by its first words; InputError, naming `source`, if neither.
 SiconosKind SiconosKindOf(const std::string& text, const std::string& source);
 
 // `source` names the text in errors, which give the line, what was found and what was expected there.

@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kExactContacts = 50;         // up to here everything is decided over rationals
 constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
+constexpr double kRounding = 1e-3;         // A - A' up to this part of A may be rounding, and is mended
 constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
 
 struct SurveyOptions {
@@ -56,6 +57,13 @@ Json AsymmetryToJson(const SparseProblem& problem) {
           {"j", largest.j}};
 }
 
+// x'Ax / x'x.
+Rational RayleighQuotient(const NegativeCurvature& negative) {
+  Rational square = 0;
+  for (const Rational& x : negative.x) square += x * x;
+  return negative.value / square;
+}
+
 // `psd`: true, false, or null for undecided. Bounds are relative to the largest A_ii.
 Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
   const CurvatureBounds bounds = BoundCurvature(problem);
@@ -72,8 +80,7 @@ Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProb
     const auto* negative = std::get_if<NegativeCurvature>(&decision);
     json["psd"] = negative == nullptr;
     json["how"] = "exact";
-    if (negative != nullptr)
-      json["most"] = ToDouble(Rational(negative->value / negative->x.squaredNorm())) / scale;
+    if (negative != nullptr) json["most"] = ToDouble(RayleighQuotient(*negative)) / scale;
   }
   return json;
 }
@@ -217,8 +224,8 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
     return entry;
   }
   entry["runs"] = Runs(dense(), o.limits);
-  if (entry["asymmetry"]["difference"] == 0) return entry;
-  // Once more with (A + A')/2.
+  const double relative = entry["asymmetry"]["relative"].get<double>();
+  if (relative == 0 || relative > kRounding) return entry;
   Symmetrize(problem);
   if (small) exact = dense();
   Json symmetrized = {{"asymmetry", {{"difference", 0.0}}}};
