@@ -102,6 +102,23 @@ double RelativeResidual(const SparseProblem& problem, const ExactVector& x) {
   return std::sqrt(ToDouble(square)) * (1 + 4 * kUnit);
 }
 
+// x_k+1 = x_k + inv(S + s I) (b - A x_k), s = shift: converges to a solution of least squares where A = S is
+// semidefinite; eigenvalues below s / steps hardly take part. The best of these points.
+Dense ProximalPoint(const Sparse& S, const Sparse& A, const Dense& b, double shift, int steps) {
+  Dense x = Dense::Zero(b.size()), best = x;
+  const Eigen::SimplicialLDLT<Sparse> factors(Shifted(S, shift));
+  if (factors.info() != Eigen::Success) return best;
+  double least = b.norm();
+  for (int k = 0; k < steps; ++k) {
+    x += factors.solve(b - A * x);
+    const double residual = (b - A * x).norm();
+    if (!(residual < least) || !x.allFinite()) break;
+    least = residual;
+    best = x;
+  }
+  return best;
+}
+
 }  // namespace
 
 ExactVector Times(const SparseProblem& problem, const ExactVector& x) {
@@ -136,28 +153,21 @@ CurvatureBounds BoundCurvature(const SparseProblem& problem) {
   return bounds;
 }
 
-// x_k+1 = x_k + inv(S + s I) (b - A x_k): converges to a solution of least squares where A = S is semidefinite.
 RangeDistance BoundRangeDistance(const SparseProblem& problem) {
-  RangeDistance best{ExactVector::Constant(problem.rows(), Rational(0)), 1};
+  RangeDistance best{ExactVector::Constant(problem.rows(), Rational(0)), 1, 1};
   const Dense b = ToDoubles(problem.b);
-  if (b.size() == 0 || b.cwiseAbs().maxCoeff() == 0) return {best.x, 0};
+  if (b.size() == 0 || b.cwiseAbs().maxCoeff() == 0) return {best.x, 0, 0};
   const Sparse S = SymmetricPart(problem), A = ToDoubles(problem);
   const double scale = LargestRowSum(S);
-  constexpr int kSteps = 40;
-  for (const double shift : {1e-12, 1e-9, 1e-6}) {
-    const Eigen::SimplicialLDLT<Sparse> factors(Shifted(S, shift * scale));
-    if (factors.info() != Eigen::Success) continue;
-    Dense x = Dense::Zero(b.size()), kept = x;
-    double least = b.norm();
-    for (int k = 0; k < kSteps; ++k) {
-      x += factors.solve(b - A * x);
-      const double residual = (b - A * x).norm();
-      if (!(residual < least)) break;
-      least = residual;
-      kept = x;
+  constexpr double kShifts[] = {1e-8, 1e-10, 1e-12};
+  for (const double shift : kShifts) {
+    const ExactVector x = ToExact(ProximalPoint(S, A, b, shift * scale, shift == kShifts[0] ? 10 : 40));
+    const double distance = RelativeResidual(problem, x);
+    if (shift == kShifts[0]) best.rough = distance;
+    if (distance < best.distance) {
+      best.x = x;
+      best.distance = distance;
     }
-    const double distance = kept.allFinite() ? RelativeResidual(problem, ToExact(kept)) : 1;
-    if (distance < best.distance) best = {ToExact(kept), distance};
   }
   return best;
 }

@@ -37,6 +37,9 @@ CurvatureBounds BoundCurvature(const SparseProblem& problem);
 struct RangeDistance {
   ExactVector x;
   double distance = 0;  // abs(A x - b) / abs(b), rounded up by a bit; an upper bound of the distance of b
+  // The same of another x, for which eigenvalues of A below about 1e-9 of the largest row sum were left out:
+  // how far b is from the range if those are zeros that rounding has changed. A finding, no bound.
+  double rough = 0;
 };
 RangeDistance BoundRangeDistance(const SparseProblem& problem);
 

@@ -85,9 +85,11 @@ Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProb
   return json;
 }
 
-// `in-range`: true, false, or null for undecided. `distance` is an upper bound.
+// `in-range`: true, false, or null for undecided. `distance` is an upper bound, `rough distance` none
+// (bounds.h).
 Json RangeToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
-  Json json = {{"in-range", nullptr}, {"distance", BoundRangeDistance(problem).distance}};
+  const RangeDistance bound = BoundRangeDistance(problem);
+  Json json = {{"in-range", nullptr}, {"distance", bound.distance}, {"rough distance", bound.rough}};
   const bool regular = problem.rows() <= kMostDenseRows && IsRegularModuloPrime(problem);
   if (regular || json["distance"] == 0) {
     json["in-range"] = true;
@@ -267,8 +269,10 @@ std::string Short(double x) { return x == 0 ? "0" : fmt::format("{:.0e}", x); }
 
 std::string CurvatureText(const Json& curvature) {
   if (curvature["psd"] == true) return "yes";
-  if (curvature["psd"] == false) return "no: " + Short(curvature["most"].get<double>());
-  return curvature.contains("least") ? ">= " + Short(curvature["least"].get<double>()) : "undecided";
+  const std::string least = curvature.contains("least") ? Short(curvature["least"].get<double>()) : "?";
+  if (curvature["psd"] == false)
+    return fmt::format("no: {} .. {}", least, Short(curvature["most"].get<double>()));
+  return ">= " + least;
 }
 
 std::string RangeText(const Json& range) {
@@ -276,38 +280,37 @@ std::string RangeText(const Json& range) {
   return (range["in-range"] == false ? "no: " : "<= ") + Short(range["distance"].get<double>());
 }
 
+constexpr const char* kRow = "{:42} {:>7} {:>7}  {:18} {:8} {:>7}  {:16} {:>8} {:>8}  {}\n";
+
 void PrintRow(const std::string& file, const std::string& contacts, const std::string& asymmetry,
               const Json& facts, const Json& run) {
   std::string method = run["method"].get<std::string>();
   if (run.contains("arithmetic")) method += ", " + run["arithmetic"].get<std::string>();
   std::string outcome = run["outcome"].get<std::string>();
   if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
-  fmt::print("{:42} {:>9} {:>9} {:>10} {:>10}  {:17} {:>8} {:>9}  {}\n", file, contacts, asymmetry,
-             facts.is_null() ? "" : CurvatureText(facts["curvature"]),
-             facts.is_null() ? "" : RangeText(facts["range"]), method,
+  const bool first = !facts.is_null();
+  fmt::print(kRow, file, contacts, asymmetry, first ? CurvatureText(facts["curvature"]) : "",
+             first ? RangeText(facts["range"]) : "",
+             first ? Short(facts["range"]["rough distance"].get<double>()) : "", method,
              run.contains("residual") ? Short(run["residual"].get<double>()) : "",
              run.contains("seconds") ? fmt::format("{:.3f}", run["seconds"].get<double>()) : "", outcome);
 }
 
+// The facts once, then a line for every run.
+void PrintRuns(const std::string& file, const std::string& contacts, const std::string& asymmetry,
+               const Json& facts) {
+  bool first = true;
+  for (const Json& run : facts["runs"]) {
+    first ? PrintRow(file, contacts, asymmetry, facts, run) : PrintRow("", "", "", nullptr, run);
+    first = false;
+  }
+}
+
 void PrintEntry(const Json& entry) {
-  const std::string contacts =
-      fmt::format("{} {}D", entry["contacts"].get<int>(), entry["dimension"].get<int>());
-  std::string file = std::filesystem::path(entry["file"].get<std::string>()).filename().string();
-  std::string asymmetry = Short(entry["asymmetry"]["relative"].get<double>());
-  Json facts = entry;
-  for (const Json& run : entry["runs"]) {
-    PrintRow(file, file.empty() ? "" : contacts, asymmetry, facts, run);
-    file = asymmetry = "";
-    facts = nullptr;
-  }
-  if (!entry.contains("symmetrized")) return;
-  file = "  (A + A')/2";
-  facts = entry["symmetrized"];
-  for (const Json& run : entry["symmetrized"]["runs"]) {
-    PrintRow(file, "", "", facts, run);
-    file = "";
-    facts = nullptr;
-  }
+  PrintRuns(std::filesystem::path(entry["file"].get<std::string>()).filename().string(),
+            fmt::format("{} {}D", entry["contacts"].get<int>(), entry["dimension"].get<int>()),
+            Short(entry["asymmetry"]["relative"].get<double>()), entry);
+  if (entry.contains("symmetrized")) PrintRuns("  (A + A')/2", "", "0", entry["symmetrized"]);
 }
 
 // A file that cannot be read does not keep the others from being judged.
@@ -315,8 +318,8 @@ int Survey(const SurveyOptions& o) {
   int exit = kExitDone;
   Json entries = Json::array();
   if (!o.json) {
-    fmt::print("{:42} {:>9} {:>9} {:>10} {:>10}  {:17} {:>8} {:>9}  {}\n", "problem", "contacts", "A - A'",
-               "A psd", "b in range", "method", "residual", "seconds", "outcome");
+    fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "residual", "seconds",
+               "outcome");
   }
   for (const std::filesystem::path& file : FilesOf(o.paths)) {
     try {
