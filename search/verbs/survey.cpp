@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
+#include <numeric>
+#include <set>
 
 #include "certify/bounds.h"
 #include "certify/certificate.h"
@@ -22,9 +25,9 @@
 namespace stiction {
 namespace {
 
-constexpr int kExactContacts = 50;         // up to here everything is decided over rationals
-constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
-constexpr double kRounding = 1e-3;         // A - A' up to this part of A may be rounding, and is mended
+constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
+constexpr double kWrong = 1e-6;     // a natural residual above it is no solution
+constexpr double kRounding = 1e-3;  // A - A' up to this part of A may be rounding, and is mended
 constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
 
 struct SurveyOptions {
@@ -169,15 +172,83 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
   return run;
 }
 
-Json RunExactly(const ExactProblem& problem, const Limits& limits) {
+// Rows of contacts that A couples, directly or through others. Each group is a problem of its own.
+std::vector<std::vector<int>> UncoupledContacts(const ExactProblem& problem) {
+  const int count = static_cast<int>(problem.contacts.size());
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<int> parent(count);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) {
+      if (problem.A(i, j) != 0) parent[root(layout.ContactOf(i))] = root(layout.ContactOf(j));
+    }
+  }
+  std::map<int, std::vector<int>> groups;
+  for (int i = 0; i < count; ++i) groups[root(i)].push_back(i);
+  std::vector<std::vector<int>> result;
+  for (auto& [unused, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& contacts) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<int> rows;
+  for (const int contact : contacts) {
+    const int normal = layout.NormalRowOf(contact);
+    rows.push_back(normal);
+    if (layout.HasFriction(normal)) rows.push_back(normal + 1);
+  }
+  return rows;
+}
+
+// One group after the other: a solution of the whole consists of theirs, and there is none if one has none.
+struct ExactAnswer {
+  Json certificate;  // of the whole, null if undecided
+  std::string method;
+};
+ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
+                           const Limits& limits) {
   EnumerationOptions options;
   options.programs = kPrograms;
+  if (groups.size() == 1) {
+    Existence existence = DecideExistence(problem, limits, options);
+    return {std::move(existence.certificate), std::string(existence.method)};
+  }
+  ExactVector f(problem.rows());
+  std::set<std::string> methods;
+  for (const std::vector<int>& group : groups) {
+    const std::vector<int> rows = RowsOf(problem, group);
+    ExactProblem part;
+    for (const int contact : group) part.contacts.push_back(problem.contacts[contact]);
+    part.A = problem.A(rows, rows);
+    part.b = problem.b(rows);
+    const Existence existence = DecideExistence(part, limits, options);
+    methods.emplace(existence.method);
+    if (existence.certificate.is_null()) return {nullptr, std::string(existence.method)};
+    if (existence.certificate["claim"] != "solution-exists") {
+      return {existence.certificate, std::string(existence.method)};
+    }
+    const Json& forces = existence.certificate["witness"]["f"];
+    for (std::size_t k = 0; k < rows.size(); ++k) f[rows[k]] = *ParseRational(forces[k].get<std::string>());
+  }
+  return {SolutionCertificate(problem, f), fmt::format("{}", fmt::join(methods, "+"))};
+}
+
+Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
+                const Limits& limits) {
   const Stopwatch watch;
-  const Existence existence = DecideExistence(problem, limits, options);
-  Json run = {{"method", existence.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
+  const ExactAnswer answer = DecideByGroups(problem, groups, limits);
+  Json run = {{"method", answer.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
   run["seconds"] = watch.Seconds();
-  if (existence.certificate.is_null()) return run;
-  const CheckReport report = CheckCertificate(existence.certificate, "survey");
+  if (groups.size() > 1) run["groups"] = groups.size();
+  if (answer.certificate.is_null()) return run;
+  const CheckReport report = CheckCertificate(answer.certificate, "survey");
   STICTION_CHECK(report.accepted, "a certificate of the survey is rejected: " + report.reason);
   run["outcome"] = report.claim == "solution-exists" ? "solved" : report.claim;
   run["certificate"] = report.claim;
@@ -193,7 +264,10 @@ Json PlanarRuns(const ExactProblem& problem, const Limits& limits) {
       if (runs.back()["outcome"] == "solved") break;
     }
   }
-  if (problem.contacts.size() <= kExactContacts) runs.push_back(RunExactly(problem, limits));
+  const std::vector<std::vector<int>> groups = UncoupledContacts(problem);
+  const bool small = std::all_of(groups.begin(), groups.end(),
+                                 [](const auto& group) { return group.size() <= kExactContacts; });
+  if (small) runs.push_back(RunExactly(problem, groups, limits));
   return runs;
 }
 
@@ -280,6 +354,12 @@ std::string RangeText(const Json& range) {
   return (range["in-range"] == false ? "no: " : "<= ") + Short(range["distance"].get<double>());
 }
 
+// Says nothing of an A that is far from symmetric.
+std::string RoughText(const Json& facts) {
+  if (facts["asymmetry"].value("relative", 0.0) > kRounding) return "";
+  return Short(facts["range"]["rough distance"].get<double>());
+}
+
 constexpr const char* kRow = "{:42} {:>7} {:>7}  {:18} {:8} {:>7}  {:16} {:>8} {:>8}  {}\n";
 
 void PrintRow(const std::string& file, const std::string& contacts, const std::string& asymmetry,
@@ -290,8 +370,7 @@ void PrintRow(const std::string& file, const std::string& contacts, const std::s
   if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
   const bool first = !facts.is_null();
   fmt::print(kRow, file, contacts, asymmetry, first ? CurvatureText(facts["curvature"]) : "",
-             first ? RangeText(facts["range"]) : "",
-             first ? Short(facts["range"]["rough distance"].get<double>()) : "", method,
+             first ? RangeText(facts["range"]) : "", first ? RoughText(facts) : "", method,
              run.contains("residual") ? Short(run["residual"].get<double>()) : "",
              run.contains("seconds") ? fmt::format("{:.3f}", run["seconds"].get<double>()) : "", outcome);
 }

@@ -72,6 +72,29 @@ TEST_CASE("bounds: no bound on x'Ax is above what a direction shows, and exact e
   CHECK(open > 0);
 }
 
+// J J' - d I with one column in J: its smallest eigenvalue is -d, and d is of the size of rounding errors.
+TEST_CASE("bounds: what hides below rounding errors is covered by the bound") {
+  for (int index = 0; index < 2000; ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    const int size = 2;
+    ExactVector J(size);
+    Rational trace = 0;
+    for (Rational& x : J) {
+      x = choices.Integer(50000000, 100000000);
+      trace += x * x;
+    }
+    const Rational d = trace * Rational(choices.Integer(56, 80), 32) / Rational(mpz_class(1) << 53);
+    ExactMatrix A(size, size);
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) A(i, j) = J[i] * J[j] - (i == j ? d : Rational(0));
+    }
+    const CurvatureBounds bounds = BoundCurvature(Sparse(Frictionless(A, J)));
+    REQUIRE(bounds.least.has_value());
+    CHECK(Rational(*bounds.least) <= -d);
+  }
+}
+
 TEST_CASE("bounds: the distance from the range is zero but for rounding exactly where b is in it") {
   int inside = 0, outside = 0;
   for (int index = 0; index < 200; ++index) {

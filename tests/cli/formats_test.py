@@ -108,6 +108,22 @@ class Formats(cli.TestCase):
         self.assertAlmostEqual(outside["range"]["distance"], (2 / 10.5) ** 0.5)
         self.assertIs(outside["meets assumptions"], False)
 
+    def test_what_the_matrix_does_not_couple_is_decided_exactly_group_by_group(self):
+        size = 60
+        rows = [["0"] * size for _ in range(size)]
+        for i in range(0, size, 2):
+            rows[i][i], rows[i][i + 1], rows[i + 1][i], rows[i + 1][i + 1] = "2", "1", "1", "2"
+        problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * size, "A": rows, "b": ["-5", "-6"] * 30}
+        entry, = self.survey(self.file("pairs.json", problem))
+        exact = entry["runs"][-1]
+        self.assertEqual((exact["arithmetic"], exact["outcome"], exact["groups"]), ("exact", "solved", 30))
+        # One pair without a solution: nor has the whole.
+        for i in (0, 1):
+            rows[i][0] = rows[i][1] = "0"
+        entry, = self.survey(self.file("pairs.json", problem))
+        self.assertEqual(entry["runs"][-1]["outcome"], "no-solution")
+        self.assertIsNone(entry["range"]["in-range"])
+
     def test_survey_of_a_folder_goes_on_behind_a_bad_file(self):
         self.file("a.dat", "hello")
         self.file("b.dat", LCP)
