@@ -12,6 +12,7 @@
 #include "certify/no_solution.h"
 #include "certify/verify_solution.h"
 #include "solver/check.h"
+#include "solver/elimination.ipp"
 
 namespace stiction {
 
@@ -117,7 +118,7 @@ Cone ConeOf(const Contact<Rational>& contact, Mode mode) {
     case kSlipMinus:
       return {{{mu}}, Relation::kZero, Relation::kAtMostZero};
   }
-  STICTION_CHECK(false, "no such mode");
+  STICTION_FAIL("no such mode");
 }
 
 // What all modes of the contact imply.
@@ -159,21 +160,15 @@ bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const Exact
 
 namespace {
 
-int Rank(std::vector<std::vector<Rational>> rows, int columns) {
-  int rank = 0;
-  for (int column = 0; column < columns; ++column) {
-    std::size_t pivot = rank;
-    while (pivot < rows.size() && rows[pivot][column] == 0) ++pivot;
-    if (pivot == rows.size()) continue;
-    std::swap(rows[rank], rows[pivot]);
-    for (std::size_t i = rank + 1; i < rows.size(); ++i) {
-      const Rational factor = rows[i][column] / rows[rank][column];
-      if (factor == 0) continue;
-      for (int j = column; j < columns; ++j) rows[i][j] -= factor * rows[rank][j];
-    }
-    ++rank;
+int Rank(const std::vector<std::vector<mpz_class>>& rows, int columns) {
+  const int count = static_cast<int>(rows.size());
+  Elimination<Rational> elimination;
+  elimination.Resize(count, columns);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < columns; ++j) elimination(i, j) = rows[i][j];
   }
-  return rank;
+  elimination.Run(count, columns, columns);
+  return elimination.rank();
 }
 
 // Whether x is the only solution. Let N d >= 0, E d = 0 be the conditions that are tight at x, for a change d
@@ -198,9 +193,7 @@ bool IsOnlySolution(const LinearSystem& system, const Point& x) {
     normals.emplace_back(variables)[j] = 1;
     free.push_back(false);
   }
-  std::vector<std::vector<Rational>> rational;
-  for (const auto& normal : normals) rational.emplace_back(normal.begin(), normal.end());
-  if (Rank(rational, static_cast<int>(variables)) < static_cast<int>(variables)) return false;
+  if (Rank(normals, static_cast<int>(variables)) < static_cast<int>(variables)) return false;
   LinearSystem dual;
   dual.free = free;
   for (std::size_t j = 0; j < variables; ++j) {

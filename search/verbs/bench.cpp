@@ -4,23 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
+#include <limits>
 
 #include "corpus/json_text.h"
+#include "search/bench/suite.h"
 #include "search/unit.h"
 #include "search/verbs/verbs.h"
 
 namespace stiction {
 namespace {
-
-struct BenchOptions {
-  std::string suite = "search";
-  std::vector<int> contacts = {2, 3, 4, 8};
-  int repeat = 5;
-  std::int64_t problems = 200000;
-  bool json = false;
-};
 
 struct Spread {
   double least, median, most;
@@ -34,9 +29,11 @@ Spread SpreadOf(std::vector<double> values) {
 // Problems a second of one thread: generation, solving over doubles, classification, exact runs of suspicions.
 Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
   Campaign campaign;
+  campaign.seed = o.seed;
   campaign.generators = {generator};
   campaign.contacts = {contacts};
-  const std::int64_t problems = std::max<std::int64_t>(50, o.problems >> (2 * std::max(0, contacts - 2)));
+  const std::int64_t problems =
+      std::max<std::int64_t>(50, o.problems.value_or(200000) >> (2 * std::max(0, contacts - 2)));
   campaign.unit_problems = problems << std::max(0, contacts - 2);  // UnitProblems takes it back
   UnitRunner runner(campaign);
   std::vector<double> rates;
@@ -49,13 +46,15 @@ Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
   return SpreadOf(rates);
 }
 
-int RunBench(const BenchOptions& o) {
+int BenchSearch(const BenchOptions& o) {
+  const std::vector<int> sizes = o.contacts.empty() ? std::vector<int>{2, 3, 4, 8} : o.contacts;
   Json rows = Json::array();
   if (!o.json)
     fmt::print("{:16} {:>8} {:>14} {:>14} {:>14}   problems a second, one thread\n", "generator", "contacts",
                "least", "median", "most");
   for (const GeneratorRow& row : Generators()) {
-    for (const int contacts : o.contacts) {
+    if (o.generator && row.id != *o.generator) continue;
+    for (const int contacts : sizes) {
       const Spread rate = SearchRate(row.id, contacts, o);
       rows.push_back({{"generator", row.name},
                       {"contacts", contacts},
@@ -72,20 +71,51 @@ int RunBench(const BenchOptions& o) {
   return kExitDone;
 }
 
+struct Suite {
+  std::string_view name, help;
+  int (*run)(const BenchOptions&);
+};
+
+constexpr std::array kSuites = {
+    Suite{"search", "problems a second of the search's hot path", BenchSearch},
+    Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
+    Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
+};
+
+int RunBench(const BenchOptions& o) {
+  const auto suite = std::find_if(kSuites.begin(), kSuites.end(), [&o](auto& s) { return s.name == o.suite; });
+  return suite->run(o);
+}
+
 }  // namespace
 
 void AddBench(CLI::App& program, Action& action) {
   auto o = std::make_shared<BenchOptions>();
   CLI::App& verb = *program.add_subcommand("bench", "Benchmark tables");
-  verb.add_option("--suite", o->suite, "search: problems a second of the search's hot path")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"search"}));
+  std::vector<std::string> suites, generators;
+  std::string help;
+  for (const Suite& suite : kSuites) {
+    suites.emplace_back(suite.name);
+    help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", suite.name, suite.help);
+  }
+  for (const GeneratorRow& row : Generators()) generators.emplace_back(row.name);
+  verb.add_option("--suite", o->suite, help)->capture_default_str()->check(CLI::IsMember(suites));
   verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
   verb.add_option("--problems", o->problems,
-                  "problems per run at two contacts, a quarter for each contact more")
-      ->capture_default_str()
+                  "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
+                  "methods: problems of each number of contacts (default 800); linear-algebra: systems of a row "
+                  "(default 200)")
       ->check(CLI::PositiveNumber);
-  verb.add_option("--repeat", o->repeat, "counted runs")->capture_default_str()->check(CLI::Range(1, 1000));
+  verb.add_option("--repeat", o->repeat, "search, linear-algebra: counted runs")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  verb.add_option("--seed", o->seed, "of the problems")
+      ->capture_default_str()
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+  verb.add_option_function<std::string>(
+          "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
+          "search: this one alone; methods: instead of the positive definite family")
+      ->check(CLI::IsMember(generators));
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });
 }

@@ -54,6 +54,7 @@ class Usage(cli.TestCase):
             ("certify", problem, "-o", self.folder / "c", "--claim", "nonsense"),
             ("minimize", problem, "-o", self.folder / "m", "--keep", "nonsense"),
             ("policies", "x"), ("bench", "--suite", "nonsense"), ("bench", "--contacts", "9"), ("bench", "--repeat", "0"),
+            ("bench", "--seed", "-1"), ("bench", "--generator", "nonsense"), ("bench", "--problems", "0"),
         ]:
             with self.subTest(arguments=arguments):
                 self.refuses(*arguments)

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suites of `stiction bench`: each measures, prints, and returns an exit code.
+
+#ifndef STICTION_SEARCH_BENCH_SUITE_H_
+#define STICTION_SEARCH_BENCH_SUITE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "search/generators.h"
+
+namespace stiction {
+
+struct BenchOptions {
+  std::string suite = "search";
+  std::vector<int> contacts;             // empty: the suite's own
+  std::optional<std::int64_t> problems;  // empty: the suite's own
+  int repeat = 5;
+  std::uint64_t seed = 1;
+  std::optional<GeneratorId> generator;  // empty: the suite's own
+  bool json = false;
+};
+
+// The methods side by side on the same problems (methods.cpp).
+int BenchMethods(const BenchOptions& options);
+
+// Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
+int BenchLinearAlgebra(const BenchOptions& options);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_BENCH_SUITE_H_
