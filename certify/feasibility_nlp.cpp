@@ -300,7 +300,7 @@ double ConditionsBroken(Mode mode, double mu, double slip, double f_n, double f_
     case kSlipMinus:
       return negative + std::abs(a_n) + std::abs(f_t - mu * f_n) + std::max(a_t, 0.0);
   }
-  STICTION_CHECK(false, "no such mode");
+  STICTION_FAIL("no such mode");
 }
 
 // By contact, best first: the best mode and those that are near.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/properties.h"
 
+#include "solver/elimination.ipp"
+
 namespace stiction {
 namespace {
 
@@ -132,8 +134,16 @@ bool IsPositiveSemidefinite(const ExactProblem& problem) {
   return std::holds_alternative<LdltFactors>(DecideSemidefinite(problem.A));
 }
 
+// Without witnesses.
 bool IsInRange(const ExactProblem& problem) {
-  return std::holds_alternative<RangePoint>(DecideRange(problem.A, problem.b));
+  const int size = problem.rows();
+  ExactMatrix M(size, size + 1);
+  M.leftCols(size) = problem.A;
+  M.col(size) = problem.b;
+  Elimination<Rational> elimination;
+  elimination.Assign(M);
+  elimination.Run(size, size, size + 1);
+  return elimination.IsConsistent(size);
 }
 
 bool MeetsAssumptions(const ExactProblem& problem) {

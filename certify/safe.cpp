@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "solver/check.h"
+#include "solver/elimination.ipp"
 
 namespace stiction {
 namespace {
@@ -51,28 +52,6 @@ mpz_class WordCount(const ExactProblem& problem) {
   return count;
 }
 
-// By Gaussian elimination; the first row with a pivot is exchanged with the top one.
-Rational Determinant(ExactMatrix M) {
-  Rational determinant = 1;
-  const int n = static_cast<int>(M.rows());
-  for (int k = 0; k < n; ++k) {
-    int pivot = k;
-    while (pivot < n && M(pivot, k) == 0) ++pivot;
-    if (pivot == n) return 0;
-    if (pivot != k) {
-      M.row(k).swap(M.row(pivot));
-      determinant = -determinant;
-    }
-    determinant *= M(k, k);
-    for (int i = k + 1; i < n; ++i) {
-      if (M(i, k) == 0) continue;
-      const Rational factor = M(i, k) / M(k, k);
-      for (int j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
-    }
-  }
-  return determinant;
-}
-
 }  // namespace
 
 Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word) {
@@ -98,7 +77,10 @@ Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word) {
       if (factor[j] != 0) R(i, j) += factor[j] * problem.A(rows[i], rows[j] + 1);
     }
   }
-  return Determinant(std::move(R));
+  Elimination<Rational> elimination;
+  elimination.Assign(R);
+  elimination.Run(n, n, n);
+  return elimination.Determinant();
 }
 
 // ---- Deciding ----------------------------------------------------------------------------------
@@ -182,6 +164,11 @@ Json WordToJson(const ModeWord& word) {
 }
 
 }  // namespace
+
+std::optional<bool> IsSafeIfSmall(const ExactProblem& problem) {
+  if (problem.contacts.size() > kMostContactsOfSafety) return std::nullopt;
+  return !DecideSafety(problem).unsafe_word.has_value();
+}
 
 Json SafetyCertificate(const ExactProblem& problem) {
   const Safety safety = DecideSafety(problem);

@@ -66,6 +66,10 @@ struct Safety {
 // The functions below require a planar problem of frictionless and static contacts; otherwise InputError.
 Safety DecideSafety(const ExactProblem& problem);
 
+// Whether it is safe; empty for more than kMostContactsOfSafety contacts, 4^n determinants.
+inline constexpr int kMostContactsOfSafety = 5;
+std::optional<bool> IsSafeIfSmall(const ExactProblem& problem);
+
 // `safe` or `unsafe`.
 Json SafetyCertificate(const ExactProblem& problem);
 

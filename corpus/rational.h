@@ -36,6 +36,39 @@ struct BitLength<Rational> {
   static std::int64_t Of(const Rational& x) { return Bits(x); }
 };
 
+template <>
+struct Fractions<Rational> {
+  using Integer = mpz_class;
+
+  static const Integer& Numerator(const Rational& x) { return x.get_num(); }
+  static const Integer& Denominator(const Rational& x) { return x.get_den(); }
+  static Integer Numerator(const Rational& x, const Integer& multiple) {
+    Integer numerator;
+    mpz_divexact(numerator.get_mpz_t(), multiple.get_mpz_t(), x.get_den_mpz_t());
+    numerator *= x.get_num();
+    return numerator;
+  }
+  static void Include(Integer& multiple, const Rational& x) {
+    if (x.get_den() != 1) mpz_lcm(multiple.get_mpz_t(), multiple.get_mpz_t(), x.get_den_mpz_t());
+  }
+  // Requires y /= 0.
+  static Rational Quotient(const Integer& x, const Integer& y) {
+    Rational quotient(x, y);
+    quotient.canonicalize();
+    return quotient;
+  }
+  static void AddProduct(Integer& sum, const Integer& x, const Integer& y) {
+    mpz_addmul(sum.get_mpz_t(), x.get_mpz_t(), y.get_mpz_t());
+  }
+  static void SubtractProduct(Integer& sum, const Integer& x, const Integer& y) {
+    mpz_submul(sum.get_mpz_t(), x.get_mpz_t(), y.get_mpz_t());
+  }
+  // Requires that y divides x.
+  static void DivideExactly(Integer& x, const Integer& y) {
+    mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), y.get_mpz_t());
+  }
+};
+
 }  // namespace stiction
 
 #endif  // STICTION_CORPUS_RATIONAL_H_

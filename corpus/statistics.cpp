@@ -34,6 +34,43 @@ void Fill(Array& values, const Json& json) {
   for (std::size_t i = 0; i < json.size(); ++i) values.at(i) = json[i].template get<std::int64_t>();
 }
 
+template <class Tally>
+void AddCounters(Tally& sums, const Tally& tally) {
+  std::vector<std::int64_t> theirs;
+  ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
+  auto next = theirs.begin();
+  ForEachCounter(sums, [&next](const char*, std::int64_t& mine) { mine += *next++; });
+}
+
+template <class Tally>
+Json CountersToJson(int contacts, const Tally& tally) {
+  Json json = {{"contacts", contacts}};
+  ForEachCounter(tally, [&json](const char* name, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+template <class Tally>
+void FillCounters(Tally& tally, const Json& json) {
+  ForEachCounter(tally, [&json](const char* name, std::int64_t& value) {
+    value = json.at(name).template get<std::int64_t>();
+  });
+}
+
+// [[value, count], ...]
+Json ToJson(const std::map<int, std::int64_t>& histogram) {
+  Json json = Json::array();
+  for (const auto& [value, count] : histogram) json.push_back({value, count});
+  return json;
+}
+
+void Fill(std::map<int, std::int64_t>& histogram, const Json& json) {
+  for (const Json& bin : json) histogram[bin.at(0).get<int>()] = bin.at(1).get<std::int64_t>();
+}
+
+void AddTo(std::map<int, std::int64_t>& sums, const std::map<int, std::int64_t>& histogram) {
+  for (const auto& [value, count] : histogram) sums[value] += count;
+}
+
 void AddTo(std::array<std::int64_t, kOutcomeCount>& sums,
            const std::array<std::int64_t, kOutcomeCount>& values) {
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
@@ -101,11 +138,12 @@ Tally TallyFromJson(const Json& json) {
 void Record::Merge(const Record& other) {
   for (const auto& [key, tally] : other.tallies) tallies[key].Merge(tally);
   for (const auto& [signature, count] : other.signatures) signatures[signature] += count;
-  for (const auto& [contacts, tally] : other.existence) {
-    std::vector<std::int64_t> theirs;
-    ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
-    auto next = theirs.begin();
-    ForEachCounter(existence[contacts], [&next](const char*, std::int64_t& mine) { mine += *next++; });
+  for (const auto& [contacts, tally] : other.existence) AddCounters(existence[contacts], tally);
+  for (const auto& [contacts, tally] : other.agreement) {
+    AgreementTally& mine = agreement[contacts];
+    AddCounters(mine, tally);
+    AddTo(mine.words, tally.words);
+    AddTo(mine.solutions, tally.solutions);
   }
 }
 
@@ -123,14 +161,18 @@ std::string Serialize(const Record& record) {
   Json signatures = Json::object();
   for (const auto& [signature, count] : record.signatures) signatures[signature] = count;
   Json existence = Json::array();
-  for (const auto& [contacts, tally] : record.existence) {
-    Json entry = {{"contacts", contacts}};
-    ForEachCounter(tally, [&entry](const char* name, std::int64_t value) { entry[name] = value; });
-    existence.push_back(std::move(entry));
+  for (const auto& [contacts, tally] : record.existence) existence.push_back(CountersToJson(contacts, tally));
+  Json agreement = Json::array();
+  for (const auto& [contacts, tally] : record.agreement) {
+    Json entry = CountersToJson(contacts, tally);
+    entry["words"] = ToJson(tally.words);
+    entry["solutions"] = ToJson(tally.solutions);
+    agreement.push_back(std::move(entry));
   }
   return Json{{"tallies", std::move(tallies)},
               {"signatures", std::move(signatures)},
-              {"existence", std::move(existence)}}
+              {"existence", std::move(existence)},
+              {"agreement", std::move(agreement)}}
       .dump();
 }
 
@@ -147,9 +189,13 @@ Record ParseRecord(const std::string& text) {
     record.signatures[signature] = count.get<std::int64_t>();
   }
   for (const Json& entry : json.at("existence")) {
-    ForEachCounter(
-        record.existence[entry.at("contacts").get<int>()],
-        [&entry](const char* name, std::int64_t& value) { value = entry.at(name).get<std::int64_t>(); });
+    FillCounters(record.existence[entry.at("contacts").get<int>()], entry);
+  }
+  for (const Json& entry : json.at("agreement")) {
+    AgreementTally& tally = record.agreement[entry.at("contacts").get<int>()];
+    FillCounters(tally, entry);
+    Fill(tally.words, entry.at("words"));
+    Fill(tally.solutions, entry.at("solutions"));
   }
   return record;
 }

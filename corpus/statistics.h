@@ -6,9 +6,11 @@
 
 #include <array>
 #include <compare>
+#include <concepts>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <type_traits>
 
 #include "corpus/problem_file.h"
 #include "solver/solution.h"
@@ -94,8 +96,30 @@ struct ExistenceTally {
   bool operator==(const ExistenceTally&) const = default;
 };
 
-template <class Tally, class Visit>
-void ForEachCounter(Tally& tally, Visit visit) {
+// Methods held against each other (certify/agreement.h), by number of contacts.
+struct AgreementTally {
+  std::int64_t compared = 0;       // published algorithm, complete driving and Lemke's method side by side
+  std::int64_t enumerated = 0;     // of these, with all contact modes tried
+  std::int64_t disagreements = 0;  // counted once per problem
+  std::int64_t continua = 0;       // enumerated, with a mode word that has more than one solution
+  std::int64_t regular = 0;        // enumerated, and every solution stands inside one mode word, alone
+  std::int64_t signs_not_one = 0;  // regular, and the signs of the reduced determinants do not sum to 1
+  std::int64_t safety_decided = 0;
+  std::int64_t safe = 0;                  // all reduced determinants positive
+  std::int64_t safe_gave_up = 0;          // safe, and given up something under apex=suspended
+  std::int64_t safe_gave_up_no_ties = 0;  // the same, though no step had a tie: a disagreement
+  std::map<int, std::int64_t> words;      // enumerated problems by mode words that have solutions
+  std::map<int, std::int64_t> solutions;  // regular problems by solutions
+
+  bool operator==(const AgreementTally&) const = default;
+};
+
+template <class T, class Tally>
+concept TallyOf = std::same_as<std::remove_cvref_t<T>, Tally>;
+
+// visit(name, counter)
+template <TallyOf<ExistenceTally> Tally, class Visit>
+void ForEachCounter(Tally&& tally, Visit visit) {
   visit("problems", tally.problems);
   visit("solved", tally.solved);
   visit("pieces", tally.pieces);
@@ -104,11 +128,26 @@ void ForEachCounter(Tally& tally, Visit visit) {
   visit("with_ties", tally.with_ties);
 }
 
+template <TallyOf<AgreementTally> Tally, class Visit>
+void ForEachCounter(Tally&& tally, Visit visit) {
+  visit("compared", tally.compared);
+  visit("enumerated", tally.enumerated);
+  visit("disagreements", tally.disagreements);
+  visit("continua", tally.continua);
+  visit("regular", tally.regular);
+  visit("signs_not_one", tally.signs_not_one);
+  visit("safety_decided", tally.safety_decided);
+  visit("safe", tally.safe);
+  visit("safe_gave_up", tally.safe_gave_up);
+  visit("safe_gave_up_no_ties", tally.safe_gave_up_no_ties);
+}
+
 // All that a unit, a block or a whole campaign counts.
 struct Record {
   std::map<TallyKey, Tally> tallies;
   std::map<std::string, std::int64_t> signatures;  // findings by signature
   std::map<int, ExistenceTally> existence;         // by contacts
+  std::map<int, AgreementTally> agreement;         // by contacts
 
   void Merge(const Record& other);
   bool operator==(const Record&) const = default;

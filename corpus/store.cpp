@@ -14,7 +14,7 @@ namespace stiction {
 namespace {
 
 constexpr const char* kFormat = "stiction-store";
-constexpr const char* kVersion = "1";
+constexpr const char* kVersion = "2";  // 2: with existence
 constexpr const char* kTables = R"sql(
 CREATE TABLE IF NOT EXISTS campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS blocks (
@@ -27,12 +27,13 @@ CREATE TABLE IF NOT EXISTS findings (
   signature TEXT PRIMARY KEY, kind TEXT NOT NULL, unit INTEGER NOT NULL, idx INTEGER NOT NULL,
   generator TEXT NOT NULL, contacts INTEGER NOT NULL, policy TEXT NOT NULL,
   inexact_outcome TEXT NOT NULL, exact_outcome TEXT NOT NULL, problem TEXT NOT NULL, done INTEGER NOT NULL,
-  certificate TEXT NOT NULL, minimized TEXT NOT NULL, minimized_certificate TEXT NOT NULL, facts TEXT NOT NULL)
+  certificate TEXT NOT NULL, minimized TEXT NOT NULL, minimized_certificate TEXT NOT NULL,
+  existence TEXT NOT NULL, minimized_existence TEXT NOT NULL, facts TEXT NOT NULL)
   WITHOUT ROWID;
 )sql";
 constexpr const char* kFindingColumns =
     "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
-    "certificate, minimized, minimized_certificate, facts";
+    "certificate, minimized, minimized_certificate, existence, minimized_existence, facts";
 
 // A prepared statement: parameters are bound in order, rows read by column.
 class Statement {
@@ -119,12 +120,14 @@ Finding ReadFinding(const Statement& row) {
   finding.certificate = row.Text(11);
   finding.minimized = row.Text(12);
   finding.minimized_certificate = row.Text(13);
-  finding.facts = row.Text(14);
+  finding.existence = row.Text(14);
+  finding.minimized_existence = row.Text(15);
+  finding.facts = row.Text(16);
   return finding;
 }
 
 void WriteFinding(sqlite3* db, const Finding& finding) {
-  Statement(db, fmt::format("INSERT OR REPLACE INTO findings ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+  Statement(db, fmt::format("INSERT OR REPLACE INTO findings ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                             kFindingColumns))
       .Bind(finding.signature)
       .Bind(finding.kind)
@@ -140,6 +143,8 @@ void WriteFinding(sqlite3* db, const Finding& finding) {
       .Bind(finding.certificate)
       .Bind(finding.minimized)
       .Bind(finding.minimized_certificate)
+      .Bind(finding.existence)
+      .Bind(finding.minimized_existence)
       .Bind(finding.facts)
       .Step();
 }
@@ -239,9 +244,11 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
   while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
   if (values.empty()) return std::nullopt;
   if (values["format"] != kFormat || values["version"] != kVersion) {
-    throw InputError(fmt::format("{}: found format {} version {}, expected {} version {}",
-                                 sqlite3_db_filename(db_.get(), "main"), values["format"], values["version"],
-                                 kFormat, kVersion));
+    throw InputError(fmt::format(
+        "{}: found format {} version {}, expected {} version {}. A store of another version of stiction is "
+        "read "
+        "by that version only; search anew with --store NEW_FILE",
+        sqlite3_db_filename(db_.get(), "main"), values["format"], values["version"], kFormat, kVersion));
   }
   return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"],
                           values["build"]};

@@ -51,7 +51,7 @@ struct Shard {
 // A representative. `done` once it is certified and minimized.
 struct Finding {
   std::string signature;
-  std::string kind;  // an outcome, or "wrong-answer", "disagreement"
+  std::string kind;  // kinds.h
   std::int64_t unit = 0;
   std::int64_t index = 0;
   std::string generator;
@@ -65,7 +65,12 @@ struct Finding {
   std::string certificate;            // of `problem`, JSON; empty for outcomes without one
   std::string minimized;              // stiction-problem JSON with `expect`
   std::string minimized_certificate;  // JSON
-  std::string facts;                  // JSON: start, period, grid counts, sizes, ...
+  // `solution-exists` (or, of a problem without a solution, `no-solution`) of `problem` and of `minimized`,
+  // JSON; empty if undecided.
+  std::string existence;
+  std::string minimized_existence;
+  // JSON: start, period, grid counts, sizes, ...; of a disagreement of methods their answers, done or not.
+  std::string facts;
 
   bool operator==(const Finding&) const = default;
 };

@@ -49,7 +49,10 @@ void AddFindingColumns(Csv& csv) {
     csv.Add(column);
   }
   AddOutcomeColumns(csv, "minimized_grid_");
-  for (const char* column : {"problem_file", "original_file", "certificate_file"}) csv.Add(column);
+  for (const char* column : {"problem_file", "original_file", "certificate_file", "existence_file",
+                             "original_existence_file", "safe", "minimized_safe"}) {
+    csv.Add(column);
+  }
   csv.EndRow();
 }
 
@@ -78,6 +81,12 @@ void AddFound(Csv& csv, const Discovery& discovery) {
   AddYesNo(csv, discovery.WholeGrid());
   AddYesNo(csv, discovery.EveryPolicyLoops());
   AddCounts(csv, discovery.found->grid.counts);
+}
+
+// Empty where it was not decided.
+void AddSafe(Csv& csv, const std::optional<RunFacts>& run) {
+  if (run && run->safe) return AddYesNo(csv, *run->safe);
+  csv.Add("");
 }
 
 void AddMinimized(Csv& csv, const std::optional<RunFacts>& run) {
@@ -164,6 +173,35 @@ std::string StepsCsv(const Record& record) {
   return csv.text();
 }
 
+std::string AgreementCsv(const Record& record) {
+  Csv csv;
+  csv.Add("contacts");
+  ForEachCounter(ExistenceTally{}, [&csv](const char* name, std::int64_t) { csv.Add(name); });
+  ForEachCounter(AgreementTally{}, [&csv](const char* name, std::int64_t) { csv.Add(name); });
+  csv.EndRow();
+  const auto add = [&csv](const char*, std::int64_t value) { csv.Add(value); };
+  for (const auto& [contacts, existence] : record.existence) {
+    csv.Add(contacts);
+    ForEachCounter(existence, add);
+    const auto agreement = record.agreement.find(contacts);
+    ForEachCounter(agreement == record.agreement.end() ? AgreementTally{} : agreement->second, add);
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string SolutionsCsv(const Record& record) {
+  Csv csv;
+  csv.Add("contacts").Add("counted").Add("count").Add("problems").EndRow();
+  for (const auto& [contacts, tally] : record.agreement) {
+    for (const auto& [words, problems] : tally.words)
+      csv.Add(contacts).Add("words").Add(words).Add(problems).EndRow();
+    for (const auto& [solutions, problems] : tally.solutions)
+      csv.Add(contacts).Add("solutions").Add(solutions).Add(problems).EndRow();
+  }
+  return csv.text();
+}
+
 std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
   Csv csv;
   AddFindingColumns(csv);
@@ -173,7 +211,12 @@ std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
     AddLoop(csv, discovery.loop);
     AddFound(csv, discovery);
     AddMinimized(csv, discovery.minimized);
-    csv.Add(discovery.files.problem).Add(discovery.files.original).Add(discovery.files.certificate).EndRow();
+    const FindingFiles& files = discovery.files;
+    csv.Add(files.problem).Add(files.original).Add(files.certificate);
+    csv.Add(files.existence).Add(files.original_existence);
+    AddSafe(csv, discovery.found);
+    AddSafe(csv, discovery.minimized);
+    csv.EndRow();
   }
   return csv.text();
 }

@@ -32,6 +32,11 @@ std::string StatisticsCsv(const Record& record);
 std::string VerdictsCsv(const Record& record);
 // One row per tally and number of steps that occurred; the last bin holds everything above, too.
 std::string StepsCsv(const Record& record);
+// One row per number of contacts: existence decided by complete driving, methods compared, safe problems.
+std::string AgreementCsv(const Record& record);
+// One row per number of contacts and count that occurred: problems with so many mode words that have solutions
+// (`counted` = words), or regular problems with so many solutions (solutions).
+std::string SolutionsCsv(const Record& record);
 // One row per signature, in the order of signature.
 std::string FindingsCsv(const std::vector<Discovery>& discoveries);
 

@@ -12,30 +12,16 @@
 #include <tuple>
 
 #include "corpus/json_text.h"
+#include "corpus/kinds.h"
 
 namespace stiction {
 namespace {
 
 constexpr std::size_t kLongestName = 200;  // file systems allow 255, and extensions come on top
 
-// The kinds that findings have; a signature begins with its kind.
-std::vector<std::string_view> Kinds() {
-  std::vector<std::string_view> kinds(kOutcomeNames.begin(), kOutcomeNames.end());
-  kinds.insert(kinds.end(), {"wrong-answer", "disagreement"});
-  return kinds;
-}
-
-// For a signature without a representative, which would say it.
-std::string KindOf(const std::string& signature) {
-  for (const std::string_view kind : Kinds()) {
-    if (signature.starts_with(std::string(kind) + "-")) return std::string(kind);
-  }
-  return signature;
-}
-
 // A signature names drives and steps of its loop: "cycle-2c-4d-10s-...".
 std::optional<LoopLength> LoopLengthOf(const std::string& signature) {
-  static const std::regex pattern("^(?:cycle|stall)-\\d+c-(\\d{1,18})d-(\\d{1,18})s-.*");
+  static const std::regex pattern("^(?:safe-)?(?:cycle|stall)-\\d+c-(\\d{1,18})d-(\\d{1,18})s(?:[-@].*)?");
   std::smatch match;
   if (!std::regex_match(signature, match, pattern)) return std::nullopt;
   return LoopLength{std::stoll(match[1]), std::stoll(match[2])};
@@ -56,7 +42,10 @@ RunFacts ReadRun(const JsonPlace& facts) {
   const auto count = [&facts](const char* key) {
     return facts.Required(key, "a count").Integer(0, std::numeric_limits<std::int64_t>::max(), "a count");
   };
-  return {count("contacts"), count("start"), count("period"), count("steps"), ReadGrid(facts)};
+  RunFacts run = {count("contacts"), count("start"), count("period"), count("steps"), ReadGrid(facts), {}};
+  const auto safe = facts.Optional("safe");
+  if (safe && safe->json().is_boolean()) run.safe = safe->json().get<bool>();
+  return run;
 }
 
 void AddFacts(Discovery& discovery, const Finding& finding) {
@@ -72,7 +61,11 @@ void AddFacts(Discovery& discovery, const Finding& finding) {
 FindingFiles FilesOf(const Finding& finding) {
   const std::string stem = "findings/" + FileName(finding.signature);
   const bool certified = !finding.certificate.empty() || !finding.minimized_certificate.empty();
-  return {stem + ".json", stem + ".original.json", certified ? stem + ".certificate.json" : ""};
+  const bool minimized = !finding.minimized.empty();
+  const std::string& existence = minimized ? finding.minimized_existence : finding.existence;
+  return {stem + ".json", stem + ".original.json", certified ? stem + ".certificate.json" : "",
+          existence.empty() ? "" : stem + ".existence.certificate.json",
+          minimized && !finding.existence.empty() ? stem + ".original.existence.certificate.json" : ""};
 }
 
 void Represent(Discovery& discovery, const Finding& finding) {
@@ -111,7 +104,7 @@ bool Grid::AllLoop() const {
   return loops > 0 && loops == Total();
 }
 
-bool Discovery::IsLoop() const { return kind == Name(Outcome::kCycle) || kind == Name(Outcome::kStall); }
+bool Discovery::IsLoop() const { return IsLoopKind(kind); }
 
 bool Discovery::WholeGrid() const {
   return found && representative->exact_outcome != Name(Outcome::kSolved) &&
@@ -145,8 +138,8 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
   }
   const auto rank = [](const Discovery* d) {
     // The shorter the text of the minimized problem, the smaller its numbers.
-    return std::tuple(d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(), d->representative->minimized.size(),
-                      -d->met);
+    return std::tuple(Gravity(d->kind), d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(),
+                      d->representative->minimized.size(), -d->met);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&rank](const Discovery* left, const Discovery* right) { return rank(left) < rank(right); });

@@ -32,6 +32,7 @@ struct RunFacts {
   std::int64_t period = 0;  // likewise
   std::int64_t steps = 0;   // from f = 0 to the end of the first repetition
   Grid grid;
+  std::optional<bool> safe;  // where it was decided
 };
 
 struct LoopLength {
@@ -44,6 +45,8 @@ struct FindingFiles {
   std::string problem;
   std::string original;
   std::string certificate;
+  std::string existence;           // of the problem
+  std::string original_existence;  // of the problem as found, if that is another one
 };
 
 struct Discovery {
@@ -57,7 +60,7 @@ struct Discovery {
   FindingFiles files;
 
   bool Finished() const { return representative != nullptr && representative->done; }
-  bool IsLoop() const;
+  bool IsLoop() const;     // of the published algorithm
   bool WholeGrid() const;  // every policy ends in the outcome of the finding, and that is not `solved`
   bool EveryPolicyLoops() const { return found && found->grid.AllLoop(); }
   int SmallestContacts() const;  // of the minimized problem, or as found
@@ -66,8 +69,8 @@ struct Discovery {
 // In the order of signature. The findings must outlive what is returned.
 std::vector<Discovery> Discoveries(const Record& record, const std::vector<Finding>& findings);
 
-// The order of interest: fewest contacts, then those that the whole grid shows, then loops, then the most
-// frequent, then by signature. Only those with a representative.
+// The order of interest: grave kinds (kinds.h), fewest contacts, then those that the whole grid shows, then
+// loops, then the most frequent, then by signature. Only those with a representative.
 std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveries);
 
 // A signature as a file name without extension: letters, digits and -_=,@ stay; a name that had to be changed

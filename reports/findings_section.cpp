@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "reports/page.h"
 
@@ -144,13 +145,22 @@ Html FileLinks(const FindingFiles& files) {
   };
   Html links = link(files.problem, "problem") + Html(" · ") + link(files.original, "as found");
   if (!files.certificate.empty()) links += Html(" · ") + link(files.certificate, "certificate");
+  if (!files.existence.empty()) links += Html(" · ") + link(files.existence, "a solution exists");
+  if (!files.original_existence.empty())
+    links += Html(" · ") + link(files.original_existence, "likewise, as found");
   return Tag("p", {{"class", "note"}})(Html("Files: ") + links);
+}
+
+std::string SafeText(const RunFacts& run) {
+  return run.safe == true ? " All reduced determinants are positive." : "";
 }
 
 Html Story(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   if (!discovery.Finished()) return Html("<p>Neither certified nor minimized yet; the problem as found:</p>\n");
-  if (discovery.minimized) return Tag("p")(RunText(*discovery.minimized, finding)) + Html("\n");
+  if (discovery.minimized) {
+    return Tag("p")(RunText(*discovery.minimized, finding) + SafeText(*discovery.minimized)) + Html("\n");
+  }
   std::string text = fmt::format("In doubles: {}.", finding.inexact_outcome);
   if (discovery.found) text += " " + RunText(*discovery.found, finding);
   return Tag("p")(text + " Not minimized; the problem as found:") + Html("\n");
@@ -175,7 +185,8 @@ Table EmptyTable() {
 }
 
 Html KindBadge(const Discovery& discovery) {
-  const Tag badge("span", {{"class", discovery.IsLoop() ? "badge loop" : "badge"}});
+  const bool stands_out = discovery.IsLoop() || IsGrave(discovery.kind);
+  const Tag badge("span", {{"class", stands_out ? "badge loop" : "badge"}});
   Html html = badge(discovery.kind);
   if (discovery.WholeGrid()) html += Html(" <span class=\"badge whole\">whole grid</span>");
   return html;
@@ -222,8 +233,9 @@ Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
   const auto all = static_cast<std::int64_t>(discoveries.size());
   const auto here = static_cast<std::int64_t>(shown);
   std::string text =
-      "One row per signature: fewest contacts first, then those that every policy of the grid shows, then "
-      "loops before others, then the most frequent. ";
+      "One row per signature: cycles of safe problems and disagreements of methods first, then fewest "
+      "contacts, then those that every policy "
+      "of the grid shows, then loops before others, then the most frequent. ";
   if (here == all) return Tag("p")(text + fmt::format("All {} are shown.", Grouped(all)));
   text += fmt::format("{} of {} are shown; all are in ", Grouped(here), Counted(all, "signature"));
   return Tag("p")(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));

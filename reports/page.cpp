@@ -8,6 +8,7 @@
 #include <map>
 
 #include "corpus/json_text.h"
+#include "corpus/kinds.h"
 #include "reports/style.h"
 
 namespace stiction {
@@ -30,15 +31,14 @@ struct KindCounts {
   }
 };
 
-// By kind, loops first.
+// By kind: the gravest, then loops first.
 std::vector<std::pair<std::string, KindCounts>> CountByKind(const std::vector<Discovery>& discoveries) {
   std::map<std::string, KindCounts> counts;
   for (const Discovery& discovery : discoveries) counts[discovery.kind].Add(discovery);
   std::vector<std::pair<std::string, KindCounts>> sorted(counts.begin(), counts.end());
-  const auto is_loop = [](const auto& row) {
-    return row.first == Name(Outcome::kCycle) || row.first == Name(Outcome::kStall);
-  };
-  std::stable_partition(sorted.begin(), sorted.end(), is_loop);
+  const auto rank = [](const auto& row) { return std::pair(Gravity(row.first), !IsLoopKind(row.first)); };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&rank](const auto& left, const auto& right) { return rank(left) < rank(right); });
   return sorted;
 }
 
@@ -114,6 +114,10 @@ Html Tiles(const ReportContent& content) {
   if (runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
   tiles += Tile(all.met, "runs with a finding");
   tiles += Tile(all.groups, "groups of findings (signatures)", "loop");
+  const auto grave = std::count_if(content.discoveries.begin(), content.discoveries.end(),
+                                   [](const Discovery& discovery) { return IsGrave(discovery.kind); });
+  tiles +=
+      Tile(grave, "of these grave: cycles of safe problems, disagreements of methods", grave > 0 ? "loop" : "");
   tiles += Tile(all.finished, "representatives finished");
   tiles += Tile(all.pending, "representatives pending");
   tiles += Tile(all.found_grid, "of the finished loop under every policy", "loop");
@@ -146,6 +150,8 @@ std::string CampaignLabel(const std::string& key) {
       {"mu", "friction palette"},
       {"unit_problems", "problems of a unit"},
       {"audit_every", "audited: one problem in"},
+      {"lemke_every", "by Lemke’s method too, of the suspicions: one in"},
+      {"enumerate_every", "all modes tried, of exact runs of few contacts: one in"},
       {"representatives_per_unit", "new representatives per unit, at most"},
       {"max_drives", "budget, drives"},
       {"max_pivots", "budget, pivots"},
@@ -213,6 +219,7 @@ Html Navigation() {
                                                                   {"#doubles", "How often doubles lie"},
                                                                   {"#pivots", "Pivots"},
                                                                   {"#steps", "Steps"},
+                                                                  {"#existence", "Existence and agreement"},
                                                                   {"#findings", "Findings"},
                                                                   {"#files", "Files"}}) {
     links += Tag("a", {{"href", id}})(title) + Html("\n");
@@ -226,13 +233,17 @@ Html FilesSection() {
            {"statistics.csv", "all counters, sums and maxima per generator, contacts and policy"},
            {"verdicts.csv", "runs repeated exactly on suspicion: what doubles said, what is exact"},
            {"steps.csv", "histograms of steps per problem"},
+           {"agreement.csv", "existence, agreement of methods and safe problems per number of contacts"},
+           {"solutions.csv", "histograms of solutions per number of contacts"},
            {"findings.csv", "every signature, with its counts, facts and files"}}) {
     list += Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   }
   list +=
-      Tag("li")(Html("<code>findings/</code>: of every representative the minimized problem (or, until there "
-                     "is one, the problem as found), the problem as found (<code>.original.json</code>) "
-                     "and its certificate (<code>.certificate.json</code>)")) +
+      Tag("li")(Html(
+          "<code>findings/</code>: of every representative the minimized problem (or, until there "
+          "is one, the problem as found), the problem as found (<code>.original.json</code>), "
+          "its certificate (<code>.certificate.json</code>), and the certificates that both have a solution "
+          "(<code>.existence.certificate.json</code>, <code>.original.existence.certificate.json</code>)")) +
       Html("\n");
   return Section("files", "Files beside this page", Tag("ul")(list));
 }
@@ -241,8 +252,8 @@ Html Sections(const ReportContent& content) {
   Html sections = FoundSection(content) + CampaignSection(content);
   if (content.units == 0) return sections + FilesSection();
   return sections + OutcomesSection(content.total) + DoublesSection(content.total) +
-         PivotsSection(content.total) + StepsSection(content.total) + FindingsSection(content.discoveries) +
-         FilesSection();
+         PivotsSection(content.total) + StepsSection(content.total) + ExistenceSection(content.total) +
+         FindingsSection(content.discoveries) + FilesSection();
 }
 
 }  // namespace

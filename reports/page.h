@@ -37,6 +37,7 @@ Html OutcomesSection(const Record& total);
 Html DoublesSection(const Record& total);
 Html PivotsSection(const Record& total);
 Html StepsSection(const Record& total);
+Html ExistenceSection(const Record& total);
 Html FindingsSection(const std::vector<Discovery>& discoveries);
 
 // What a finding is in full: its problem in numbers, what happens, commands and files.

@@ -43,19 +43,31 @@ std::string Pretty(const std::string& problem, const std::string& source) {
   return Print(ParseProblem(problem, source));
 }
 
+// `named` is one of the finding's files, or empty if it has none; `name` is what it would be.
+void WriteCertificate(const fs::path& directory, const std::string& named, const std::string& name,
+                      const std::string& text) {
+  if (named.empty()) {
+    RemoveFile(directory / name);
+  } else {
+    WriteFile(directory / named, text + "\n");
+  }
+}
+
 void WriteFinding(const Discovery& discovery, const fs::path& directory) {
   const Finding& finding = *discovery.representative;
+  const FindingFiles& files = discovery.files;
   const std::string original = Pretty(finding.problem, finding.signature);
   const bool minimized = !finding.minimized.empty();
-  WriteFile(directory / discovery.files.original, original);
-  WriteFile(directory / discovery.files.problem,
-            minimized ? Pretty(finding.minimized, finding.signature) : original);
-  if (discovery.files.certificate.empty()) {
-    RemoveFile(directory / ("findings/" + FileName(finding.signature) + ".certificate.json"));
-  } else {
-    const std::string& own = finding.minimized_certificate;
-    WriteFile(directory / discovery.files.certificate, (own.empty() ? finding.certificate : own) + "\n");
-  }
+  WriteFile(directory / files.original, original);
+  WriteFile(directory / files.problem, minimized ? Pretty(finding.minimized, finding.signature) : original);
+  const std::string stem = "findings/" + FileName(finding.signature);
+  const std::string& own = finding.minimized_certificate;
+  WriteCertificate(directory, files.certificate, stem + ".certificate.json",
+                   own.empty() ? finding.certificate : own);
+  WriteCertificate(directory, files.existence, stem + ".existence.certificate.json",
+                   minimized ? finding.minimized_existence : finding.existence);
+  WriteCertificate(directory, files.original_existence, stem + ".original.existence.certificate.json",
+                   finding.existence);
 }
 
 }  // namespace
@@ -75,6 +87,8 @@ void WriteReport(const Store& store, const fs::path& directory) {
   WriteFile(directory / "statistics.csv", StatisticsCsv(content.total));
   WriteFile(directory / "verdicts.csv", VerdictsCsv(content.total));
   WriteFile(directory / "steps.csv", StepsCsv(content.total));
+  WriteFile(directory / "agreement.csv", AgreementCsv(content.total));
+  WriteFile(directory / "solutions.csv", SolutionsCsv(content.total));
   WriteFile(directory / "findings.csv", FindingsCsv(content.discoveries));
   WriteFile(directory / "index.html", Page(content));
 }

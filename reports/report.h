@@ -3,10 +3,13 @@
 //
 //   index.html                    one page that needs nothing else
 //   statistics.csv verdicts.csv   what was counted (csv.h)
-//   steps.csv findings.csv
+//   steps.csv findings.csv agreement.csv solutions.csv
 //   findings/NAME.json            the minimized problem; as found while there is none
 //   findings/NAME.original.json   the problem as found
 //   findings/NAME.certificate.json  of the minimized problem, otherwise of the problem as found
+//   findings/NAME.existence.certificate.json            that NAME.json has a solution
+//   findings/NAME.original.existence.certificate.json   likewise, of NAME.original.json if that is another
+//   problem
 
 #ifndef STICTION_REPORTS_REPORT_H_
 #define STICTION_REPORTS_REPORT_H_

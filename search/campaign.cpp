@@ -77,13 +77,15 @@ MuChoice ParseMu(const std::string& text) {
   return {static_cast<int>(mu->get_num().get_si()), static_cast<int>(mu->get_den().get_si())};
 }
 
-Campaign ReadCampaign(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  const Json json = ParseJson(ReadText(file), source);
+namespace {
+
+Campaign ParseCampaign(const std::string& text, const std::string& source) {
+  const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
-                  "audit_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits"});
+                  "audit_every", "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives",
+                  "max_pivots", "max_bits"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -99,6 +101,8 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
   integer("seed", 0, std::numeric_limits<std::int64_t>::max(), campaign.seed);
   integer("unit_problems", 1, kMost, campaign.unit_problems);
   integer("audit_every", 1, kMost, campaign.audit_every);
+  integer("lemke_every", 1, kMost, campaign.lemke_every);
+  integer("enumerate_every", 1, kMost, campaign.enumerate_every);
   integer("representatives_per_unit", 1, kMost, campaign.representatives_per_unit);
   integer("max_drives", 1, kMost, campaign.limits.drives);
   integer("max_pivots", 1, kMost, campaign.limits.pivots);
@@ -123,6 +127,21 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
   return campaign;
 }
 
+}  // namespace
+
+Campaign ReadCampaign(const std::filesystem::path& file) {
+  return ParseCampaign(ReadText(file), file.string());
+}
+
+Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source) {
+  Campaign campaign = ParseCampaign(identity.definition, source + ": definition");
+  campaign.seed = identity.seed;
+  campaign.policies.clear();
+  const Json policies = ParseJson(identity.policies, source + ": policies");
+  for (const Json& policy : policies) campaign.policies.push_back(ParsePolicy(policy.get<std::string>()));
+  return campaign;
+}
+
 Json DefinitionToJson(const Campaign& campaign) {
   Json generators = Json::array(), palette = Json::array();
   for (const GeneratorId id : campaign.generators) generators.push_back(Row(id).name);
@@ -136,6 +155,8 @@ Json DefinitionToJson(const Campaign& campaign) {
           {"mu", palette},
           {"unit_problems", campaign.unit_problems},
           {"audit_every", campaign.audit_every},
+          {"lemke_every", campaign.lemke_every},
+          {"enumerate_every", campaign.enumerate_every},
           {"representatives_per_unit", campaign.representatives_per_unit},
           {"max_drives", campaign.limits.drives},
           {"max_pivots", campaign.limits.pivots},
@@ -159,6 +180,10 @@ std::vector<Task> Schedule(const Campaign& campaign) {
     }
   }
   return schedule;
+}
+
+Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit) {
+  return schedule[static_cast<std::size_t>(unit) % schedule.size()];
 }
 
 std::int64_t UnitProblems(const Campaign& campaign, const Task& task) {

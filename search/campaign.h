@@ -15,8 +15,8 @@
 namespace stiction {
 
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
-// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "representatives_per_unit",
-// "max_drives", "max_pivots", "max_bits".
+// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "lemke_every",
+// "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all
@@ -25,6 +25,12 @@ struct Campaign {
   std::vector<Policy> policies = {Policy{}};
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
   std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
+  // Of the problems that are run exactly, all are run by complete driving too; one in so many, drawn by their
+  // seeds, also by Lemke's method (audited problems: all); and of those of at most kMostContactsEnumerated
+  // contacts one in so many is enumerated: all of up to 4^n contact modes. Representatives are run by all when
+  // finished.
+  std::int64_t lemke_every = 100;
+  std::int64_t enumerate_every = 1000;
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
 
@@ -33,6 +39,8 @@ struct Campaign {
 };
 
 Campaign ReadCampaign(const std::filesystem::path& file);
+// The campaign of a store. InputError if it holds none.
+Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
 // Everything but the seed and the policies, canonical.
 Json DefinitionToJson(const Campaign& campaign);
 CampaignIdentity IdentityOf(const Campaign& campaign, const std::string& build);
@@ -44,6 +52,8 @@ struct Task {
 };
 // Units go round the generators and sizes; two, three and four contacts come more often (8, 4 and 2 times).
 std::vector<Task> Schedule(const Campaign& campaign);
+
+Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit);
 
 // Problems of a unit: half as many for each contact beyond two, so that no unit takes long.
 std::int64_t UnitProblems(const Campaign& campaign, const Task& task);

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 
+#include "certify/agreement.h"
 #include "certify/certificate.h"
 #include "certify/existence.h"
+#include "certify/modes.h"
+#include "certify/safe.h"
 #include "corpus/json_text.h"
+#include "corpus/kinds.h"
 #include "search/minimize.h"
 #include "search/signature.h"
 #include "solver/check.h"
@@ -27,10 +31,13 @@ constexpr int kMostContactsOfGrid = 4;
 
 bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
 
+// `safe` is null where it is not decided.
 Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
+  const auto safe = IsSafeIfSmall(problem);
   return {{"contacts", problem.contacts.size()}, {"outcome", Name(run.verdict.outcome)},
           {"start", run.verdict.start},          {"period", run.verdict.period},
-          {"steps", run.trace.pivots.size()},    {"grid", grid}};
+          {"steps", run.trace.pivots.size()},    {"grid", grid},
+          {"safe", safe ? Json(*safe) : Json()}};
 }
 
 // A minimized problem as a file: what it shows, where it comes from, what every policy makes of it.
@@ -45,15 +52,27 @@ ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const 
   return file;
 }
 
-// The solution that the published algorithm misses.
-Json ExistenceOf(const ExactProblem& problem, const Limits& limits) {
+// The solution that the published algorithm misses, or a proof that there is none.
+struct Decided {
+  std::string certificate;  // JSON text; empty if undecided
+  Json facts;
+};
+
+Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source, const Limits& limits,
+                          const std::function<bool()>& cancelled) {
+  EnumerationOptions options;
+  options.progress = [&cancelled](const EnumerationProgress&) { return !cancelled(); };
+  const Existence existence = DecideExistence(problem, limits, options);
+  const bool decided = !existence.certificate.is_null();
+  Decided result;
+  if (decided) result.certificate = Checked(existence.certificate, source);
   const CompleteRun complete = RunComplete(problem, limits);
-  Json json = {{"outcome", Name(complete.verdict.outcome)},
-               {"pieces", complete.verdict.statistics.pieces},
-               {"folds", complete.verdict.statistics.folds},
-               {"descents", complete.verdict.statistics.descents}};
-  if (complete.verdict.outcome == Outcome::kSolved) json["f"] = VectorToJson(complete.f);
-  return json;
+  result.facts = {{"claim", decided ? existence.certificate.at("claim") : Json()},
+                  {"method", existence.method},
+                  {"pieces", complete.verdict.statistics.pieces},
+                  {"folds", complete.verdict.statistics.folds},
+                  {"descents", complete.verdict.statistics.descents}};
+  return result;
 }
 
 // Whether the whole grid ends in this outcome.
@@ -91,39 +110,90 @@ Json GridCounts(const ExactProblem& problem, const Limits& limits, const std::fu
   return json;
 }
 
+namespace {
+
+// What a finding is finished from.
+struct Unfinished {
+  ExactProblem problem;
+  ExactRun run;
+  Json grid;
+};
+
+// All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
+// signature.
+void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits) {
+  const CompleteRun complete = RunComplete(found.problem, limits);
+  const LemkeRun lemke = RunLemke(found.problem, limits);
+  Answers answers{{{"complete", complete.verdict.outcome, complete.f},
+                   {"baraff", found.run.verdict.outcome, found.run.state.f},
+                   {"lemke", lemke.verdict.outcome, lemke.f}},
+                  {}};
+  if (finding.contacts <= kMostContactsEnumerated) answers.modes = EnumerateModes(found.problem);
+  const auto disagreement = FindDisagreement(found.problem, answers);
+  if (!disagreement || finding.kind == kDisagreementOfMethods) return;
+  finding.kind = kDisagreementOfMethods;
+  facts["disagreement"] = disagreement->reason;
+  facts["answers"] = AnswersToJson(answers);
+}
+
+// Fills in what concerns the problem as found.
+void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits,
+                  const std::function<bool()>& cancelled) {
+  const Outcome outcome = found.run.verdict.outcome;
+  if (IsLoop(outcome)) {
+    finding.certificate =
+        Checked(LoopCertificate(found.problem, outcome, {found.run.policy}, limits), finding.signature);
+  } else if (outcome == Outcome::kSolved && !FindLawViolation(found.problem, found.run.state.f)) {
+    finding.certificate = Checked(SolutionCertificate(found.problem, found.run.state.f), finding.signature);
+  }
+  Decided existence = DecideExistenceOf(found.problem, finding.signature, limits, cancelled);
+  finding.existence = std::move(existence.certificate);
+  facts["found"] = FactsOf(found.problem, found.run, found.grid);
+  facts["found"]["existence"] = std::move(existence.facts);
+}
+
+// Fills in the minimized form, unless cancelled.
+void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits,
+                   const std::function<bool()>& cancelled) {
+  const Outcome outcome = found.run.verdict.outcome;
+  const Policy& policy = found.run.policy;
+  const Minimized minimized = Minimize(
+      found.problem, WhatToKeep(found.problem, found.run, IsWhole(found.grid, outcome), limits, cancelled));
+  if (minimized.cancelled || cancelled()) return;
+  const ExactProblem& small = minimized.problem;
+  const Json grid = GridCounts(small, limits, cancelled);
+  if (cancelled()) return;
+  const bool whole = IsWhole(grid, outcome);
+  finding.minimized = ToJson(Describe(small, finding, policy, whole)).dump();
+  if (IsLoop(outcome)) {
+    const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
+    finding.minimized_certificate =
+        Checked(LoopCertificate(small, outcome, certified, limits), finding.signature);
+  }
+  Decided existence = DecideExistenceOf(small, finding.signature, limits, cancelled);
+  finding.minimized_existence = std::move(existence.certificate);
+  facts["minimized"] = FactsOf(small, RunExact(small, {policy, {}, limits}), grid);
+  facts["minimized"]["existence"] = std::move(existence.facts);
+  if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;
+}
+
+}  // namespace
+
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
                                      const std::function<bool()>& cancelled) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
-  const Policy policy = ParsePolicy(finding.policy);
-  const ExactRun run = RunExact(file.problem, {policy, {}, limits});
-  const Outcome outcome = run.verdict.outcome;
+  Unfinished found{file.problem, RunExact(file.problem, {ParsePolicy(finding.policy), {}, limits}),
+                   Json::object()};
   Finding finished = finding;
   finished.done = true;
-  Json grid = Json::object();
-  if (finding.contacts <= kMostContactsOfGrid) grid = GridCounts(file.problem, limits, cancelled);
-  Json facts = {{"found", FactsOf(file.problem, run, grid)}, {"existence", ExistenceOf(file.problem, limits)}};
-  if (outcome == Outcome::kSolved) {
-    finished.certificate = Checked(SolutionCertificate(file.problem, run.state.f), finding.signature);
-  } else {
-    if (IsLoop(outcome)) {
-      finished.certificate =
-          Checked(LoopCertificate(file.problem, outcome, {policy}, limits), finding.signature);
-    }
-    const Minimized minimized =
-        Minimize(file.problem, WhatToKeep(file.problem, run, IsWhole(grid, outcome), limits, cancelled));
-    if (minimized.cancelled || cancelled()) return std::nullopt;
-    const ExactProblem& small = minimized.problem;
-    const Json small_grid = GridCounts(small, limits, cancelled);
-    if (cancelled()) return std::nullopt;
-    const bool whole = IsWhole(small_grid, outcome);
-    finished.minimized = ToJson(Describe(small, finding, policy, whole)).dump();
-    facts["minimized"] = FactsOf(small, RunExact(small, {policy, {}, limits}), small_grid);
-    if (IsLoop(outcome)) {
-      const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
-      finished.minimized_certificate =
-          Checked(LoopCertificate(small, outcome, certified, limits), finding.signature);
-    }
-  }
+  if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);
+  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
+  CertifyFound(finished, facts, found, limits, cancelled);
+  if (!cancelled()) CompareMethods(finished, facts, found, limits);
+  // What methods disagree about is kept as it is.
+  const bool minimize =
+      found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods;
+  if (minimize && !cancelled()) MinimizeFound(finished, facts, found, limits, cancelled);
   if (cancelled()) return std::nullopt;
   finished.facts = facts.dump();
   return finished;

@@ -29,6 +29,10 @@ int Main(int argc, char** argv) {
   AddMinimize(program, action);
   AddStatus(program, action);
   AddMerge(program, action);
+  AddProblem(program, action);
+  AddImport(program, action);
+  AddExport(program, action);
+  AddSurvey(program, action);
   AddPolicies(program, action);
   AddBench(program, action);
   try {

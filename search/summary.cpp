@@ -5,16 +5,19 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "corpus/json_text.h"
+#include "corpus/kinds.h"
 
 namespace stiction {
 namespace {
 
 constexpr int kShown = 10;
 
-// The kind of a finding from its signature: all before the first "-<number>c".
-std::string KindOf(const std::string& signature) {
+// A line of the summary: a signature up to the first "-<number>c". That is a kind, sometimes with its outcomes:
+// "disagreement-ray-solved".
+std::string LabelOf(const std::string& signature) {
   for (std::size_t dash = signature.find('-'); dash != signature.npos; dash = signature.find('-', dash + 1)) {
     if (dash + 1 < signature.size() && std::isdigit(static_cast<unsigned char>(signature[dash + 1])) != 0) {
       return signature.substr(0, dash);
@@ -23,12 +26,21 @@ std::string KindOf(const std::string& signature) {
   return signature;
 }
 
+// The gravest kinds first.
+struct ByGravity {
+  bool operator()(const std::string& left, const std::string& right) const {
+    return std::tuple(Gravity(KindOf(left + "-")), left) < std::tuple(Gravity(KindOf(right + "-")), right);
+  }
+};
+
 struct Digest {
   std::int64_t units = 0, problems = 0, runs = 0, suspicions = 0, confirmed = 0, audited = 0, misjudged = 0,
                wrong = 0;
-  std::map<std::string, std::int64_t> findings;  // by kind, all counted
-  std::map<std::string, std::int64_t> groups;    // by kind
+  std::map<std::string, std::int64_t, ByGravity> findings;  // by label, all counted
+  std::map<std::string, std::int64_t, ByGravity> groups;    // by label
   ExistenceTally existence;
+  AgreementTally agreement;
+  std::vector<Finding> grave;
   std::int64_t finished = 0, pending = 0, whole_grid = 0;
   std::vector<Finding> simplest;
 };
@@ -58,21 +70,29 @@ Digest DigestOf(const Store& store) {
     digest.existence.with_folds += tally.with_folds;
     digest.existence.with_descents += tally.with_descents;
   }
+  for (const auto& [contacts, tally] : total.agreement) {
+    digest.agreement.compared += tally.compared;
+    digest.agreement.enumerated += tally.enumerated;
+    digest.agreement.disagreements += tally.disagreements;
+    digest.agreement.safety_decided += tally.safety_decided;
+    digest.agreement.safe += tally.safe;
+    digest.agreement.safe_gave_up += tally.safe_gave_up;
+  }
   for (const auto& [signature, count] : total.signatures) {
-    digest.findings[KindOf(signature)] += count;
-    ++digest.groups[KindOf(signature)];
+    digest.findings[LabelOf(signature)] += count;
+    ++digest.groups[LabelOf(signature)];
   }
   for (Finding& finding : store.Findings()) {
     ++(finding.done ? digest.finished : digest.pending);
+    if (IsGrave(finding.kind)) digest.grave.push_back(finding);
     if (!finding.done || finding.minimized.empty()) continue;
     const Json facts = ParseJson(finding.facts, finding.signature);
-    const bool loop = finding.kind == Name(Outcome::kCycle) || finding.kind == Name(Outcome::kStall);
-    digest.whole_grid += loop && facts.at("minimized").at("grid").size() == 1;
+    digest.whole_grid += IsLoopKind(finding.kind) && facts.at("minimized").at("grid").size() == 1;
     digest.simplest.push_back(std::move(finding));
   }
-  std::stable_sort(
-      digest.simplest.begin(), digest.simplest.end(),
-      [](const Finding& left, const Finding& right) { return left.minimized.size() < right.minimized.size(); });
+  const auto rank = [](const Finding& f) { return std::tuple(Gravity(f.kind), f.minimized.size()); };
+  std::stable_sort(digest.simplest.begin(), digest.simplest.end(),
+                   [&rank](const Finding& left, const Finding& right) { return rank(left) < rank(right); });
   return digest;
 }
 
@@ -101,6 +121,9 @@ Json SummaryToJson(const Store& store) {
     simplest.push_back(
         {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
   }
+  Json grave = Json::array();
+  for (const Finding& finding : digest.grave)
+    grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
   return {{"seed", store.identity().seed},
           {"build", store.identity().build},
           {"units", digest.units},
@@ -118,6 +141,13 @@ Json SummaryToJson(const Store& store) {
           {"wrong", digest.wrong},
           {"existence_checked", digest.existence.problems},
           {"existence_solved", digest.existence.solved},
+          {"compared", digest.agreement.compared},
+          {"enumerated", digest.agreement.enumerated},
+          {"disagreements_of_methods", digest.agreement.disagreements},
+          {"safety_decided", digest.agreement.safety_decided},
+          {"safe", digest.agreement.safe},
+          {"safe_gave_up", digest.agreement.safe_gave_up},
+          {"grave", grave},
           {"minimized", simplest}};
 }
 
@@ -125,6 +155,8 @@ std::string SummaryText(const Store& store, const std::string& file) {
   const Digest digest = DigestOf(store);
   std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Thousands(digest.problems),
                                  Thousands(digest.units), store.identity().seed);
+  for (const Finding& finding : digest.grave)
+    text += fmt::format("  GRAVE: {}: {}\n", finding.kind, finding.signature);
   for (const auto& [kind, count] : digest.findings) {
     text +=
         fmt::format("  {:28} {:>12} in {} groups\n", kind, Thousands(count), Thousands(digest.groups.at(kind)));
@@ -138,6 +170,15 @@ std::string SummaryText(const Store& store, const std::string& file) {
       "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
       Thousands(digest.existence.solved), Thousands(digest.existence.problems),
       Thousands(digest.existence.with_folds));
+  text += fmt::format(
+      "  agreement: {} disagreements of complete driving, Lemke's method and the published algorithm on {} "
+      "problems, "
+      "all modes tried of {}\n",
+      Thousands(digest.agreement.disagreements), Thousands(digest.agreement.compared),
+      Thousands(digest.agreement.enumerated));
+  text += fmt::format("  safe: {} of {} audited problems; {} gave up something under apex=suspended\n",
+                      Thousands(digest.agreement.safe), Thousands(digest.agreement.safety_decided),
+                      Thousands(digest.agreement.safe_gave_up));
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Thousands(digest.finished), Thousands(digest.pending), Thousands(digest.whole_grid));
   if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";

@@ -6,9 +6,11 @@
 #include <map>
 #include <tuple>
 
+#include "certify/agreement.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
-#include "certify/verify_solution.h"
+#include "certify/safe.h"
+#include "corpus/kinds.h"
 #include "search/generators.ipp"
 #include "search/signature.h"
 #include "solver/published.ipp"
@@ -18,6 +20,19 @@ namespace stiction {
 namespace {
 
 constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
+
+ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,
+                   const ExactProblem& problem) {
+  const std::string generator(Row(TaskOf(Schedule(campaign), unit).generator).name);
+  ProblemFile file;
+  file.name = fmt::format("{}-{}-{}", generator, unit, index);
+  file.problem = problem;
+  file.origin = Json{{"generator", generator},
+                     {"campaign_seed", std::to_string(campaign.seed)},
+                     {"unit", unit},
+                     {"index", index}};
+  return file;
+}
 
 // What one unit collects while it runs.
 class Collector {
@@ -45,66 +60,128 @@ class Collector {
       ++tally.audited;
       tally.misjudged += exact != inexact;
     }
-    CertifyExistence(index, policy, inexact, run, problem);
+    const Place place = {index, policy, inexact};
+    Compare(place, run, problem, /*with_lemke=*/!suspected);
+    if (!suspected) CheckSafety(place, run, problem);
     const bool same_problem = Row(task_.generator).exact_in_double;
     if (exact != Outcome::kSolved) {
-      Find(index, policy, inexact, run, std::string(Name(exact)), Signature(problem, run), problem);
+      const bool safe_cycle = exact == Outcome::kCycle && IsSafeIfSmall(problem) == true;
+      Find(place, run, safe_cycle ? kSafeCycle : Name(exact),
+           (safe_cycle ? "safe-" : "") + Signature(problem, run), problem);
     } else if (wrong && same_problem) {
-      Find(index, policy, inexact, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts),
-           problem);
+      Find(place, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts), problem);
     } else if (inexact != exact && same_problem) {
-      Find(index, policy, inexact, run, "disagreement",
+      Find(place, run, "disagreement",
            fmt::format("disagreement-{}-{}-{}c", Name(inexact), Name(exact), task_.contacts), problem);
     }
-  }
-
-  // All generators promise A positive semidefinite and b in range(A), so complete driving must end in a
-  // solution that stands exact verification. Anything else would outrank all other findings.
-  void CertifyExistence(std::int64_t index, std::size_t policy, Outcome inexact, const ExactRun& published,
-                        const ExactProblem& problem) {
-    const CompleteRun complete = RunComplete(problem, campaign_.limits);
-    const bool solved = complete.verdict.outcome == Outcome::kSolved && !FindViolation(problem, complete.f);
-    const CompleteStatistics& s = complete.verdict.statistics;
-    ExistenceTally& tally = result_.record.existence[task_.contacts];
-    ++tally.problems;
-    tally.solved += solved;
-    tally.pieces += s.pieces;
-    tally.with_folds += s.folds > 0;
-    tally.with_descents += s.descents > 0;
-    tally.with_ties += s.ties > 0;
-    if (solved) return;
-    Find(index, policy, inexact, published, "existence",
-         fmt::format("existence-{}-{}c", Name(complete.verdict.outcome), task_.contacts), problem);
   }
 
   UnitResult Take() { return std::move(result_); }
 
  private:
-  void Find(std::int64_t index, std::size_t policy, Outcome inexact, const ExactRun& run, std::string kind,
-            std::string signature, const ExactProblem& problem) {
+  // Where an exact run comes from.
+  struct Place {
+    std::int64_t index;
+    std::size_t policy;
+    Outcome inexact;
+  };
+
+  // Holds the methods against each other. All generators promise A positive semidefinite and b in range(A), as
+  // FindDisagreement requires. Lemke's method where asked for, otherwise by lot.
+  void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
+    const CompleteRun complete = RunComplete(problem, campaign_.limits);
+    Answers answers{{{"complete", complete.verdict.outcome, complete.f},
+                     {"baraff", published.verdict.outcome, published.state.f}},
+                    {}};
+    AgreementTally& tally = result_.record.agreement[task_.contacts];
+    const std::uint64_t draw = Mix(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_),
+                                               static_cast<std::uint64_t>(place.index)));
+    if (with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0) {
+      const LemkeRun lemke = RunLemke(problem, campaign_.limits);
+      answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
+      ++tally.compared;
+    }
+    if (task_.contacts <= kMostContactsEnumerated &&
+        draw % static_cast<std::uint64_t>(campaign_.enumerate_every) == 0) {
+      answers.modes = EnumerateModes(problem);
+      CountModes(tally, problem, *answers.modes);
+    }
+    const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
+    CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
+    if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
+  }
+
+  void FindDisagreementOfMethods(const Place& place, const ExactRun& published,
+                                 const Disagreement& disagreement, const ExactProblem& problem,
+                                 const Answers& answers) {
+    ++result_.record.agreement[task_.contacts].disagreements;
+    Find(place, published, kDisagreementOfMethods,
+         fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem,
+         Json{{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}});
+  }
+
+  void CountExistence(const CompleteVerdict& verdict, bool wrong) {
+    const CompleteStatistics& s = verdict.statistics;
+    ExistenceTally& tally = result_.record.existence[task_.contacts];
+    ++tally.problems;
+    tally.solved += verdict.outcome == Outcome::kSolved && !wrong;
+    tally.pieces += s.pieces;
+    tally.with_folds += s.folds > 0;
+    tally.with_descents += s.descents > 0;
+    tally.with_ties += s.ties > 0;
+  }
+
+  static void CountModes(AgreementTally& tally, const ExactProblem& problem, const Enumeration& modes) {
+    ++tally.enumerated;
+    if (modes.end != EnumerationEnd::kComplete) return;
+    const SolutionCount count = CountSolutions(problem, modes);
+    tally.continua += count.continuum;
+    tally.regular += count.regular;
+    tally.signs_not_one += count.regular && count.signs != 1;
+    ++tally.words[count.words];
+    if (count.regular) ++tally.solutions[count.words];
+  }
+
+  // In a safe problem nothing is given up under apex=suspended, unless there are ties.
+  void CheckSafety(const Place& place, const ExactRun& published, const ExactProblem& problem) {
+    if (task_.contacts > kMostContactsEnumerated) return;
+    AgreementTally& tally = result_.record.agreement[task_.contacts];
+    ++tally.safety_decided;
+    if (IsSafeIfSmall(problem) != true) return;
+    ++tally.safe;
+    Policy policy = published.policy;
+    policy.apex = Apex::kSuspended;
+    const ExactRun run = RunExact(problem, {policy, {}, campaign_.limits});
+    if (run.verdict.statistics.give_ups == 0) return;
+    ++tally.safe_gave_up;
+    if (HasTies(problem, run)) return;
+    ++tally.safe_gave_up_no_ties;
+    FindDisagreementOfMethods(
+        place, published,
+        {"safe-give-up", fmt::format("the problem is safe and the run without ties, yet {} gives up {} times",
+                                     PolicyName(policy), run.verdict.statistics.give_ups)},
+        problem, {{{"baraff", run.verdict.outcome, run.state.f}}, {}});
+  }
+
+  void Find(const Place& place, const ExactRun& run, std::string_view kind, std::string signature,
+            const ExactProblem& problem, const Json& facts = nullptr) {
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
-    const bool seen = ++result_.record.signatures[signature] > 1;
-    if (seen || static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit)
-      return;
-    ProblemFile file;
-    const std::string generator(Row(task_.generator).name);
-    file.name = fmt::format("{}-{}-{}", generator, unit_, index);
-    file.problem = problem;
-    file.origin = Json{{"generator", generator},
-                       {"campaign_seed", std::to_string(campaign_.seed)},
-                       {"unit", unit_},
-                       {"index", index}};
+    if (++result_.record.signatures[signature] > 1) return;
+    const bool full =
+        static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
+    if (full && !IsGrave(kind)) return;
     Finding finding;
     finding.signature = std::move(signature);
-    finding.kind = std::move(kind);
+    finding.kind = kind;
     finding.unit = unit_;
-    finding.index = index;
-    finding.generator = generator;
+    finding.index = place.index;
+    finding.generator = Row(task_.generator).name;
     finding.contacts = task_.contacts;
-    finding.policy = PolicyName(campaign_.policies[policy]);
-    finding.inexact_outcome = Name(inexact);
+    finding.policy = PolicyName(campaign_.policies[place.policy]);
+    finding.inexact_outcome = Name(place.inexact);
     finding.exact_outcome = Name(run.verdict.outcome);
-    finding.problem = ToJson(file).dump();
+    finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
+    if (!facts.is_null()) finding.facts = facts.dump();
     result_.candidates.push_back(std::move(finding));
   }
 
@@ -195,10 +272,6 @@ std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, int contacts) 
   }
 }
 
-Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit) {
-  return schedule[static_cast<std::size_t>(unit) % schedule.size()];
-}
-
 }  // namespace
 
 struct UnitRunner::Implementation {
@@ -221,6 +294,10 @@ UnitResult UnitRunner::Run(std::int64_t unit) {
   Collector collector(self.campaign, task, unit);
   kernel->Run(unit, task, collector);
   return collector.Take();
+}
+
+ProblemFile RegenerateFile(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
+  return FileOf(campaign, unit, index, RegenerateExactly(campaign, unit, index));
 }
 
 ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index) {

@@ -3,7 +3,8 @@
 //
 // Each problem is solved over doubles, under every policy of the campaign. Whatever does not end in a
 // verified `solved` there is only a suspicion: the same choices then give the exact problem, which is run
-// exactly, and both verdicts are counted. The exact verdict alone makes a finding.
+// exactly, and both verdicts are counted. The exact verdict alone makes a finding. What is run exactly is also
+// run by other methods, whose answers must agree (certify/agreement.h).
 // Nothing but (campaign, unit number) decides what comes out. The path of a problem that raises no suspicion
 // allocates nothing.
 
@@ -20,7 +21,8 @@ namespace stiction {
 struct UnitResult {
   std::int64_t problems = 0;
   Record record;
-  std::vector<Finding> candidates;  // first of each signature, at most representatives_per_unit of them
+  std::vector<Finding>
+      candidates;  // first of each signature, at most representatives_per_unit beside the grave ones
 };
 
 // Keeps its workspaces between units. One per thread.
@@ -38,7 +40,8 @@ class UnitRunner {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The exact problem with this number, and its choices.
+// The exact problem with this number, and the same as a file.
+ProblemFile RegenerateFile(const Campaign& campaign, std::int64_t unit, std::int64_t index);
 ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index);
 
 }  // namespace stiction

@@ -16,13 +16,14 @@ class InternalError : public std::logic_error {
 
 }  // namespace stiction
 
+// What cannot be reached.
+#define STICTION_FAIL(message) \
+  throw ::stiction::InternalError(std::string(__FILE__) + ":" + std::to_string(__LINE__) + ": " + (message))
+
 // Always on.
-#define STICTION_CHECK(condition, message)                                                            \
-  do {                                                                                                \
-    if (!(condition)) {                                                                               \
-      throw ::stiction::InternalError(std::string(__FILE__) + ":" + std::to_string(__LINE__) + ": " + \
-                                      (message));                                                     \
-    }                                                                                                 \
+#define STICTION_CHECK(condition, message)    \
+  do {                                        \
+    if (!(condition)) STICTION_FAIL(message); \
   } while (false)
 
 // For costly invariants: on in Debug builds and with STICTION_ASSERTS.

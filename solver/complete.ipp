@@ -39,7 +39,7 @@ void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, Path<Scalar>* 
   if (path_ != nullptr) path_->clear();
   layout_.Assign(problem.contacts);
   scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Resize(rows);
+  direction_.Start(problem);
   if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
   for (int row = 0; row < rows; ++row) state_.f[row] = Scalar(0);
   state_.a = problem.b;
@@ -90,7 +90,7 @@ void CompleteDriving<Scalar, Rows>::Solved() {
 // What the theory excludes is an internal error over exact scalars, and rounding over inexact ones.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Impossible(const char* what) {
-  if constexpr (kIsExact<Scalar>) STICTION_CHECK(false, what);
+  if constexpr (kIsExact<Scalar>) STICTION_FAIL(what);
   End(Outcome::kUndecided, what);
 }
 
@@ -480,29 +480,6 @@ Scalar CompleteDriving<Scalar, Rows>::Coefficient(const Facet& facet, int column
   return sign * rate;
 }
 
-// Solves the square system M = [G | y] in place; returns false where it is singular. Over inexact scalars
-// the largest entry is the pivot, over exact ones the first that is not zero.
-template <class Dense>
-bool GaussJordan(Dense& M) {
-  using Scalar = typename Dense::Scalar;
-  const int size = static_cast<int>(M.rows());
-  for (int column = 0; column < size; ++column) {
-    int pivot = column;
-    while (pivot < size && Sign(M(pivot, column)) == 0) ++pivot;
-    if (pivot == size) return false;
-    for (int i = pivot + 1; !kIsExact<Scalar> && i < size; ++i) {
-      if (Abs(M(i, column)) > Abs(M(pivot, column))) pivot = i;
-    }
-    if (pivot != column) M.row(pivot).swap(M.row(column));
-    for (int j = size; j > column; --j) M(column, j) /= M(column, column);
-    for (int i = 0; i < size; ++i) {
-      if (i == column || Sign(M(i, column)) == 0) continue;
-      for (int j = column + 1; j <= size; ++j) M(i, j) -= M(i, column) * M(column, j);
-    }
-  }
-  return true;
-}
-
 // The point solves G u = -(b of the equations): the equations are a = 0 for the unknowns' rows, and the facet
 // `at`; u are the forces of the unknowns and of the driven variable. So the gradient takes one solution of
 // the transposed system, G' y = (coefficients of `of`).
@@ -525,12 +502,16 @@ auto CompleteDriving<Scalar, Rows>::Gradient(const Facet& at, const Facet& of) c
   }
   Row gradient(problem_->rows());
   for (int row = 0; row < problem_->rows(); ++row) gradient[row] = Scalar(0);
-  if (!GaussJordan(M)) return gradient;  // has no sign
+  Elimination<Scalar> system;
+  system.Assign(M);
+  system.Run(size, size, size + 1);
+  if (system.rank() < size) return gradient;  // has no sign
+  system.BackSubstitute(size);
   const auto add = [&gradient](const Facet& facet, const Scalar& factor) {
     if (facet.kind == Facet::Kind::kAcceleration) gradient[facet.row] += Scalar(facet.sign) * factor;
   };
   add(of, Scalar(1));
-  for (int i = 0; i < size; ++i) add(equations[i], Scalar(-M(i, size)));
+  for (int i = 0; i < size; ++i) add(equations[i], Scalar(-system.Solution(i)));
   return gradient;
 }
 

@@ -16,13 +16,17 @@
 // Oriented   Complete driving goes on where the matrix is singular, and backwards where its determinant is
 //            negative: it asks for the null vector of the k x (k + 1) system, driven variable included,
 //            with the orientation of Cramer's rule (complete_driving.md, 4).
-// Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized.
+// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, a column
+//            with friction at its limit by the denominator of mu; df and da become fractions at the end.
+// Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart.
 
 #ifndef STICTION_SOLVER_DIRECTION_H_
 #define STICTION_SOLVER_DIRECTION_H_
 
 #include <optional>
+#include <vector>
 
+#include "solver/elimination.h"
 #include "solver/state.h"
 
 namespace stiction {
@@ -35,7 +39,8 @@ class DirectionSystem {
 
   enum class Status { kRegular, kSingular, kInconsistent };
 
-  void Resize(int rows);
+  // Takes the problem that is to be solved from now on. Its A must stay as it is.
+  void Start(const Problem& problem);
 
   // Requires: the driven variable is in neither C nor CF. `sign` is df_d, +1 or -1.
   Status Solve(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
@@ -51,25 +56,27 @@ class DirectionSystem {
   const Vector& da() const { return da_; }
 
  private:
-  static constexpr int kColumns = Rows == Eigen::Dynamic ? Eigen::Dynamic : Rows + 1;
-  using Augmented = Eigen::Matrix<Scalar, Rows, kColumns, Eigen::RowMajor>;
+  using Entry = typename Fractions<Scalar>::Integer;
 
   void Assemble(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
                 int sign);
+  Entry ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row, int column,
+                    int limit) const;
   Status Eliminate(const Scale<Scalar>& scale);
-  void BackSubstitute(int rank);
-  void SolveHomogeneous(int orientation);
-  void Spread(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
-              int sign);
+  int SolveHomogeneous();
+  void Spread(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int held,
+              int driven, int sign);
+  void SpreadIntegers(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
+                      int held, int driven, int sign);
 
   int unknowns_ = 0;
-  int rank_ = 0;                      // of the reduced matrix
-  bool odd_swaps_ = false;            // whether the elimination swapped rows an odd number of times
   RowArray<int, Rows> unknown_;       // row of each unknown
-  RowArray<int, Rows> pivot_column_;  // column of the pivot in each row of the eliminated system
-  Augmented M_;                       // reduced matrix, right side in column unknowns_
-  Vector x_;
+  Elimination<Scalar, Rows> system_;  // reduced matrix, right side in column unknowns_
   Vector df_, da_;
+
+  // Of fraction-free scalars: A_ij = integer_A_(i, j) / row_scale_[i]; numerators of df.
+  Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> integer_A_;
+  std::vector<Entry> row_scale_, numerator_;
 };
 
 }  // namespace stiction

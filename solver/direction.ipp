@@ -7,18 +7,29 @@
 #include <utility>
 
 #include "solver/direction.h"
+#include "solver/elimination.ipp"
 
 namespace stiction {
 
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::Resize(int rows) {
+void DirectionSystem<Scalar, Rows>::Start(const Problem& problem) {
+  const int rows = problem.rows();
   Reset<int, Rows>(unknown_, rows, 0);
-  Reset<int, Rows>(pivot_column_, rows, 0);
+  system_.Resize(rows, rows + 1);
   if constexpr (Rows == Eigen::Dynamic) {
-    M_.resize(rows, rows + 1);
-    x_.resize(rows);
     df_.resize(rows);
     da_.resize(rows);
+  }
+  if constexpr (kFractionFree<Scalar>) {
+    integer_A_.resize(rows, rows);
+    row_scale_.resize(rows);
+    numerator_.resize(rows);
+    for (int i = 0; i < rows; ++i) {
+      row_scale_[i] = CommonDenominator<Scalar>(problem.A.row(i));
+      for (int j = 0; j < rows; ++j) {
+        integer_A_(i, j) = Fractions<Scalar>::Numerator(problem.A(i, j), row_scale_[i]);
+      }
+    }
   }
 }
 
@@ -28,7 +39,7 @@ auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const RowLayou
                                           const Scale<Scalar>& scale) -> Status {
   Assemble(problem, layout, sets, driven, sign);
   const Status status = Eliminate(scale);
-  if (status != Status::kInconsistent) Spread(problem, layout, sets, driven, sign);
+  if (status != Status::kInconsistent) Spread(problem, layout, sets, driven, driven, sign);
   return status;
 }
 
@@ -39,18 +50,17 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
                                                                 int side, const Scale<Scalar>& scale) {
   Assemble(problem, layout, sets, driven, side);
   const Status status = Eliminate(scale);
-  if (status == Status::kSingular || rank_ + 1 < unknowns_) return std::nullopt;
-  int sign = odd_swaps_ ? -1 : 1;
-  for (int i = 0; i < rank_; ++i) sign *= Sign(M_(i, pivot_column_[i]));
+  if (status == Status::kSingular || system_.rank() + 1 < unknowns_) return std::nullopt;
   if (status == Status::kInconsistent) {
-    SolveHomogeneous(sign);
-    Spread(problem, layout, sets, driven, 0);
+    const int free = SolveHomogeneous();
+    Spread(problem, layout, sets, unknown_[free], driven, 0);
     return 0;
   }
+  const int sign = system_.Orientation();
   if (sign < 0) {
-    for (int i = 0; i < unknowns_; ++i) x_[i] = -x_[i];
+    for (int i = 0; i < unknowns_; ++i) system_.numerator(i) = -system_.numerator(i);
   }
-  Spread(problem, layout, sets, driven, sign * side);
+  Spread(problem, layout, sets, driven, driven, sign * side);
   return sign;
 }
 
@@ -73,19 +83,11 @@ void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const RowLa
   const auto fill_column = [&](int column, int row, int factor) {
     const int limit = FrictionLimitSign(layout, sets, row);
     for (int i = 0; i < unknowns_; ++i) {
-      Scalar entry = problem.A(unknown_[i], row);
-      if (limit != 0) {
-        const Scalar along = problem.contacts[layout.ContactOf(row)].mu * problem.A(unknown_[i], row + 1);
-        if (limit > 0) {
-          entry += along;
-        } else {
-          entry -= along;
-        }
-      }
+      Entry entry = ColumnEntry(problem, layout, unknown_[i], row, limit);
       if (factor > 0) {
-        M_(i, column) = std::move(entry);
+        system_(i, column) = std::move(entry);
       } else {
-        M_(i, column) = -entry;
+        system_(i, column) = -entry;
       }
     }
   };
@@ -93,80 +95,79 @@ void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const RowLa
   fill_column(unknowns_, driven, -sign);
 }
 
-// Row echelon form, columns in row order. Over inexact scalars the largest entry is the pivot, over exact
-// ones the first that is not zero.
+// Entry of A in `row` for the variable of `column`, whose friction is at `limit` (0: it is not). Integers are
+// those of A_ij row_scale_i, times the denominator of mu where there is a limit.
 template <class Scalar, int Rows>
-auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Status {
-  int rank = 0;
-  odd_swaps_ = false;
-  for (int column = 0; column < unknowns_; ++column) {
-    int best = -1;
-    for (int i = rank; i < unknowns_; ++i) {
-      if (Sign(M_(i, column), scale.rate) == 0) continue;
-      if (best < 0 || (!kIsExact<Scalar> && Abs(M_(i, column)) > Abs(M_(best, column)))) best = i;
-      if (kIsExact<Scalar>) break;
+auto DirectionSystem<Scalar, Rows>::ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row,
+                                                int column, int limit) const -> Entry {
+  if constexpr (kFractionFree<Scalar>) {
+    Entry entry = integer_A_(row, column);
+    if (limit == 0) return entry;
+    const Scalar& mu = problem.contacts[layout.ContactOf(column)].mu;
+    entry *= Fractions<Scalar>::Denominator(mu);
+    if (limit > 0) {
+      Fractions<Scalar>::AddProduct(entry, Fractions<Scalar>::Numerator(mu), integer_A_(row, column + 1));
+    } else {
+      Fractions<Scalar>::SubtractProduct(entry, Fractions<Scalar>::Numerator(mu), integer_A_(row, column + 1));
     }
-    if (best < 0) continue;
-    if (best != rank) {
-      M_.row(rank).swap(M_.row(best));
-      odd_swaps_ = !odd_swaps_;
+    return entry;
+  } else {
+    Scalar entry = problem.A(row, column);
+    if (limit == 0) return entry;
+    const Scalar along = problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
+    if (limit > 0) {
+      entry += along;
+    } else {
+      entry -= along;
     }
-    pivot_column_[rank] = column;
-    for (int i = rank + 1; i < unknowns_; ++i) {
-      if (Sign(M_(i, column)) == 0) continue;
-      const Scalar factor = M_(i, column) / M_(rank, column);
-      for (int j = column + 1; j <= unknowns_; ++j) M_(i, j) -= factor * M_(rank, j);
-    }
-    ++rank;
+    return entry;
   }
-  rank_ = rank;
-  for (int i = rank; i < unknowns_; ++i) {
-    if (Sign(M_(i, unknowns_), scale.rate) != 0) return Status::kInconsistent;
-  }
-  BackSubstitute(rank);
-  return rank == unknowns_ ? Status::kRegular : Status::kSingular;
 }
 
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::BackSubstitute(int rank) {
-  for (int i = 0; i < unknowns_; ++i) x_[i] = Scalar(0);
-  for (int i = rank - 1; i >= 0; --i) {
-    const int column = pivot_column_[i];
-    Scalar value = M_(i, unknowns_);
-    for (int k = i + 1; k < rank; ++k) value -= M_(i, pivot_column_[k]) * x_[pivot_column_[k]];
-    x_[column] = value / M_(i, column);
-  }
+auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Status {
+  system_.Run(unknowns_, unknowns_, unknowns_ + 1, scale.rate);
+  if (!system_.IsConsistent(unknowns_, scale.rate)) return Status::kInconsistent;
+  system_.BackSubstitute(unknowns_);
+  return system_.rank() == unknowns_ ? Status::kRegular : Status::kSingular;
 }
 
 // Cramer's rule where the determinant is zero, for rank k - 1: with the right side in place of the one column
-// without a pivot, the determinant is the product of the pivots and the last right side, times the sign of
-// the permutation that brings that column, whose pivot is in the last row, into place.
+// without a pivot, the determinant is that with the right side behind the pivot columns, times the sign of the
+// permutation that brings it into place. Returns that column, whose unknown is +-1.
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::SolveHomogeneous(int orientation) {
+int DirectionSystem<Scalar, Rows>::SolveHomogeneous() {
+  const int rank = system_.rank();
   int free = 0;
-  while (free < rank_ && pivot_column_[free] == free) ++free;
-  int sign = orientation * Sign(M_(rank_, unknowns_));
-  if ((rank_ - free) % 2 != 0) sign = -sign;
-  for (int i = 0; i < rank_; ++i) {
+  while (free < rank && system_.pivot_column(free) == free) ++free;
+  int sign = system_.Orientation(unknowns_);
+  if ((rank - free) % 2 != 0) sign = -sign;
+  for (int i = 0; i < rank; ++i) {
     if (sign > 0) {
-      M_(i, unknowns_) = -M_(i, free);
+      system_(i, unknowns_) = -system_(i, free);
     } else {
-      M_(i, unknowns_) = M_(i, free);
+      system_(i, unknowns_) = system_(i, free);
     }
   }
   // A row below the free column's place has no entry in it: it was eliminated, or is zero by choice.
-  for (int i = free; i < rank_; ++i) M_(i, unknowns_) = Scalar(0);
-  BackSubstitute(rank_);
-  x_[free] = Scalar(sign);
+  for (int i = free; i < rank; ++i) system_(i, unknowns_) = Entry(0);
+  system_.BackSubstitute(unknowns_);
+  system_.numerator(free) = sign > 0 ? system_.denominator() : Entry(-system_.denominator());
+  return free;
 }
 
-// df from the unknowns, the driven variable and the limits; da = A df, exactly zero in C and CF.
+// df from the unknowns, the driven variable and the limits; da = A df, exactly zero in C and CF. `held` is the
+// variable whose change is given: the driven one, or the free unknown of a homogeneous system.
 template <class Scalar, int Rows>
 void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayout<Rows>& layout,
-                                           const IndexSets<Rows>& sets, int driven, int sign) {
+                                           const IndexSets<Rows>& sets, int held, int driven, int sign) {
+  if constexpr (kFractionFree<Scalar>) {
+    SpreadIntegers(problem, layout, sets, held, driven, sign);
+    return;
+  }
   const int rows = problem.rows();
   for (int row = 0; row < rows; ++row) df_[row] = Scalar(0);
-  for (int i = 0; i < unknowns_; ++i) df_[unknown_[i]] = x_[i];
+  for (int i = 0; i < unknowns_; ++i) df_[unknown_[i]] = system_.numerator(i);  // over 1
   df_[driven] = Scalar(sign);
   for (int row = 0; row < rows; ++row) {
     const int limit = FrictionLimitSign(layout, sets, row);
@@ -187,6 +188,39 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayo
       }
     }
     da_[row] = std::move(change);
+  }
+}
+
+// The same over integers. Columns were scaled, so that an unknown is its number times the scale of its column,
+// over that of the held one.
+template <class Scalar, int Rows>
+void DirectionSystem<Scalar, Rows>::SpreadIntegers(const Problem& problem, const RowLayout<Rows>& layout,
+                                                   const IndexSets<Rows>& sets, int held, int driven,
+                                                   int sign) {
+  using F = Fractions<Scalar>;
+  const int rows = problem.rows();
+  for (Entry& numerator : numerator_) numerator = 0;
+  const auto place = [&](int row, const Entry& number) {
+    numerator_[row] = number;
+    const int limit = FrictionLimitSign(layout, sets, row);
+    if (limit == 0) return;
+    const Scalar& mu = problem.contacts[layout.ContactOf(row)].mu;
+    numerator_[row] *= F::Denominator(mu);
+    numerator_[row + 1] = limit * F::Numerator(mu) * number;
+  };
+  Entry denominator = system_.denominator();
+  for (int i = 0; i < unknowns_; ++i) place(unknown_[i], system_.numerator(i));
+  place(driven, sign * denominator);
+  if (FrictionLimitSign(layout, sets, held) != 0) {
+    denominator *= F::Denominator(problem.contacts[layout.ContactOf(held)].mu);
+  }
+  for (int row = 0; row < rows; ++row) df_[row] = F::Quotient(numerator_[row], denominator);
+  for (int row = 0; row < rows; ++row) {
+    da_[row] = Scalar(0);
+    if (IsUnknown(sets[row])) continue;
+    Entry change(0);
+    for (int j = 0; j < rows; ++j) F::AddProduct(change, integer_A_(row, j), numerator_[j]);
+    da_[row] = F::Quotient(change, Entry(denominator * row_scale_[row]));
   }
 }
 

@@ -3,13 +3,12 @@
 //
 //   normal     abs(fN - max(0, fN - r aN))
 //   friction   abs(fF - clamp(fF - r aF, -mu fN, mu fN)),  fN replaced by max(0, fN)
-//   sliding    abs(fF + mu slip fN), likewise
-//   bilateral  abs(r aN)
+//   sliding    abs(fF + mu u fN)                            instead of `friction` (24)
+//   bilateral  abs(r a)                                     instead of `normal` (4.5)
 //
-// which vanish together exactly where (15), (16) and (24) hold. r = 1 / max A_ii turns accelerations into
-// forces; the result is relative to the larger of max abs(f) and max abs(b) / max A_ii.
-// Shapes: f, a rows x 1. Planar problems. Allocates nothing.
-// Not a number if a force or an acceleration is not finite.
+// which vanish together exactly where (15), (16), (24) and (4.5) hold. r = 1 / max A_ii turns accelerations
+// into forces; the result is relative to the larger of max abs(f) and max abs(b) / max A_ii. Shapes: f, a rows
+// x 1. Planar problems. Allocates nothing. Not a number if a force or an acceleration is not finite.
 
 #ifndef STICTION_SOLVER_RESIDUAL_H_
 #define STICTION_SOLVER_RESIDUAL_H_
@@ -41,16 +40,17 @@ Residual<Scalar> MeasureResidual(const ContactProblem<Scalar, Rows>& problem, co
   const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
   int row = 0;
   for (const auto& contact : problem.contacts) {
-    const Scalar wanted = f[row] - r * a[row];
     const bool bilateral = contact.kind == ContactKind::kBilateral;
-    const Scalar normal = bilateral ? wanted : std::max<Scalar>(Scalar(0), wanted);
+    const Scalar normal =
+        bilateral ? Scalar(f[row] - r * a[row]) : std::max<Scalar>(Scalar(0), f[row] - r * a[row]);
     worst = std::max<Scalar>(worst, Abs(Scalar(f[row] - normal)));
-    if (contact.HasFrictionRows()) {
+    if (contact.kind == ContactKind::kSliding) {
+      worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] + contact.mu * contact.slip[0] * f[row])));
+      ++row;
+    } else if (contact.HasFrictionRows()) {
       const Scalar bound = contact.mu * std::max<Scalar>(Scalar(0), f[row]);
-      Scalar friction = f[row + 1] - r * a[row + 1];
-      friction = contact.kind == ContactKind::kSliding
-                     ? Scalar(-contact.slip[0] * bound)
-                     : std::min<Scalar>(bound, std::max<Scalar>(Scalar(-bound), friction));
+      const Scalar wanted = f[row + 1] - r * a[row + 1];
+      const Scalar friction = std::min<Scalar>(bound, std::max<Scalar>(Scalar(-bound), wanted));
       worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] - friction)));
       ++row;
     }

@@ -43,6 +43,29 @@ Scalar Abs(const Scalar& x) {
   }
 }
 
+// The integers beneath an exact scalar, for elimination without fractions. Specialised beside the scalar;
+// without that its own divisions are used.
+template <class Scalar>
+struct Fractions {
+  using Integer = Scalar;
+  // The numerator of x over a multiple of its denominator.
+  static const Scalar& Numerator(const Scalar& x, const Scalar&) { return x; }
+  // Makes `multiple` a multiple of the denominator of x.
+  static void Include(Scalar&, const Scalar&) {}
+  static Scalar Quotient(const Scalar& x, const Scalar& y) { return x / y; }
+};
+
+template <class Scalar>
+inline constexpr bool kFractionFree = !std::is_same_v<typename Fractions<Scalar>::Integer, Scalar>;
+
+// A common denominator of the entries of a row or column, 1 where there are no integers.
+template <class Scalar, class Values>
+typename Fractions<Scalar>::Integer CommonDenominator(const Values& values) {
+  typename Fractions<Scalar>::Integer common(1);
+  for (int i = 0; i < values.size(); ++i) Fractions<Scalar>::Include(common, values[i]);
+  return common;
+}
+
 }  // namespace stiction
 
 #endif  // STICTION_SOLVER_SCALAR_H_

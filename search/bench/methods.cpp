@@ -1,246 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Suite `methods`: every method on the same problems. Counts, outcomes and times.
 //
-// Counts are those of exact runs. Every answer is verified: exact ones by FindViolation, doubles by the natural
-// residual, both outside the time taken. A time is one call of an algorithm that keeps its memory between
-// calls, for any number of contacts, with the forces copied out. Methods take turns at blocks of problems, so
-// that a machine that is busy for a while is so for all of them; times are compared problem by problem.
+// Counts are those of exact runs. Methods take turns at blocks of problems; times are compared problem by
+// problem. method.h says what a time is, and how answers are verified.
 //
 // Determinism   all tables but the times, on one machine; Ipopt's starts and outcomes depend on its libraries.
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <iostream>
-#include <limits>
-#include <utility>
 
-#include "certify/exact.h"
-#include "certify/feasibility_nlp.h"
-#include "certify/verify_solution.h"
-#include "search/bench/family.h"
-#include "search/bench/measure.h"
+#include "corpus/json_text.h"
+#include "search/bench/method.h"
 #include "search/bench/suite.h"
 #include "search/verbs/verbs.h"
-#include "solver/residual.h"
 
 namespace stiction {
 namespace {
 
-constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
-constexpr int kBlock = 64;             // problems, before the next method has its turn
-
-// ---- Time ----------------------------------------------------------------------------------------
-
-// Infinite if the clock cannot be read: that of a process that is gone.
-double ReadSeconds(clockid_t clock) {
-  timespec time;
-  if (clock_gettime(clock, &time) != 0) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// The processor clock is slow to read, and stands outside the other.
-class Stopwatch {
- public:
-  explicit Stopwatch(clockid_t processor = CLOCK_THREAD_CPUTIME_ID)
-      : processor_(processor), processor_start_(ReadSeconds(processor)), start_(ReadSeconds(CLOCK_MONOTONIC)) {}
-
-  double Seconds() const {
-    const double elapsed = ReadSeconds(CLOCK_MONOTONIC) - start_;
-    return std::min(elapsed, ReadSeconds(processor_) - processor_start_);
-  }
-
- private:
-  clockid_t processor_;
-  double processor_start_, start_;
-};
-
-// The processor time of another process; wall-clock time if it is gone.
-clockid_t ClockOf(pid_t process) {
-  clockid_t clock;
-  return clock_getcpuclockid(process, &clock) == 0 ? clock : CLOCK_MONOTONIC;
-}
-
-// ---- Methods -------------------------------------------------------------------------------------
-
-struct Method {
-  std::string name;
-  std::string reading;  // policy, cover or formulation
-  std::string arithmetic;
-  std::string counts;     // what Measure::work is
-  int one_in = 1;         // of so many problems it is given one
-  int most_contacts = 0;  // 0: any
-  std::function<Measure(const BenchProblem&)> run;
-
-  bool exact() const { return arithmetic == "exact"; }
-  std::string Title() const { return name + " " + (reading.empty() ? "" : "(" + reading + ") ") + arithmetic; }
-};
-
-template <class Scalar>
-constexpr const char* kArithmetic = kIsExact<Scalar> ? "exact" : "double";
-
-template <class Scalar>
-const ContactProblem<Scalar>& In(const BenchProblem& problem) {
-  if constexpr (kIsExact<Scalar>) {
-    return problem.exact;
-  } else {
-    return problem.rounded;
-  }
-}
-
-bool Stands(const ExactProblem& problem, const ExactProblem::Vector& f) { return !FindViolation(problem, f); }
-
-bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>::Vector& f) {
-  const ContactProblem<double>::Vector a = problem.A * f + problem.b;
-  return NaturalResidual(problem, f, a) <= kWrongAnswer;
-}
-
-template <class Scalar>
-struct Answer {
-  Measure measure;
-  typename ContactProblem<Scalar>::Vector f;  // if solved
-};
-
-// run(problem) returns an Answer.
-template <class Scalar, class Run>
-Measure Timed(const BenchProblem& problem, Run run) {
-  const ContactProblem<Scalar>& data = In<Scalar>(problem);
-  const Stopwatch watch;
-  Answer<Scalar> answer = run(data);
-  Measure& measure = answer.measure;
-  measure.seconds = watch.Seconds() + measure.library_seconds;
-  if (measure.outcome == Outcome::kSolved) measure.wrong = !Stands(data, answer.f);
-  measure.refutes |= kIsExact<Scalar> && measure.outcome == Outcome::kRay;
-  return measure;
-}
-
-template <class Scalar>
-Method PublishedMethod(const std::string& policy) {
-  PublishedAlgorithm<Scalar> algorithm({ParsePolicy(policy), {}, {}});
-  return {.name = "baraff",
-          .reading = policy,
-          .arithmetic = kArithmetic<Scalar>,
-          .counts = "steps",
-          .run = [algorithm](const BenchProblem& problem) mutable {
-            return Timed<Scalar>(problem, [&algorithm](const auto& data) {
-              const Verdict verdict = algorithm.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome,
-                                     .work = verdict.statistics.steps,
-                                     .give_ups = verdict.statistics.give_ups},
-                                    algorithm.state().f};
-            });
-          }};
-}
-
-template <class Scalar>
-Method CompleteMethod() {
-  return {.name = "complete",
-          .reading = "",
-          .arithmetic = kArithmetic<Scalar>,
-          .counts = "pieces",
-          .run = [driving = CompleteDriving<Scalar>()](const BenchProblem& problem) mutable {
-            return Timed<Scalar>(problem, [&driving](const auto& data) {
-              const CompleteVerdict verdict = driving.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome,
-                                     .work = verdict.statistics.pieces,
-                                     .folds = verdict.statistics.folds,
-                                     .descents = verdict.statistics.descents},
-                                    driving.state().f};
-            });
-          }};
-}
-
-template <class Scalar>
-Method LemkeMethod(Cover cover) {
-  return {.name = "lemke",
-          .reading = cover == Cover::kOnes ? "ones" : "units",
-          .arithmetic = kArithmetic<Scalar>,
-          .counts = "pivots",
-          .run = [lemke = LemkeAlgorithm<Scalar>({cover, {}, {}})](const BenchProblem& problem) mutable {
-            return Timed<Scalar>(problem, [&lemke](const auto& data) {
-              const Verdict verdict = lemke.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome, .work = verdict.statistics.pivots}, lemke.f()};
-            });
-          }};
-}
-
-Method EnumerateMethod() {
-  return {.name = "enumerate",
-          .reading = "",
-          .arithmetic = "exact",
-          .counts = "programs",
-          .one_in = 20,
-          .most_contacts = 4,
-          .run = [](const BenchProblem& problem) {
-            return Timed<Rational>(problem, [](const auto& data) {
-              EnumerationOptions options;
-              options.first_solution_only = true;
-              const Enumeration modes = EnumerateModes(data, options);
-              Answer<Rational> answer;
-              answer.measure.work = modes.programs;
-              answer.measure.refutes = modes.ProvesNoSolution();
-              if (modes.solutions.empty()) return answer;
-              answer.measure.outcome = Outcome::kSolved;
-              answer.f = modes.solutions.front().f;
-              return answer;
-            });
-          }};
-}
-
-// Solved: an exact solution came out of one of its points.
-Method IpoptMethod(Formulation formulation, int one_in) {
-  const auto proposer = std::make_shared<IpoptProposer>();
-  return {.name = "ipopt",
-          .reading = formulation == Formulation::kNonlinear ? "(17), (18)" : "(5)",
-          .arithmetic = "exact",
-          .counts = "starts",
-          .one_in = one_in,
-          .run = [proposer, formulation](const BenchProblem& problem) {
-            return Timed<Rational>(problem, [&proposer, formulation](const auto& data) {
-              ProposalStatistics statistics;
-              ProposalOptions options;
-              options.formulation = formulation;
-              const Stopwatch watch(ClockOf(proposer->process_id()));
-              const auto f = proposer->ProposeSolution(data, options, statistics);
-              Answer<Rational> answer;
-              answer.measure.work = statistics.starts;
-              answer.measure.library_seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
-              if (!f) return answer;
-              answer.measure.outcome = Outcome::kSolved;
-              answer.f = *f;
-              return answer;
-            });
-          }};
-}
-
-// Places in the list of methods, for tables that name them.
-enum MethodPlace { kComplete, kPaper, kSuspended, kAsComplete, kLemke, kLemkeUnits, kCompleteDouble, kIpopt };
-constexpr std::array kPublished = {kPaper, kSuspended, kAsComplete};
-
-std::vector<Method> Methods() {
-  return {CompleteMethod<Rational>(),
-          PublishedMethod<Rational>("paper"),
-          PublishedMethod<Rational>("apex=suspended"),
-          PublishedMethod<Rational>("admit=eager,file=yes,apex=suspended"),
-          LemkeMethod<Rational>(Cover::kOnes),
-          LemkeMethod<Rational>(Cover::kUnits),
-          CompleteMethod<double>(),
-          IpoptMethod(Formulation::kNonlinear, 10),
-          PublishedMethod<double>("paper"),
-          LemkeMethod<double>(Cover::kUnits),
-          EnumerateMethod()};
-}
-
-// Without friction.
-enum FrictionlessPlace { kBaraffDouble, kLemkeDouble, kQuadratic };
-
-std::vector<Method> FrictionlessMethods() {
-  return {PublishedMethod<double>("paper"), LemkeMethod<double>(Cover::kUnits),
-          IpoptMethod(Formulation::kQuadratic, 1)};
-}
+constexpr int kBlock = 64;  // problems, before the next method has its turn
 
 // ---- Measuring -----------------------------------------------------------------------------------
 

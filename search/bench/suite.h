@@ -30,6 +30,9 @@ int BenchMethods(const BenchOptions& options);
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
 
+// Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
+int BenchLinearAlgebra(const BenchOptions& options);
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_BENCH_SUITE_H_

@@ -17,6 +17,7 @@
 #include "corpus/json_text.h"
 #include "reports/report.h"
 #include "search/summary.h"
+#include "search/unit.h"
 #include "search/verbs/verbs.h"
 
 namespace stiction {
@@ -37,7 +38,7 @@ struct SearchVerb {
   std::vector<int> contacts;
   std::optional<std::uint64_t> seed;
   std::optional<double> minutes;
-  std::optional<std::int64_t> problems, audit_every;
+  std::optional<std::int64_t> problems, audit_every, enumerate_every;
   std::string shard = "0/1";
   int threads = 0;
   bool json = false;
@@ -65,6 +66,7 @@ Campaign CampaignOf(const SearchVerb& o) {
   Campaign campaign = o.campaign.empty() ? Campaign{} : ReadCampaign(o.campaign);
   if (o.seed) campaign.seed = *o.seed;
   if (o.audit_every) campaign.audit_every = *o.audit_every;
+  if (o.enumerate_every) campaign.enumerate_every = *o.enumerate_every;
   if (!o.contacts.empty()) campaign.contacts = o.contacts;
   if (!o.generators.empty()) {
     campaign.generators.clear();
@@ -184,6 +186,25 @@ int RunStatus(const std::string& file, bool json) {
   return kExitDone;
 }
 
+struct ProblemVerb {
+  std::string store, output = "-";
+  std::int64_t unit = 0, index = 0;
+};
+
+int RunProblem(const ProblemVerb& o) {
+  const Store store = Store::OpenToRead(o.store);
+  const Campaign campaign = CampaignOf(store.identity(), o.store);
+  if (!store.Units().Contains(o.unit))
+    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, o.unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), o.unit));
+  if (o.index >= problems) {
+    throw InputError(
+        fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, o.index, o.unit, problems - 1));
+  }
+  WriteText(o.output, Print(RegenerateFile(campaign, o.unit, o.index)));
+  return kExitDone;
+}
+
 int RunMerge(const std::string& out, const std::vector<std::string>& files) {
   const Store first = Store::OpenToRead(files.front());
   Store merged(out, first.identity());
@@ -207,6 +228,10 @@ void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
   verb.add_option(
           "--audit-every", o.audit_every,
           "run one problem in so many exactly though nothing is suspected, existence included; 1 audits all")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  verb.add_option(
+          "--enumerate-every", o.enumerate_every,
+          "try all contact modes of one in so many problems of at most three contacts that are run exactly")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
   verb.add_option("--seed", o.seed, "the one source of randomness; default 1")
       ->check([](const std::string& text) {
@@ -259,6 +284,19 @@ void AddMerge(CLI::App& program, Action& action) {
   verb.add_option("OUT", *out, "store to write or to add to")->required();
   verb.add_option("STORE", *files, "stores to take in")->required();
   verb.callback([=, &action] { action = [=] { return RunMerge(*out, *files); }; });
+}
+
+void AddProblem(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ProblemVerb>();
+  CLI::App& verb =
+      *program.add_subcommand("problem", "Write any problem that a search tried, as a problem file");
+  verb.add_option("STORE", o->store, "store of a search")->required();
+  verb.add_option("UNIT", o->unit, "number of the unit")->required()->check(CLI::NonNegativeNumber);
+  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("-o,--output", o->output, "file to write; - is standard output")->capture_default_str();
+  verb.callback([o, &action] { action = [o] { return RunProblem(*o); }; });
 }
 
 void AddReport(CLI::App& program, Action& action) {

@@ -30,8 +30,12 @@ void AddMinimize(CLI::App& program, Action& action);
 void AddSearch(CLI::App& program, Action& action);
 void AddStatus(CLI::App& program, Action& action);
 void AddMerge(CLI::App& program, Action& action);
+void AddProblem(CLI::App& program, Action& action);
 void AddReport(CLI::App& program, Action& action);
 void AddBench(CLI::App& program, Action& action);
+void AddImport(CLI::App& program, Action& action);
+void AddExport(CLI::App& program, Action& action);
+void AddSurvey(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------

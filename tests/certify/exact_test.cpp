@@ -3,6 +3,7 @@
 
 #include "certify/exact.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -58,6 +59,37 @@ TEST_CASE("policy classes: all end in an outcome if each does") {
   CHECK_FALSE(AllEndIn(Outcome::kCycle, ReferenceProblem(), PlanarGrid(), {}));
   CHECK(AllEndIn(Outcome::kSolved, ThreeSolutions(), PlanarGrid(), {}));
   CHECK(AllEndIn(Outcome::kSolved, ReferenceProblem(), {}, {}));
+}
+
+// readings.md, 7: each drive ends with another clamped set, ties or not, whatever is given up on the way.
+TEST_CASE("exact runs: without friction every policy solves within 2^n - 1 drives, degenerate or not") {
+  // safe-tie-yet-given-up of the corpus.
+  const ExactProblem tie =
+      MakeProblem({-1, -1, -1}, {{20, -10, -2}, {-10, 20, 20}, {-2, 20, 40}}, {2, -20, -100});
+  const Verdict verdict = RunExact(tie, {ParsePolicy("apex=suspended"), {}, {}}).verdict;
+  CHECK(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.give_ups == 1);
+  CHECK(verdict.statistics.drives == 4);
+  for (int index = 0; index < 150; ++index) {
+    const int contacts = 2 + index % 4;
+    Choices choices(ProblemSeed(1994, 77, static_cast<std::uint64_t>(index)));
+    // A = J J', b = J y of rank at most two, of entries -1, 0, 1.
+    std::vector<std::vector<Rational>> A(contacts, std::vector<Rational>(contacts));
+    std::vector<Rational> b(contacts);
+    std::vector<std::array<std::int64_t, 2>> J(contacts);
+    const std::array<std::int64_t, 2> y = {choices.Integer(-1, 1), choices.Integer(-1, 1)};
+    for (auto& row : J) row = {choices.Integer(-1, 1), choices.Integer(-1, 1)};
+    for (int i = 0; i < contacts; ++i) {
+      b[i] = J[i][0] * y[0] + J[i][1] * y[1];
+      for (int j = 0; j < contacts; ++j) A[i][j] = J[i][0] * J[j][0] + J[i][1] * J[j][1];
+    }
+    const ExactProblem problem = MakeProblem(std::vector<Rational>(contacts, -1), A, b);
+    for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
+      CAPTURE(index, PolicyName(equal.policies.front()));
+      CHECK(equal.verdict.outcome == Outcome::kSolved);
+      CHECK(equal.verdict.statistics.drives < (1 << contacts));
+    }
+  }
 }
 
 TEST_CASE("variables are named by kind and contact, counted from one") {

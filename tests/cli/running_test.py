@@ -12,7 +12,8 @@ import cli
 SMALL = ["--generator", "small", "--contacts", "2", "3"]
 # Problems whose findings take long to finish; the grid of policies of one alone takes ten seconds and more.
 LARGE = ["--generator", "conditioned", "--contacts", "7"]
-GRACE = 5  # seconds, for a search that was told to end; as much again for a machine with other work
+LONG = 60  # minutes that a search is given which ends for another reason
+PATIENCE = 120  # seconds, on a machine with other work; small against LONG
 
 
 class Running(cli.TestCase):
@@ -24,12 +25,12 @@ class Running(cli.TestCase):
         self.addCleanup(lambda: (search.kill(), search.wait()))
         return search
 
-    def finish(self, search, timeout=60):
+    def finish(self, search, timeout=2 * PATIENCE):
         out, err = search.communicate(timeout=timeout)
         return cli.Run(search.returncode, (out or b"").decode(), (err or b"").decode())
 
     def wait_for_units(self, least):
-        end = time.monotonic() + 60
+        end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             done = cli.run("status", self.folder / "a.store", "--json")
             if done.code == 0 and done.json()["units"] >= least:
@@ -88,23 +89,23 @@ class Running(cli.TestCase):
         self.assertEqual(self.finish(self.start(*SMALL, "--minutes", 0.05)).code, 0)
         seconds = time.monotonic() - start
         self.assertGreaterEqual(seconds, 3)
-        self.assertLess(seconds, 3 + 2 * GRACE)
+        self.assertLess(seconds, 3 + PATIENCE)
 
     def test_a_search_ends_early_when_its_problems_are_done(self):
         start = time.monotonic()
-        self.assertEqual(self.finish(self.start(*SMALL, "--minutes", 5, "--problems", 1)).code, 0)
-        self.assertLess(time.monotonic() - start, 30)
+        self.assertEqual(self.finish(self.start(*SMALL, "--minutes", LONG, "--problems", 1)).code, 0)
+        self.assertLess(time.monotonic() - start, PATIENCE)
 
     # ---- Signals ----
 
     def interrupt(self, signal_number, arguments, units, seconds=0):
-        search = self.start(*arguments, "--minutes", 5)
+        search = self.start(*arguments, "--minutes", LONG)
         self.wait_for_units(units)
         time.sleep(seconds)
         start = time.monotonic()
         search.send_signal(signal_number)
         done = self.finish(search)
-        self.assertLess(time.monotonic() - start, 2 * GRACE)
+        self.assertLess(time.monotonic() - start, PATIENCE)
         self.assertEqual(done.code, 0, done.err)
         self.assertIn("everything done so far is stored. The same command goes on", done.err)
         self.assertIn("problems in", done.out)

@@ -14,7 +14,7 @@ import cli
 
 PROBLEMS = 190000  # 1036 units: one block and some
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 220}
+            "contacts": [2, 3], "unit_problems": 220, "enumerate_every": 3}
 
 
 class Search(cli.TestCase):
@@ -166,7 +166,7 @@ class Search(cli.TestCase):
         for arguments in [
             ("--problems", 0), ("--problems", -1), ("--problems", "many"), ("--problems", 1.5),
             ("--minutes", 0), ("--minutes", -1), ("--minutes", "nan"), ("--minutes", "inf"), ("--minutes", "1e300"),
-            ("--threads", 0), ("--threads", "all"), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
+            ("--threads", 0), ("--threads", "all"), ("--audit-every", 0), ("--enumerate-every", 0), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
             ("--mu", "-1"), ("--mu", "x"), ("--mu", "65"), ("--policy", "nonsense"), ("--policy", "ties=none"),
             ("--policy", "paper", "scan=lowest"),
             ("--seed", -1), ("--seed", 2**64), ("--seed", "x"), ("--seed", 1.5),
@@ -228,13 +228,74 @@ class Search(cli.TestCase):
     def test_the_certificates_of_a_store_are_accepted(self):
         files = []
         for i, row in enumerate(cli.content(self.reference)["findings"]):
-            for certificate in (row[11], row[13]):
+            for certificate in (row[11], row[13], row[14], row[15]):
                 if certificate:
                     files.append(self.file(f"{i}-{len(files)}.json", certificate))
             if row[12]:
                 self.succeeds("replay", self.file(f"{i}.json", row[12]))
         self.assertGreater(len(files), 1)
         self.succeeds("check", *files)
+
+    def test_every_finding_comes_with_its_solution(self):
+        for row in cli.content(self.reference)["findings"]:
+            for problem, certificate in ((row[9], row[14]), (row[12], row[15])):
+                self.assertEqual(problem == "", certificate == "")
+                if not problem:
+                    continue
+                problem, certificate = json.loads(problem), json.loads(certificate)
+                self.assertEqual(certificate["claim"], "solution-exists")
+                for key in ("contacts", "A", "b"):
+                    self.assertEqual(certificate["problem"][key], problem[key])
+            facts = json.loads(row[16])
+            self.assertEqual(facts["found"]["existence"]["claim"], "solution-exists")
+            if row[1] == "cycle":
+                self.assertIs(facts["found"]["safe"], False)
+
+    def test_methods_are_compared(self):
+        summary = self.succeeds("status", self.reference, "--json").json()
+        self.assertEqual(summary["existence_solved"], summary["existence_checked"])
+        self.assertGreaterEqual(summary["compared"], summary["audited"])
+        self.assertEqual((summary["disagreements_of_methods"], summary["grave"]), (0, []))
+        self.assertGreater(summary["enumerated"], 0)
+        self.assertEqual(summary["safety_decided"], summary["audited"])
+
+    def test_a_grave_finding_is_named_first(self):
+        store = self.copy("a.store")
+        with sqlite3.connect(store) as db:
+            signature, = db.execute("SELECT signature FROM findings WHERE kind = 'cycle' LIMIT 1").fetchone()
+            db.execute("UPDATE findings SET kind = 'safe-cycle' WHERE signature = ?", [signature])
+        db.close()
+        lines = self.succeeds("status", store).out.splitlines()
+        self.assertEqual(lines[1], f"  GRAVE: safe-cycle: {signature}")
+        simplest = next(i for i, line in enumerate(lines) if line.startswith("Simplest"))
+        self.assertIn(signature, lines[simplest + 1])
+        self.assertEqual(self.succeeds("status", store, "--json").json()["grave"],
+                         [{"signature": signature, "kind": "safe-cycle"}])
+
+    def test_any_problem_of_a_search_can_be_looked_at(self):
+        row = next(row for row in cli.content(self.reference)["findings"] if row[1] == "cycle")
+        out = self.folder / "problem.json"
+        self.succeeds("problem", self.reference, row[2], row[3], "-o", out)
+        self.assertEqual(json.loads(out.read_text()), json.loads(row[9]))
+        self.assertEqual(cli.run("replay", out).code, 1)
+        self.assertEqual(self.succeeds("problem", self.reference, row[2], row[3]).out, out.read_text())
+        self.refuses("problem", self.reference, 10**6, 0, says="unit 1000000")
+        self.refuses("problem", self.reference, 0, 220, says=["index 220", "0 to 219"])
+        self.refuses("problem", self.reference, -1, 0)
+        self.refuses("problem", self.reference, 0, "x")
+        self.refuses("problem", self.folder / "none.store", 0, 0, says="no such store")
+
+    def test_a_store_of_an_older_version_is_refused(self):
+        store = self.copy("old.store")
+        with sqlite3.connect(store) as db:
+            db.execute("UPDATE campaign SET value = '1' WHERE key = 'version'")
+        db.close()
+        before = cli.content(store)
+        for arguments in (("status", store), ("report", store, "-o", self.folder / "report"),
+                          ("merge", self.folder / "out.store", store), ("problem", store, 0, 0),
+                          ("search", self.campaign, "--store", store, "--problems", 1)):
+            self.refuses(*arguments, says=["old.store", "version 1", "version 2", "--store NEW_FILE"])
+        self.assertEqual(cli.content(store), before)
 
     def test_status_of_a_running_search(self):
         store = self.folder / "a.store"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "corpus/input_error.h"
+#include "corpus/kinds.h"
 #include "solver/check.h"
 
 namespace stiction {
@@ -59,6 +60,9 @@ Record RecordOf(std::int64_t unit) {
     verdict.statistics.give_ups = i;
     tally.Count(verdict);
   }
+  AgreementTally& agreement = record.agreement[static_cast<int>(unit % 2) + 1];
+  agreement.compared = unit % 11;
+  ++agreement.words[static_cast<int>(unit % 4)];
   if (unit % 3 == 0) record.signatures[fmt::format("cycle-{}c", unit % 4)] = unit % 7 + 1;
   return record;
 }
@@ -83,6 +87,8 @@ Finding Finished(Finding finding) {
   finding.certificate = "certificate of " + finding.problem;
   finding.minimized = "minimized " + finding.problem;
   finding.minimized_certificate = "certificate of " + finding.minimized;
+  finding.existence = "existence of " + finding.problem;
+  finding.minimized_existence = "existence of " + finding.minimized;
   finding.facts = R"({"found":1})";
   return finding;
 }
@@ -547,11 +553,13 @@ TEST_CASE("store: what is no store is refused by name and left as it is") {
     { Store store(file, Identity()); }
     sqlite3* db = nullptr;
     REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
-    sqlite3_exec(db, "UPDATE campaign SET value = '2' WHERE key = 'version'", nullptr, nullptr, nullptr);
+    sqlite3_exec(db, "UPDATE campaign SET value = '1' WHERE key = 'version'", nullptr, nullptr, nullptr);
     sqlite3_close(db);
     refused_to_read(file);
     refused_to_write(file);
-    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("version 2") && Contains("version 1"));
+    CHECK_THROWS_WITH(Store::OpenToRead(file),
+                      Contains("found format stiction-store version 1, expected stiction-store version 2") &&
+                          Contains("search anew with --store NEW_FILE"));
   }
 }
 
@@ -610,6 +618,42 @@ Tally FullTally() {
   return tally;
 }
 
+// Every counter different.
+Record FullByContacts() {
+  Record record;
+  std::int64_t next = 1;
+  for (const int contacts : {1, 7}) {
+    AgreementTally& agreement = record.agreement[contacts];
+    const auto fill = [&next](const char*, std::int64_t& value) { value = next++; };
+    ForEachCounter(record.existence[contacts], fill);
+    ForEachCounter(agreement, fill);
+    agreement.words = {{1, next++}, {64, next++}};
+    agreement.solutions = {{3, next++}};
+  }
+  return record;
+}
+
+TEST_CASE("record: existence and agreement add up by contacts, and survive as text") {
+  const Record record = FullByContacts();
+  CHECK(ParseRecord(Serialize(record)) == record);
+  Record sum = record;
+  Record other;
+  other.agreement[7].words = {{2, 5}, {64, 1}};
+  other.agreement[7].safe = 4;
+  other.agreement[2].compared = 9;
+  other.existence[7].with_ties = 3;
+  sum.Merge(other);
+  CHECK(sum.agreement.at(7).words ==
+        std::map<int, std::int64_t>{
+            {1, record.agreement.at(7).words.at(1)}, {2, 5}, {64, record.agreement.at(7).words.at(64) + 1}});
+  CHECK(sum.agreement.at(7).safe == record.agreement.at(7).safe + 4);
+  CHECK(sum.agreement.at(7).compared == record.agreement.at(7).compared);
+  CHECK(sum.agreement.at(2).compared == 9);
+  CHECK(sum.agreement.at(1) == record.agreement.at(1));
+  CHECK(sum.existence.at(7).with_ties == record.existence.at(7).with_ties + 3);
+  CHECK(ParseRecord(Serialize(sum)) == sum);
+}
+
 TEST_CASE("record: text and back is the same, to the byte") {
   Record record;
   record.tallies[{"psd", 2, "paper"}] = FullTally();
@@ -662,6 +706,22 @@ TEST_CASE("tally: sums add, maxima do not, and long runs share the last bin") {
   CHECK(twice.sums.steps == 2 * tally.sums.steps);
   CHECK(twice.maxima == tally.maxima);
   CHECK(twice.steps[63] == 6);
+}
+
+// ---- Kinds -----------------------------------------------------------------------------------
+
+TEST_CASE("kinds: a signature begins with its kind, and the grave ones come first") {
+  CHECK(KindOf("safe-cycle-2c-4d-10s-00c0ffee") == kSafeCycle);
+  CHECK(KindOf("disagreement-of-methods-lemke-ray-2c") == kDisagreementOfMethods);
+  CHECK(KindOf("disagreement-ray-solved-3c") == "disagreement");
+  CHECK(KindOf("wrong-answer-3c") == "wrong-answer");
+  CHECK(KindOf("cycle-3c-4d-10s@ties=contacts") == "cycle");
+  CHECK(KindOf("something else") == "something else");
+  CHECK(Gravity(kSafeCycle) < Gravity(kDisagreementOfMethods));
+  CHECK(Gravity(kDisagreementOfMethods) < Gravity("cycle"));
+  CHECK(Gravity("cycle") == Gravity("disagreement"));
+  CHECK((IsGrave(kSafeCycle) && IsGrave(kDisagreementOfMethods) && !IsGrave("cycle")));
+  CHECK((IsLoopKind(kSafeCycle) && IsLoopKind("stall") && !IsLoopKind("ray")));
 }
 
 }  // namespace

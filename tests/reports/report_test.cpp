@@ -57,7 +57,7 @@ const std::string kSmaller =
     R"({"format":"stiction-problem","version":1,"name":"smaller","dimension":2,)"
     R"("contacts":[{"kind":"static","mu":"5/17"}],"A":[["19","-3/23"],["-3/23","1"]],"b":["-1","29"]})";
 const std::string kFacts =
-    R"({"found":{"contacts":2,"outcome":"cycle","start":3,"period":4,"steps":17,"grid":{"cycle":1536}},)"
+    R"({"found":{"contacts":2,"outcome":"cycle","start":3,"period":4,"steps":17,"grid":{"cycle":1536},"safe":false},)"
     R"("minimized":{"contacts":1,"outcome":"cycle","start":5,"period":6,"steps":21,)"
     R"("grid":{"solved":36,"cycle":1500}}})";
 
@@ -86,6 +86,8 @@ Finding Finished(Finding finding) {
   finding.certificate = R"({"certificate":"of the original"})";
   finding.minimized = kSmaller;
   finding.minimized_certificate = R"({"certificate":"of the minimized"})";
+  finding.existence = R"({"existence":"of the original"})";
+  finding.minimized_existence = R"({"existence":"of the minimized"})";
   finding.facts = kFacts;
   return finding;
 }
@@ -112,12 +114,27 @@ Tally SampleTally(std::int64_t seed) {
   return tally;
 }
 
+// Likewise.
+Record SampleByContacts() {
+  Record record;
+  std::int64_t next = 70000;
+  for (const int contacts : {2, 3}) {
+    AgreementTally& agreement = record.agreement[contacts];
+    const auto fill = [&next](const char*, std::int64_t& value) { value = ++next; };
+    ForEachCounter(record.existence[contacts], fill);
+    ForEachCounter(agreement, fill);
+    agreement.words = {{1, ++next}, {4 * contacts, ++next}};
+    agreement.solutions = {{3, ++next}};
+  }
+  return record;
+}
+
 const std::string kDone = "cycle-2c-4d-10s-00c0ffee00c0ffee";
 const std::string kPending = "cycle-2c-4d-12s-0123456789abcdef@give-up=second,ties=contacts";
 const std::string kCounted = "disagreement-ray-solved-3c";
 
 Record SampleRecord() {
-  Record record;
+  Record record = SampleByContacts();
   record.tallies[{"integers", 2, "paper"}] = SampleTally(100);
   record.tallies[{"psd", 3, "scan=highest,ties=contacts"}] = SampleTally(5000);
   record.signatures = {{kDone, 1234}, {kPending, 5}, {kCounted, 6}};
@@ -303,6 +320,32 @@ TEST_CASE("report: steps.csv holds the histogram of every tally") {
   }
 }
 
+TEST_CASE("report: agreement.csv and solutions.csv hold every counter by contacts") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const Record record = SampleRecord();
+  const auto table = ReadTable(scratch / "out/agreement.csv");
+  REQUIRE(table.size() == 2);
+  for (const Row& row : table) {
+    const int contacts = std::stoi(row.at("contacts"));
+    const auto same = [&row](const char* name, std::int64_t value) {
+      INFO(name);
+      CHECK(row.at(name) == std::to_string(value));
+    };
+    ForEachCounter(record.existence.at(contacts), same);
+    ForEachCounter(record.agreement.at(contacts), same);
+  }
+  std::map<int, std::map<int, std::int64_t>> words, solutions;
+  for (const Row& row : ReadTable(scratch / "out/solutions.csv")) {
+    auto& histogram = row.at("counted") == "words" ? words : solutions;
+    histogram[std::stoi(row.at("contacts"))][std::stoi(row.at("count"))] = std::stoll(row.at("problems"));
+  }
+  for (const auto& [contacts, tally] : record.agreement) {
+    CHECK(words.at(contacts) == tally.words);
+    CHECK(solutions.at(contacts) == tally.solutions);
+  }
+}
+
 TEST_CASE("report: findings.csv holds every signature with its count and facts") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
@@ -333,7 +376,9 @@ TEST_CASE("report: findings.csv holds every signature with its count and facts")
                         {"minimized_period", "6"},
                         {"minimized_steps", "21"},
                         {"minimized_grid_cycle", "1500"},
-                        {"minimized_grid_solved", "36"}};
+                        {"minimized_grid_solved", "36"},
+                        {"safe", "no"},
+                        {"minimized_safe", ""}};
   for (const auto& [column, value] : expected) {
     INFO(column);
     CHECK(done.at(column) == value);
@@ -369,13 +414,18 @@ TEST_CASE("report: a finished finding has its minimized problem, the original an
   CHECK(ReadText(scratch / "out" / row.at("problem_file")) == Print(ParseProblem(kSmaller, "")));
   CHECK(ReadText(scratch / "out" / row.at("original_file")) == Print(ParseProblem(kProblem, "")));
   CHECK(ReadText(scratch / "out" / row.at("certificate_file")) == "{\"certificate\":\"of the minimized\"}\n");
+  CHECK(row.at("existence_file") == "findings/" + kDone + ".existence.certificate.json");
+  CHECK(ReadText(scratch / "out" / row.at("existence_file")) == "{\"existence\":\"of the minimized\"}\n");
+  CHECK(row.at("original_existence_file") == "findings/" + kDone + ".original.existence.certificate.json");
+  CHECK(ReadText(scratch / "out" / row.at("original_existence_file")) ==
+        "{\"existence\":\"of the original\"}\n");
 }
 
 TEST_CASE("report: a finding that is only certified has the certificate of its original") {
   const Scratch scratch;
   Store store = SampleStore(scratch / "s");
   Finding finding = Finished(PendingFinding(kPending, 0));
-  finding.minimized = finding.minimized_certificate = "";
+  finding.minimized = finding.minimized_certificate = finding.minimized_existence = "";
   finding.facts = R"({"found":{"contacts":2,"start":0,"period":0,"steps":9,"grid":{"solved":1536}}})";
   finding.exact_outcome = "solved";
   store.Finish(finding);
@@ -383,6 +433,8 @@ TEST_CASE("report: a finding that is only certified has the certificate of its o
   const Row row = FindingRow(scratch / "out", kPending);
   CHECK(ReadText(scratch / "out" / row.at("certificate_file")) == "{\"certificate\":\"of the original\"}\n");
   CHECK(ReadText(scratch / "out" / row.at("problem_file")) == Print(ParseProblem(kProblem, "")));
+  CHECK(ReadText(scratch / "out" / row.at("existence_file")) == "{\"existence\":\"of the original\"}\n");
+  CHECK(row.at("original_existence_file").empty());
   CHECK(row.at("whole_grid") == "no");
 }
 
@@ -393,11 +445,14 @@ TEST_CASE("report: no certificate of an earlier representative stays behind") {
   store.Finish(Finished(PendingFinding(kDone, 5)));
   WriteReport(store, scratch / "out");
   const fs::path certificate = scratch / ("out/findings/" + kDone + ".certificate.json");
+  const auto count = [&scratch] { return Contents(scratch / "out/findings").size(); };
   REQUIRE(fs::exists(certificate));
+  REQUIRE(count() == 5);
   store.AddUnit({}, 2, SampleRecord(), {PendingFinding(kDone, 2)});
   WriteReport(store, scratch / "out");
   CHECK(FindingRow(scratch / "out", kDone).at("state") == "pending");
   CHECK_FALSE(fs::exists(certificate));
+  CHECK(count() == 2);  // problem and original
 }
 
 TEST_CASE("report: every file that is named exists") {
@@ -405,14 +460,15 @@ TEST_CASE("report: every file that is named exists") {
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
   std::set<std::string> named;
   for (const Row& row : ReadTable(scratch / "out/findings.csv")) {
-    for (const char* column : {"problem_file", "original_file", "certificate_file"})
+    for (const char* column :
+         {"problem_file", "original_file", "certificate_file", "existence_file", "original_existence_file"})
       named.insert(row.at(column));
   }
   const std::string page = ReadText(scratch / "out/index.html");
   for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
   for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
   named.erase("");
-  CHECK(named.size() == 4 + 3 + 2);
+  CHECK(named.size() == 6 + 5 + 2);
   for (const std::string& file : named) {
     INFO(file);
     CHECK(fs::is_regular_file(scratch / "out" / file));
@@ -483,7 +539,8 @@ TEST_CASE("report: an empty store gives a page that says so, and tables of a hea
   RequireWellFormed(page);
   CHECK(Has(page, "The store holds no units"));
   CHECK(Has(page, "<dd>4711</dd>"));
-  for (const char* file : {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv"}) {
+  for (const char* file :
+       {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv", "agreement.csv", "solutions.csv"}) {
     CHECK(ReadTable(scratch / "out" / file).empty());
   }
 }
@@ -520,7 +577,7 @@ TEST_CASE("report: whatever stands in a store is shown as text") {
     CHECK(Has(page, "&lt;/td&gt;&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;&#39;\xEF\xBF\xBD"));
     CHECK(RowsOf(ReadTable(out / "statistics.csv"), {evil, 2, evil, evil, evil}).size() == 1);
     CHECK(FindingRow(out, "cycle-2c-" + evil).at("policy") == evil);
-    CHECK(Contents(out / "findings").size() == (done ? 3 : 2));
+    CHECK(Contents(out / "findings").size() == (done ? 5 : 2));
   }
 }
 
@@ -597,6 +654,7 @@ TEST_CASE("report: findings of interest come first") {
                        {other.signature, 10},
                        {large.signature, 100},
                        {"cycle-1c-1d-1s-counted", 7}},
+                      {},
                       {}};
   const std::vector<Finding> findings = {large, often, other, rare, small, whole};
   const auto discoveries = Discoveries(record, findings);
@@ -604,6 +662,60 @@ TEST_CASE("report: findings of interest come first") {
   for (const Discovery* discovery : ByInterest(discoveries)) order.push_back(discovery->signature);
   CHECK(order == std::vector<std::string>{small.signature, whole.signature, often.signature, rare.signature,
                                           other.signature, large.signature});
+}
+
+TEST_CASE("report: cycles of safe problems and disagreements of methods outrank everything") {
+  Finding simple = Finished(PendingFinding("cycle-2c-1d-2s-a", 0)), large = simple, methods = simple,
+          safe = simple;
+  large.signature = "cycle-8c-1d-2s-safe-when-minimized";
+  large.kind = "safe-cycle";
+  large.minimized += std::string(200, ' ');
+  safe.signature = "safe-cycle-8c-5d-9s";
+  safe.kind = "safe-cycle";
+  methods.signature = "disagreement-of-methods-lemke-ray-8c";
+  methods.kind = "disagreement-of-methods";
+  methods.minimized = methods.minimized_certificate = methods.minimized_existence = "";
+  methods.contacts = 8;
+  methods.facts = "";
+  const std::vector<Finding> findings = {simple, large, safe, methods};
+  Record record = SampleByContacts();
+  for (const Finding& finding : findings) record.signatures[finding.signature] = 1;
+  const auto discoveries = Discoveries(record, findings);
+  std::vector<std::string> order;
+  for (const Discovery* discovery : ByInterest(discoveries)) order.push_back(discovery->signature);
+  CHECK(order ==
+        std::vector<std::string>{safe.signature, large.signature, methods.signature, simple.signature});
+  for (const Discovery& discovery : discoveries) {
+    CHECK(discovery.IsLoop() == (discovery.kind != "disagreement-of-methods"));
+    CHECK(discovery.loop.has_value() == discovery.IsLoop());
+  }
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  store.AddUnit({}, 0, record, findings);
+  WriteReport(store, scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "<strong>3</strong> <span>of these grave"));
+  CHECK(page.find(">safe-cycle<") < page.find(">disagreement-of-methods<"));
+  CHECK(page.find(">disagreement-of-methods<") < page.find(">cycle<"));
+}
+
+TEST_CASE("report: the page says what is known of existence and agreement") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  const Record record = SampleByContacts();
+  const auto sum = [&record](auto member) {
+    return record.agreement.at(2).*member + record.agreement.at(3).*member;
+  };
+  CHECK(Has(page, fmt::format("{} of {} compared problems show a disagreement",
+                              Grouped(sum(&AgreementTally::disagreements)),
+                              Grouped(sum(&AgreementTally::compared)))));
+  for (const int contacts : {2, 3}) {
+    CHECK(Has(page, Grouped(record.existence.at(contacts).solved)));
+    CHECK(Has(page, Grouped(record.agreement.at(contacts).words.at(4 * contacts))));
+    CHECK(Has(page, Grouped(record.agreement.at(contacts).solutions.at(3))));
+  }
 }
 
 // ---- All of it ----
@@ -621,7 +733,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 5 + 3);
+  CHECK(contents.size() == 7 + 5);
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));

@@ -62,7 +62,7 @@ TEST_CASE("campaign: every key of a file is read") {
   const Campaign campaign = Read(With(
       R"("seed": 9223372036854775807, "generators": ["bodies", "psd"], "contacts": [8, 1], "mu": ["0", "1/3", "0.5"],
          "policies": ["paper", "ties=contacts"], "unit_problems": 11, "audit_every": 12,
-         "representatives_per_unit": 13, "max_drives": 14, "max_pivots": 15, "max_bits": 16)"));
+         "lemke_every": 17, "enumerate_every": 18, "representatives_per_unit": 13, "max_drives": 14, "max_pivots": 15, "max_bits": 16)"));
   CHECK(campaign.seed == std::numeric_limits<std::int64_t>::max());
   CHECK(campaign.generators == std::vector{GeneratorId::kBodies, GeneratorId::kPsd});
   CHECK(campaign.contacts == std::vector{8, 1});
@@ -70,6 +70,8 @@ TEST_CASE("campaign: every key of a file is read") {
   CHECK(campaign.policies == std::vector{Policy{}, ParsePolicy("ties=contacts")});
   CHECK(campaign.unit_problems == 11);
   CHECK(campaign.audit_every == 12);
+  CHECK(campaign.lemke_every == 17);
+  CHECK(campaign.enumerate_every == 18);
   CHECK(campaign.representatives_per_unit == 13);
   CHECK(campaign.limits == Limits{14, 15, 16});
 }
@@ -168,10 +170,18 @@ TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
   const std::string definition = DefinitionToJson(campaign).dump();
   CHECK(definition ==
         R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
-        R"("unit_problems":50,"audit_every":5000,"representatives_per_unit":4,"max_drives":1000,)"
-        R"("max_pivots":10000,"max_bits":99})");
+        R"("unit_problems":50,"audit_every":5000,"lemke_every":100,"enumerate_every":1000,)"
+        R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99})");
   CHECK(Read(definition) == campaign);
   CHECK(Read(DefinitionToJson(Campaign{}).dump()) == Campaign{});
+}
+
+TEST_CASE("campaign: a store's identity is its campaign") {
+  Campaign campaign =
+      Read(With(R"("seed": 12, "generators": ["bodies"], "contacts": [4], "enumerate_every": 3)"));
+  campaign.policies = {ParsePolicy("ties=contacts"), Policy{}};
+  CHECK(CampaignOf(IdentityOf(campaign, "build"), "store") == campaign);
+  CHECK_THROWS_WITH(CampaignOf({"{}", 1, "[]", ""}, "a.store"), Contains("a.store: definition: format"));
 }
 
 TEST_CASE("campaign: the identity is the same however the file is written, and differs with its meaning") {
@@ -184,7 +194,8 @@ TEST_CASE("campaign: the identity is the same however the file is written, and d
   for (const char* members :
        {R"("seed": 2)", R"("generators": ["psd"])", R"("contacts": [2])", R"("mu": ["1"])",
         R"("policies": ["ties=contacts"])", R"("unit_problems": 1)", R"("audit_every": 1)",
-        R"("representatives_per_unit": 1)", R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)"}) {
+        R"("lemke_every": 1)", R"("enumerate_every": 1)", R"("representatives_per_unit": 1)",
+        R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)"}) {
     CAPTURE(members);
     CHECK_FALSE(identity(members) == identity(""));
   }

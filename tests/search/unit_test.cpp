@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "certify/agreement.h"
 #include "certify/exact.h"
+#include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "search/signature.h"
 
@@ -247,6 +249,86 @@ TEST_CASE("unit: the double problem is the exact problem, so an audit agrees wit
     CHECK(tally.audited + suspicions == 60);
     CHECK(tally.misjudged == 0);
   }
+}
+
+// ---- Methods held against each other ---------------------------------------------------------
+
+TEST_CASE("unit: methods are compared, and all modes tried, as often as the campaign says") {
+  Campaign campaign = Small(GeneratorId::kSmall, 2, 400);
+  campaign.audit_every = 4;
+  campaign.enumerate_every = 1;
+  const Record all = UnitRunner(campaign).Run(0).record;
+  const AgreementTally& tally = all.agreement.at(2);
+  const ExistenceTally& existence = all.existence.at(2);
+  CHECK(tally.compared >= 100);
+  CHECK(existence.problems == existence.solved);
+  CHECK(tally.enumerated == existence.problems);
+  CHECK(tally.disagreements == 0);
+  CHECK(tally.safety_decided == all.tallies.begin()->second.audited);
+  CHECK(tally.safe > 0);
+  CHECK(tally.safe < tally.safety_decided);
+  CHECK(tally.safe_gave_up_no_ties == 0);
+  std::int64_t words = 0, solutions = 0;
+  for (const auto& [count, problems] : tally.words) {
+    CHECK(count >= 1);
+    words += problems;
+  }
+  for (const auto& [count, problems] : tally.solutions) solutions += problems;
+  CHECK(words == tally.enumerated);
+  CHECK(solutions == tally.regular);
+  CHECK(tally.regular > 10);
+  CHECK(tally.regular < tally.enumerated);
+
+  campaign.enumerate_every = 10;
+  const AgreementTally tenth = UnitRunner(campaign).Run(0).record.agreement.at(2);
+  CHECK(tenth.enumerated > 0);
+  CHECK(tenth.enumerated < tally.enumerated / 3);
+  CHECK(tenth.compared == tally.compared);
+
+  Campaign large = Small(GeneratorId::kSmall, kMostContactsEnumerated + 1, 40);
+  large.audit_every = large.enumerate_every = 1;
+  const AgreementTally none = UnitRunner(large).Run(0).record.agreement.begin()->second;
+  CHECK((none.compared == 40 && none.enumerated == 0 && none.safety_decided == 0));
+}
+
+TEST_CASE("unit: Lemke's method runs on all audits, and by lot on suspicions") {
+  Campaign campaign = Small(GeneratorId::kConditioned, 2, 1000);
+  campaign.audit_every = 1000000;
+  const auto counts = [&campaign](std::int64_t every) {
+    campaign.lemke_every = every;
+    const Record record = UnitRunner(campaign).Run(0).record;
+    return std::pair(record.agreement.at(2).compared, record.existence.at(2).problems);
+  };
+  const auto [all, problems] = counts(1);
+  CHECK(all == problems);
+  CHECK(problems > 5);
+  const auto [some, same] = counts(1000000);
+  CHECK(same == problems);
+  CHECK(some <= 1);  // the first problem, audited
+}
+
+// Too small a budget makes a method end otherwise than it must: a wrong method as a unit sees one.
+TEST_CASE("unit: a method that does not solve is a grave finding with all answers") {
+  Campaign campaign = Small(GeneratorId::kIntegers, 3, 40);
+  campaign.audit_every = 1;
+  campaign.representatives_per_unit = 1;
+  campaign.limits.pivots = 1;
+  const UnitResult result = UnitRunner(campaign).Run(0);
+  CHECK(result.record.agreement.at(3).disagreements > 0);
+  const auto found = std::find_if(
+      result.candidates.begin(), result.candidates.end(),
+      [](const Finding& finding) { return finding.signature == "disagreement-of-methods-complete-limit-3c"; });
+  REQUIRE(found != result.candidates.end());  // kept beside the one representative of other kinds
+  CHECK(found->kind == kDisagreementOfMethods);
+  std::int64_t counted = 0;
+  for (const auto& [signature, count] : result.record.signatures)
+    counted += KindOf(signature) == kDisagreementOfMethods ? count : 0;
+  CHECK(counted == result.record.agreement.at(3).disagreements);
+  const Json facts = Json::parse(found->facts);
+  CHECK(facts.at("disagreement") == "complete ended in limit, expected solved");
+  REQUIRE(facts.at("answers").size() >= 2);
+  CHECK(facts.at("answers")[0].at("method") == "complete");
+  CHECK(facts.at("answers")[0].at("outcome") == "limit");
 }
 
 // ---- Allocations -----------------------------------------------------------------------------

@@ -28,7 +28,7 @@ Solved<Scalar> Solve(const ExactProblem& exact, const std::vector<IndexSet>& set
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   Solved<Scalar> solved;
-  solved.system.Resize(problem.rows());
+  solved.system.Start(problem);
   solved.status = solved.system.Solve(problem, layout, sets, driven, sign, MakeScale(problem, Tolerances{}));
   return solved;
 }

@@ -60,7 +60,7 @@ Step<Scalar> Find(const Case& c) {
                                                 : -Sign(state.a[c.driven]);
   DirectionSystem<Scalar, Eigen::Dynamic> direction;
   StepSize<Scalar, Eigen::Dynamic> step_size;
-  direction.Resize(problem.rows());
+  direction.Start(problem);
   step_size.Resize(problem.rows());
   using System = DirectionSystem<Scalar, Eigen::Dynamic>;
   REQUIRE(direction.Solve(problem, layout, c.sets, c.driven, sign, scale) == System::Status::kRegular);

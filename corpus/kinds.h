@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinds of findings, the gravest first. A signature begins with its kind.
+//
+//   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized
+//   disagreement-of-methods  exact methods contradict each other or what is proved of them
+//   (certify/agreement.h) cycle, stall, ...        an exact outcome other than solved wrong-answer doubles said
+//   solved, with a natural residual above 1e-6 disagreement             doubles ended in another outcome than
+//   exact numbers, of the same problem
+
+#ifndef STICTION_CORPUS_KINDS_H_
+#define STICTION_CORPUS_KINDS_H_
+
+#include <string>
+#include <string_view>
+
+namespace stiction {
+
+inline constexpr std::string_view kSafeCycle = "safe-cycle";
+inline constexpr std::string_view kDisagreementOfMethods = "disagreement-of-methods";
+
+// 0 for the gravest kind, then 1; the same, 2, for all that are neither of the two above.
+inline constexpr int Gravity(std::string_view kind) {
+  return kind == kSafeCycle ? 0 : kind == kDisagreementOfMethods ? 1 : 2;
+}
+inline constexpr bool IsGrave(std::string_view kind) { return Gravity(kind) < 2; }
+
+// A loop of the published algorithm: cycle, stall, safe-cycle.
+bool IsLoopKind(std::string_view kind);
+
+// What a signature begins with; the whole of one that begins with no kind.
+std::string KindOf(const std::string& signature);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_KINDS_H_

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reduction: bilateral constraints and sliding contacts leave a problem before it is solved.
+//
+// What remains are frictionless and static contacts, which every method takes. In the plane and in space.
+//
+//   sliding    fF = -mu fN u (24), u the direction of the sliding velocity: "we can replace all occurrences"
+//              of fF. The column of fN takes -mu u times the columns of fF along, and the rows of fF say
+//              nothing. The matrix is then "unsymmetric and possibly indefinite as well" (section 6).
+//   bilateral  aB = 0 and fB is free: "fi always stays in C" (4.5). With U the other rows,
+//
+//                fB = -inv(A_BB) (A_BU fU + b_B)
+//                A' = A_UU - A_UB inv(A_BB) A_BU        b' = b_U - A_UB inv(A_BB) b_B
+//
+//              which drives, steps and sets of the remaining variables do not notice: A' df is what A df is
+//              while B stays in C.
+//
+// Redundant    bilateral constraints (A_BB singular) rest at zero force. For A symmetric positive semidefinite
+//              they change nothing: A_BB y = 0 implies A y = 0. b outside of range(A) shows as y'b /= 0.
+// Forces       f = E x + e, x the forces of the reduced problem.
+// Cost         rows^2 times the bilateral ones.
+
+#ifndef STICTION_SOLVER_REDUCTION_H_
+#define STICTION_SOLVER_REDUCTION_H_
+
+#include <vector>
+
+#include "solver/options.h"
+#include "solver/problem.h"
+#include "solver/scalar.h"
+
+namespace stiction {
+
+enum class ReductionEnd : std::uint8_t {
+  kReduced,
+  kInconsistent,  // no forces at all keep the bilateral constraints: there is no solution
+  kSingular,      // A_BB is singular and not decoupled from the rest: A is not symmetric, or not semidefinite
+};
+
+template <class Scalar>
+class Reduction {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Matrix = typename Problem::Matrix;
+  using Vector = typename Problem::Vector;
+
+  // Inexact scalars: pivots below tolerances.pivot of the largest entry are zero, accelerations below
+  // tolerances.acceleration of the largest.
+  explicit Reduction(const Problem& problem, const Tolerances& tolerances = {});
+
+  // Whether a problem has anything to reduce.
+  static bool Concerns(const Problem& problem);
+
+  ReductionEnd end() const { return end_; }
+  // Frictionless and static contacts in the order of the full problem; meaningful if kReduced.
+  const Problem& problem() const { return reduced_; }
+  // Row of the full problem for each row of the reduced one.
+  const std::vector<int>& row_of() const { return row_of_; }
+  // x: rows of the reduced problem, N. Returns all forces of the full problem, N.
+  Vector Forces(const Vector& x) const { return E_ * x + e_; }
+  // The same for a direction: of a ray the impulsive direction of section 6.
+  Vector Direction(const Vector& dx) const { return E_ * dx; }
+
+ private:
+  void Sort(const Problem& problem);
+  void ReplaceSlidingFriction(const Problem& problem);
+  void EliminateBilateral(const Tolerances& tolerances);
+  std::vector<int> SolveBilateral(Matrix& T, const Scalar& zero) const;
+  ReductionEnd Classify(const Matrix& A, const Vector& b, const std::vector<int>& determines,
+                        const Scalar& zero, const Scalar& zero_acceleration) const;
+
+  ReductionEnd end_ = ReductionEnd::kReduced;
+  Problem reduced_;
+  std::vector<int> row_of_;
+  std::vector<int> bilateral_;  // rows
+  Matrix M_;                    // rows x (reduced rows, bilateral rows): A with sliding friction replaced
+  Vector b_;
+  Matrix E_;
+  Vector e_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_REDUCTION_H_

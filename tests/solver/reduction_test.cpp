@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/reduction.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/existence.h"
+#include "certify/modes.h"
+#include "solver/direction.ipp"
+#include "solver/published.ipp"
+#include "solver/reduction.ipp"
+#include "solver/residual.h"
+#include "tests/support.h"
+
+namespace stiction::testing {
+namespace {
+
+// Bodies' worth of degrees of freedom, and contacts of every kind on them: A = J J', b = J c. With repeated
+// bilateral rows, so that A_BB is singular.
+ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant = nullptr) {
+  Choices choices(seed);
+  ExactProblem problem;
+  const int contacts = static_cast<int>(choices.Integer(1, 5));
+  for (int i = 0; i < contacts; ++i) {
+    Contact<Rational> contact;
+    const std::int64_t kind = choices.Integer(0, sliding ? 3 : 2);
+    contact.kind = static_cast<ContactKind>(kind);
+    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 4)) / 2;
+    if (contact.kind == ContactKind::kSliding) contact.slip[0] = choices.Integer(0, 1) == 0 ? 1 : -1;
+    problem.contacts.push_back(contact);
+  }
+  const int rows = RowCount(problem.contacts, 2), columns = static_cast<int>(choices.Integer(2, 2 + rows));
+  Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic> J(rows, columns);
+  ExactVector c(columns);
+  for (int j = 0; j < columns; ++j) {
+    c[j] = choices.Integer(-9, 9);
+    for (int i = 0; i < rows; ++i) J(i, j) = choices.Integer(-3, 3);
+  }
+  const auto layout = LayoutOf(problem);
+  int first = -1;
+  for (int i = 0; i < contacts; ++i) {
+    if (problem.contacts[i].kind != ContactKind::kBilateral) continue;
+    const int row = layout.NormalRowOf(i);
+    if (first >= 0 && choices.Integer(0, 2) == 0) {
+      J.row(row) = J.row(first) * Rational(-2);
+      if (redundant != nullptr) ++*redundant;
+    }
+    if (first < 0) first = row;
+  }
+  problem.A = J * J.transpose();
+  problem.b = J * c;
+  return problem;
+}
+
+ContactProblem<double> Rounded(const ExactProblem& problem) {
+  ContactProblem<double> rounded = As<double>(problem);
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+    rounded.contacts[i].slip[0] = ToDouble(problem.contacts[i].slip[0]);
+  return rounded;
+}
+
+TEST_CASE("a problem without bilateral or sliding contacts is its own reduction") {
+  const ExactProblem problem = ReferenceProblem();
+  CHECK_FALSE(Reduction<Rational>::Concerns(problem));
+  const Reduction<Rational> reduction(problem);
+  CHECK(reduction.problem().A == problem.A);
+  CHECK(reduction.problem().b == problem.b);
+  CHECK(reduction.row_of() == std::vector<int>{0, 1, 2, 3});
+  CHECK(reduction.Forces(Vector({1, 2, 3, 4})) == Vector({1, 2, 3, 4}));
+}
+
+TEST_CASE("4.5: complete driving on the reduction solves problems with bilateral constraints") {
+  int with_bilateral = 0, redundant = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const ExactProblem problem = RandomMixed(seed, false, &redundant);
+    const Reduction<Rational> reduction(problem);
+    REQUIRE(reduction.end() == ReductionEnd::kReduced);
+    with_bilateral += Reduction<Rational>::Concerns(problem);
+    const CompleteRun run = RunComplete(reduction.problem(), {});
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    const ExactVector f = reduction.Forces(run.f);
+    const auto violation = FindLawViolation(problem, f);
+    INFO(violation.value_or(""));
+    REQUIRE_FALSE(violation);
+    for (int row = 0; row < reduction.problem().rows(); ++row) CHECK(f[reduction.row_of()[row]] == run.f[row]);
+  }
+  CHECK(with_bilateral > 150);
+  CHECK(redundant > 20);
+}
+
+TEST_CASE("4.5: a direction of the reduction is the direction with the bilateral constraint in C") {
+  // Contacts: static, bilateral, frictionless; driven: the frictionless one while the first sticks.
+  ExactProblem problem =
+      MakeProblem({1, -1, -1}, {{9, 1, 2, 3}, {1, 8, -1, 2}, {2, -1, 7, 1}, {3, 2, 1, 6}}, {-1, 2, 3, -4});
+  problem.contacts[1].kind = ContactKind::kBilateral;
+  DirectionSystem<Rational, Eigen::Dynamic> full, reduced;
+  full.Start(problem);
+  full.Solve(problem, LayoutOf(problem),
+             {IndexSet::kClamped, IndexSet::kSticking, IndexSet::kClamped, IndexSet::kNone}, 3, 1, {});
+  const Reduction<Rational> reduction(problem);
+  reduced.Start(reduction.problem());
+  reduced.Solve(reduction.problem(), LayoutOf(reduction.problem()),
+                {IndexSet::kClamped, IndexSet::kSticking, IndexSet::kNone}, 2, 1, {});
+  CHECK(reduction.Direction(reduced.df()) == full.df());
+  for (int row = 0; row < 3; ++row) CHECK(full.da()[reduction.row_of()[row]] == reduced.da()[row]);
+}
+
+TEST_CASE("bilateral constraints that no forces keep are inconsistent") {
+  ExactProblem problem = MakeProblem({-1, -1}, {{1, 2}, {2, 4}}, {1, 3});
+  for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
+  CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kInconsistent);
+  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kInconsistent);
+  problem.b = Vector({1, 2});
+  const Reduction<Rational> reduction(problem);
+  CHECK(reduction.end() == ReductionEnd::kReduced);
+  CHECK(problem.A * reduction.Forces(ExactVector(0)) + problem.b == Vector({0, 0}));
+  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kReduced);
+}
+
+TEST_CASE("a singular bilateral block that acts on other contacts is refused") {
+  ExactProblem problem = MakeProblem({-1, -1}, {{0, 1}, {1, 0}}, {0, 1});  // indefinite
+  problem.contacts[0].kind = ContactKind::kBilateral;
+  CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kSingular);
+  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kSingular);
+}
+
+TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where there is one") {
+  int solved = 0, rays = 0, none = 0;
+  for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
+    const ExactProblem problem = RandomMixed(seed, true);
+    const Reduction<Rational> reduction(problem);
+    REQUIRE(reduction.end() == ReductionEnd::kReduced);
+    const CompleteRun run = RunComplete(reduction.problem(), {});
+    if (run.verdict.outcome == Outcome::kSolved) {
+      ++solved;
+      REQUIRE_FALSE(FindLawViolation(problem, reduction.Forces(run.f)));
+      continue;
+    }
+    REQUIRE(run.verdict.outcome == Outcome::kRay);
+    ++rays;
+    EnumerationOptions options;
+    options.first_solution_only = true;
+    none += EnumerateModes(problem, options).solutions.empty();
+  }
+  CHECK(solved > 100);
+  CHECK(rays > 3);
+  CHECK(none > 0);
+}
+
+TEST_CASE("6: the rod that slides: none, one or two solutions") {
+  // Uniform rod, m = 1, half length 1, tan of the angle 2, friction coefficient 2: aN = -4/5 fN + bN.
+  ExactProblem rod =
+      MakeProblem({2}, {{Rational(8, 5), Rational(6, 5)}, {Rational(6, 5), Rational(17, 5)}}, {-10, 0});
+  rod.contacts[0].kind = ContactKind::kSliding;
+  rod.contacts[0].slip[0] = 1;
+  const Reduction<Rational> reduction(rod);
+  CHECK(reduction.problem().A(0, 0) == Rational(-4, 5));
+  CHECK(reduction.problem().contacts[0].kind == ContactKind::kFrictionless);
+  PublishedAlgorithm<Rational> published;
+  CHECK(published.Run(reduction.problem()).outcome == Outcome::kRay);
+  // The impulsive direction: sliding friction opposes the velocity.
+  CHECK(reduction.Direction(published.direction().df()) == Vector({1, -2}));
+  CHECK(reduction.Forces(Vector({3})) == Vector({3, -6}));
+}
+
+TEST_CASE("in space the friction of a sliding contact opposes a velocity in the plane") {
+  ExactProblem problem = MakeProblem({1}, {{5, 1, 2}, {1, 4, 0}, {2, 0, 3}}, {-1, 0, 0});
+  problem.dimension = 3;
+  problem.contacts[0].kind = ContactKind::kSliding;
+  problem.contacts[0].slip = {Rational(3, 5), Rational(-4, 5)};
+  const Reduction<Rational> reduction(problem);
+  REQUIRE(reduction.problem().rows() == 1);
+  CHECK(reduction.problem().A(0, 0) == Rational(5) - Rational(3, 5) + Rational(8, 5));
+  CHECK(reduction.Forces(Vector({10})) == Vector({10, -6, 8}));
+}
+
+TEST_CASE("doubles: forces of the reduction leave a residual of rounding size") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const ContactProblem<double> problem = Rounded(RandomMixed(seed, seed % 2 == 0));
+    const Reduction<double> reduction(problem);
+    REQUIRE(reduction.end() == ReductionEnd::kReduced);
+    CompleteDriving<double> driving;
+    if (driving.Run(reduction.problem()).outcome != Outcome::kSolved) continue;
+    const Eigen::VectorXd f = reduction.Forces(driving.state().f);
+    CHECK(NaturalResidual(problem, f, Eigen::VectorXd(problem.A * f + problem.b)) < 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace stiction::testing
