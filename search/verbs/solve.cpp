@@ -13,6 +13,7 @@
 #include "corpus/json_text.h"
 #include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
+#include "solver/fast.h"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -143,7 +144,8 @@ ContactProblem<Scalar> Round(const ExactProblem& problem, ExactProblem& rounded)
   ContactProblem<Scalar> result;
   result.dimension = problem.dimension;
   for (Contact<Rational>& contact : rounded.contacts)
-    result.contacts.push_back({contact.kind, round(contact.mu), {}});
+    result.contacts.push_back(
+        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
   result.A.resize(problem.rows(), problem.rows());
   result.b.resize(problem.rows());
   for (int i = 0; i < problem.rows(); ++i) {
@@ -200,6 +202,17 @@ Solved SolveRounded(const std::string& method, const ExactProblem& problem, cons
     solved.verdict = algorithm.Run(inexact);
     solved.statistics = {{"pivots", solved.verdict.statistics.pivots}};
     if (solved.verdict.outcome == Outcome::kSolved) Describe(inexact, algorithm.f(), solved);
+  } else if (method == "fast") {
+    FastOptions fast;
+    fast.tolerances = options.tolerances;
+    fast.limits = options.limits;
+    FastSolver<Scalar> solver(fast);
+    const FastVerdict verdict = solver.Run(inexact);
+    solved.verdict.outcome = verdict.outcome;
+    solved.verdict.reason = verdict.reason;
+    solved.statistics = CountersToJson(verdict.statistics);
+    if (verdict.outcome == Outcome::kSolved) solved.word = solver.Word();
+    Describe(inexact, solver.f(), solved);
   } else {
     PublishedAlgorithm<Scalar> algorithm(options);
     solved.verdict = algorithm.Run(inexact);
@@ -251,20 +264,22 @@ int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
 
 int Solve(const SolveOptions& o) {
   if (const ProblemFile any = ReadProblem(o.file); any.problem.dimension == 3) return SolveIn3D(o, any.problem);
-  if (o.method == "fast")
-    throw InputError("--method fast: not built for the plane; expected --method baraff or complete");
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const ProblemFile file = any_kind ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  const bool fast = o.method == "fast";
+  if (fast && o.arithmetic == "exact") {
+    throw InputError("--method fast: expected --arithmetic float, double or long-double");
+  }
+  const ProblemFile file = any_kind || fast ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
   Json result = RunToJson(solved.verdict);
   Outcome outcome = solved.verdict.outcome;
   // What rounded numbers suspect is run again exactly, on the problem that they solved, before it is claimed.
-  if (o.arithmetic != "exact" && outcome != Outcome::kSolved) {
+  if (o.arithmetic != "exact" && outcome != Outcome::kSolved && !fast) {
     const Json suspected = result;
     const Solved exact = SolveExactly(o.method, rounded, options);
     outcome = exact.verdict.outcome;
@@ -296,21 +311,22 @@ void AddSolve(CLI::App& program, Action& action) {
   auto o = std::make_shared<SolveOptions>();
   CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option(
-          "--method", o->method,
-          "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
-          "Lemke's method, "
-          "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly; fast: "
-          "in space, Newton's method with complete driving behind it")
+  verb.add_option("--method", o->method,
+                  "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
+                  "Lemke's method, "
+                  "lexicographic; fast: cells guessed and verified, in space Newton's method, complete driving "
+                  "behind it (inexact "
+                  "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt", "fast"}, "method");
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
       });
-  verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
-      });
+  CLI::Option* arithmetic = verb.add_option("--arithmetic", o->arithmetic,
+                                            "float, double, long-double or exact (rational); the default of "
+                                            "method fast is double");
+  arithmetic->capture_default_str()->check([](const std::string& text) {
+    return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
+  });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   verb.add_option(
           "--law", o->law,
@@ -324,7 +340,10 @@ void AddSolve(CLI::App& program, Action& action) {
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
+  verb.callback([o, arithmetic, &action] {
+    if (o->method == "fast" && arithmetic->count() == 0) o->arithmetic = "double";
+    action = [o] { return Solve(*o); };
+  });
 }
 
 }  // namespace stiction

@@ -133,7 +133,7 @@ class Space(cli.TestCase):
         out = self.folder / "c.json"
         for method in ("baraff", "lemke", "enumerate", "ipopt"):
             self.refuses("solve", problem, "--method", method, says=["dimension", "3", "not built for space"])
-        self.refuses("solve", problem, "--method", "fast", says="--arithmetic")
+        self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says="--arithmetic")
         self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
         self.refuses("replay", problem, says=["dimension", "3"])
         self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
