@@ -4,6 +4,7 @@
 #include "certify/certificate.h"
 #include "certify/no_solution.h"
 #include "certify/space.h"
+#include "solver/reduction.ipp"
 
 namespace stiction {
 
@@ -44,12 +45,14 @@ Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
     if (solution.outcome != Outcome::kSolved) return {nullptr, "none"};
     return {SolutionCertificate(problem, solution.f), "complete"};
   }
-  if (PublishedHandles(problem)) {
-    const CompleteRun complete = RunComplete(problem, limits);
+  const Reduction<Rational> reduction(problem);  // 4.5, 6
+  if (reduction.end() == ReductionEnd::kReduced) {
+    const CompleteRun complete = RunComplete(reduction.problem(), limits);
     if (complete.verdict.outcome == Outcome::kSolved)
-      return {SolutionCertificate(problem, complete.f), "complete"};
-    const LemkeRun lemke = RunLemke(problem, limits);
-    if (lemke.verdict.outcome == Outcome::kSolved) return {SolutionCertificate(problem, lemke.f), "lemke"};
+      return {SolutionCertificate(problem, reduction.Forces(complete.f)), "complete"};
+    const LemkeRun lemke = RunLemke(reduction.problem(), limits);
+    if (lemke.verdict.outcome == Outcome::kSolved)
+      return {SolutionCertificate(problem, reduction.Forces(lemke.f)), "lemke"};
   }
   EnumerationOptions first = options;
   first.first_solution_only = true;
