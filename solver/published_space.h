@@ -167,6 +167,10 @@ class PublishedInSpace {
   std::vector<OuterState> outer_states_;
 };
 
+extern template class PublishedInSpace<float>;
+extern template class PublishedInSpace<double>;
+extern template class PublishedInSpace<long double>;
+
 }  // namespace stiction
 
 #endif  // STICTION_SOLVER_PUBLISHED_SPACE_H_

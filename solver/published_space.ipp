@@ -422,8 +422,8 @@ void PublishedInSpace<Scalar>::LimitSticking(Limit& limit, int row) const {
   const Scalar force = sqrt(Square(state_.f, row));
   const Scalar B = bound * growth - (state_.f[row] * df[row] + state_.f[row + 1] * df[row + 1]);
   const Scalar K = growth * growth - Square(df, row);
-  const auto offer = [&limit](Scalar s) {
-    if (!limit.exists || s < limit.s) limit = {true, std::move(s), IndexSet::kAtUpper};
+  const auto offer = [&](Scalar s) {  // behind aF = 0 of the driven variable if they tie
+    if (!limit.exists || s + scale_.force < limit.s) limit = {true, std::move(s), IndexSet::kAtUpper};
   };
   const int K_sign = IsSurelyZero(K) ? 0 : Sign(K, Scalar(scale_.pivot * scale_.pivot));
   const Scalar slack = bound - force;

@@ -80,6 +80,7 @@ constexpr std::array kSuites = {
     Suite{"search", "problems a second of the search's hot path", BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
+    Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -104,7 +105,7 @@ void AddBench(CLI::App& program, Action& action) {
   verb.add_option("--problems", o->problems,
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
                   "methods: problems of each number of contacts (default 800); linear-algebra: systems of a row "
-                  "(default 200)")
+                  "(default 200); space: problems of each family and number of contacts (default 2000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat, "search, linear-algebra: counted runs")
       ->capture_default_str()

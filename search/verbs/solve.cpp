@@ -11,6 +11,7 @@
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
+#include "search/verbs/solve_published_space.h"
 #include "search/verbs/verbs.h"
 #include "solver/residual.h"
 
@@ -20,7 +21,7 @@ namespace {
 struct SolveOptions {
   std::string file;
   std::string method = "baraff";
-  std::string arithmetic = "exact";
+  std::string arithmetic;  // empty: exact, and interval for method baraff in space
   std::string policy = "paper";
   Limits limits;
   Tolerances tolerances;
@@ -230,7 +231,33 @@ void PrintForPeople(const Json& result) {
   }
 }
 
-int Solve(const SolveOptions& o) {
+int Show(const Json& result, bool json, Outcome outcome) {
+  if (json) {
+    std::cout << JsonText(result) << "\n";
+  } else {
+    PrintForPeople(result);
+  }
+  return ExitOf(outcome);
+}
+
+int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) {
+  PublishedSpaceAnswer answer =
+      SolvePublishedInSpace(problem, o.arithmetic, {ParsePolicy(o.policy), o.tolerances, o.limits});
+  answer.result["assumptions"] = FailedAssumptions(problem);
+  return Show(answer.result, o.json, answer.outcome);
+}
+
+int Solve(const SolveOptions& given) {
+  SolveOptions o = given;
+  if (o.method == "baraff") {
+    const ProblemFile file = ReadHandledProblem(o.file, o.method, Dimensions::kAny);
+    if (file.problem.dimension == 3) return SolveByPublishedInSpace(o, file.problem);
+  }
+  if (o.arithmetic.empty()) o.arithmetic = "exact";
+  if (o.arithmetic == "interval") {
+    throw InputError("arithmetic 'interval' is not built but for the published algorithm in space; expected one "
+                     "of float, double, long-double, exact");
+  }
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
@@ -259,12 +286,7 @@ int Solve(const SolveOptions& o) {
   if (!solved.residual.is_null()) result["residual"] = solved.residual;
   result["assumptions"] = FailedAssumptions(file.problem);
   result["statistics"] = solved.statistics;
-  if (o.json) {
-    std::cout << JsonText(result) << "\n";
-  } else {
-    PrintForPeople(result);
-  }
-  return ExitOf(outcome);
+  return Show(result, o.json, outcome);
 }
 
 // Refuses what the specification names and this build does not have.
@@ -287,10 +309,11 @@ void AddSolve(CLI::App& program, Action& action) {
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
       });
-  verb.add_option("--arithmetic", o->arithmetic, "float, double, long-double or exact (rational)")
-      ->capture_default_str()
+  verb.add_option("--arithmetic", o->arithmetic,
+                  "float, double, long-double, exact (rational; the default), or, for the published algorithm in "
+                  "space, interval (the default there)")
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
+        return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
       });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   AddLimits(verb, o->limits);
