@@ -2,9 +2,11 @@
 // The published algorithm in space over every arithmetic that it has there: floating point and intervals.
 //
 // Intervals   every sign that a step depends on is proved, or the run ends `undecided`. So `solved`, `ray` and
-//             `singular` are statements about the algorithm in exact arithmetic. An endless run cannot be proved:
-//             forces are irrational, and a state that stands again as far as rounding shows ends `undecided`.
-// Suspicions  what floating point does not solve is run again over long double, with finer tolerances and states
+//             `singular` are statements about the algorithm in exact arithmetic. An endless run cannot be
+//             proved: forces are irrational, and a state that stands again as far as rounding shows ends
+//             `undecided`.
+// Suspicions  what floating point does not solve is run again over long double, with finer tolerances and
+// states
 //             compared after finer rounding. `cycle` remains a suspicion.
 
 #ifndef STICTION_CERTIFY_PUBLISHED_SPACE_H_

@@ -174,8 +174,8 @@ void PublishedInSpace<Scalar>::Establish(int row) {
 }
 
 // "We first increase fx (assuming ax < 0) until either i moves into NCF, or ax reaches zero. If i is in NCF, we
-// are done, otherwise we now adjust fy" (5.6). A contact given up by turning takes the direction opposite to its
-// acceleration for x.
+// are done, otherwise we now adjust fy" (5.6). A contact given up by turning takes the direction opposite to
+// its acceleration for x.
 template <class Scalar>
 void PublishedInSpace<Scalar>::EstablishFriction(int row) {
   using std::sqrt;
@@ -312,8 +312,8 @@ void PublishedInSpace<Scalar>::MoveLimiting(int row, IndexSet wants) {
   Move(row, wants);
 }
 
-// slip=redirect: at d.aF = 0 with aF /= 0 the recorded direction opposes the acceleration no more, and the contact
-// is given up whatever the length of the step.
+// slip=redirect: at d.aF = 0 with aF /= 0 the recorded direction opposes the acceleration no more, and the
+// contact is given up whatever the length of the step.
 template <class Scalar>
 bool PublishedInSpace<Scalar>::TurnsAway(int row) {
   if (state_.sets[row] != IndexSet::kAtUpper || options_.policy.slip != Slip::kRedirect) return false;
@@ -412,8 +412,8 @@ void PublishedInSpace<Scalar>::LimitMaintained(int row) {
   }
 }
 
-// Equation (23). With c = (mu fN)^2 - fF^2 >= 0 the circle is reached where c + 2 B s + K s^2 falls to zero, or,
-// if c = 0, where it falls below.
+// Equation (23). With c = (mu fN)^2 - fF^2 >= 0 the circle is reached where c + 2 B s + K s^2 falls to zero,
+// or, if c = 0, where it falls below.
 template <class Scalar>
 void PublishedInSpace<Scalar>::LimitSticking(Limit& limit, int row) const {
   using std::sqrt;
@@ -436,7 +436,8 @@ void PublishedInSpace<Scalar>::LimitSticking(Limit& limit, int row) const {
   const Scalar c = slack * (bound + force);
   const Scalar D = B * B - K * c;
   if (K_sign < 0) {
-    const bool outward = Approximation<Scalar>::Of(B) <= 0;  // two forms of one root, each good for one sign of B
+    const bool outward =
+        Approximation<Scalar>::Of(B) <= 0;  // two forms of one root, each good for one sign of B
     return offer(outward ? Scalar(c / (sqrt(D) - B)) : Scalar((B + sqrt(D)) / -K));
   }
   if (IsSurelyZero(B) || Sign(B, Scalar(scale_.pivot * bound)) >= 0 || Sign(D) < 0) return;
@@ -487,8 +488,8 @@ void PublishedInSpace<Scalar>::Reverse(int row) {
   Rebuild(FrictionOf(row));
 }
 
-// p along the friction force: the direction that NCF records, and along which the force is driven to zero. A force
-// of zero has the direction of its change.
+// p along the friction force: the direction that NCF records, and along which the force is driven to zero. A
+// force of zero has the direction of its change.
 template <class Scalar>
 void PublishedInSpace<Scalar>::AlongForce(int row) {
   using std::sqrt;
@@ -578,7 +579,8 @@ std::uint64_t PublishedInSpace<Scalar>::RoundedHash() const {
   const auto mix_rounded = [&mix](const Scalar& x, double inverse_grain) {
     // The offset keeps numbers that are round in the problem's scale away from the edges of the grains.
     const double grains = Approximation<Scalar>::Of(x) * inverse_grain + 0.318309886;
-    mix(std::abs(grains) < 9e18 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(grains))) : 0);
+    mix(std::abs(grains) < 9e18 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(grains)))
+                                : 0);
   };
   const Vector forces = f();
   for (int row = 0; row < problem_->rows(); ++row) {

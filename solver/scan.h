@@ -60,8 +60,8 @@ int PickViolated(const Layout& layout, Scan scan, Resume resume, int last_driven
   return -1;
 }
 
-// Whether a limiting variable is given up (5.5). `wants_back`: into the set that it just left; `zero`, `last_zero`:
-// whether this step, and the step before it in this drive, have length zero.
+// Whether a limiting variable is given up (5.5). `wants_back`: into the set that it just left; `zero`,
+// `last_zero`: whether this step, and the step before it in this drive, have length zero.
 inline bool GivesUp(GiveUp rule, bool wants_back, bool zero, bool last_zero) {
   if (!wants_back) return false;
   switch (rule) {

@@ -3,13 +3,14 @@
 //
 //   A = J J', b = J w    J 3n x columns, entries of J and w uniform integers in [-1000, 1000]
 //
-// so that A is positive semidefinite and b in its range: `definite` has 3 n + 1 columns, `one body` has 6, and its
-// A is singular for three contacts and more. Problem `index` has mu = kFrictions[index mod 5] at all contacts. All
-// numbers are exact doubles.
+// so that A is positive semidefinite and b in its range: `definite` has 3 n + 1 columns, `one body` has 6, and
+// its A is singular for three contacts and more. Problem `index` has mu = kFrictions[index mod 5] at all
+// contacts. All numbers are exact doubles.
 //
-// Suspicions  doubles suspect a cycle where a rounded state stands again. It is run again over long double, rounded
-//             a million times finer: there it `recurs` (same start, same period), or the run only `approaches` a
-//             loop (a later start, or another period), or it is `refuted`.
+// Suspicions  doubles suspect a cycle where a rounded state stands again. It is run again over long double,
+// rounded
+//             a million times finer: there it `recurs` (same start, same period), or the run only `approaches`
+//             a loop (a later start, or another period), or it is `refuted`.
 
 #include <fmt/format.h>
 
@@ -65,17 +66,17 @@ ExactProblem MakeProblem(int columns, int contacts, std::uint64_t seed, std::int
 
 struct Count {
   std::int64_t problems = 0, solved = 0, wrong = 0, ray = 0, limit = 0, undecided = 0, singular = 0;
-  std::int64_t recurs = 0, approaches = 0, refuted = 0;  // suspected cycles
-  std::int64_t breaks = 0, redirects = 0, give_ups = 0;  // runs in which there was one
-  std::vector<std::int64_t> steps;                       // of solved runs
+  std::int64_t recurs = 0, approaches = 0, refuted = 0;                    // suspected cycles
+  std::int64_t breaks = 0, redirects = 0, give_ups = 0;                    // runs in which there was one
+  std::vector<std::int64_t> steps;                                         // of solved runs
   std::int64_t proved_solved = 0, proved_ray = 0, unsure = 0, differ = 0;  // over intervals
 };
 
 constexpr std::array kCounters = {
-    &Count::problems,  &Count::solved,     &Count::wrong,         &Count::ray,        &Count::limit,
-    &Count::undecided, &Count::singular,   &Count::recurs,        &Count::approaches, &Count::refuted,
-    &Count::breaks,    &Count::redirects,  &Count::give_ups,      &Count::proved_solved,
-    &Count::proved_ray, &Count::unsure,    &Count::differ};
+    &Count::problems,  &Count::solved,    &Count::wrong,    &Count::ray,           &Count::limit,
+    &Count::undecided, &Count::singular,  &Count::recurs,   &Count::approaches,    &Count::refuted,
+    &Count::breaks,    &Count::redirects, &Count::give_ups, &Count::proved_solved, &Count::proved_ray,
+    &Count::unsure,    &Count::differ};
 
 void Add(const Count& count, Count& sum) {
   for (const auto counter : kCounters) sum.*counter += count.*counter;

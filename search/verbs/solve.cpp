@@ -255,8 +255,9 @@ int Solve(const SolveOptions& given) {
   }
   if (o.arithmetic.empty()) o.arithmetic = "exact";
   if (o.arithmetic == "interval") {
-    throw InputError("arithmetic 'interval' is not built but for the published algorithm in space; expected one "
-                     "of float, double, long-double, exact");
+    throw InputError(
+        "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
+        "of float, double, long-double, exact");
   }
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
@@ -309,9 +310,10 @@ void AddSolve(CLI::App& program, Action& action) {
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
       });
-  verb.add_option("--arithmetic", o->arithmetic,
-                  "float, double, long-double, exact (rational; the default), or, for the published algorithm in "
-                  "space, interval (the default there)")
+  verb.add_option(
+          "--arithmetic", o->arithmetic,
+          "float, double, long-double, exact (rational; the default), or, for the published algorithm in "
+          "space, interval (the default there)")
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
       });

@@ -69,9 +69,10 @@ PublishedSpaceAnswer AnswerIn(const ExactProblem& problem, const std::string& ar
   if (arithmetic == "double") return AnswerRounded<double>(problem, options);
   if (arithmetic == "long-double") return AnswerRounded<long double>(problem, options);
   if (arithmetic == "interval") return Answer(RunIntervalsInSpace(problem, options), options);
-  throw InputError(fmt::format("--arithmetic {}: expected interval, float, double or long-double for the "
-                               "published algorithm in space, which takes square roots",
-                               arithmetic));
+  throw InputError(
+      fmt::format("--arithmetic {}: expected interval, float, double or long-double for the "
+                  "published algorithm in space, which takes square roots",
+                  arithmetic));
 }
 
 }  // namespace
@@ -79,9 +80,10 @@ PublishedSpaceAnswer AnswerIn(const ExactProblem& problem, const std::string& ar
 PublishedSpaceAnswer SolvePublishedInSpace(const ExactProblem& problem, const std::string& arithmetic,
                                            const PublishedOptions& options) {
   if (!PublishedReadsInSpace(options.policy)) {
-    throw InputError(fmt::format("--policy {}: expected file=no, apex=kept and slip=literal or slip=redirect in "
-                                 "space, where no other reading of these is built",
-                                 PolicyName(options.policy)));
+    throw InputError(
+        fmt::format("--policy {}: expected file=no, apex=kept and slip=literal or slip=redirect in "
+                    "space, where no other reading of these is built",
+                    PolicyName(options.policy)));
   }
   const std::string chosen = arithmetic.empty() ? "interval" : arithmetic;
   PublishedSpaceAnswer answer = AnswerIn(problem, chosen, options);

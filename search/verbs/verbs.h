@@ -37,8 +37,9 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A problem that the pivoting methods handle: frictionless and static contacts, in the plane (PublishedHandles) or,
-// where any dimension is welcome, in space (PublishedHandlesInSpace). InputError that names the contact otherwise.
+// A problem that the pivoting methods handle: frictionless and static contacts, in the plane (PublishedHandles)
+// or, where any dimension is welcome, in space (PublishedHandlesInSpace). InputError that names the contact
+// otherwise.
 enum class Dimensions { kPlanar, kAny };
 ProblemFile ReadHandledProblem(const std::string& file, const std::string& method = "baraff",
                                Dimensions dimensions = Dimensions::kPlanar);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published algorithm in space (readings.md, 8): examples by hand, planar problems in space, random ones.
 
+#include "certify/published_space.h"
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include "certify/published_space.h"
 #include "solver/weak_residual.h"
 #include "tests/support.h"
 
@@ -68,8 +70,8 @@ TEST_CASE("space: a contact pushed less than its limit sticks, x established bef
     CheckForces(ended, {1, 1, -1});
     REQUIRE(ended.trace.pivots.size() == 3);
     CheckNear(ended.trace.pivots[1].f, {1, 1, 0});
-    CHECK(ended.trace.pivots[2].sets == std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kSticking,
-                                                              IndexSet::kSticking});
+    CHECK(ended.trace.pivots[2].sets ==
+          std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kSticking, IndexSet::kSticking});
     CHECK(ended.verdict.statistics.drives == 3);
   }
 }
@@ -119,10 +121,24 @@ TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps
   }
 }
 
+// While contact 3 is driven, fN of contact 2 in C and aN of contact 1 in NC reach zero at s = 1.
+TEST_CASE("space: ties follow the switch") {
+  const ExactProblem problem = InSpace({-1, -1, -1}, {{1, 0, -1}, {0, 1, 1}, {-1, 1, 10}}, {1, -1, -100});
+  PublishedOptions options;
+  options.policy.admit = Admit::kEager;
+  for (const Ties ties : {Ties::kSets, Ties::kContacts}) {
+    options.policy.ties = ties;
+    const Ended ended = Run(problem, options);
+    REQUIRE(ended.trace.pivots.size() > 2);
+    CHECK(ended.trace.pivots[1].s == Approx(1));
+    CHECK(ended.trace.pivots[1].limiting == (ties == Ties::kSets ? 1 : 0));
+  }
+}
+
 // ---- Two readings of the recorded direction ---------------------------------------------------
 
-// Contact 1 slips with d = (-1, 0) while fN of contact 2 is driven, and ax of contact 1 reaches zero at 2/3 of the
-// way, with ay = 1.
+// Contact 1 slips with d = (-1, 0) while fN of contact 2 is driven, and ax of contact 1 reaches zero at 2/3 of
+// the way, with ay = 1.
 ExactProblem Turning() {
   return InSpace({1, 1},
                  {{4, 0, 0, -1, 0, 0},
@@ -155,7 +171,8 @@ TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it a
   CheckForces(ended, {8.0 / 11, 2 * along, along, 10.0 / 11, 0.5, 0});
 }
 
-TEST_CASE("space: literally, forces of a definite static problem can be driven without end; intervals prove it") {
+TEST_CASE(
+    "space: literally, forces of a definite static problem can be driven without end; intervals prove it") {
   const ExactProblem problem = InSpace({2, 2},
                                        {{2, 0, 0, -1, 0, 1},
                                         {0, 3, 0, 1, 0, 0},
@@ -211,24 +228,27 @@ ExactProblem Embedded(const ExactProblem& planar) {
 void CheckEqual(const Statistics& found, const Statistics& expected) {
   Statistics numbers = found;
   std::vector<std::pair<std::string, std::int64_t>> left, right;
-  ForEachField(numbers, [&](const char* name, const char*, std::int64_t value) { left.emplace_back(name, value); });
+  ForEachField(numbers,
+               [&](const char* name, const char*, std::int64_t value) { left.emplace_back(name, value); });
   numbers = expected;
-  ForEachField(numbers, [&](const char* name, const char*, std::int64_t value) { right.emplace_back(name, value); });
+  ForEachField(numbers,
+               [&](const char* name, const char*, std::int64_t value) { right.emplace_back(name, value); });
   for (std::size_t i = 0; i < left.size(); ++i) {
     CAPTURE(left[i].first);
     CHECK(left[i].second == right[i].second);
   }
 }
 
-// Whether a friction variable goes from NC- through CF to NC+, or back, in one drive. In space that is back to the
-// set that it came from, NCF.
-bool PassesThroughSticking(const Trace<double>& trace) {
+// Whether a friction variable goes from NC- through CF to NC+, or back, by a step of length zero or right after
+// one. In space that is back to the set that it came from, NCF, and looks like a bounce.
+bool PassesThroughSticking(const Trace<Rational>& trace) {
   for (std::size_t i = 0; i < trace.pivots.size(); ++i) {
-    const Pivot<double>& first = trace.pivots[i];
+    const Pivot<Rational>& first = trace.pivots[i];
     if (LimitSign(first.from) == 0) continue;
     for (std::size_t k = i + 1; k < trace.pivots.size() && trace.pivots[k].drive == first.drive; ++k) {
-      if (trace.pivots[k].limiting == first.limiting && LimitSign(trace.pivots[k].wanted) == -LimitSign(first.from))
-        return true;
+      const Pivot<Rational>& pivot = trace.pivots[k];
+      if (pivot.limiting != first.limiting || LimitSign(pivot.wanted) != -LimitSign(first.from)) continue;
+      if (pivot.s == 0 || trace.pivots[k - 1].s == 0) return true;
     }
   }
   return false;
@@ -237,10 +257,9 @@ bool PassesThroughSticking(const Trace<double>& trace) {
 // False if the plane has a distinction that space has not.
 bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
   CAPTURE(PolicyName(policy));
-  PublishedAlgorithm<double> plane(PublishedOptions{policy, {}, {}});
-  Trace<double> trace;
-  const Verdict expected = plane.Run(As<double>(planar), &trace);
-  if (PassesThroughSticking(trace)) return false;
+  const ExactRun plane = RunExact(planar, {policy, {}, {}});
+  const Verdict& expected = plane.verdict;
+  if (PassesThroughSticking(plane.trace)) return false;
   const Ended ended = Run(Embedded(planar), {policy, {}, {}});
   CHECK(ended.verdict.outcome == expected.outcome);
   CHECK(ended.verdict.start == expected.start);
@@ -249,7 +268,7 @@ bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
   CHECK(ended.verdict.redirects == 0);
   CHECK(ended.verdict.breaks == 0);
   for (int i = 0; i < planar.rows(); ++i)
-    CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(plane.state().f[i]).margin(1e-6));
+    CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.state.f[i])).margin(1e-6));
   return true;
 }
 
@@ -265,11 +284,29 @@ Policy RandomReading(Choices& choices) {
 TEST_CASE("space: a planar problem takes the steps that it takes in the plane, under every policy") {
   Choices choices(56);
   int compared = 0;
-  for (int k = 0; k < 400; ++k) {
-    const auto id = k % 2 == 0 ? GeneratorId::kIntegers : GeneratorId::kPsd;
-    compared += CheckAsInThePlane(Random<Rational>(id, 1 + k % 4, k), RandomReading(choices));
+  for (int k = 0; k < 600; ++k) {
+    const GeneratorId ids[] = {GeneratorId::kIntegers, GeneratorId::kPsd, GeneratorId::kSmall};
+    compared += CheckAsInThePlane(Random<Rational>(ids[k % 3], 1 + k % 4, k), RandomReading(choices));
   }
-  CHECK(compared >= 380);
+  CHECK(compared >= 560);
+}
+
+TEST_CASE("space: intervals take the steps of exact arithmetic, bounces too, or are undecided") {
+  int bounced = 0, decided = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ExactProblem planar = Random<Rational>(GeneratorId::kIntegers, 2 + k % 3, k);
+    if (PublishedAlgorithm<double>().Run(As<double>(planar)).statistics.bounces == 0) continue;
+    const ExactRun plane = RunExact(planar, {});
+    const PublishedSpaceVerdict verdict = RunIntervalsInSpace(Embedded(planar), {}).verdict;
+    ++bounced;
+    if (verdict.outcome == Outcome::kUndecided || PassesThroughSticking(plane.trace)) continue;
+    ++decided;
+    CAPTURE(k);
+    CHECK(verdict.outcome == plane.verdict.outcome);
+    CheckEqual(verdict.statistics, plane.verdict.statistics);
+  }
+  CHECK(bounced >= 15);
+  CHECK(decided >= bounced / 2);
 }
 
 TEST_CASE("space: what loops in the plane loops in space") {
@@ -431,9 +468,9 @@ TEST_CASE("weak residual: zero at a solution, the size of what is broken elsewhe
     return WeakResidual(problem, forces, a);
   };
   CHECK(residual({1, -0.5, 0}) == 0);
-  CHECK(residual({1, -0.75, 0}) == Approx(0.25));   // outside the circle
-  CHECK(residual({1, -0.25, 0}) == Approx(0.25));   // inside, though aF /= 0
-  CHECK(residual({1, 0.5, 0}) == Approx(0.75));     // along its acceleration
+  CHECK(residual({1, -0.75, 0}) == Approx(0.25));      // outside the circle
+  CHECK(residual({1, -0.25, 0}) == Approx(0.25));      // inside, though aF /= 0
+  CHECK(residual({1, 0.5, 0}) == Approx(0.75));        // along its acceleration
   CHECK(residual({0.75, -0.375, 0}) == Approx(0.25));  // aN = -1/2
 }
 
