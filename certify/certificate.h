@@ -22,6 +22,9 @@ Json SymmetryCertificate(const ExactProblem& problem);
 Json SemidefiniteCertificate(const ExactProblem& problem);
 // `in-range` or `not-in-range`.
 Json RangeCertificate(const ExactProblem& problem);
+// `h` or `not-h` (hypothesis.h); null if neither is shown, which happens in space only. InputError for problems
+// with sliding contacts.
+Json HypothesisCertificate(const ExactProblem& problem);
 // `cycle` or `stall`, for those of the policies that end in it; a null value if none does.
 Json LoopCertificate(const ExactProblem& problem, Outcome loop, const std::vector<Policy>& policies,
                      const Limits& limits);

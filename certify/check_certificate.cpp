@@ -7,6 +7,7 @@
 #include <set>
 
 #include "certify/certificate.h"
+#include "certify/hypothesis.h"
 #include "certify/no_solution.h"
 #include "certify/properties.h"
 #include "certify/safe.h"
@@ -152,6 +153,39 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
+void RequireCones(const ExactProblem& problem) {
+  if (HasSlidingContact(problem)) {
+    throw Rejected{"problem.contacts", "a sliding contact", "bilateral, frictionless and static ones"};
+  }
+}
+
+Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"y"});
+  RequireCones(problem);
+  const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
+  if (const auto violation = FindDualConeViolation(problem, DualRest(problem, y))) {
+    throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};
+  }
+  return Json::object();
+}
+
+Json CheckNotHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"v", "value"});
+  RequireCones(problem);
+  const ExactVector v = ReadVector(witness["v"], "witness.v", problem.rows());
+  Rational product = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    Rational image = 0;
+    for (int j = 0; j < problem.rows(); ++j) image += problem.A(i, j) * v[j];
+    RequireEqual(image, 0, fmt::format("(A v)[{}]", i));
+    product += problem.b[i] * v[i];
+  }
+  if (const auto violation = FindConeViolation(problem, v)) throw Rejected{"witness.v", *violation, "v in K"};
+  RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
+  if (product >= 0) throw Rejected{"witness.value", ToString(product), "b'v < 0"};
+  return Json::object();
+}
+
 // ---- Loops -----------------------------------------------------------------------------------
 
 Policy ReadPolicy(const Json& json, const std::string& path) {
@@ -282,6 +316,8 @@ const std::map<std::string, Checker>& Checkers() {
       {"not-psd", CheckNotSemidefinite},
       {"in-range", CheckInRange},
       {"not-in-range", CheckNotInRange},
+      {"h", CheckHypothesis},
+      {"not-h", CheckNotHypothesis},
       {"cycle",
        [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kCycle); }},
       {"stall",

@@ -276,6 +276,45 @@ def check_not_in_range(problem, witness):
     return f"{len(y)} rows"
 
 
+def cones(problem):
+    """(kind, mu, normal row, tangent rows) of each contact; none of them sliding."""
+    row = 0
+    for i, (kind, mu, _) in enumerate(problem.contacts):
+        need(kind != "sliding", f"$.problem.contacts[{i}].kind", kind, "bilateral, frictionless or static")
+        end = row + (problem.dimension if kind == "static" else 1)
+        yield kind, mu or Fraction(0), row, range(row + 1, end)
+        row = end
+
+
+def check_h(problem, witness):
+    """b = A'y + g, g in the dual of the friction cones: b'v = y'Av + g'v >= 0 where A v = 0."""
+    fields(witness, "$.witness", "y")
+    y = vector(witness["y"], "$.witness.y", len(problem.b))
+    g = [x - z for x, z in zip(problem.b, times(zip(*problem.A), y))]
+    for kind, mu, normal, tangents in cones(problem):
+        place, gN = f"$.witness (b - A'y)[{normal}]", g[normal]
+        need(gN == 0 if kind == "bilateral" else gN >= 0, place, gN,
+             "0" if kind == "bilateral" else "gN >= 0")
+        need(gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents), place, gN, "gN >= mu abs(gF)")
+    return f"{len(y)} rows"
+
+
+def check_not_h(problem, witness):
+    """v in the friction cones with A v = 0 and b'v < 0."""
+    fields(witness, "$.witness", "v", "value")
+    v = vector(witness["v"], "$.witness.v", len(problem.b))
+    value = exact(witness["value"], "$.witness.value")
+    need(value < 0, "$.witness.value", value, "a value < 0")
+    bv = dot(v, problem.b)
+    need(value == bv, "$.witness.value", value, bv, " (b'v)")
+    equal(times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")
+    for kind, mu, normal, tangents in cones(problem):
+        place, vN = f"$.witness.v[{normal}]", v[normal]
+        need(kind == "bilateral" or vN >= 0, place, vN, "vN >= 0")
+        need(sum(v[k] ** 2 for k in tangents) <= mu ** 2 * vN ** 2, place, vN, "abs(vF) <= mu vN")
+    return f"{len(v)} rows"
+
+
 def violated(problem, f, a, row):
     """A normal that fails (15), or a friction variable that fails (16) while (15) holds."""
     x = problem.variables[row]
@@ -820,6 +859,8 @@ CLAIMS = {
     "unsafe": check_unsafe,
     "in-range": check_in_range,
     "not-in-range": check_not_in_range,
+    "h": check_h,
+    "not-h": check_not_h,
     "cycle": lambda problem, witness: check_runs("cycle", problem, witness),
     "stall": lambda problem, witness: check_runs("stall", problem, witness),
 }
@@ -853,6 +894,8 @@ def check_file(path):
 EPILOG = """claims:
   symmetric, psd, in-range, and these with not- before
                    for every valid problem
+  h, not-h         whether b'v >= 0 for all v in the friction cones with A v = 0;
+                   for problems without sliding contacts
   solution-exists, no-solution
                    for planar problems; no-solution by a Farkas vector for
                    every word of contact modes, or prefix of words

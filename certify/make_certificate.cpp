@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "certify/certificate.h"
+#include "certify/hypothesis.h"
 #include "certify/modes.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
@@ -106,6 +107,27 @@ Json RangeCertificate(const ExactProblem& problem) {
   const auto& obstacle = std::get<RangeObstacle>(decision);
   return MakeCertificate("not-in-range", problem,
                          {{"y", VectorToJson(obstacle.y)}, {"value", ToString(obstacle.value)}});
+}
+
+// Where A is symmetric, A x = b is a proof; it is the only one that is looked for in space.
+Json HypothesisCertificate(const ExactProblem& problem) {
+  if (HasSlidingContact(problem)) {
+    throw InputError("claim h: stated for bilateral, frictionless and static contacts; found a sliding one");
+  }
+  if (IsSymmetric(problem)) {
+    const auto range = DecideRange(problem.A, problem.b);
+    if (const auto* point = std::get_if<RangePoint>(&range)) {
+      return MakeCertificate("h", problem, {{"y", VectorToJson(point->x)}});
+    }
+  }
+  if (problem.dimension != 2) return nullptr;
+  const auto decision = DecideHypothesis(problem);
+  if (const auto* proof = std::get_if<HypothesisProof>(&decision)) {
+    return MakeCertificate("h", problem, {{"y", VectorToJson(proof->y)}});
+  }
+  const auto& obstacle = std::get<HypothesisObstacle>(decision);
+  return MakeCertificate("not-h", problem,
+                         {{"v", VectorToJson(obstacle.v)}, {"value", ToString(obstacle.value)}});
 }
 
 Json LoopCertificate(const ExactProblem& problem, Outcome loop, const std::vector<Policy>& policies,

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/modes.h"
 
-#include <CGAL/Gmpz.h>
-#include <CGAL/QP_functions.h>
-#include <CGAL/QP_models.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -11,6 +8,7 @@
 #include <set>
 #include <variant>
 
+#include "certify/linear_system.h"
 #include "certify/no_solution.h"
 #include "certify/verify_solution.h"
 #include "solver/check.h"
@@ -88,8 +86,6 @@ std::optional<std::string> FindLawViolation(const ExactProblem& problem, const E
 
 namespace {
 
-enum class Relation { kFree, kZero, kAtLeastZero, kAtMostZero };
-
 // The part of the law of one contact: forces are combinations of `edges` with coefficients >= 0 (or free),
 // accelerations have the signs of the relations.
 struct Cone {
@@ -134,20 +130,6 @@ Cone RelaxedCone(const Contact<Rational>& contact) {
   return cone;
 }
 
-bool Holds(Relation relation, const Rational& value) {
-  switch (relation) {
-    case Relation::kFree:
-      return true;
-    case Relation::kZero:
-      return value == 0;
-    case Relation::kAtLeastZero:
-      return value >= 0;
-    case Relation::kAtMostZero:
-      return value <= 0;
-  }
-  return false;
-}
-
 bool IsInCone(const Contact<Rational>& contact, const Cone& cone, int row, const ExactVector& f,
               const ExactVector& a) {
   const bool rough = contact.HasFrictionRows();
@@ -174,85 +156,9 @@ bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const Exact
   return true;
 }
 
-// ---- Linear programs over integers --------------------------------------------------------------
+// ---- Whether a solution of a linear program is the only one ------------------------------------
 
 namespace {
-
-// Find x with x_j >= 0 where j is not free, and coefficients x + constant {=, >=, <=} 0 in every row.
-struct LinearSystem {
-  struct Row {
-    std::vector<mpz_class> coefficients;
-    mpz_class constant;
-    Relation relation;
-  };
-  std::vector<bool> free;  // by variable
-  std::vector<Row> rows;
-};
-
-using Point = std::vector<Rational>;  // x
-
-// By row, >= 0 on rows >= 0, <= 0 on rows <= 0: combination'coefficients <= 0 (= 0 where x_j is free), and
-// combination'constant < 0.
-using Combination = std::vector<mpz_class>;
-
-mpz_class FromCgal(const CGAL::Gmpz& x) { return mpz_class(x.mpz()); }
-
-CGAL::Comparison_result ToCgal(Relation relation) {
-  if (relation == Relation::kZero) return CGAL::EQUAL;
-  return relation == Relation::kAtLeastZero ? CGAL::LARGER : CGAL::SMALLER;
-}
-
-// Without variables QP_solver is not asked: a row decides by itself.
-std::variant<Point, Combination> SolveWithoutVariables(const LinearSystem& system) {
-  for (std::size_t i = 0; i < system.rows.size(); ++i) {
-    if (Holds(system.rows[i].relation, system.rows[i].constant)) continue;
-    Combination combination(system.rows.size());
-    combination[i] = -sgn(system.rows[i].constant);
-    return combination;
-  }
-  return Point();
-}
-
-// A free variable is the difference of two. Bland's rule, since degenerate programs are the usual case here
-// and QP_solver's other rules may cycle.
-std::variant<Point, Combination> Solve(const LinearSystem& system) {
-  const int variables = static_cast<int>(system.free.size()), rows = static_cast<int>(system.rows.size());
-  if (variables == 0) return SolveWithoutVariables(system);
-  CGAL::Quadratic_program<CGAL::Gmpz> program(CGAL::SMALLER, true, 0, false, 0);
-  for (int i = 0; i < rows; ++i) {
-    const LinearSystem::Row& row = system.rows[i];
-    program.set_r(i, ToCgal(row.relation));
-    program.set_b(i, -CGAL::Gmpz(row.constant.get_mpz_t()));
-    for (int j = 0, column = 0; j < variables; ++j) {
-      const CGAL::Gmpz coefficient(row.coefficients[j].get_mpz_t());
-      program.set_a(column++, i, coefficient);
-      if (system.free[j]) program.set_a(column++, i, -coefficient);
-    }
-  }
-  CGAL::Quadratic_program_options options;
-  options.set_pricing_strategy(CGAL::QP_BLAND);
-  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), options);
-  if (solution.is_infeasible()) {
-    Combination combination;
-    auto lambda = solution.infeasibility_certificate_begin();
-    for (int i = 0; i < rows; ++i, ++lambda) combination.push_back(-FromCgal(*lambda));
-    return combination;
-  }
-  STICTION_CHECK(solution.is_optimal(), "a feasibility program is either infeasible or solved");
-  Point x;
-  auto value = solution.variable_values_begin();
-  const auto next = [&value] {
-    const auto quotient = *value++;
-    Rational number(FromCgal(quotient.numerator()), FromCgal(quotient.denominator()));
-    number.canonicalize();
-    return number;
-  };
-  for (int j = 0; j < variables; ++j) {
-    x.push_back(next());
-    if (system.free[j]) x.back() -= next();
-  }
-  return x;
-}
 
 int Rank(const std::vector<std::vector<mpz_class>>& rows, int columns) {
   const int count = static_cast<int>(rows.size());

@@ -30,6 +30,9 @@ int Main(int argc, char** argv) {
   AddStatus(program, action);
   AddMerge(program, action);
   AddProblem(program, action);
+  AddImport(program, action);
+  AddExport(program, action);
+  AddSurvey(program, action);
   AddPolicies(program, action);
   AddBench(program, action);
   try {

@@ -20,8 +20,15 @@
 
 namespace stiction {
 
+// The residual is worst / scale; scale is zero only where all forces and b are.
+template <class Scalar>
+struct Residual {
+  Scalar worst = Scalar(0), scale = Scalar(0);
+};
+
 template <class Scalar, int Rows, class Vector>
-Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
+Residual<Scalar> MeasureResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f,
+                                 const Vector& a) {
   Scalar max_A(0), max_b(0), max_f(0), worst(0), zero(0);
   for (int i = 0; i < problem.rows(); ++i) {
     zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
@@ -29,7 +36,7 @@ Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector
     max_b = std::max<Scalar>(max_b, Abs(problem.b[i]));
     max_f = std::max<Scalar>(max_f, Abs(f[i]));
   }
-  if (zero != 0) return zero;  // maxima pass over what is not a number
+  if (zero != 0) return {zero, zero};  // maxima pass over what is not a number
   const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
   int row = 0;
   for (const auto& contact : problem.contacts) {
@@ -49,8 +56,13 @@ Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector
     }
     ++row;
   }
-  const Scalar scale = std::max<Scalar>(max_f, max_b * r);
-  return scale > 0 ? Scalar(worst / scale) : worst;
+  return {worst, std::max<Scalar>(max_f, max_b * r)};
+}
+
+template <class Scalar, int Rows, class Vector>
+Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
+  const Residual<Scalar> residual = MeasureResidual(problem, f, a);
+  return residual.scale > 0 ? Scalar(residual.worst / residual.scale) : residual.worst;
 }
 
 }  // namespace stiction

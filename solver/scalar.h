@@ -8,6 +8,7 @@
 #ifndef STICTION_SOLVER_SCALAR_H_
 #define STICTION_SOLVER_SCALAR_H_
 
+#include <cmath>
 #include <type_traits>
 
 namespace stiction {
@@ -41,8 +42,12 @@ bool IsSurelyZero(const Scalar& x) {
 
 template <class Scalar>
 Scalar Abs(const Scalar& x) {
-  if (Sign(x) < 0) return Scalar(-x);
-  return x;
+  if constexpr (!kIsExact<Scalar>) {
+    return std::abs(x);  // without a branch
+  } else {
+    if (Sign(x) < 0) return Scalar(-x);
+    return x;
+  }
 }
 
 // The integers beneath an exact scalar, for elimination without fractions. Specialised beside the scalar;

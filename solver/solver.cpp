@@ -2,6 +2,7 @@
 // The methods over floating-point scalars. Exact scalars are instantiated in certify.
 
 #include "solver/complete.ipp"
+#include "solver/fast.ipp"
 #include "solver/lemke.ipp"
 #include "solver/published.ipp"
 
@@ -14,6 +15,10 @@ template class PublishedAlgorithm<long double>;
 template class CompleteDriving<float>;
 template class CompleteDriving<double>;
 template class CompleteDriving<long double>;
+
+template class FastSolver<float>;
+template class FastSolver<double>;
+template class FastSolver<long double>;
 
 template class LemkeAlgorithm<float>;
 template class LemkeAlgorithm<double>;

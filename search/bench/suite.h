@@ -26,6 +26,10 @@ struct BenchOptions {
 // The methods side by side on the same problems (methods.cpp).
 int BenchMethods(const BenchOptions& options);
 
+// stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
+// program stiction-peers is missing.
+int BenchPeers(const BenchOptions& options);
+
 // Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
 int BenchLinearAlgebra(const BenchOptions& options);
 // The readings of section 5.6 side by side, on problems in space (space.cpp).

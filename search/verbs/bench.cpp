@@ -79,6 +79,7 @@ struct Suite {
 constexpr std::array kSuites = {
     Suite{"search", "problems a second of the search's hot path", BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
+    Suite{"peers", "stiction beside other packages, by the program stiction-peers", BenchPeers},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
 };
@@ -104,10 +105,12 @@ void AddBench(CLI::App& program, Action& action) {
   verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
   verb.add_option("--problems", o->problems,
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
-                  "methods: problems of each number of contacts (default 800); linear-algebra: systems of a row "
-                  "(default 200); space: problems of each family and number of contacts (default 2000)")
+                  "methods, peers: problems of each number of contacts (default 800, 400); linear-algebra: "
+                  "systems of a row (default 200); space: problems of each family and number of contacts "
+                  "(default 2000)")
       ->check(CLI::PositiveNumber);
-  verb.add_option("--repeat", o->repeat, "search, linear-algebra: counted runs")
+  verb.add_option("--repeat", o->repeat,
+                  "search, linear-algebra: counted runs; peers: 0.06 seconds each for a row and size")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_option("--seed", o->seed, "of the problems")

@@ -74,6 +74,7 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
   if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
   if (o.claim == "in-range") return RangeCertificate(file.problem);
+  if (o.claim == "h") return HypothesisCertificate(file.problem);
   if (o.claim == "safe") return SafetyCertificate(file.problem);
   const Outcome loop = o.claim == "cycle" ? Outcome::kCycle : Outcome::kStall;
   return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
@@ -174,12 +175,13 @@ void AddCertify(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   verb.add_option("-o,--output", o->output, "certificate to write; - is standard output");
-  verb.add_option(
-          "--claim", o->claim,
-          "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, safe, "
-          "cycle, stall")
+  verb.add_option("--claim", o->claim,
+                  "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, "
+                  "h (b'v >= 0 "
+                  "for all v in the friction cones with A v = 0), safe, cycle, stall")
       ->capture_default_str()
-      ->check(CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "safe", "cycle", "stall"}));
+      ->check(
+          CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "h", "safe", "cycle", "stall"}));
   verb.add_flag(
       "--safe", o->safe,
       "the friction coefficient below which A is safe for the published algorithm (see certify/README.md), and "

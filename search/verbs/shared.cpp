@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "certify/certificate.h"
+#include "certify/hypothesis.h"
 #include "certify/properties.h"
 #include "search/verbs/verbs.h"
 
@@ -42,6 +43,16 @@ void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
         ->capture_default_str()
         ->group(group);
   });
+}
+
+// (H), which b in range(A) implies for a symmetric A, decided in the plane.
+void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
+  if (problem.dimension != 2 || HasSlidingContact(problem)) return;
+  const auto hypothesis = DecideHypothesis(problem);
+  const auto* obstacle = std::get_if<HypothesisObstacle>(&hypothesis);
+  if (obstacle == nullptr) return;
+  failed.push_back(
+      {{"assumption", "h"}, {"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
 }
 
 }  // namespace
@@ -135,6 +146,7 @@ Json FailedAssumptions(const ExactProblem& problem) {
   if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {
     failed.push_back(
         {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
+    AddFailedHypothesis(problem, failed);
   }
   return failed;
 }

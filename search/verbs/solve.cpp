@@ -13,6 +13,7 @@
 #include "corpus/json_text.h"
 #include "search/verbs/solve_published_space.h"
 #include "search/verbs/verbs.h"
+#include "solver/fast.h"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -21,7 +22,7 @@ namespace {
 struct SolveOptions {
   std::string file;
   std::string method = "baraff";
-  std::string arithmetic;  // empty: exact, and interval for method baraff in space
+  std::string arithmetic;  // empty: exact; double for method fast; interval for method baraff in space
   std::string policy = "paper";
   Limits limits;
   Tolerances tolerances;
@@ -141,7 +142,8 @@ ContactProblem<Scalar> Round(const ExactProblem& problem, ExactProblem& rounded)
   ContactProblem<Scalar> result;
   result.dimension = problem.dimension;
   for (Contact<Rational>& contact : rounded.contacts)
-    result.contacts.push_back({contact.kind, round(contact.mu), {}});
+    result.contacts.push_back(
+        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
   result.A.resize(problem.rows(), problem.rows());
   result.b.resize(problem.rows());
   for (int i = 0; i < problem.rows(); ++i) {
@@ -198,6 +200,17 @@ Solved SolveRounded(const std::string& method, const ExactProblem& problem, cons
     solved.verdict = algorithm.Run(inexact);
     solved.statistics = {{"pivots", solved.verdict.statistics.pivots}};
     if (solved.verdict.outcome == Outcome::kSolved) Describe(inexact, algorithm.f(), solved);
+  } else if (method == "fast") {
+    FastOptions fast;
+    fast.tolerances = options.tolerances;
+    fast.limits = options.limits;
+    FastSolver<Scalar> solver(fast);
+    const FastVerdict verdict = solver.Run(inexact);
+    solved.verdict.outcome = verdict.outcome;
+    solved.verdict.reason = verdict.reason;
+    solved.statistics = CountersToJson(verdict.statistics);
+    if (verdict.outcome == Outcome::kSolved) solved.word = solver.Word();
+    Describe(inexact, solver.f(), solved);
   } else {
     PublishedAlgorithm<Scalar> algorithm(options);
     solved.verdict = algorithm.Run(inexact);
@@ -253,7 +266,8 @@ int Solve(const SolveOptions& given) {
     const ProblemFile file = ReadHandledProblem(o.file, o.method, Dimensions::kAny);
     if (file.problem.dimension == 3) return SolveByPublishedInSpace(o, file.problem);
   }
-  if (o.arithmetic.empty()) o.arithmetic = "exact";
+  const bool fast = o.method == "fast";
+  if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
   if (o.arithmetic == "interval") {
     throw InputError(
         "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
@@ -263,14 +277,17 @@ int Solve(const SolveOptions& given) {
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const ProblemFile file = any_kind ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  if (fast && o.arithmetic == "exact") {
+    throw InputError("--method fast: expected --arithmetic float, double or long-double");
+  }
+  const ProblemFile file = any_kind || fast ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
   Json result = RunToJson(solved.verdict);
   Outcome outcome = solved.verdict.outcome;
   // What rounded numbers suspect is run again exactly, on the problem that they solved, before it is claimed.
-  if (o.arithmetic != "exact" && outcome != Outcome::kSolved) {
+  if (o.arithmetic != "exact" && outcome != Outcome::kSolved && !fast) {
     const Json suspected = result;
     const Solved exact = SolveExactly(o.method, rounded, options);
     outcome = exact.verdict.outcome;
@@ -305,15 +322,16 @@ void AddSolve(CLI::App& program, Action& action) {
   verb.add_option("--method", o->method,
                   "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
                   "Lemke's method, "
-                  "lexicographic; enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
+                  "lexicographic; fast: cells guessed and verified, complete driving behind it (inexact "
+                  "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "enumerate", "ipopt"}, "method");
+        return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
       });
   verb.add_option(
           "--arithmetic", o->arithmetic,
-          "float, double, long-double, exact (rational; the default), or, for the published algorithm in "
-          "space, interval (the default there)")
+          "float, double, long-double, exact (rational; the default), interval (the published algorithm in "
+          "space only, and its default); the default of method fast is double")
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
       });

@@ -33,6 +33,9 @@ void AddMerge(CLI::App& program, Action& action);
 void AddProblem(CLI::App& program, Action& action);
 void AddReport(CLI::App& program, Action& action);
 void AddBench(CLI::App& program, Action& action);
+void AddImport(CLI::App& program, Action& action);
+void AddExport(CLI::App& program, Action& action);
+void AddSurvey(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------

@@ -39,12 +39,14 @@ SINGULAR = problem(["1", None], [["1", "1", "0"], ["1", "1", "0"], ["0", "0", "2
 ASYMMETRIC = copy.deepcopy(SINGULAR)
 ASYMMETRIC["A"][0][2] = "1"
 OUTSIDE = problem(["1"], [["1", "-1"], ["-1", "1"]], ["-1", "0"])
+# b is not in the range of A, and (H) holds.
+INSIDE = problem(["1/2", None], [["1", "-1", "0"], ["-1", "1", "0"], ["0", "0", "0"]], ["1", "1", "3"])
 
 # claim that is made, what is asked for, problem
 CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symmetric", SINGULAR),
           ("not-symmetric", "symmetric", ASYMMETRIC), ("psd", "psd", SINGULAR), ("not-psd", "psd", INDEFINITE),
           ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
-          ("cycle", "cycle", REFERENCE)]
+          ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE)]
 
 
 def make(stiction, folder, claim, asked, described):
@@ -95,6 +97,18 @@ def solves(contacts, A, b, f, a):
     return True
 
 
+def in_cones(contacts, x, dual):
+    """Planar: abs(xF) <= mu xN, or xN >= mu abs(xF) for the dual cones."""
+    row = 0
+    for contact in contacts:
+        mu = Fraction(contact.get("mu", 0))
+        normal, tangent = x[row], x[row + 1] if contact["kind"] == "static" else 0
+        row += 2 if contact["kind"] == "static" else 1
+        if normal < 0 or (normal < mu * abs(tangent) if dual else abs(tangent) > mu * normal):
+            return False
+    return row == len(x)
+
+
 def factors(A, L, D):
     n = range(len(A))
     shape = all(L[i][j] == (i == j) for i in n for j in n if j >= i)
@@ -141,7 +155,14 @@ def is_true(altered, original):
         return factors(A, rows(witness["L"]), numbers(witness["D"]))
     if claim == "in-range":
         return [dot(row, numbers(witness["x"])) for row in A] == b
+    if claim == "h":
+        image = [dot(numbers(witness["y"]), column) for column in zip(*A)]
+        return in_cones(altered["problem"]["contacts"], [x - y for x, y in zip(b, image, strict=True)], dual=True)
     value = Fraction(witness["value"])
+    if claim == "not-h":
+        v = numbers(witness["v"])
+        return (in_cones(altered["problem"]["contacts"], v, dual=False) and dot(b, v) == value < 0
+                and all(dot(row, v) == 0 for row in A))
     if claim == "not-psd":
         x = numbers(witness["x"])
         return dot(x, [dot(row, x) for row in A]) == value < 0

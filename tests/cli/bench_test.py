@@ -124,5 +124,28 @@ class Methods(cli.TestCase):
         self.assertRegex(done.out, rf"(?m)^ +2  complete +exact +8 +{row['solved']} +0 +pieces ")
 
 
+class Peers(cli.TestCase):
+    def test_no_answer_of_the_fast_method_is_wrong_and_a_missing_package_is_a_row(self):
+        done = cli.run("bench", "--suite", "peers", "--json", "--contacts", 2, 5, "--problems", 30, "--repeat", 1)
+        self.assertEqual(done.code, 0, done.err)
+        tables = {table["name"]: table for table in done.json()["tables"]}
+        self.assertEqual(set(tables), {"full", "half", "planar", "planar-half", "growth-frictionless", "growth-planar"})
+        for name in ["full", "half", "planar", "planar-half"]:
+            rows = {row["name"]: row for row in tables[name]["rows"]}
+            self.assertEqual([cell["ratio"] for cell in rows["Eigen LU"]["cells"]], [1, 1])
+            for cell in rows["fast"]["cells"]:
+                self.assertEqual((cell["tried"], cell["wrong"], cell["silent"]), (30, 0, 0))
+            for row in rows.values():
+                self.assertEqual([cell["contacts"] for cell in row["cells"]], [2, 5])
+                for cell in row["cells"]:
+                    self.assertTrue(cell["installed"] or row["package"])
+                    self.assertEqual("ratio" in cell, cell["installed"] and not cell["capped"])
+        for name in ["growth-frictionless", "growth-planar"]:
+            self.assertTrue(all(point["solved"] for point in tables[name]["points"] if point["method"] == "fast"))
+
+    def test_bad_options_exit_with_2(self):
+        self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
+
+
 if __name__ == "__main__":
     cli.main()

@@ -29,6 +29,7 @@ class Certificates(cli.TestCase):
             (cli.SOLVED, "symmetric", "symmetric"), (asymmetric, "symmetric", "not-symmetric"),
             (cli.SOLVED, "psd", "psd"), (indefinite, "psd", "not-psd"),
             (cli.SOLVED, "in-range", "in-range"), (outside, "in-range", "not-in-range"),
+            (cli.SOLVED, "h", "h"), (outside, "h", "not-h"),
         ]:
             with self.subTest(problem=problem["name"], claim=claim):
                 file, out = self.file("p.json", problem), self.folder / "c.json"

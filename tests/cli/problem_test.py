@@ -87,8 +87,25 @@ class Solve(cli.TestCase):
         file = self.file("p.json", cli.SOLVED)
         for arithmetic in ["quad", "interval", "filtered", "decimal"]:
             self.refuses("solve", file, "--arithmetic", arithmetic, says=[arithmetic, "not built", "exact"])
-        for method in ["fast", "gauss"]:
-            self.refuses("solve", file, "--method", method, says=[method, "not built", "baraff"])
+        self.refuses("solve", file, "--method", "gauss", says=["gauss", "not built", "baraff"])
+
+    def test_the_fast_method(self):
+        file = self.file("c.json", cli.REFERENCE)
+        for arithmetic in [[], ["--arithmetic", "float"], ["--arithmetic", "long-double"]]:
+            with self.subTest(arithmetic=arithmetic):
+                result = self.succeeds("solve", file, "--json", "--method", "fast", *arithmetic).json()
+                self.assertEqual((result["outcome"], result["word"]), ("solved", "S-"))
+                self.assertEqual(result["arithmetic"], (arithmetic or ["", "double"])[1])
+                for found, expected in zip(result["f"], [1, -6 / 7, 25 / 14, -25 / 14]):
+                    self.assertAlmostEqual(found, expected, 5)
+                self.assertLessEqual(result["residual"], 1e-6)
+                self.assertEqual(set(result["statistics"]),
+                                 {"sweeps", "exchanges", "factorizations", "updates", "fallbacks"})
+        self.refuses("solve", file, "--method", "fast", "--arithmetic", "exact", says=["fast", "expected", "double"])
+        none = self.file("n.json", changed(cli.SOLVED, contacts=[{"kind": "static", "mu": "1"}],
+                                           A=[["1", "-1"], ["-1", "1"]], b=["-1", "0"]))
+        result = self.succeeds("solve", none, "--json", "--method", "fast", code=3).json()
+        self.assertEqual(result["outcome"], "undecided")
 
     def test_assumptions_that_fail_have_exact_witnesses(self):
         def failed(**members):
@@ -124,7 +141,8 @@ class Solve(cli.TestCase):
                               (sliding, "contacts[0].kind: found sliding")]:
             file = self.file("p.json", problem)
             certify = ("certify", "-o", "-") if problem is space else ("certify", "-o", "-", "--claim", "cycle")
-            for verb in [("solve",), ("replay",), ("minimize", "-o", "-"), certify]:
+            solve = ("solve", "--method", "lemke")  # in space the published algorithm is built
+            for verb in [solve, ("replay",), ("minimize", "-o", "-"), certify]:
                 self.refuses(*verb, file, says=[file, says])
         frictionless = changed(cli.SOLVED, contacts=[{"kind": "frictionless"}], A=[["2"]], b=["-1"])
         self.assertEqual(self.succeeds("solve", self.file("p.json", frictionless), "--json").json()["f"], ["1/2"])

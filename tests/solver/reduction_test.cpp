@@ -93,11 +93,11 @@ TEST_CASE("4.5: a direction of the reduction is the direction with the bilateral
       MakeProblem({1, -1, -1}, {{9, 1, 2, 3}, {1, 8, -1, 2}, {2, -1, 7, 1}, {3, 2, 1, 6}}, {-1, 2, 3, -4});
   problem.contacts[1].kind = ContactKind::kBilateral;
   DirectionSystem<Rational, Eigen::Dynamic> full, reduced;
-  full.Resize(4);
+  full.Start(problem);
   full.Solve(problem, LayoutOf(problem),
              {IndexSet::kClamped, IndexSet::kSticking, IndexSet::kClamped, IndexSet::kNone}, 3, 1, {});
   const Reduction<Rational> reduction(problem);
-  reduced.Resize(3);
+  reduced.Start(reduction.problem());
   reduced.Solve(reduction.problem(), LayoutOf(reduction.problem()),
                 {IndexSet::kClamped, IndexSet::kSticking, IndexSet::kNone}, 2, 1, {});
   CHECK(reduction.Direction(reduced.df()) == full.df());

@@ -98,5 +98,22 @@ TEMPLATE_TEST_CASE("residual: forces or accelerations that are no numbers are ne
   CHECK_FALSE(residual(1, std::numeric_limits<TestType>::infinity()) <= TestType(1e-6));
 }
 
+TEST_CASE(
+    "residual: a bilateral contact must not accelerate, and a sliding one has friction against its slip") {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kBilateral, 0, {}}, {ContactKind::kSliding, 0.5, {-1, 0}}};
+  problem.A = 2 * Eigen::Matrix3d::Identity();
+  problem.b = Eigen::Vector3d(6, -4, 0);
+  const auto residual = [&problem](double f0, double f1, double f2) {
+    const Eigen::VectorXd f = Eigen::Vector3d(f0, f1, f2), a = problem.A * f + problem.b;
+    return NaturalResidual(problem, f, a);
+  };
+  CHECK(residual(-3, 2, 1) == 0);
+  CHECK(residual(0, 2, 1) == Approx(1));  // 3 N of 3 N, b / A
+  CHECK(residual(-3, 2, -1) == Approx(2.0 / 3));
+  CHECK(residual(-3, 2, 0) == Approx(1.0 / 3));
+  CHECK(residual(-3, 0, 0) == Approx(2.0 / 3));
+}
+
 }  // namespace
 }  // namespace stiction

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/linear_system.h"
+
+#include <CGAL/Gmpz.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+
+#include "solver/check.h"
+
+namespace stiction {
+
+bool Holds(Relation relation, const Rational& value) {
+  switch (relation) {
+    case Relation::kFree:
+      return true;
+    case Relation::kZero:
+      return value == 0;
+    case Relation::kAtLeastZero:
+      return value >= 0;
+    case Relation::kAtMostZero:
+      return value <= 0;
+  }
+  return false;
+}
+
+namespace {
+
+mpz_class FromCgal(const CGAL::Gmpz& x) { return mpz_class(x.mpz()); }
+
+CGAL::Comparison_result ToCgal(Relation relation) {
+  if (relation == Relation::kZero) return CGAL::EQUAL;
+  return relation == Relation::kAtLeastZero ? CGAL::LARGER : CGAL::SMALLER;
+}
+
+// Without variables QP_solver is not asked: a row decides by itself.
+std::variant<Point, Combination> SolveWithoutVariables(const LinearSystem& system) {
+  for (std::size_t i = 0; i < system.rows.size(); ++i) {
+    if (Holds(system.rows[i].relation, system.rows[i].constant)) continue;
+    Combination combination(system.rows.size());
+    combination[i] = -sgn(system.rows[i].constant);
+    return combination;
+  }
+  return Point();
+}
+
+}  // namespace
+
+std::variant<Point, Combination> Solve(const LinearSystem& system) {
+  const int variables = static_cast<int>(system.free.size()), rows = static_cast<int>(system.rows.size());
+  if (variables == 0) return SolveWithoutVariables(system);
+  CGAL::Quadratic_program<CGAL::Gmpz> program(CGAL::SMALLER, true, 0, false, 0);
+  for (int i = 0; i < rows; ++i) {
+    const LinearSystem::Row& row = system.rows[i];
+    program.set_r(i, ToCgal(row.relation));
+    program.set_b(i, -CGAL::Gmpz(row.constant.get_mpz_t()));
+    for (int j = 0, column = 0; j < variables; ++j) {
+      const CGAL::Gmpz coefficient(row.coefficients[j].get_mpz_t());
+      program.set_a(column++, i, coefficient);
+      if (system.free[j]) program.set_a(column++, i, -coefficient);
+    }
+  }
+  CGAL::Quadratic_program_options options;
+  options.set_pricing_strategy(CGAL::QP_BLAND);
+  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), options);
+  if (solution.is_infeasible()) {
+    Combination combination;
+    auto lambda = solution.infeasibility_certificate_begin();
+    for (int i = 0; i < rows; ++i, ++lambda) combination.push_back(-FromCgal(*lambda));
+    return combination;
+  }
+  STICTION_CHECK(solution.is_optimal(), "a feasibility program is either infeasible or solved");
+  Point x;
+  auto value = solution.variable_values_begin();
+  const auto next = [&value] {
+    const auto quotient = *value++;
+    Rational number(FromCgal(quotient.numerator()), FromCgal(quotient.denominator()));
+    number.canonicalize();
+    return number;
+  };
+  for (int j = 0; j < variables; ++j) {
+    x.push_back(next());
+    if (system.free[j]) x.back() -= next();
+  }
+  return x;
+}
+
+}  // namespace stiction

@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/formats/fclib.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "solver/check.h"
+
+namespace stiction {
+namespace {
+
+// An HDF5 identifier that closes itself; HDF5 itself stays silent.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t id() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+constexpr int kMost = 100'000'000;  // of anything that is counted, in a file that is not nonsense
+
+// ---- Reading ---------------------------------------------------------------------------------
+
+struct Matrix {
+  struct Entry {
+    int i, j;
+    double value;
+  };
+  int rows = 0, columns = 0;
+  std::vector<Entry> entries;
+};
+
+class FclibReader {
+ public:
+  explicit FclibReader(const std::string& file)
+      : source_(file), file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+    if (!file_.valid()) throw InputError(file, "/", "no HDF5 file that can be read", "one");
+  }
+
+  SparseProblem Read() {
+    const bool local = Has("/fclib_local"), global = Has("/fclib_global");
+    if (local == global) {
+      Refuse("/", local ? "fclib_local and fclib_global" : "neither fclib_local nor fclib_global",
+             "one of them");
+    }
+    group_ = local ? "/fclib_local" : "/fclib_global";
+    problem_.dimension = Integer("spacedim", 2, 3);
+    problem_.origin = {{"format", "fclib"}, {"storage", local ? "local" : "global"}};
+    local ? Local() : Global();
+    std::erase_if(problem_.A, [](const auto& entry) { return entry.second == 0; });
+    return std::move(problem_);
+  }
+
+ private:
+  [[noreturn]] void Refuse(const std::string& path, const std::string& found,
+                           const std::string& expected) const {
+    throw InputError(source_, path, found, expected);
+  }
+  std::string Path(const std::string& name) const { return group_ + "/" + name; }
+
+  // Links of a path, one after the other: HDF5 asks for that.
+  bool Has(const std::string& path) const {
+    for (std::size_t at = path.find('/', 1);; at = path.find('/', at + 1)) {
+      if (H5Lexists(file_.id(), path.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return false;
+      if (at == path.npos) return true;
+    }
+  }
+
+  // The numbers of a data set; `size` of them unless it is negative.
+  template <class Number>
+  std::vector<Number> Numbers(const std::string& name, hsize_t most, int size = -1) {
+    const std::string path = Path(name);
+    constexpr bool kInteger = std::is_same_v<Number, int>;
+    const std::string expected = kInteger ? "integers" : "floating-point numbers of at most 8 bytes";
+    if (!Has(path)) Refuse(path, "nothing", expected);
+    const Handle set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.valid()) Refuse(path, "no data set", expected);
+    const Handle type(H5Dget_type(set.id()), H5Tclose), space(H5Dget_space(set.id()), H5Sclose);
+    if (H5Tget_class(type.id()) != (kInteger ? H5T_INTEGER : H5T_FLOAT) || H5Tget_size(type.id()) > 8) {
+      Refuse(path, "another type", expected);
+    }
+    const hssize_t count = H5Sget_simple_extent_npoints(space.id());
+    if (count < 0 || static_cast<hsize_t>(count) > most || (size >= 0 && count != size)) {
+      Refuse(path, fmt::format("{} numbers", count),
+             size >= 0 ? fmt::format("{}", size) : fmt::format("at most {}", most));
+    }
+    std::vector<Number> values(count);
+    const hid_t memory = kInteger ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+    if (count > 0 && H5Dread(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+      Refuse(path, "data that cannot be read", expected);
+    }
+    return values;
+  }
+
+  int Integer(const std::string& name, int least, int most) {
+    const int value = Numbers<int>(name, 1, 1).front();
+    if (value < least || value > most) {
+      Refuse(Path(name), std::to_string(value), fmt::format("an integer from {} to {}", least, most));
+    }
+    return value;
+  }
+
+  ExactProblem::Vector Vector(const std::string& name, int size) {
+    const std::vector<double> values = Numbers<double>("vectors/" + name, kMost, size);
+    ExactProblem::Vector exact(size);
+    for (int i = 0; i < size; ++i) {
+      if (!std::isfinite(values[i])) {
+        Refuse(fmt::format("{}[{}]", Path("vectors/" + name), i), fmt::format("{}", values[i]), "a number");
+      }
+      exact[i] = Rational(values[i]);
+    }
+    return exact;
+  }
+
+  Matrix ReadMatrix(const std::string& name) {
+    Matrix matrix;
+    matrix.rows = Integer(name + "/m", 0, kMost);
+    matrix.columns = Integer(name + "/n", 0, kMost);
+    const int nz = Integer(name + "/nz", -2, kMost);
+    const std::vector<double> x = Numbers<double>(name + "/x", kMost);
+    const std::vector<int> p = Numbers<int>(name + "/p", kMost), i = Numbers<int>(name + "/i", kMost);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (!std::isfinite(x[k])) {
+        Refuse(fmt::format("{}/x[{}]", Path(name), k), fmt::format("{}", x[k]), "a number");
+      }
+    }
+    const bool column_wise = nz == -1;
+    if (nz >= 0) {
+      Triplets(name, nz, p, i, x, matrix);
+    } else {
+      Compressed(name, column_wise, p, i, x, matrix);
+    }
+    return matrix;
+  }
+
+  static bool Fit(const std::vector<int>& indices, int count, int below) {
+    return std::all_of(indices.begin(), indices.begin() + count,
+                       [below](int index) { return 0 <= index && index < below; });
+  }
+
+  void Triplets(const std::string& name, int nz, const std::vector<int>& p, const std::vector<int>& i,
+                const std::vector<double>& x, Matrix& matrix) {
+    const auto count = static_cast<std::size_t>(nz);
+    if (p.size() < count || i.size() < count || x.size() < count) {
+      Refuse(Path(name), fmt::format("p, i, x of {}, {}, {} numbers", p.size(), i.size(), x.size()),
+             fmt::format("nz = {} at least", nz));
+    }
+    const bool rows_in_i = Fit(i, nz, matrix.rows) && Fit(p, nz, matrix.columns);
+    const bool rows_in_p = Fit(p, nz, matrix.rows) && Fit(i, nz, matrix.columns);
+    if (!rows_in_i && !rows_in_p) {
+      Refuse(Path(name), "triplets with indices outside of the matrix",
+             fmt::format("rows below {}, columns below {}", matrix.rows, matrix.columns));
+    }
+    for (int k = 0; k < nz; ++k)
+      matrix.entries.push_back({rows_in_i ? i[k] : p[k], rows_in_i ? p[k] : i[k], x[k]});
+  }
+
+  void Compressed(const std::string& name, bool column_wise, const std::vector<int>& p,
+                  const std::vector<int>& i, const std::vector<double>& x, Matrix& matrix) {
+    const int lines = column_wise ? matrix.columns : matrix.rows,
+              across = column_wise ? matrix.rows : matrix.columns;
+    const auto most = static_cast<int>(std::min(i.size(), x.size()));
+    const bool sound = static_cast<int>(p.size()) == lines + 1 && p.front() == 0 &&
+                       std::is_sorted(p.begin(), p.end()) && p.back() <= most;
+    if (!sound) {
+      Refuse(
+          Path(name) + "/p", fmt::format("{} numbers, or such as are no pointers", p.size()),
+          fmt::format("{} pointers that start at 0, do not decrease, and end at {} at most", lines + 1, most));
+    }
+    if (!Fit(i, p.back(), across)) {
+      Refuse(Path(name) + "/i", "an index outside of the matrix",
+             fmt::format("indices from 0 to {}", across - 1));
+    }
+    for (int line = 0; line < lines; ++line) {
+      for (int k = p[line]; k < p[line + 1]; ++k) {
+        matrix.entries.push_back({column_wise ? i[k] : line, column_wise ? line : i[k], x[k]});
+      }
+    }
+  }
+
+  void RequireShape(const std::string& name, const Matrix& matrix, int rows, int columns) const {
+    if (matrix.rows == rows && matrix.columns == columns) return;
+    Refuse(Path(name), fmt::format("{} rows, {} columns", matrix.rows, matrix.columns),
+           fmt::format("{} rows, {} columns", rows, columns));
+  }
+
+  // `rows` rows of static contacts, then one bilateral contact for each of `equations`.
+  void MakeContacts(const std::string& name, int rows, int equations) {
+    if (rows % problem_.dimension != 0) {
+      Refuse(Path(name), fmt::format("{} rows of contacts", rows),
+             fmt::format("a multiple of {}", problem_.dimension));
+    }
+    const ExactProblem::Vector mu = Vector("mu", rows / problem_.dimension);
+    for (int i = 0; i < mu.size(); ++i) {
+      if (mu[i] < 0) Refuse(fmt::format("{}[{}]", Path("vectors/mu"), i), ToString(mu[i]), "mu >= 0");
+      problem_.contacts.push_back({ContactKind::kStatic, mu[i], {}});
+    }
+    for (int k = 0; k < equations; ++k) problem_.contacts.push_back({ContactKind::kBilateral, Rational(0), {}});
+    problem_.b.resize(rows + equations);
+  }
+
+  void Local() {
+    const Matrix W = ReadMatrix("W");
+    const int rows = W.rows;
+    RequireShape("W", W, rows, rows);
+    Matrix V, R;
+    if (Has(Path("V")) || Has(Path("R"))) {
+      V = ReadMatrix("V");
+      R = ReadMatrix("R");
+      RequireShape("R", R, R.rows, R.rows);
+      RequireShape("V", V, rows, R.rows);
+    }
+    MakeContacts("W", rows, R.rows);
+    problem_.b.head(rows) = Vector("q", rows);
+    if (R.rows > 0) problem_.b.tail(R.rows) = Vector("s", R.rows);
+    for (const auto& [i, j, value] : W.entries) problem_.A[{i, j}] += Rational(value);
+    for (const auto& [i, j, value] : R.entries) problem_.A[{rows + i, rows + j}] += Rational(value);
+    for (const auto& [i, j, value] : V.entries) {
+      problem_.A[{i, rows + j}] += Rational(value);
+      problem_.A[{rows + j, i}] += Rational(value);
+    }
+  }
+
+  // Elimination of v from [M, -(H G), -f; (H G)', 0, (w, b)].
+  void Global() {
+    const Matrix M = ReadMatrix("M"), H = ReadMatrix("H");
+    RequireShape("M", M, M.rows, M.rows);
+    RequireShape("H", H, M.rows, H.columns);
+    Matrix G;
+    if (Has(Path("G"))) {
+      G = ReadMatrix("G");
+      RequireShape("G", G, M.rows, G.columns);
+    }
+    const int rows = H.columns + G.columns, first = M.rows, last = first + rows;
+    MakeContacts("H", H.columns, G.columns);
+    problem_.b.head(H.columns) = Vector("w", H.columns);
+    if (G.columns > 0) problem_.b.tail(G.columns) = Vector("b", G.columns);
+    const ExactProblem::Vector f = Vector("f", M.rows);
+
+    std::vector<SparseRow> K(last);
+    for (const auto& [i, j, value] : M.entries) K[i][j] += Rational(value);
+    const auto couple = [&K](const Matrix& B, int offset) {
+      for (const auto& [i, j, value] : B.entries) {
+        K[i][offset + j] -= Rational(value);
+        K[offset + j][i] += Rational(value);
+      }
+    };
+    couple(H, first);
+    couple(G, first + H.columns);
+    for (int i = 0; i < first; ++i) K[i][last] = -f[i];
+    Eliminate(K, first);
+    for (int i = 0; i < rows; ++i) {
+      for (const auto& [j, value] : K[first + i]) {
+        if (j == last) problem_.b[i] += value;
+        if (first <= j && j < last) problem_.A[{i, j - first}] = value;
+      }
+    }
+    problem_.origin["condensed"] = "A = [H G]' inv(M) [H G], over rationals";
+  }
+
+  using SparseRow = std::map<int, Rational>;
+
+  // Makes the first `count` columns of all later rows zero, by the diagonal pivots of the first rows.
+  void Eliminate(std::vector<SparseRow>& K, int count) const {
+    std::vector<std::set<int>> below(count);  // rows below the diagonal, by column
+    for (int i = 0; i < static_cast<int>(K.size()); ++i) {
+      std::erase_if(K[i], [](const auto& entry) { return entry.second == 0; });
+      for (const auto& [j, value] : K[i]) {
+        if (j < std::min(i, count)) below[j].insert(i);
+      }
+    }
+    for (int k = 0; k < count; ++k) {
+      const auto pivot = K[k].find(k);
+      if (pivot == K[k].end())
+        Refuse(Path("M"), fmt::format("a zero pivot in row {}", k), "a positive definite matrix");
+      for (const int i : below[k]) {
+        const auto entry = K[i].find(k);
+        if (entry == K[i].end()) continue;
+        const Rational factor = entry->second / pivot->second;
+        for (auto at = std::next(pivot); at != K[k].end(); ++at) {
+          Rational& value = K[i][at->first];
+          value -= factor * at->second;
+          if (at->first < std::min(i, count)) below[at->first].insert(i);
+          if (value == 0) K[i].erase(at->first);
+        }
+        K[i].erase(k);
+      }
+    }
+  }
+
+  const std::string source_;
+  Handle file_;
+  std::string group_;
+  SparseProblem problem_;
+};
+
+// ---- Writing ---------------------------------------------------------------------------------
+
+class FclibWriter {
+ public:
+  FclibWriter(const std::string& file, FclibStorage storage)
+      : source_(file),
+        storage_(storage),
+        file_(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+    Require(file_.valid());
+  }
+
+  void Write(const SparseProblem& problem) {
+    int rows = 0;
+    std::vector<double> mu;
+    for (const auto& contact : problem.contacts) {
+      const bool is_static = contact.kind == ContactKind::kStatic;
+      STICTION_CHECK(is_static ? static_cast<int>(mu.size()) * problem.dimension == rows
+                               : contact.kind == ContactKind::kBilateral,
+                     "contacts that the format does not have");
+      if (!is_static) continue;
+      mu.push_back(Double(contact.mu));
+      rows += problem.dimension;
+    }
+    const int equations = problem.rows() - rows;
+    for (const char* group : {"/fclib_local", "/fclib_local/vectors", "/fclib_local/info"}) Group(group);
+    Integers("/fclib_local/spacedim", {problem.dimension});
+    WriteMatrix("/fclib_local/W", problem, {0, rows}, {0, rows});
+    Doubles("/fclib_local/vectors/q", Part(problem.b, 0, rows));
+    Doubles("/fclib_local/vectors/mu", mu);
+    Text("/fclib_local/info/title", problem.name);
+    if (equations == 0) return;
+    WriteMatrix("/fclib_local/V", problem, {0, rows}, {rows, equations});
+    WriteMatrix("/fclib_local/R", problem, {rows, equations}, {rows, equations});
+    Doubles("/fclib_local/vectors/s", Part(problem.b, rows, equations));
+  }
+
+ private:
+  struct Range {
+    int first, count;
+    bool Has(int i) const { return first <= i && i < first + count; }
+  };
+
+  void Require(bool done) const {
+    if (!done) throw InputError(fmt::format("{}: cannot be written", source_));
+  }
+
+  static double Double(const Rational& x) {
+    const double value = ToDouble(x);
+    STICTION_CHECK(Rational(value) == x, "a number of an FCLIB file that is no double");
+    return value;
+  }
+
+  static std::vector<double> Part(const ExactProblem::Vector& values, int first, int count) {
+    std::vector<double> part;
+    for (int i = 0; i < count; ++i) part.push_back(Double(values[first + i]));
+    return part;
+  }
+
+  void Group(const std::string& path) const {
+    const Handle group(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    Require(group.valid());
+  }
+
+  void Set(const std::string& path, hid_t type, hid_t memory, hsize_t size, const void* values) const {
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle set(
+        H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
+    Require(set.valid() &&
+            (size == 0 || H5Dwrite(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0));
+  }
+  void Integers(const std::string& path, const std::vector<int>& values) const {
+    Set(path, H5T_STD_I32LE, H5T_NATIVE_INT, values.size(), values.data());
+  }
+  void Doubles(const std::string& path, const std::vector<double>& values) const {
+    Set(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
+  }
+  void Text(const std::string& path, const std::string& text) const {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    Require(H5Tset_size(type.id(), text.size() + 1) >= 0);
+    const Handle set(
+        H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
+    Require(set.valid() && H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0);
+  }
+
+  // The block `rows` x `columns` of A.
+  void WriteMatrix(const std::string& path, const SparseProblem& problem, Range rows, Range columns) const {
+    const bool by_columns = storage_ != FclibStorage::kRows;
+    std::map<std::pair<int, int>, double> lines;  // by line, place in it
+    for (const auto& [at, value] : problem.A) {
+      if (!rows.Has(at.first) || !columns.Has(at.second)) continue;
+      const int i = at.first - rows.first, j = at.second - columns.first;
+      lines[by_columns ? std::pair(j, i) : std::pair(i, j)] = Double(value);
+    }
+    std::vector<int> p, i, pointers(1 + (by_columns ? columns.count : rows.count));
+    std::vector<double> x;
+    for (const auto& [at, value] : lines) {
+      p.push_back(at.first);
+      i.push_back(at.second);
+      x.push_back(value);
+      ++pointers[at.first + 1];
+    }
+    for (std::size_t k = 1; k < pointers.size(); ++k) pointers[k] += pointers[k - 1];
+    const int entries = static_cast<int>(x.size());
+    const bool triplet = storage_ == FclibStorage::kTriplet;
+    Group(path);
+    Integers(path + "/m", {rows.count});
+    Integers(path + "/n", {columns.count});
+    Integers(path + "/nzmax", {entries});
+    Integers(path + "/nz", {triplet ? entries : by_columns ? -1 : -2});
+    Integers(path + "/p", triplet ? p : pointers);
+    Integers(path + "/i", i);
+    Doubles(path + "/x", x);
+  }
+
+  const std::string source_;
+  FclibStorage storage_;
+  Handle file_;
+};
+
+}  // namespace
+
+SparseProblem ReadFclib(const std::string& file) {
+  Silence();
+  return FclibReader(file).Read();
+}
+
+void WriteFclib(const SparseProblem& problem, FclibStorage storage, const std::string& file) {
+  Silence();
+  FclibWriter(file, storage).Write(problem);
+}
+
+}  // namespace stiction

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// FCLIB: friction problems in HDF5, local and global.
+//
+//   local    u = W r + V l + q,  V'r + R l + s = 0                        V, R, s may be absent
+//   global   M v = H r + G l + f,  u = H'v + w,  G'v + b = 0              G, b may be absent
+//
+// with the law of static contacts between u and r, spacedim rows each, normal row first. The equations for l
+// are rows of bilateral contacts, behind the others: a = A f + b with f = (r, l),
+//
+//   local    A = [W V; V' R],  b = (q, s)
+//   global   A = [H G]' inv(M) [H G],  b = [H G]' inv(M) f + (w, b),  condensed exactly on reading
+//
+// So a global problem has an A that is positive semidefinite exactly if its M is positive definite. Its
+// numbers are rationals, and no doubles in general.
+//
+// A matrix is m, n, nz, nzmax, p, i, x: nz = -1 compressed columns (p of n + 1), -2 compressed rows (p of m +
+// 1), otherwise nz triplets. fclib.h says that p lists the rows of triplets and i the columns; files hold rows
+// in i, as CSparse has it. Which it is, is decided by the shape: rows in i, unless an index does not fit that
+// way and all fit the other way. Entries listed more than once add up.
+//
+// Written are local problems, numbers as doubles. `guesses` and `solution` are not read.
+
+#ifndef STICTION_CORPUS_FORMATS_FCLIB_H_
+#define STICTION_CORPUS_FORMATS_FCLIB_H_
+
+#include <string>
+
+#include "corpus/formats/sparse_problem.h"
+
+namespace stiction {
+
+enum class FclibStorage { kColumns, kRows, kTriplet };
+
+// InputError names the file, the place in it, what was found and what was expected.
+SparseProblem ReadFclib(const std::string& file);
+
+// Requires static contacts first and bilateral ones behind them, and numbers that are doubles. Replaces the
+// file. InputError if it cannot be written.
+void WriteFclib(const SparseProblem& problem, FclibStorage storage, const std::string& file);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_FORMATS_FCLIB_H_

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/formats/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "corpus/formats/fclib.h"
+#include "corpus/formats/siconos.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
+
+// A name as JSON can have it.
+std::string NameOf(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  for (char& c : name) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return name;
+}
+
+const PublishedFormat& FormatNamed(const std::string& name) {
+  for (const PublishedFormat& format : PublishedFormats()) {
+    if (format.name == name) return format;
+  }
+  throw InputError("format '" + name + "': expected siconos-lcp, siconos-fc or fclib");
+}
+
+// ---- What a format cannot hold ----------------------------------------------------------------
+
+const char* KindName(ContactKind kind) {
+  static constexpr const char* kNames[] = {"bilateral", "frictionless", "static", "sliding"};
+  return kNames[static_cast<int>(kind)];
+}
+
+void RequireContacts(const SparseProblem& problem, const std::string& format) {
+  const bool lcp = format == "siconos-lcp", fclib = format == "fclib";
+  const char* expected = lcp     ? "frictionless: an LCP has no others"
+                         : fclib ? "static contacts, and bilateral ones behind them"
+                                 : "static: a friction problem has no others";
+  bool bilateral = false;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const ContactKind kind = problem.contacts[i].kind;
+    bilateral |= kind == ContactKind::kBilateral;
+    const bool fits = lcp         ? kind == ContactKind::kFrictionless
+                      : !fclib    ? kind == ContactKind::kStatic
+                      : bilateral ? kind == ContactKind::kBilateral
+                                  : kind == ContactKind::kStatic;
+    if (!fits) throw InputError(problem.name, fmt::format("contacts[{}].kind", i), KindName(kind), expected);
+  }
+}
+
+// FCLIB writes V alone, for V and V'.
+void RequireMirrorImage(const SparseProblem& problem) {
+  int rows = 0;
+  for (const auto& contact : problem.contacts) rows += contact.HasFrictionRows() ? problem.dimension : 0;
+  for (const auto& [at, value] : problem.A) {
+    const auto [i, j] = at;
+    if ((i < rows) == (j < rows)) continue;
+    const auto mirror = problem.A.find({j, i});
+    if (mirror != problem.A.end() && mirror->second == value) continue;
+    throw InputError(problem.name, fmt::format("A[{}][{}]", i, j), "an entry unlike its mirror",
+                     "A_ij = A_ji between static and bilateral contacts");
+  }
+}
+
+class Rounder {
+ public:
+  Rounder(const std::string& source, Rounding rounding) : source_(source), rounding_(rounding) {}
+
+  void Round(Rational& x, const std::string& path) {
+    const double nearest = ToDouble(x);
+    if (!std::isfinite(nearest)) {
+      throw InputError(source_, path, Shortened(ToString(x)), "a number in the range of doubles");
+    }
+    const Rational value(nearest);
+    if (value == x) return;
+    if (rounding_ == Rounding::kRefused) {
+      throw InputError(source_, path, Shortened(ToString(x)), "a number that is a double exactly, or --round");
+    }
+    ++report_.rounded;
+    const Rational change = abs(Rational((value - x) / x));
+    if (change > report_.largest_change) report_.largest_change = change;
+    x = value;
+  }
+
+  const ExportReport& report() const { return report_; }
+
+ private:
+  const std::string source_;
+  Rounding rounding_;
+  ExportReport report_;
+};
+
+ExportReport RoundAll(SparseProblem& problem, Rounding rounding) {
+  Rounder rounder(problem.name, rounding);
+  for (auto& [at, value] : problem.A) rounder.Round(value, fmt::format("A[{}][{}]", at.first, at.second));
+  for (int i = 0; i < problem.rows(); ++i) rounder.Round(problem.b[i], fmt::format("b[{}]", i));
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    rounder.Round(problem.contacts[i].mu, fmt::format("contacts[{}].mu", i));
+  }
+  std::erase_if(problem.A, [](const auto& entry) { return entry.second == 0; });
+  return rounder.report();
+}
+
+SiconosStorage SiconosStorageNamed(const std::string& name) {
+  if (name == "dense") return SiconosStorage::kDense;
+  if (name == "blocks") return SiconosStorage::kBlocks;
+  return name == "triplet" ? SiconosStorage::kTriplet : SiconosStorage::kColumns;
+}
+
+FclibStorage FclibStorageNamed(const std::string& name) {
+  if (name == "rows") return FclibStorage::kRows;
+  return name == "triplet" ? FclibStorage::kTriplet : FclibStorage::kColumns;
+}
+
+}  // namespace
+
+const std::vector<PublishedFormat>& PublishedFormats() {
+  static const std::vector<PublishedFormat> formats = {
+      {"siconos-lcp", {"dense", "blocks", "columns", "triplet"}},
+      {"siconos-fc", {"dense", "blocks", "columns", "triplet"}},
+      {"fclib", {"columns", "rows", "triplet"}},
+  };
+  return formats;
+}
+
+SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format) {
+  const std::string source = file.string();
+  if (!format.empty()) FormatNamed(format);
+  const std::string text = ReadText(file);
+  SparseProblem problem;
+  if (format == "fclib" || (format.empty() && text.starts_with(kHdf5Signature))) {
+    problem = ReadFclib(source);
+  } else {
+    const SiconosKind kind = format.empty()            ? SiconosKindOf(text, source)
+                             : format == "siconos-lcp" ? SiconosKind::kLcp
+                                                       : SiconosKind::kFriction;
+    problem = ParseSiconos(text, kind, source);
+  }
+  problem.name = NameOf(file.stem());
+  problem.origin["file"] = NameOf(file);
+  return problem;
+}
+
+ExportReport WritePublished(const SparseProblem& problem, const std::filesystem::path& file,
+                            const std::string& format, const std::string& storage, Rounding rounding) {
+  const PublishedFormat& row = FormatNamed(format);
+  const std::string chosen = storage.empty() ? row.storages.front() : storage;
+  if (std::find(row.storages.begin(), row.storages.end(), chosen) == row.storages.end()) {
+    throw InputError(
+        fmt::format("storage '{}': expected one of {} for {}", storage, fmt::join(row.storages, ", "), format));
+  }
+  RequireContacts(problem, format);
+  if (format == "fclib") RequireMirrorImage(problem);
+  SparseProblem rounded = problem;
+  const ExportReport report = RoundAll(rounded, rounding);
+  if (format == "fclib") {
+    WriteFclib(rounded, FclibStorageNamed(chosen), file.string());
+    return report;
+  }
+  const SiconosKind kind = format == "siconos-lcp" ? SiconosKind::kLcp : SiconosKind::kFriction;
+  std::ofstream out(file, std::ios::binary);
+  out << PrintSiconos(rounded, kind, SiconosStorageNamed(chosen));
+  out.close();
+  if (!out) throw InputError(fmt::format("{}: cannot be written", file.string()));
+  return report;
+}
+
+}  // namespace stiction

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The text files of Siconos' numerics component (`.dat`): LCP and friction problems.
+//
+//   LCP        n, matrix, q                      w = M z + q         n frictionless contacts
+//   friction   dimension, contacts, matrix, q, mu  u = W r + q       static contacts, normal row first
+//
+// Both are a = A f + b with the law of stiction's contacts; at rest a velocity plays the part of an
+// acceleration. What stands behind the last number is a remark. A matrix is its storage type, its rows and
+// columns, and then
+//
+//   0   dense     rows and columns again, values column by column
+//   1   blocks    number of blocks, of block rows, of block columns; last row + 1 of every block row, last
+//                 column + 1 of every block column; numbers of row pointers and of block columns listed, the
+//                 pointers, the block columns; every block: its number, its values column by column
+//   2   csparse   1 triplet or 2 compressed columns, then what CSparse's cs_print wrote:
+//                   CSparse Version ...                             CSparse Version ...
+//                   triplet: R-by-C, nzmax: N nnz: N                R-by-C, nzmax: N nnz: N, 1-norm: X
+//                       i j : value                                     col j : locations FIRST to LAST
+//                                                                         i : value
+//                 (Siconos writes six digits here; we write all that a double has.)
+//
+// A number is the IEEE double nearest to its text, which is what Siconos reads.
+
+#ifndef STICTION_CORPUS_FORMATS_SICONOS_H_
+#define STICTION_CORPUS_FORMATS_SICONOS_H_
+
+#include <filesystem>
+#include <string>
+
+#include "corpus/formats/sparse_problem.h"
+
+namespace stiction {
+
+enum class SiconosKind { kLcp, kFriction };
+enum class SiconosStorage { kDense, kBlocks, kTriplet, kColumns };
+
+// Which of the two a text is, by its first words; InputError, naming `source`, if neither.
+SiconosKind SiconosKindOf(const std::string& text, const std::string& source);
+
+// `source` names the text in errors, which give the line, what was found and what was expected there.
+SparseProblem ParseSiconos(const std::string& text, SiconosKind kind, const std::string& source);
+
+// Requires frictionless contacts only (LCP), or static ones only (friction); numbers that are doubles.
+std::string PrintSiconos(const SparseProblem& problem, SiconosKind kind, SiconosStorage storage);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_FORMATS_SICONOS_H_

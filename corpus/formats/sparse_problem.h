@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SparseProblem: a problem as other programs publish it, large and mostly zeros, over exact numbers.
+//
+// The published numbers are IEEE doubles, and a double is a rational number: nothing is rounded on reading.
+
+#ifndef STICTION_CORPUS_FORMATS_SPARSE_PROBLEM_H_
+#define STICTION_CORPUS_FORMATS_SPARSE_PROBLEM_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corpus/problem_file.h"
+
+namespace stiction {
+
+// By (row, column), zero-based; what is not there is zero.
+using SparseMatrix = std::map<std::pair<int, int>, Rational>;
+
+struct SparseProblem {
+  std::string name;
+  int dimension = 2;
+  std::vector<Contact<Rational>> contacts;
+  SparseMatrix A;  // no entry is zero
+  ExactProblem::Vector b;
+  Json origin = Json::object();  // format, storage, what was computed or changed on reading
+
+  int rows() const { return static_cast<int>(b.size()); }
+};
+
+// Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
+inline constexpr int kMostDenseRows = 4000;
+
+SparseProblem ToSparse(const ProblemFile& file);
+// InputError, naming `source`, above kMostDenseRows.
+ProblemFile ToDense(const SparseProblem& problem, const std::string& source);
+
+// The largest abs(A_ij - A_ji), i < j, and where it is first found; zero at (0, 0) if A is symmetric.
+struct Asymmetry {
+  Rational difference = 0;
+  int i = 0, j = 0;
+};
+Asymmetry LargestAsymmetry(const SparseProblem& problem);
+
+// A becomes (A + A')/2, exactly; `origin` says what the largest difference was. A symmetric A stays as it is.
+void Symmetrize(SparseProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_FORMATS_SPARSE_PROBLEM_H_

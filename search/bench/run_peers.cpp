@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suite `peers`: becomes the program stiction-peers, which stands beside this one.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "corpus/problem_file.h"
+#include "search/bench/suite.h"
+
+namespace stiction {
+
+int BenchPeers(const BenchOptions& options) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
+  std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed), "--seconds",
+                                    std::to_string(0.06 * options.repeat)};
+  if (options.json) words.push_back("--json");
+  if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
+  if (!options.contacts.empty()) words.push_back("--contacts");
+  for (const int contacts : options.contacts) words.push_back(std::to_string(contacts));
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw InputError(fmt::format("{}: cannot be run: {}; expected the program stiction-peers", program.string(),
+                               std::strerror(errno)));
+}
+
+}  // namespace stiction

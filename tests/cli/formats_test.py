@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Import, export and survey from outside: problems there and back, refusals, and what a survey says of them."""
+
+import json
+from fractions import Fraction
+
+import cli
+
+# u = W r + q of two planar contacts; W is singular and symmetric but for one entry, q in its range.
+FRICTION = "2 2 0 4 4 4 4\n2 0 2 0\n0 1 0 1\n2 0 2 0\n0 1.0001 0 1\n-1 0.5 -1 0.5\n0.5 0.25\n"
+LCP = "2 0 2 2 2 2\n2 1\n1 2\n-5 -6\n"
+
+
+class Formats(cli.TestCase):
+    def imported(self, text, *options):
+        out = self.folder / "problem.json"
+        self.succeeds("import", self.file("problem.dat", text), "-o", out, *options)
+        return json.loads(out.read_text())
+
+    def test_import_takes_every_number_at_its_double_value(self):
+        problem = self.imported(FRICTION)
+        self.assertEqual(problem["contacts"], [{"kind": "static", "mu": "1/2"}, {"kind": "static", "mu": "1/4"}])
+        self.assertEqual(Fraction(problem["A"][1][3]), Fraction(1.0001))
+        self.assertEqual(problem["A"][3][1], "1")
+        self.assertEqual(problem["b"], ["-1", "1/2", "-1", "1/2"])
+        self.assertEqual(problem["name"], "problem")
+        self.assertEqual(problem["origin"], {"format": "siconos-fc", "storage": "dense", "file": "problem.dat"})
+
+    def test_symmetrize_is_exact_and_recorded(self):
+        problem = self.imported(FRICTION, "--symmetrize")
+        mean = (Fraction(1.0001) + 1) / 2
+        self.assertEqual([Fraction(problem["A"][1][3]), Fraction(problem["A"][3][1])], [mean, mean])
+        recorded = problem["origin"]["symmetrized"]
+        self.assertEqual(Fraction(recorded["largest difference"]), Fraction(1.0001) - 1)
+        self.assertEqual((recorded["i"], recorded["j"]), (1, 3))
+
+    def test_an_imported_problem_is_solved_as_any_other(self):
+        self.imported(LCP)
+        done = self.succeeds("solve", self.folder / "problem.json", "--method", "complete", "--json").json()
+        self.assertEqual((done["f"], done["assumptions"]), (["4/3", "7/3"], []))
+
+    def test_three_dimensions_are_imported(self):
+        problem = self.imported("3 1 0 3 3 3 3\n15 -1 -2 -1 14 1 -2 1 16\n-1 2 3\n0.1\n")
+        self.assertEqual((problem["dimension"], len(problem["b"])), (3, 3))
+        self.succeeds("certify", self.folder / "problem.json", "--claim", "psd", "-o", self.folder / "c.json")
+
+    def test_export_and_import_give_the_same_problem(self):
+        first = self.imported(FRICTION)
+        for name, storages in (("siconos-fc", ("dense", "blocks", "columns", "triplet")),
+                               ("fclib", ("columns", "rows", "triplet"))):
+            for storage in storages:
+                with self.subTest(format=name, storage=storage):
+                    out, back = self.folder / "exported", self.folder / "back.json"
+                    done = self.succeeds("export", self.folder / "problem.json", "-o", out, "--format", name,
+                                         "--storage", storage)
+                    self.assertIn("0 numbers rounded", done.out)
+                    self.succeeds("import", out, "-o", back)
+                    second = json.loads(back.read_text())
+                    for key in ("dimension", "contacts", "A", "b"):
+                        self.assertEqual(first[key], second[key], key)
+
+    def test_export_rounds_only_where_it_is_told_to(self):
+        third = {**cli.SOLVED, "b": ["-1/3", "1"]}
+        problem, out = self.file("third.json", third), self.folder / "third.dat"
+        self.refuses("export", problem, "-o", out, "--format", "siconos-fc", says=["b[0]", "-1/3", "--round"])
+        self.assertFalse(out.exists())
+        done = self.succeeds("export", problem, "-o", out, "--format", "siconos-fc", "--round")
+        self.assertIn("1 numbers rounded", done.out)
+
+    def test_bad_files_and_wrong_formats_are_refused_with_their_place(self):
+        out = self.folder / "out.json"
+        bad = self.file("bad.dat", LCP.replace("-5", "five"))
+        self.refuses("import", bad, "-o", out, says=[f"{bad}: line 4: found 'five'", "q[0]"])
+        self.refuses("import", self.file("no.dat", "hello"), "-o", out, says="--format")
+        self.refuses("import", self.folder / "absent.dat", "-o", out, says="absent.dat")
+        self.refuses("import", bad, "-o", out, "--format", "fclib", says="no HDF5 file")
+        self.refuses("import", bad, "-o", out, "--format", "matlab", says="matlab")
+        self.refuses("export", self.file("p.json", cli.SOLVED), "-o", out, "--format", "siconos-lcp",
+                     says="contacts[0].kind")
+        self.assertFalse(out.exists())
+
+    def survey(self, *paths, code=0):
+        return self.succeeds("survey", *paths, "--json", code=code).json()
+
+    def test_survey_tells_which_assumptions_hold_and_what_solves(self):
+        entry, = self.survey(self.file("fc.dat", FRICTION))
+        self.assertEqual((entry["contacts"], entry["dimension"]), (2, 2))
+        self.assertAlmostEqual(entry["asymmetry"]["difference"], 1e-4)
+        self.assertFalse(entry["meets assumptions"])
+        mended = entry["symmetrized"]
+        self.assertFalse(mended["curvature"]["psd"])  # 1 times 1 is less than 1.00005 squared
+        self.assertLess(mended["curvature"]["most"], 0)
+        for runs in (entry["runs"], mended["runs"]):
+            self.assertEqual([run["outcome"] for run in runs[-1:]], ["solved"])
+            self.assertEqual(runs[-1]["certificate"], "solution-exists")
+
+    def test_survey_of_a_problem_that_meets_all_assumptions(self):
+        symmetric, = self.survey(self.file("fc.dat", FRICTION.replace("1.0001", "1")))
+        self.assertIs(symmetric["meets assumptions"], True)
+        self.assertNotIn("symmetrized", symmetric)
+        double, exact = symmetric["runs"]
+        self.assertEqual((double["method"], double["arithmetic"], double["outcome"]), ("complete", "double", "solved"))
+        self.assertLess(double["residual"], 1e-12)
+        self.assertEqual((exact["arithmetic"], exact["residual"]), ("exact", 0))
+        outside, = self.survey(self.file("fc.dat", FRICTION.replace("1.0001", "1").replace("-1 0.5 -1", "-1 0.5 -3")))
+        self.assertIs(outside["range"]["in-range"], False)
+        # Along the kernel (1, 0, -1, 0) of W: 2 / sqrt(2), of abs(b) = sqrt(10.5).
+        self.assertAlmostEqual(outside["range"]["distance"], (2 / 10.5) ** 0.5)
+        self.assertIs(outside["meets assumptions"], False)
+
+    def test_what_the_matrix_does_not_couple_is_decided_exactly_group_by_group(self):
+        size = 60
+        rows = [["0"] * size for _ in range(size)]
+        for i in range(0, size, 2):
+            rows[i][i], rows[i][i + 1], rows[i + 1][i], rows[i + 1][i + 1] = "2", "1", "1", "2"
+        problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * size, "A": rows, "b": ["-5", "-6"] * 30}
+        entry, = self.survey(self.file("pairs.json", problem))
+        exact = entry["runs"][-1]
+        self.assertEqual((exact["arithmetic"], exact["outcome"], exact["groups"]), ("exact", "solved", 30))
+        # One pair without a solution: nor has the whole.
+        for i in (0, 1):
+            rows[i][0] = rows[i][1] = "0"
+        entry, = self.survey(self.file("pairs.json", problem))
+        self.assertEqual(entry["runs"][-1]["outcome"], "no-solution")
+        self.assertIsNone(entry["range"]["in-range"])
+
+    def test_survey_of_a_folder_goes_on_behind_a_bad_file(self):
+        self.file("a.dat", "hello")
+        self.file("b.dat", LCP)
+        self.file("c.txt", "no problem")
+        done = cli.run("survey", self.folder, "--json")
+        self.assertEqual(done.code, 2)
+        self.assertIn("a.dat", done.err)
+        bad, good = json.loads(done.out)
+        self.assertIn("line 1", bad["error"])
+        self.assertIs(good["meets assumptions"], True)
+        text = cli.run("survey", self.folder / "b.dat")
+        self.assertEqual((text.code, len(text.out.splitlines())), (0, 3))
+
+    def test_survey_of_more_than_fifty_contacts_gives_bounds_that_hold(self):
+        size = 60
+        rows = [[str(Fraction(2 if i == j else -1 if abs(i - j) == 1 else 0)) for j in range(size)]
+                for i in range(size)]
+        problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * size, "A": rows, "b": ["-1"] * size}
+        entry, = self.survey(self.file("chain.json", problem))
+        self.assertIs(entry["curvature"]["psd"], True)
+        # The smallest eigenvalue is 2 - 2 cos(pi / 61) = 0.00265; bounds are relative to 2.
+        self.assertLess(entry["curvature"]["least"], 0.00133)
+        self.assertIs(entry["range"]["in-range"], True)
+        self.assertEqual([run["outcome"] for run in entry["runs"]], ["solved"])
+        rows[0][0] = rows[-1][-1] = "1"  # a chain without ends: singular, with the kernel (1, ..., 1)
+        entry, = self.survey(self.file("loose.json", problem))
+        self.assertIsNone(entry["range"]["in-range"])
+        self.assertAlmostEqual(entry["range"]["distance"], 1, places=6)
+        if entry["curvature"]["psd"] is None:
+            self.assertLess(-1e-9, entry["curvature"]["least"])
+            self.assertLessEqual(entry["curvature"]["least"], 0)
+        rows[0][0] = "1/2"
+        entry, = self.survey(self.file("indefinite.json", problem))
+        self.assertIs(entry["curvature"]["psd"], False)
+        self.assertLess(entry["curvature"]["most"], 0)
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Problems that others published (corpus/formats/README.md): read, judged and solved as that table says.
+
+They are no part of this project: STICTION_DATA names the folder that has them.
+"""
+
+import os
+import pathlib
+import sys
+
+import cli
+
+# file: contacts, dimension, order of magnitude of the largest abs(A - A')
+FILES = {
+    "lcp/lcp_CPS_1.dat": (2, 2, 0), "lcp/lcp_CPS_2.dat": (3, 2, 3), "lcp/lcp_CPS_3.dat": (4, 2, 10),
+    "lcp/lcp_CPS_4.dat": (4, 2, 2), "lcp/lcp_CPS_4bis.dat": (4, 2, 2), "lcp/lcp_CPS_5.dat": (2, 2, 0),
+    "lcp/lcp_deudeu.dat": (2, 2, 0), "lcp/lcp_exp_murty.dat": (6, 2, 2), "lcp/lcp_trivial.dat": (9, 2, 0),
+    "friction/FC2D_SliderCrankLagrangian00000.dat": (2, 2, 3e-4),
+    "friction/FrictionContactProblem00031.dat": (11, 2, 3e-17),
+    "friction/FC3D_Example1.dat": (3, 3, 0), "friction/FC3D_Example1_SBM.dat": (3, 3, 0),
+    "friction/FrictionContact3D_1c.dat": (1, 3, 0), "friction/NESpheres_10_1.dat": (9, 3, 1e-16),
+    "friction/Rover11035.dat": (1, 3, 1.2e-6), "friction/Rover4396.dat": (2, 3, 2.7e-6),
+    "friction/Rover1039.dat": (4, 3, 1e-6), "friction/Confeti-ex13-4contact-Fc3D-SBM.dat": (4, 3, 0),
+    "fclib/CubeH8.hdf5": (1, 3, 2e-14),
+}
+
+
+class PublishedProblems(cli.TestCase):
+    def survey(self, names):
+        folder = pathlib.Path(os.environ["STICTION_DATA"])
+        entries = self.succeeds("survey", *(folder / name for name in names), "--json", timeout=600).json()
+        return dict(zip(names, entries, strict=True))
+
+    def test_every_file_is_read_as_what_it_is(self):
+        for name, entry in self.survey(FILES).items():
+            contacts, dimension, asymmetry = FILES[name]
+            with self.subTest(file=name):
+                self.assertEqual((entry["contacts"], entry["dimension"]), (contacts, dimension))
+                found = entry["asymmetry"]["difference"]
+                self.assertTrue(0.8 * asymmetry <= found <= 1.2 * asymmetry, found)
+
+    def test_all_planar_ones_are_solved_exactly(self):
+        planar = [name for name in FILES if FILES[name][1] == 2]
+        for name, entry in self.survey(planar).items():
+            for variant in (entry, entry.get("symmetrized", entry)):
+                with self.subTest(file=name):
+                    exact = variant["runs"][-1]
+                    self.assertEqual((exact["arithmetic"], exact["certificate"]), ("exact", "solution-exists"))
+
+    def test_two_storages_of_one_problem_are_the_same_problem(self):
+        folder = pathlib.Path(os.environ["STICTION_DATA"]) / "friction"
+        problems = []
+        for name in ("FC3D_Example1", "FC3D_Example1_SBM"):
+            out = self.folder / f"{name}.json"
+            self.succeeds("import", folder / f"{name}.dat", "-o", out)
+            problem = cli.json.loads(out.read_text())
+            problems.append([problem[key] for key in ("contacts", "A", "b")])
+        self.assertEqual(*problems)
+
+
+if __name__ == "__main__":
+    if "STICTION_DATA" not in os.environ:
+        print(f"SKIPPED: STICTION_DATA does not name the folder of {len(FILES)} published problems")
+        sys.exit(0)
+    cli.main()

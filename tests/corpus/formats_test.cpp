@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: Apache-2.0
+// Formats of others: what is written is read back, texts mean what Siconos and FCLIB mean, bad files are
+// refused.
+
+#include "corpus/formats/formats.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <variant>
+
+#include "corpus/formats/siconos.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+using Catch::Contains;
+
+// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "stiction-formats-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Doubles of all sizes; asymmetric, so that a transposed matrix is noticed; some entries zero.
+SparseProblem RandomDoubles(const std::vector<ContactKind>& kinds, int dimension, std::uint64_t seed) {
+  Choices choices(seed);
+  const auto number = [&choices] {
+    return Rational(static_cast<double>(choices.Integer(-1000, 1000)) / 7.0 *
+                    std::ldexp(1.0, static_cast<int>(choices.Integer(-60, 60))));
+  };
+  SparseProblem problem;
+  problem.dimension = dimension;
+  for (const ContactKind kind : kinds) {
+    const bool rough = kind == ContactKind::kStatic;
+    problem.contacts.push_back(
+        {kind, rough ? Rational(0.1 * static_cast<double>(choices.Integer(0, 9))) : 0, {}});
+  }
+  const int rows = RowCount(problem.contacts, dimension);
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    problem.b[i] = number();
+    for (int j = 0; j < rows; ++j) {
+      const Rational value = choices.Integer(0, 2) == 0 ? number() : Rational(0);
+      if (value != 0) problem.A[{i, j}] = value;
+    }
+  }
+  return problem;
+}
+
+void CheckEqual(const SparseProblem& found, const SparseProblem& expected) {
+  CHECK(found.dimension == expected.dimension);
+  REQUIRE(found.contacts.size() == expected.contacts.size());
+  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
+    CHECK(found.contacts[i].kind == expected.contacts[i].kind);
+    CHECK(found.contacts[i].mu == expected.contacts[i].mu);
+  }
+  CHECK((found.A == expected.A));
+  CHECK((found.b == expected.b));
+}
+
+TEST_CASE("formats: what is written is read back to the same numbers, however it is stored") {
+  const Folder folder;
+  const std::vector<ContactKind> smooth(4, ContactKind::kFrictionless), rough(3, ContactKind::kStatic);
+  std::vector<ContactKind> joined = rough;
+  joined.insert(joined.end(), 2, ContactKind::kBilateral);
+  int files = 0;
+  for (const PublishedFormat& format : PublishedFormats()) {
+    for (const std::string& storage : format.storages) {
+      for (int seed = 0; seed < 12; ++seed) {
+        CAPTURE(format.name, storage, seed);
+        const bool lcp = format.name == "siconos-lcp", fclib = format.name == "fclib";
+        const int dimension = lcp ? 2 : 2 + seed % 2;
+        SparseProblem problem = RandomDoubles(lcp                      ? smooth
+                                              : fclib && seed % 3 == 0 ? joined
+                                                                       : rough,
+                                              dimension, seed);
+        if (fclib) {
+          // Between static and bilateral contacts the format has one matrix for both triangles.
+          const int rows = 3 * dimension;
+          std::erase_if(problem.A, [rows](const auto& entry) {
+            return (entry.first.first < rows) != (entry.first.second < rows);
+          });
+          if (problem.rows() > rows) problem.A[{0, rows + 1}] = problem.A[{rows + 1, 0}] = Rational(0.1);
+        }
+        const auto file = folder / "problem.any";
+        const ExportReport report = WritePublished(problem, file, format.name, storage, Rounding::kRefused);
+        CHECK(report.rounded == 0);
+        CheckEqual(ReadPublished(file), problem);
+        CheckEqual(ReadPublished(file, format.name), problem);
+        ++files;
+      }
+    }
+  }
+  CHECK(files == 11 * 12);
+}
+
+TEST_CASE("formats: problems without contacts or without entries are written and read") {
+  const Folder folder;
+  for (const PublishedFormat& format : PublishedFormats()) {
+    for (const std::string& storage : format.storages) {
+      for (const int contacts : {0, 2}) {
+        CAPTURE(format.name, storage, contacts);
+        const bool lcp = format.name == "siconos-lcp";
+        SparseProblem problem;
+        problem.contacts.assign(contacts, {lcp ? ContactKind::kFrictionless : ContactKind::kStatic, 0, {}});
+        problem.b = ExactVector::Constant(RowCount(problem.contacts, 2), Rational(1));
+        WritePublished(problem, folder / "empty", format.name, storage, Rounding::kRefused);
+        CheckEqual(ReadPublished(folder / "empty", format.name), problem);
+      }
+    }
+  }
+}
+
+TEST_CASE("formats: numbers that are no doubles are refused, or rounded and counted") {
+  const Folder folder;
+  SparseProblem problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 2, 7);
+  problem.A[{0, 0}] = Rational(1, 3);
+  problem.contacts[1].mu = Number("0.3");
+  for (const PublishedFormat& format : PublishedFormats()) {
+    if (format.name == "siconos-lcp") continue;
+    CAPTURE(format.name);
+    CHECK_THROWS_WITH(WritePublished(problem, folder / "x", format.name, "", Rounding::kRefused),
+                      Contains("A[0][0]") && Contains("1/3") && Contains("--round"));
+    const ExportReport report = WritePublished(problem, folder / "x", format.name, "", Rounding::kAllowed);
+    CHECK(report.rounded == 2);
+    CHECK(report.largest_change > 0);
+    CHECK(report.largest_change < Rational(1, 1000000000));
+    const SparseProblem read = ReadPublished(folder / "x");
+    CHECK(read.A.at({0, 0}) == Rational(1.0 / 3.0));
+    CHECK(read.contacts[1].mu == Rational(0.3));
+  }
+  problem.b[0] = Number("1e400");
+  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "fclib", "", Rounding::kAllowed),
+                    Contains("b[0]") && Contains("range of doubles"));
+}
+
+TEST_CASE("formats: contacts that a format does not have are refused") {
+  const Folder folder;
+  using enum ContactKind;
+  const auto refused = [&folder](const std::vector<ContactKind>& kinds, const std::string& format) {
+    const SparseProblem problem = RandomDoubles(kinds, 2, 1);
+    CHECK_THROWS_WITH(WritePublished(problem, folder / "x", format, "", Rounding::kRefused),
+                      Contains("contacts[1]"));
+  };
+  refused({kFrictionless, kStatic}, "siconos-lcp");
+  refused({kStatic, kFrictionless}, "siconos-fc");
+  refused({kStatic, kFrictionless}, "fclib");
+  refused({kBilateral, kStatic}, "fclib");
+  SparseProblem problem = RandomDoubles({kStatic, kBilateral}, 2, 1);
+  problem.A[{0, 2}] = 1;
+  problem.A.erase({2, 0});
+  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "fclib", "", Rounding::kRefused), Contains("mirror"));
+  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "siconos-fc", "rows", Rounding::kRefused),
+                    Contains("storage 'rows'"));
+}
+
+// ---- Siconos ---------------------------------------------------------------------------------
+
+SparseProblem Parse(const std::string& text) { return ParseSiconos(text, SiconosKindOf(text, "file"), "file"); }
+
+const std::string kDense = "2 1 0 2 2 2 2\n 1 2\n 3 4\n -5 0.1\n 0.5\nwhatever stands here\n";
+const std::string kBlocks =
+    "2 2 1 4 4\n3\n2\n2\n2 4\n2 4\n3\n3\n0 1 3\n0 0 1\n0\n 1 2 3 4\n1\n 5 6 7 8\n2\n 9 0 0 1\n 1 2 3 4\n 1 "
+    "0\n1\n";
+const std::string kColumns =
+    "2 1 2 2 2 2\nCSparse Version 3.1.9, May 4, 2016.  Copyright (c) whoever\n"
+    "2-by-2, nzmax: 2 nnz: 2, 1-norm: 7\n    col 0 : locations 0 to 1\n      0 : 3\n      1 : 4\n"
+    "    col 1 : locations 2 to 1\n 1 2\n 0.5\n";
+const std::string kTriplet =
+    "2\n2\n2\n2\n1\nCSparse Version 3.1.9\ntriplet: 2-by-2, nzmax: 4 nnz: 3\n    1 0 : 2\n    0 0 : 3\n"
+    "    1 0 : 0.5\n -1 -2\n";
+
+TEST_CASE("Siconos: a dense matrix stands column by column, q and mu behind it, then a remark") {
+  const SparseProblem problem = Parse(kDense);
+  CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{1, 0}, 2}, {{0, 1}, 3}, {{1, 1}, 4}}));
+  CHECK(problem.b[0] == -5);
+  CHECK(problem.b[1] == Rational(0.1));
+  CHECK(problem.contacts.front().mu == Rational(1, 2));
+  CHECK(problem.origin["storage"] == "dense");
+}
+
+TEST_CASE("Siconos: blocks stand row by row, each column by column; missing ones are zero") {
+  const SparseProblem problem = Parse(kBlocks);
+  CHECK((problem.A == SparseMatrix{{{0, 0}, 1},
+                                   {{1, 0}, 2},
+                                   {{0, 1}, 3},
+                                   {{1, 1}, 4},
+                                   {{2, 0}, 5},
+                                   {{3, 0}, 6},
+                                   {{2, 1}, 7},
+                                   {{3, 1}, 8},
+                                   {{2, 2}, 9},
+                                   {{3, 3}, 1}}));
+  CHECK(problem.b[3] == 4);
+  CHECK(problem.contacts[1].mu == 0);
+}
+
+TEST_CASE("Siconos: CSparse text, compressed and triplet; entries listed twice add up") {
+  CHECK((Parse(kColumns).A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, 4}}));
+  const SparseProblem lcp = Parse(kTriplet);
+  CHECK((lcp.A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, Rational(5, 2)}}));
+  CHECK(lcp.contacts.size() == 2);
+  CHECK(lcp.contacts[0].kind == ContactKind::kFrictionless);
+}
+
+std::string Without(std::string text, const std::string& part, const std::string& instead) {
+  const std::size_t at = text.find(part);
+  REQUIRE(at != text.npos);
+  return text.replace(at, part.size(), instead);
+}
+
+TEST_CASE("Siconos: a malformed file is refused with its line, what was found and what was expected") {
+  struct Case {
+    std::string text, line, found, expected;
+  };
+  for (const Case& c : std::vector<Case>{
+           {Without(kDense, "0.1", "nan"), "line 4", "'nan'", "q[1]"},
+           {Without(kDense, "0.1", "1e999"), "line 4", "'1e999'", "range of doubles"},
+           {Without(kDense, "0.1", "0.1x"), "line 4", "'0.1x'", "q[1]"},
+           {Without(kDense, "0.5", "-0.5"), "line 5", "-1/2", "mu[0], a number >= 0"},
+           {Without(kDense, "2 2 2 2", "2 2 2 3"), "line 1", "'3'", "2, the columns of the matrix"},
+           {Without(kDense, " 3 4\n", ""), "line 5", "'whatever'", "q[1]"},
+           {kDense.substr(0, 22), "line 3", "the end of the file", "entry"},
+           {Without(kBlocks, "2 4\n2 4", "2 5\n2 4"), "line 5", "'5'", "4, the end of block row 1"},
+           {Without(kBlocks, "0 1 3", "0 4 3"), "line 9", "'4'", "row pointer 1"},
+           {Without(kBlocks, "0 0 1", "0 2 1"), "line 10", "'2'", "block column of block 1"},
+           {Without(kBlocks, "\n1\n 5", "\n2\n 5"), "line 13", "'2'", "1, the number of the block"},
+           {Without(kColumns, "0 to 1", "0 to 2"), "line 4", "'2'", "the last location"},
+           {Without(kColumns, "2 to 1", "1 to 1"), "line 7", "'1'", "2, the first location"},
+           {Without(kColumns, "      1 :", "      2 :"), "line 6", "'2'", "a row, from 0 to 1"},
+           {Without(kColumns, "2-by-2", "3-by-2"), "line 3", "'3-by-2'", "'2-by-2'"},
+           {Without(kColumns, "CSparse", "csparse"), "line 2", "'csparse'", "block columns"},
+           {Without(kTriplet, "1 0 : 2", "1 2 : 2"), "line 8", "'2'", "a column, from 0 to 1"},
+           {Without(kTriplet, "nnz: 3", "nnz: 1.2e+06"), "line 7", "'1.2e+06'", "number of entries"},
+           {"1000000000 0 1000000000 1000000000", "line 1", "'1000000000'", "the size of the LCP"},
+       }) {
+    CAPTURE(c.text);
+    CHECK_THROWS_WITH(Parse(c.text),
+                      Contains("file: " + c.line + ": found " + c.found) && Contains(c.expected));
+  }
+}
+
+TEST_CASE("Siconos: LCP or friction is told by the first words") {
+  CHECK_THROWS_WITH(Parse("hello"), Contains("neither") && Contains("--format"));
+  CHECK_THROWS_WITH(Parse(""), Contains("neither"));
+  // n = 2, blocks, 2 of them: not one planar contact, csparse.
+  const SparseProblem lcp = Parse("2 1 2 2 2\n2 2\n1 2\n1 2\n3 2\n0 1 2\n0 1\n0\n4\n1\n5\n -1 -2\n");
+  CHECK(lcp.contacts[0].kind == ContactKind::kFrictionless);
+  CHECK((lcp.A == SparseMatrix{{{0, 0}, 4}, {{1, 1}, 5}}));
+  CHECK(Parse(kColumns).contacts[0].kind == ContactKind::kStatic);
+}
+
+// ---- FCLIB -----------------------------------------------------------------------------------
+
+using Values = std::variant<std::vector<int>, std::vector<double>>;
+using Sets = std::map<std::string, Values>;
+
+// Data sets by path, groups as needed.
+void WriteSets(const std::filesystem::path& file, const Sets& sets) {
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(links, 1);
+  for (const auto& [path, values] : sets) {
+    const auto* integers = std::get_if<std::vector<int>>(&values);
+    const auto* doubles = std::get_if<std::vector<double>>(&values);
+    const hsize_t size = integers != nullptr ? integers->size() : doubles->size();
+    const hid_t type = integers != nullptr ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t set = H5Dcreate2(id, path.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT);
+    REQUIRE(set >= 0);
+    const void* data = integers != nullptr ? static_cast<const void*>(integers->data()) : doubles->data();
+    REQUIRE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+    H5Dclose(set);
+    H5Sclose(space);
+  }
+  H5Pclose(links);
+  H5Fclose(id);
+}
+
+void AddMatrix(Sets& sets, const std::string& path, int m, int n, int nz, const std::vector<int>& p,
+               const std::vector<int>& i, const std::vector<double>& x) {
+  sets[path + "/m"] = std::vector<int>{m};
+  sets[path + "/n"] = std::vector<int>{n};
+  sets[path + "/nz"] = std::vector<int>{nz};
+  sets[path + "/nzmax"] = std::vector<int>{static_cast<int>(x.size())};
+  sets[path + "/p"] = p;
+  sets[path + "/i"] = i;
+  sets[path + "/x"] = x;
+}
+
+// M = [2 1 0; 1 2 0; 0 0 4], H = [1 0; 0 1; 1 0], G = (0, 0, 2)', f = (3, 0, 4), w = (1, 2), b = 5.
+Sets GlobalProblem() {
+  Sets sets;
+  sets["/fclib_global/spacedim"] = std::vector<int>{2};
+  AddMatrix(sets, "/fclib_global/M", 3, 3, -1, {0, 2, 4, 5}, {0, 1, 0, 1, 2}, {2, 1, 1, 2, 4});
+  AddMatrix(sets, "/fclib_global/H", 3, 2, 3, {0, 1, 0}, {0, 1, 2}, {1, 1, 1});
+  AddMatrix(sets, "/fclib_global/G", 3, 1, -2, {0, 0, 0, 1}, {0}, {2});
+  sets["/fclib_global/vectors/f"] = std::vector<double>{3, 0, 4};
+  sets["/fclib_global/vectors/w"] = std::vector<double>{1, 2};
+  sets["/fclib_global/vectors/b"] = std::vector<double>{5};
+  sets["/fclib_global/vectors/mu"] = std::vector<double>{0.5};
+  return sets;
+}
+
+void CheckCondensed(const SparseProblem& problem) {
+  CHECK((problem.A == SparseMatrix{{{0, 0}, Rational(11, 12)},
+                                   {{0, 1}, Rational(-1, 3)},
+                                   {{1, 0}, Rational(-1, 3)},
+                                   {{1, 1}, Rational(2, 3)},
+                                   {{0, 2}, Rational(1, 2)},
+                                   {{2, 0}, Rational(1, 2)},
+                                   {{2, 2}, 1}}));
+  CHECK((problem.b == Vector({4, 1, 7})));
+  REQUIRE(problem.contacts.size() == 2);
+  CHECK(problem.contacts[0].kind == ContactKind::kStatic);
+  CHECK(problem.contacts[0].mu == Rational(1, 2));
+  CHECK(problem.contacts[1].kind == ContactKind::kBilateral);
+}
+
+TEST_CASE("FCLIB: a global problem is condensed exactly, its equations are bilateral contacts") {
+  const Folder folder;
+  WriteSets(folder / "global.hdf5", GlobalProblem());
+  CheckCondensed(ReadPublished(folder / "global.hdf5"));
+}
+
+TEST_CASE("FCLIB: triplets with rows in p, as fclib.h has it, are told by the shape") {
+  const Folder folder;
+  Sets sets = GlobalProblem();
+  AddMatrix(sets, "/fclib_global/H", 3, 2, 3, {0, 1, 2}, {0, 1, 0}, {1, 1, 1});
+  WriteSets(folder / "global.hdf5", sets);
+  CheckCondensed(ReadPublished(folder / "global.hdf5"));
+}
+
+TEST_CASE("FCLIB: a malformed file is refused with the place, what was found and what was expected") {
+  const Folder folder;
+  const auto refused = [&folder](const Sets& sets, const std::string& path, const std::string& expected) {
+    WriteSets(folder / "bad.hdf5", sets);
+    CAPTURE(path);
+    CHECK_THROWS_WITH(ReadPublished(folder / "bad.hdf5"), Contains("bad.hdf5: /" + path) && Contains(expected));
+  };
+  const std::string group = "/fclib_global/";
+  const auto with = [&group](const std::string& name, const Values& values) {
+    Sets sets = GlobalProblem();
+    sets[group + name] = values;
+    return sets;
+  };
+  Sets sets = GlobalProblem();
+  sets.erase("/fclib_global/vectors/f");
+  refused(sets, "fclib_global/vectors/f: found nothing", "expected floating-point numbers");
+  refused(with("spacedim", std::vector<int>{4}), "fclib_global/spacedim: found 4", "from 2 to 3");
+  refused(with("spacedim", std::vector<double>{2}), "fclib_global/spacedim: found another type", "integers");
+  refused(with("M/p", std::vector<int>{0, 2, 1, 5}), "fclib_global/M/p", "do not decrease");
+  refused(with("M/p", std::vector<int>{0, 2, 4, 6}), "fclib_global/M/p", "end at 5");
+  refused(with("M/i", std::vector<int>{0, 1, 0, 3, 2}), "fclib_global/M/i", "indices from 0 to 2");
+  refused(with("M/nz", std::vector<int>{-3}), "fclib_global/M/nz", "from -2");
+  refused(with("M/x", std::vector<double>{0, 0, 0, 2, 4}), "fclib_global/M", "positive definite");
+  refused(with("H/p", std::vector<int>{0, 1, 9}), "fclib_global/H", "columns below 2");
+  refused(with("H/nz", std::vector<int>{4}), "fclib_global/H", "nz = 4");
+  refused(with("H/m", std::vector<int>{4}), "fclib_global/H", "3 rows");
+  refused(with("H/x", std::vector<double>{1, NAN, 1}), "fclib_global/H/x[1]: found nan", "a number");
+  refused(with("vectors/w", std::vector<double>{1}), "fclib_global/vectors/w: found 1 numbers", "expected 2");
+  refused(with("vectors/mu", std::vector<double>{-1}), "fclib_global/vectors/mu[0]: found -1", "mu >= 0");
+  refused({{"/something", std::vector<int>{1}}}, ": found neither", "one of them");
+  std::ofstream(folder / "bad.hdf5") << "\x89HDF\r\n\x1a\nnothing";
+  CHECK_THROWS_WITH(ReadPublished(folder / "bad.hdf5"), Contains("no HDF5 file"));
+}
+
+// ---- Symmetrizing, and the way to a problem file -----------------------------------------------
+
+TEST_CASE("symmetrize: A becomes (A + A')/2 exactly, and the largest difference is kept") {
+  SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 2.5 4\n 0 0");
+  CHECK(LargestAsymmetry(problem).difference == Rational(1, 2));
+  Symmetrize(problem);
+  CHECK((problem.A ==
+         SparseMatrix{{{0, 0}, 1}, {{0, 1}, Rational(9, 4)}, {{1, 0}, Rational(9, 4)}, {{1, 1}, 4}}));
+  CHECK(problem.origin["symmetrized"]["largest difference"] == "1/2");
+  CHECK(problem.origin["symmetrized"]["i"] == 0);
+  CHECK(LargestAsymmetry(problem).difference == 0);
+}
+
+TEST_CASE("symmetrize: an entry and its missing mirror share what there is; a symmetric A is left alone") {
+  SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 0 4\n 0 0");
+  Symmetrize(problem);
+  CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 4}}));
+  problem.origin.erase("symmetrized");
+  Symmetrize(problem);
+  CHECK_FALSE(problem.origin.contains("symmetrized"));
+}
+
+TEST_CASE("formats: dense and sparse problems are the same problem") {
+  const SparseProblem problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 3, 3);
+  ProblemFile file = ToDense(problem, "file");
+  file.name = "name";
+  CheckEqual(ToSparse(ParseProblem(Print(file), "text")), problem);
+  SparseProblem large;
+  large.b.resize(kMostDenseRows + 1);
+  CHECK_THROWS_WITH(ToDense(large, "file"), Contains("4001") && Contains("at most 4000"));
+}
+
+}  // namespace
+}  // namespace stiction

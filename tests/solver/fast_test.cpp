@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fast method: solved means solved, whatever the guesses were; warm starts; other kinds of contacts.
+
+#include "solver/fast.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <map>
+
+#include "certify/verify_solution.h"
+#include "solver/complete.h"
+#include "solver/residual.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// The problem that a Scalar sees, exactly.
+template <class Scalar>
+ExactProblem Rounded(ExactProblem problem) {
+  const auto round = [](Rational& x) { x = Rational(static_cast<double>(To<Scalar>(x))); };
+  for (auto& contact : problem.contacts) round(contact.mu);
+  for (Rational& x : problem.b) round(x);
+  for (Rational& x : problem.A.reshaped()) round(x);
+  return problem;
+}
+
+ExactProblem Frictionless(const ExactProblem& problem) {
+  ExactProblem other = problem;
+  other.contacts.assign(problem.rows(), {ContactKind::kFrictionless, 0, {}});
+  return other;
+}
+
+// The forces of an exact run of complete driving.
+ExactVector CompleteForces(const ExactProblem& problem) {
+  CompleteDriving<Rational> driving;
+  REQUIRE(driving.Run(problem).outcome == Outcome::kSolved);
+  return driving.state().f;
+}
+
+template <class Scalar>
+Rational ExactResidual(const ExactProblem& problem, const FastSolver<Scalar>& solver) {
+  ExactVector f(problem.rows());
+  for (int i = 0; i < problem.rows(); ++i) f[i] = Rational(static_cast<double>(solver.f()[i]));
+  return NaturalResidual(problem, f, Accelerations(problem, f));
+}
+
+// ---- No wrong answer is called solved --------------------------------------------------------
+
+TEMPLATE_TEST_CASE("fast: problems of every generator are solved, or undecided, never wrong", "", float, double,
+                   long double) {
+  FastSolver<TestType> solver;
+  int solved = 0, runs = 0;
+  for (int g = 0; g < kGeneratorCount; ++g) {
+    for (int index = 0; index < 200; ++index) {
+      for (const bool friction : {true, false}) {
+        CAPTURE(g, index, friction);
+        const ExactProblem drawn = Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index);
+        const ExactProblem exact = Rounded<TestType>(friction ? drawn : Frictionless(drawn));
+        const FastVerdict verdict = solver.Run(As<TestType>(exact));
+        ++runs;
+        CHECK((verdict.outcome == Outcome::kSolved) == verdict.reason.empty());
+        if (verdict.outcome != Outcome::kSolved) continue;
+        ++solved;
+        const double bound = sizeof(TestType) == 4 ? 1e-5 : 1e-7;
+        CHECK(ToDouble(ExactResidual(exact, solver)) <= bound);
+      }
+    }
+  }
+  CHECK(solved > (sizeof(TestType) == 4 ? 0.85 : 0.97) * runs);
+}
+
+TEST_CASE("fast: the residual of a solved run, from its forces alone, is within the tolerance") {
+  FastSolver<double> solver;
+  for (int index = 0; index < 600; ++index) {
+    const auto id = static_cast<GeneratorId>(index % kGeneratorCount);
+    const auto problem = Random<double>(id, 1 + index % 8, 7000 + index);
+    solver.options().residual = index % 2 == 0 ? 1e-8 : 1e-13;
+    if (solver.Run(problem).outcome != Outcome::kSolved) continue;
+    const Eigen::VectorXd a = problem.A * solver.f() + problem.b;
+    CHECK(NaturalResidual(problem, solver.f(), a) <= solver.options().residual + 1e-14);
+    const double unit = problem.A.cwiseAbs().maxCoeff() * solver.f().cwiseAbs().maxCoeff();
+    CHECK((a - solver.a()).cwiseAbs().maxCoeff() <= 1e-13 * unit);
+  }
+}
+
+TEST_CASE("fast: where the solution is unique, it is the one that complete driving finds exactly") {
+  FastSolver<double> solver;
+  for (int index = 0; index < 200; ++index) {
+    CAPTURE(index);
+    const ExactProblem exact = RandomFrictionless(1 + index % 9, index);
+    REQUIRE(solver.Run(As<double>(exact)).outcome == Outcome::kSolved);
+    const ExactVector f = CompleteForces(exact);
+    for (int i = 0; i < exact.rows(); ++i) {
+      CHECK(solver.f()[i] == Approx(ToDouble(f[i])).epsilon(1e-6).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("fast: singular frictionless problems of many contacts are solved without complete driving") {
+  FastSolver<double> solver;
+  std::int64_t updates = 0;
+  for (int index = 0; index < 40; ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    const int contacts = 20 + index;
+    Eigen::MatrixXd J(contacts, contacts / 2);
+    for (double& x : J.reshaped()) x = static_cast<double>(choices.Integer(-1000, 1000));
+    Eigen::VectorXd y(contacts / 2);
+    for (double& x : y) x = static_cast<double>(choices.Integer(-1000, 1000));
+    ContactProblem<double> problem;
+    problem.contacts.assign(contacts, {ContactKind::kFrictionless, 0, {}});
+    problem.A = J * J.transpose();
+    problem.b = J * y;
+    const FastVerdict verdict = solver.Run(problem);
+    CHECK(verdict.outcome == Outcome::kSolved);
+    CHECK(verdict.statistics.fallbacks == 0);
+    updates += verdict.statistics.updates;
+    // Contacts that the method does not need are dropped: at most rank many carry a force.
+    CHECK((solver.f().array() != 0).count() <= contacts / 2);
+  }
+  CHECK(updates > 100);
+}
+
+TEST_CASE("fast: problems of more than a panel of unknowns are solved") {
+  FastSolver<double> solver;
+  for (const bool friction : {false, true}) {
+    for (int contacts : {33, 70, 120}) {
+      CAPTURE(friction, contacts);
+      Choices choices(contacts);
+      const int rows = friction ? 2 * contacts : contacts;
+      Eigen::MatrixXd J(rows, rows);
+      for (double& x : J.reshaped()) x = static_cast<double>(choices.Integer(-1000, 1000)) / 1000;
+      ContactProblem<double> problem;
+      const ContactKind kind = friction ? ContactKind::kStatic : ContactKind::kFrictionless;
+      problem.contacts.assign(contacts, {kind, friction ? 0.5 : 0.0, {}});
+      problem.A = J * J.transpose();
+      problem.b.resize(rows);
+      for (double& x : problem.b) x = static_cast<double>(choices.Integer(-1000, 1000)) / 1000;
+      const FastVerdict verdict = solver.Run(problem);
+      CHECK(verdict.outcome == Outcome::kSolved);
+      CHECK(verdict.statistics.fallbacks == 0);
+    }
+  }
+}
+
+// ---- The way there ---------------------------------------------------------------------------
+
+// The exchanges go round in circles, from every sweep.
+ExactProblem CirclingProblem() {
+  return MakeProblem({1, 1}, {{5, -4, -4, -6}, {-4, 7, 1, 6}, {-4, 1, 5, 5}, {-6, 6, 5, 10}}, {-1, -3, -2, 2});
+}
+
+TEST_CASE("fast: where guessing goes round in circles, complete driving finds the solution") {
+  FastSolver<double> solver;
+  const FastVerdict verdict = solver.Run(As<double>(CirclingProblem()));
+  CHECK(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.fallbacks == 1);
+  CHECK(verdict.statistics.exchanges > 0);
+  CHECK(solver.Word() == "SS");
+  CHECK(solver.f().isApprox(Eigen::Vector4d(27, 65.0 / 3, 88.0 / 3, -35.0 / 3)));
+  CHECK_FALSE(FindViolation(CirclingProblem(), CompleteForces(CirclingProblem())));
+}
+
+TEST_CASE("fast: a budget of complete driving ends the run, and says which") {
+  FastSolver<double> solver;
+  solver.options().limits.pivots = 1;
+  const FastVerdict verdict = solver.Run(As<double>(CirclingProblem()));
+  CHECK(verdict.outcome == Outcome::kLimit);
+  CHECK(verdict.reason == "pieces");
+}
+
+TEST_CASE("fast: started in the cells of the solution it factors once, sweeps never and exchanges nothing") {
+  FastSolver<double> solver;
+  int exchanged = 0;
+  for (int index = 0; index < 200; ++index) {
+    const auto problem = Random<double>(GeneratorId::kIntegers, 1 + index % 8, index);
+    const FastVerdict cold = solver.Run(problem);
+    if (cold.outcome != Outcome::kSolved) continue;
+    exchanged += cold.statistics.exchanges > 0;
+    const std::vector<Cell> cells = solver.cells();
+    const Eigen::VectorXd f = solver.f();
+    const FastVerdict warm = solver.Run(problem, cells);
+    CHECK(warm.outcome == Outcome::kSolved);
+    CHECK(warm.statistics == FastStatistics{.factorizations = 1});
+    CHECK(solver.f().isApprox(f, 1e-6));
+  }
+  CHECK(exchanged > 20);
+}
+
+TEST_CASE("fast: a guess that is wrong, or that the contacts cannot be in, leads to the solution too") {
+  FastSolver<double> solver;
+  const auto problem = As<double>(RandomFrictionless(6, 4));
+  solver.Run(problem);
+  const Eigen::VectorXd f = solver.f();
+  for (const Cell cell : {Cell::kNone, Cell::kBreak, Cell::kStick, Cell::kUpper, Cell::kLower, Cell::kFree}) {
+    const std::vector<Cell> guess(6, cell);
+    REQUIRE(solver.Run(problem, guess).outcome == Outcome::kSolved);
+    CHECK(solver.f().isApprox(f, 1e-9));
+  }
+  REQUIRE(solver.Run(problem, std::vector<Cell>(5, Cell::kBreak)).outcome ==
+          Outcome::kSolved);  // of another size
+  CHECK(solver.f().isApprox(f, 1e-9));
+}
+
+// ---- Kinds -----------------------------------------------------------------------------------
+
+TEST_CASE("fast: no contacts at all are solved, and so is one") {
+  FastSolver<double> solver;
+  CHECK(solver.Run(As<double>(NoContacts())).outcome == Outcome::kSolved);
+  CHECK(solver.f().size() == 0);
+  CHECK(solver.Run(As<double>(MakeProblem({-1}, {{4}}, {-2}))).outcome == Outcome::kSolved);
+  CHECK(solver.f()[0] == 0.5);
+  CHECK(solver.Run(As<double>(MakeProblem({-1}, {{4}}, {2}))).outcome == Outcome::kSolved);
+  CHECK(solver.f()[0] == 0);
+  CHECK(solver.Run(As<double>(MakeProblem({1}, {{2, 0}, {0, 2}}, {-2, 4}))).outcome == Outcome::kSolved);
+  CHECK(solver.f() == Eigen::Vector2d(1, -1));
+  CHECK(solver.Word() == "-");
+  CHECK(solver.Run(As<double>(MakeProblem({0}, {{2, 1}, {1, 2}}, {-2, 4}))).outcome == Outcome::kSolved);
+  CHECK(solver.f() == Eigen::Vector2d(1, 0));
+}
+
+TEST_CASE("fast: a bilateral contact pulls, and a sliding one obeys equation (24)") {
+  FastSolver<double> solver;
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kBilateral, 0, {}},
+                      {ContactKind::kSliding, 0.25, {-1, 0}},
+                      {ContactKind::kStatic, 0.5, {}}};
+  Choices choices(5);
+  int pulls = 0, slides = 0;
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    Eigen::MatrixXd J(5, 6);
+    for (double& x : J.reshaped()) x = static_cast<double>(choices.Integer(-9, 9));
+    problem.A = J * J.transpose();
+    problem.b.resize(5);
+    for (double& x : problem.b) x = static_cast<double>(choices.Integer(-9, 9));
+    if (solver.Run(problem).outcome != Outcome::kSolved) continue;
+    const Eigen::VectorXd &f = solver.f(), a = problem.A * f + problem.b;
+    const double zero = 1e-6 * (1 + f.cwiseAbs().maxCoeff()) * problem.A.diagonal().maxCoeff();
+    CHECK(std::abs(a[0]) <= zero);
+    CHECK(f[2] == Approx(0.25 * f[1]).margin(1e-12));
+    CHECK(std::min(f[1], a[1]) >= -zero);
+    CHECK(std::min(std::abs(f[1]), std::abs(a[1])) <= zero);
+    CHECK(std::abs(f[4]) <= 0.5 * f[3] + 1e-12);
+    pulls += f[0] < 0;
+    slides += f[1] > 0;
+  }
+  CHECK(pulls > 50);
+  CHECK(slides > 50);
+}
+
+TEST_CASE("fast: a matrix that is not symmetric is noticed") {
+  FastSolver<double> solver;
+  const auto problem = As<double>(MakeProblem({-1, -1}, {{2, -1}, {1, 2}}, {-1, -3}));
+  const FastVerdict verdict = solver.Run(problem);
+  REQUIRE(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.fallbacks == 0);
+  CHECK(solver.f().isApprox(Eigen::Vector2d(1, 1)));
+}
+
+TEST_CASE("fast: what has no solution is undecided") {
+  FastSolver<double> solver;
+  CHECK(solver.Run(As<double>(NoSolution())).outcome == Outcome::kUndecided);
+  CHECK(solver.Run(As<double>(MakeProblem({-1, -1}, {{1, -1}, {-1, 1}}, {-1, 0}))).outcome ==
+        Outcome::kUndecided);
+}
+
+TEST_CASE("fast: numbers that are not finite are undecided, wherever they stand") {
+  FastSolver<double> solver;
+  for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    for (int place = 0; place < 20; ++place) {
+      auto problem = As<double>(CirclingProblem());
+      if (place < 4) problem.b = Eigen::Vector4d(1, 1, 1, 1);  // no force is needed
+      (place < 4    ? problem.A.data()[5 * place]
+       : place < 16 ? problem.A.data()[place]
+                    : problem.b[place - 16]) = bad;
+      CAPTURE(bad, place);
+      CHECK(solver.Run(problem).outcome == Outcome::kUndecided);
+    }
+  }
+}
+
+TEST_CASE("fast: a solver that has seen larger problems solves as a new one does") {
+  FastSolver<double> used;
+  used.Run(Random<double>(GeneratorId::kIntegers, 8, 1));
+  for (int index = 0; index < 50; ++index) {
+    const auto problem = Random<double>(GeneratorId::kPsd, 1 + index % 8, index);
+    FastSolver<double> fresh;
+    CHECK(used.Run(problem).statistics == fresh.Run(problem).statistics);
+    CHECK(used.f() == fresh.f());
+  }
+}
+
+// ---- The factors -----------------------------------------------------------------------------
+
+Eigen::MatrixXd RandomMatrix(int rows, int columns, Choices& choices) {
+  Eigen::MatrixXd M(rows, columns);
+  for (double& x : M.reshaped()) x = static_cast<double>(choices.Integer(-1000, 1000)) / 1000;
+  return M;
+}
+
+void Fill(DenseFactor<double>& factor, const Eigen::MatrixXd& M) {
+  factor.Reserve(static_cast<int>(M.rows()));
+  for (int j = 0; j < M.cols(); ++j) std::copy(M.col(j).begin(), M.col(j).end(), factor.Column(j));
+}
+
+TEST_CASE("dense factor: both factorizations solve, whatever the size") {
+  Choices choices(1);
+  for (int size = 1; size <= 70; ++size) {
+    CAPTURE(size);
+    const Eigen::MatrixXd G = RandomMatrix(size, size, choices);
+    const Eigen::MatrixXd M = G * G.transpose() + Eigen::MatrixXd::Identity(size, size);
+    const Eigen::VectorXd x = RandomMatrix(size, 1, choices);
+    DenseFactor<double> factor;
+    Fill(factor, M.triangularView<Eigen::Lower>());
+    CHECK(factor.FactorSymmetric(size, 1e-11) == 0);
+    Eigen::VectorXd y = M * x;
+    factor.SolveSymmetric(y.data());
+    CHECK((y - x).norm() <= 1e-9);
+    Fill(factor, G);
+    REQUIRE(factor.FactorGeneral(size, 1e-14));
+    y = G * x;
+    factor.SolveGeneral(y.data());
+    CHECK((G * (y - x)).norm() <= 1e-9);
+  }
+}
+
+TEST_CASE("dense factor: dependent columns are dropped, and the system still solved") {
+  Choices choices(2);
+  for (const int size : {2, 5, 16, 17, 40, 61}) {
+    CAPTURE(size);
+    const int rank = (size + 1) / 2;
+    const Eigen::MatrixXd J = RandomMatrix(size, rank, choices), M = J * J.transpose();
+    DenseFactor<double> factor;
+    Fill(factor, M);
+    CHECK(factor.FactorSymmetric(size, 1e-11) == size - rank);
+    const Eigen::VectorXd right = J * RandomMatrix(rank, 1, choices);
+    Eigen::VectorXd y = right;
+    factor.SolveSymmetric(y.data());
+    CHECK((M * y - right).norm() <= 1e-8);
+    for (int j = 0; j < size; ++j) CHECK((!factor.IsDropped(j) || y[j] == 0));
+    Fill(factor, M);
+    CHECK_FALSE(factor.FactorGeneral(size, 1e-11));
+  }
+}
+
+TEST_CASE("dense factor: rows and columns come and go") {
+  Choices choices(3);
+  const int most = 24;
+  const Eigen::MatrixXd G = RandomMatrix(most, most, choices);
+  const Eigen::MatrixXd M = G * G.transpose() + 0.1 * Eigen::MatrixXd::Identity(most, most);
+  DenseFactor<double> factor;
+  factor.Reserve(most);
+  factor.FactorSymmetric(0, 1e-11);
+  std::vector<int> kept;
+  for (int turn = 0; turn < 400; ++turn) {
+    std::vector<int> out;
+    for (int i = 0; i < most; ++i) {
+      if (std::find(kept.begin(), kept.end(), i) == kept.end()) out.push_back(i);
+    }
+    if (kept.empty() || (!out.empty() && choices.Integer(0, 1) == 0)) {
+      const int row = out[choices.Integer(0, static_cast<int>(out.size()) - 1)];
+      Eigen::VectorXd column = M(kept, row);
+      REQUIRE(factor.Append(column.data(), M(row, row), 1e-11));
+      kept.push_back(row);
+    } else {
+      const int p = static_cast<int>(choices.Integer(0, static_cast<int>(kept.size()) - 1));
+      factor.Remove(p);
+      kept.erase(kept.begin() + p);
+    }
+    const Eigen::VectorXd x = RandomMatrix(static_cast<int>(kept.size()), 1, choices);
+    Eigen::VectorXd y = M(kept, kept) * x;
+    factor.SolveSymmetric(y.data());
+    REQUIRE((y - x).norm() <= 1e-8);
+  }
+  if (kept.empty()) return;
+  Eigen::VectorXd copy = M(kept, kept[0]);  // a second copy of the first column
+  CHECK_FALSE(factor.Append(copy.data(), M(kept[0], kept[0]), 1e-11));
+}
+
+}  // namespace
+}  // namespace stiction
