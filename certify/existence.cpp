@@ -3,6 +3,7 @@
 
 #include "certify/certificate.h"
 #include "certify/no_solution.h"
+#include "certify/space.h"
 
 namespace stiction {
 
@@ -36,6 +37,13 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
 
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
                           const EnumerationOptions& options) {
+  if (problem.dimension == 3) {
+    SpaceOptions space;
+    space.limits = limits;
+    const SpaceSolution solution = SolveInSpace(problem, space);
+    if (solution.outcome != Outcome::kSolved) return {nullptr, "none"};
+    return {SolutionCertificate(problem, solution.f), "complete"};
+  }
   if (PublishedHandles(problem)) {
     const CompleteRun complete = RunComplete(problem, limits);
     if (complete.verdict.outcome == Outcome::kSolved)

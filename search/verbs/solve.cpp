@@ -12,6 +12,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "search/verbs/solve_published_space.h"
+#include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
 #include "solver/fast.h"
 #include "solver/residual.h"
@@ -24,6 +25,8 @@ struct SolveOptions {
   std::string method = "baraff";
   std::string arithmetic;  // empty: exact; double for method fast; interval for method baraff in space
   std::string policy = "paper";
+  std::string law = "baraff";
+  int sides = 8;
   Limits limits;
   Tolerances tolerances;
   bool json = false;
@@ -260,11 +263,18 @@ int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) 
   return Show(answer.result, o.json, answer.outcome);
 }
 
+int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
+  SolvedInSpace solved =
+      SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
+  solved.result["assumptions"] = FailedAssumptions(problem);
+  return Show(solved.result, o.json, solved.outcome);
+}
+
 int Solve(const SolveOptions& given) {
   SolveOptions o = given;
-  if (o.method == "baraff") {
-    const ProblemFile file = ReadHandledProblem(o.file, o.method, Dimensions::kAny);
-    if (file.problem.dimension == 3) return SolveByPublishedInSpace(o, file.problem);
+  const bool in_space = ReadProblem(o.file).problem.dimension == 3;
+  if (in_space && o.method == "baraff") {
+    return SolveByPublishedInSpace(o, ReadHandledProblem(o.file, o.method, Dimensions::kAny).problem);
   }
   const bool fast = o.method == "fast";
   if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
@@ -273,6 +283,7 @@ int Solve(const SolveOptions& given) {
         "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
         "of float, double, long-double, exact");
   }
+  if (in_space) return SolveIn3D(o, ReadProblem(o.file).problem);
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
@@ -322,7 +333,8 @@ void AddSolve(CLI::App& program, Action& action) {
   verb.add_option("--method", o->method,
                   "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
                   "Lemke's method, "
-                  "lexicographic; fast: cells guessed and verified, complete driving behind it (inexact "
+                  "lexicographic; fast: cells guessed and verified, in space Newton's method, complete driving "
+                  "behind it (inexact "
                   "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
@@ -336,6 +348,15 @@ void AddSolve(CLI::App& program, Action& action) {
         return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
       });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
+  verb.add_option(
+          "--law", o->law,
+          "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
+          "free; exact. coulomb: friction opposite to the acceleration; exact arithmetic gives a proved "
+          "bound on the angle. Inexact arithmetics solve coulomb, which implies baraff")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"baraff", "coulomb"}));
+  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
+      ->capture_default_str();
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
