@@ -39,7 +39,7 @@ class DirectionSystem {
 
   enum class Status { kRegular, kSingular, kInconsistent };
 
-  // Takes the problem that is to be solved from now on. Its A must stay as it is.
+  // Takes the problem that is to be solved from now on. Its A must stay as it is over fraction-free scalars.
   void Start(const Problem& problem);
 
   // Requires: the driven variable is in neither C nor CF. `sign` is df_d, +1 or -1.

@@ -11,6 +11,7 @@
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
+#include "search/verbs/solve_published_space.h"
 #include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
 #include "solver/fast.h"
@@ -23,7 +24,7 @@ namespace {
 struct SolveOptions {
   std::string file;
   std::string method = "baraff";
-  std::string arithmetic = "exact";
+  std::string arithmetic;  // empty: exact; double for method fast; interval for method baraff in space
   std::string policy = "paper";
   std::string law = "baraff";
   int sides = 8;
@@ -311,6 +312,13 @@ int Show(const Json& result, bool json, Outcome outcome) {
   return ExitOf(outcome);
 }
 
+int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) {
+  PublishedSpaceAnswer answer =
+      SolvePublishedInSpace(problem, o.arithmetic, {ParsePolicy(o.policy), o.tolerances, o.limits});
+  answer.result["assumptions"] = FailedAssumptions(problem);
+  return Show(answer.result, o.json, answer.outcome);
+}
+
 int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
   SolvedInSpace solved =
       SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
@@ -318,13 +326,24 @@ int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
   return Show(solved.result, o.json, solved.outcome);
 }
 
-int Solve(const SolveOptions& o) {
-  if (const ProblemFile any = ReadProblem(o.file); any.problem.dimension == 3) return SolveIn3D(o, any.problem);
+int Solve(const SolveOptions& given) {
+  SolveOptions o = given;
+  const bool in_space = ReadProblem(o.file).problem.dimension == 3;
+  if (in_space && o.method == "baraff") {
+    return SolveByPublishedInSpace(o, ReadHandledProblem(o.file, o.method, Dimensions::kAny).problem);
+  }
+  const bool fast = o.method == "fast";
+  if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
+  if (o.arithmetic == "interval") {
+    throw InputError(
+        "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
+        "of float, double, long-double, exact");
+  }
+  if (in_space) return SolveIn3D(o, ReadProblem(o.file).problem);
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const bool fast = o.method == "fast";
   if (fast && o.arithmetic == "exact") {
     throw InputError("--method fast: expected --arithmetic float, double or long-double");
   }
@@ -377,12 +396,13 @@ void AddSolve(CLI::App& program, Action& action) {
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
       });
-  CLI::Option* arithmetic = verb.add_option("--arithmetic", o->arithmetic,
-                                            "float, double, long-double or exact (rational); the default of "
-                                            "method fast is double");
-  arithmetic->capture_default_str()->check([](const std::string& text) {
-    return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
-  });
+  verb.add_option(
+          "--arithmetic", o->arithmetic,
+          "float, double, long-double, exact (rational; the default), interval (the published algorithm in "
+          "space only, and its default); the default of method fast is double")
+      ->check([](const std::string& text) {
+        return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
+      });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   verb.add_option(
           "--law", o->law,
@@ -396,10 +416,7 @@ void AddSolve(CLI::App& program, Action& action) {
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, arithmetic, &action] {
-    if (o->method == "fast" && arithmetic->count() == 0) o->arithmetic = "double";
-    action = [o] { return Solve(*o); };
-  });
+  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
 }
 
 }  // namespace stiction

@@ -95,8 +95,9 @@ SolvedInSpace SolveRounded(const ExactProblem& problem, const SolveSpaceOptions&
 
 SolvedInSpace SolveSpace(const ExactProblem& problem, const SolveSpaceOptions& o) {
   if (o.method != "complete" && o.method != "fast") {
-    throw InputError(o.file, "dimension", "3",
-                     fmt::format("2: method {} is not built for space yet; complete and fast are", o.method));
+    throw InputError(
+        o.file, "dimension", "3",
+        fmt::format("2: method {} is not built for space yet; baraff, complete and fast are", o.method));
   }
   if (o.sides < 4 || o.sides % 4 != 0)
     throw InputError(fmt::format("--sides {}: expected a multiple of 4, at least 4", o.sides));
