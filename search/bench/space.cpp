@@ -186,8 +186,9 @@ std::string NameOf(const std::array<int, 2>& mu) {
 int BenchSpace(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(2000);
   const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{1, 2, 3, 4} : options.contacts;
-  Table by_size{"sizes", "readings of section 5.6: outcomes over doubles, and what intervals prove of them"};
-  Table by_friction{"friction", "the same by friction coefficient, all sizes"};
+  BenchTable by_size{"sizes",
+                     "readings of section 5.6: outcomes over doubles, and what intervals prove of them"};
+  BenchTable by_friction{"friction", "the same by friction coefficient, all sizes"};
   std::array<std::array<Count, kFrictions.size()>, kReadings.size()> of_friction;
   std::int64_t bad = 0;
   for (const Family& family : kFamilies) {

@@ -29,7 +29,7 @@ std::string CellText(const Json& cell) {
 
 }  // namespace
 
-void Print(const Table& table) {
+void Print(const BenchTable& table) {
   fmt::print("\n{}\n", table.title);
   if (table.rows.empty()) return;
   std::vector<std::vector<std::string>> lines(1);

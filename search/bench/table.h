@@ -11,13 +11,13 @@
 namespace stiction {
 
 // Rows are objects with the same keys.
-struct Table {
+struct BenchTable {
   std::string name, title;
   Json rows = Json::array();
 };
 
 // On standard output. In cells, objects count by name; arrays are quartiles.
-void Print(const Table& table);
+void Print(const BenchTable& table);
 
 }  // namespace stiction
 
