@@ -8,12 +8,14 @@
 
 #include "solver/direction.h"
 #include "solver/elimination.ipp"
+#include "solver/updated_system.ipp"
 
 namespace stiction {
 
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::Start(const Problem& problem) {
+void DirectionSystem<Scalar, Rows>::Start(const Problem& problem, int update_from) {
   const int rows = problem.rows();
+  if constexpr (kUpdates) updated_.Start(problem, update_from);
   Reset<int, Rows>(unknown_, rows, 0);
   system_.Resize(rows, rows + 1);
   if constexpr (Rows == Eigen::Dynamic) {
@@ -37,6 +39,12 @@ template <class Scalar, int Rows>
 auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const RowLayout<Rows>& layout,
                                           const IndexSets<Rows>& sets, int driven, int sign,
                                           const Scale<Scalar>& scale) -> Status {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
+      if (sign < 0) TurnRound();
+      return Status::kRegular;
+    }
+  }
   Assemble(problem, layout, sets, driven, sign);
   const Status status = Eliminate(scale);
   if (status != Status::kInconsistent) Spread(problem, layout, sets, driven, driven, sign);
@@ -48,6 +56,12 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
                                                                 const RowLayout<Rows>& layout,
                                                                 const IndexSets<Rows>& sets, int driven,
                                                                 int side, const Scale<Scalar>& scale) {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
+      if (updated_.determinant_sign() * side < 0) TurnRound();
+      return updated_.determinant_sign();
+    }
+  }
   Assemble(problem, layout, sets, driven, side);
   const Status status = Eliminate(scale);
   if (status == Status::kSingular || system_.rank() + 1 < unknowns_) return std::nullopt;
@@ -64,10 +78,10 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
   return sign;
 }
 
-// The sign of the limit at which the friction of a normal row is held, 0 if it is not.
-template <int Rows>
-int FrictionLimitSign(const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int row) {
-  return layout.IsNormal(row) && layout.HasFriction(row) ? LimitSign(sets[row + 1]) : 0;
+template <class Scalar, int Rows>
+void DirectionSystem<Scalar, Rows>::TurnRound() {
+  df_ = -df_;
+  da_ = -da_;
 }
 
 // The reduced system of equation (9): A_CC x = -v_1, where a normal's column takes +-mu times the column
@@ -129,7 +143,9 @@ auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Sta
   system_.Run(unknowns_, unknowns_, unknowns_ + 1, scale.rate);
   if (!system_.IsConsistent(unknowns_, scale.rate)) return Status::kInconsistent;
   system_.BackSubstitute(unknowns_);
-  return system_.rank() == unknowns_ ? Status::kRegular : Status::kSingular;
+  if (system_.rank() < unknowns_) return Status::kSingular;
+  if constexpr (kUpdates) updated_.Forget();
+  return Status::kRegular;
 }
 
 // Cramer's rule where the determinant is zero, for rank k - 1: with the right side in place of the one column
@@ -169,16 +185,7 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayo
   for (int row = 0; row < rows; ++row) df_[row] = Scalar(0);
   for (int i = 0; i < unknowns_; ++i) df_[unknown_[i]] = system_.numerator(i);  // over 1
   df_[driven] = Scalar(sign);
-  for (int row = 0; row < rows; ++row) {
-    const int limit = FrictionLimitSign(layout, sets, row);
-    if (limit == 0) continue;
-    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * df_[row];
-    if (limit > 0) {
-      df_[row + 1] = bound;
-    } else {
-      df_[row + 1] = -bound;
-    }
-  }
+  FollowLimits(problem, layout, sets, df_);
   for (int row = 0; row < rows; ++row) {
     Scalar change = Scalar(0);
     if (!IsUnknown(sets[row])) {

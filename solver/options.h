@@ -149,10 +149,14 @@ void ForEachField(Limits& limits, Visit visit) {
         limits.bits);
 }
 
+// Unknowns from which on direction systems are updated, not solved afresh (updated_system.h), >= 1.
+inline constexpr int kUpdateFrom = 24;
+
 struct PublishedOptions {
   Policy policy;
   Tolerances tolerances;
   Limits limits;
+  int update_from = kUpdateFrom;
 
   bool operator==(const PublishedOptions&) const = default;
 };

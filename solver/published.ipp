@@ -44,7 +44,7 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
   }
   layout_.Assign(problem.contacts);
   scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Start(problem);
+  direction_.Start(problem, options_.update_from);
   step_size_.Resize(rows);
   if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
   for (int row = 0; row < rows; ++row) state_.f[row] = Scalar(0);
