@@ -62,6 +62,11 @@ class DirectionSystem {
                                    const IndexSets<Rows>& sets, int driven, int side,
                                    const Scale<Scalar>& scale);
 
+  // df() becomes the forces of the unknowns and of friction at its limits at which a = A f + b rests in C and
+  // CF, all other forces zero; da() becomes a. Allocates where it does not update.
+  Status SolveForces(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
+                     const Scale<Scalar>& scale);
+
   const Vector& df() const { return df_; }
   const Vector& da() const { return da_; }
   const Updated& updated() const { return updated_; }

@@ -79,6 +79,39 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
 }
 
 template <class Scalar, int Rows>
+auto DirectionSystem<Scalar, Rows>::SolveForces(const Problem& problem, const RowLayout<Rows>& layout,
+                                                const IndexSets<Rows>& sets, const Scale<Scalar>& scale)
+    -> Status {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, Updated::kLoads, scale, df_, da_)) return Status::kRegular;
+  }
+  std::vector<int> unknowns;
+  for (int row = 0; row < problem.rows(); ++row) {
+    if (IsUnknown(sets[row])) unknowns.push_back(row);
+  }
+  const int size = static_cast<int>(unknowns.size());
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M(size, size + 1);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) {
+      const int limit = FrictionLimitSign(layout, sets, unknowns[j]);
+      M(i, j) = ReducedEntry(problem, layout, unknowns[i], unknowns[j], limit);
+    }
+    M(i, size) = -problem.b[unknowns[i]];
+  }
+  Elimination<Scalar> system;
+  system.Assign(M);
+  system.Run(size, size, size + 1, scale.rate);
+  if (!system.IsConsistent(size, scale.rate)) return Status::kInconsistent;
+  system.BackSubstitute(size);
+  for (int row = 0; row < problem.rows(); ++row) df_[row] = Scalar(0);
+  for (int i = 0; i < size; ++i) df_[unknowns[i]] = system.Solution(i);
+  FollowLimits(problem, layout, sets, df_);
+  da_ = problem.A * df_ + problem.b;
+  for (const int row : unknowns) da_[row] = Scalar(0);
+  return system.rank() == size ? Status::kRegular : Status::kSingular;
+}
+
+template <class Scalar, int Rows>
 void DirectionSystem<Scalar, Rows>::TurnRound() {
   df_ = -df_;
   da_ = -da_;
@@ -126,15 +159,7 @@ auto DirectionSystem<Scalar, Rows>::ColumnEntry(const Problem& problem, const Ro
     }
     return entry;
   } else {
-    Scalar entry = problem.A(row, column);
-    if (limit == 0) return entry;
-    const Scalar along = problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
-    if (limit > 0) {
-      entry += along;
-    } else {
-      entry -= along;
-    }
-    return entry;
+    return ReducedEntry(problem, layout, row, column, limit);
   }
 }
 

@@ -149,8 +149,9 @@ void ForEachField(Limits& limits, Visit visit) {
         limits.bits);
 }
 
-// Unknowns from which on direction systems are updated, not solved afresh (updated_system.h), >= 1.
-inline constexpr int kUpdateFrom = 24;
+// Unknowns from which on direction systems are updated, not solved afresh (updated_system.h), >= 1. Eight
+// planar contacts have less.
+inline constexpr int kUpdateFrom = 16;
 
 struct PublishedOptions {
   Policy policy;

@@ -30,6 +30,22 @@ int FrictionLimitSign(const RowLayout<Rows>& layout, const IndexSets<Rows>& sets
   return layout.IsNormal(row) && layout.HasFriction(row) ? LimitSign(sets[row + 1]) : 0;
 }
 
+// Entry of the reduced matrix (direction.h): da_row per unit of the force of `column`, whose friction is at
+// `limit` (0: it is not).
+template <class Scalar, int Rows>
+Scalar ReducedEntry(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout, int row,
+                    int column, int limit) {
+  Scalar entry = problem.A(row, column);
+  if (limit == 0) return entry;
+  const Scalar along = problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
+  if (limit > 0) {
+    entry += along;
+  } else {
+    entry -= along;
+  }
+  return entry;
+}
+
 // Sets the friction forces that are held at a limit, of the forces f or of their change.
 template <class Scalar, int Rows>
 void FollowLimits(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout,

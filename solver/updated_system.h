@@ -49,6 +49,9 @@ class UpdatedSystem {
   bool Solve(const Problem& problem, const Layout& layout, const Sets& sets, int driven,
              const Scale<Scalar>& scale, Vector& df, Vector& da);
 
+  // With kLoads for `driven`: df becomes the forces at which a = A df + b rests at the unknowns, da becomes a.
+  static constexpr int kLoads = -1;
+
   // Of the reduced matrix of the last direction found.
   int determinant_sign() const { return inverse_.determinant_sign(); }
 
@@ -67,8 +70,8 @@ class UpdatedSystem {
                      Vector& da);
   void Spread(const Problem& problem, const Layout& layout, const Sets& sets, int driven, Vector& df,
               Vector& da) const;
-  Scalar Entry(const Problem& problem, const Layout& layout, int row, int column, int limit) const;
   void GatherColumn(const Problem& problem, const Layout& layout, int column, int limit);
+  void GatherRightSide(const Problem& problem, const Layout& layout, const Sets& sets, int driven);
 
   int least_ = 0;
   bool valid_ = false;

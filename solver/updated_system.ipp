@@ -88,7 +88,9 @@ bool UpdatedSystem<Scalar>::InvertAnew(const Problem& problem, const Layout& lay
     row_of_.push_back(row);
     limit_of_.push_back(FrictionLimitSign(layout, sets, row));
   }
-  const auto entry = [&](int i, int j) { return Entry(problem, layout, row_of_[i], row_of_[j], limit_of_[j]); };
+  const auto entry = [&](int i, int j) {
+    return ReducedEntry(problem, layout, row_of_[i], row_of_[j], limit_of_[j]);
+  };
   valid_ = inverse_.Invert(static_cast<int>(row_of_.size()), entry, scale.rate);
   if (!valid_) pause_ = kPause;
   return valid_;
@@ -101,8 +103,8 @@ int UpdatedSystem<Scalar>::AppendNew(const Problem& problem, const Layout& layou
     if (!IsUnknown(sets[row]) || slot_of_[row] >= 0) continue;
     const int size = inverse_.size(), limit = FrictionLimitSign(layout, sets, row);
     GatherColumn(problem, layout, row, limit);
-    for (int j = 0; j < size; ++j) row_[j] = Entry(problem, layout, row, row_of_[j], limit_of_[j]);
-    const Scalar corner = Entry(problem, layout, row, row, limit);
+    for (int j = 0; j < size; ++j) row_[j] = ReducedEntry(problem, layout, row, row_of_[j], limit_of_[j]);
+    const Scalar corner = ReducedEntry(problem, layout, row, row, limit);
     if (!inverse_.Append(row_.head(size), column_.head(size), corner)) continue;
     slot_of_[row] = size;
     row_of_.push_back(row);
@@ -143,18 +145,20 @@ int UpdatedSystem<Scalar>::RemoveOld(const Sets& sets) {
 }
 
 template <class Scalar>
-Scalar UpdatedSystem<Scalar>::Entry(const Problem& problem, const Layout& layout, int row, int column,
-                                    int limit) const {
-  Scalar entry = problem.A(row, column);
-  if (limit != 0) {
-    entry += Scalar(limit) * problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
-  }
-  return entry;
+void UpdatedSystem<Scalar>::GatherColumn(const Problem& problem, const Layout& layout, int column, int limit) {
+  for (int i = 0; i < inverse_.size(); ++i)
+    column_[i] = ReducedEntry(problem, layout, row_of_[i], column, limit);
 }
 
 template <class Scalar>
-void UpdatedSystem<Scalar>::GatherColumn(const Problem& problem, const Layout& layout, int column, int limit) {
-  for (int i = 0; i < inverse_.size(); ++i) column_[i] = Entry(problem, layout, row_of_[i], column, limit);
+void UpdatedSystem<Scalar>::GatherRightSide(const Problem& problem, const Layout& layout, const Sets& sets,
+                                            int driven) {
+  if (driven == kLoads) {
+    for (int i = 0; i < inverse_.size(); ++i) column_[i] = problem.b[row_of_[i]];
+  } else {
+    GatherColumn(problem, layout, driven, FrictionLimitSign(layout, sets, driven));
+  }
+  column_.head(inverse_.size()) *= Scalar(-1);
 }
 
 // The residuals of the unknowns are told beside the rounding of da, and have to be as small; more than the root
@@ -164,14 +168,14 @@ bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Layout& 
                                           int driven, Vector& df, Vector& da) {
   constexpr Scalar kEpsilon = std::numeric_limits<Scalar>::epsilon();
   const int size = inverse_.size();
-  GatherColumn(problem, layout, driven, FrictionLimitSign(layout, sets, driven));
-  column_.head(size) *= Scalar(-1);
+  GatherRightSide(problem, layout, sets, driven);
+  const Scalar load = driven == kLoads ? problem.b.cwiseAbs().maxCoeff() : Scalar(0);
   inverse_.Multiply(column_.head(size), x_.head(size));
   for (const bool refined : {false, true}) {
     Spread(problem, layout, sets, driven, df, da);
     for (int i = 0; i < size; ++i) column_[i] = da[row_of_[i]];
     const Scalar residual = column_.head(size).cwiseAbs().maxCoeff();
-    const Scalar unit = largest_ * df.cwiseAbs().maxCoeff();
+    const Scalar unit = load + largest_ * df.cwiseAbs().maxCoeff();
     if (residual <= 64 * kEpsilon * unit) {
       for (int i = 0; i < size; ++i) da[row_of_[i]] = Scalar(0);
       counts_.refined += refined;
@@ -190,9 +194,13 @@ void UpdatedSystem<Scalar>::Spread(const Problem& problem, const Layout& layout,
                                    Vector& df, Vector& da) const {
   df.setZero();
   for (int i = 0; i < inverse_.size(); ++i) df[row_of_[i]] = x_[i];
-  df[driven] = Scalar(1);
+  if (driven != kLoads) df[driven] = Scalar(1);
   FollowLimits(problem, layout, sets, df);
-  da.setZero();
+  if (driven == kLoads) {
+    da = problem.b;
+  } else {
+    da.setZero();
+  }
   for (int j = 0; j < problem.rows(); ++j) {
     if (df[j] != Scalar(0)) da += df[j] * problem.A.col(j);
   }
