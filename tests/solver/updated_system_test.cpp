@@ -39,6 +39,55 @@ Problem MakeProblem(int contacts, bool friction, int rank, int entry, Choices& c
   return problem;
 }
 
+// ---- The inverse -----------------------------------------------------------------------------
+
+Eigen::MatrixXd Shown(const Inverse<double>& inverse) {
+  const int size = inverse.size();
+  Eigen::MatrixXd B(size, size);
+  Eigen::VectorXd column(size);
+  for (int j = 0; j < size; ++j) {
+    inverse.Multiply(Eigen::VectorXd::Unit(size, j), column);
+    B.col(j) = column;
+  }
+  return B;
+}
+
+void CheckInverse(const Inverse<double>& inverse, const Eigen::MatrixXd& M) {
+  REQUIRE(inverse.size() == M.rows());
+  CHECK((Shown(inverse) * M - Eigen::MatrixXd::Identity(M.rows(), M.rows())).norm() < 1e-12);
+  CHECK(inverse.determinant_sign() == (M.determinant() < 0 ? -1 : 1));
+}
+
+TEST_CASE("inverse: rows and columns come, change and go; close to a singular matrix nothing happens") {
+  Eigen::Matrix4d M;
+  M << 2, 1, 0, 3, -1, 1, 4, 0, 5, 0, 1, 1, 1, 2, -2, 1;
+  Inverse<double> inverse;
+  inverse.Reserve(4);
+  for (int k = 0; k < 4; ++k) {
+    REQUIRE(inverse.Append(M.row(k).head(k).transpose(), M.col(k).head(k), M(k, k)));
+    CheckInverse(inverse, M.topLeftCorner(k + 1, k + 1));
+  }
+  M.col(1) << 0, -3, 1, 1;
+  REQUIRE(inverse.ReplaceColumn(1, M.col(1)));
+  CheckInverse(inverse, M);
+  CHECK_FALSE(inverse.ReplaceColumn(1, M.col(0) + 1e-10 * M.col(1)));
+  CheckInverse(inverse, M);
+  REQUIRE(inverse.Remove(1));
+  const std::array<int, 3> left = {0, 3, 2};
+  CheckInverse(inverse, M(left, left));
+  const Eigen::Vector3d row(1, 2, 3), column = M(left, left).col(2);
+  CHECK_FALSE(inverse.Append(row, column, 3 + 1e-10));  // the last column again
+  CheckInverse(inverse, M(left, left));
+  REQUIRE(inverse.Invert(
+      2, [](int i, int j) { return i == j ? 1e-9 : 1.0; }, 1e-6));
+  CHECK(inverse.determinant_sign() == -1);
+  CHECK_FALSE(inverse.Remove(0));
+  CHECK(inverse.size() == 2);
+  CHECK_FALSE(inverse.Invert(
+      2, [](int, int) { return 1.0; }, 1e-6));
+  CHECK(inverse.size() == 0);
+}
+
 // ---- One direction after another -------------------------------------------------------------
 
 struct Pair {
@@ -62,6 +111,19 @@ struct Pair {
   }
 };
 
+// da is zero at the unknowns; returns how far A df is from that.
+double Residual(const Pair& pair, const Sets& sets) {
+  const auto& df = pair.updated.df();
+  const Eigen::VectorXd da = pair.problem.A * df;
+  double worst = 0;
+  for (int row = 0; row < pair.problem.rows(); ++row) {
+    if (!IsUnknown(sets[row])) continue;
+    REQUIRE(pair.updated.da()[row] == 0);
+    worst = std::max(worst, std::abs(da[row]));
+  }
+  return worst / pair.problem.A.cwiseAbs().maxCoeff() / df.cwiseAbs().maxCoeff();
+}
+
 IndexSet Draw(bool normal, Choices& choices) {
   const std::array<IndexSet, 4> normals = {kClamped, kClamped, kClamped, kSeparating};
   const std::array<IndexSet, 4> frictions = {kSticking, kAtLower, kAtUpper, kNone};
@@ -71,6 +133,7 @@ IndexSet Draw(bool normal, Choices& choices) {
 struct Tally {
   int regular = 0, singular = 0, negative = 0;
   double difference = 0;
+  double residual = 0;  // of the accelerations that should rest, relative to A and df
 };
 
 // Changes up to `changes` sets at random, `steps` times, and compares.
@@ -93,8 +156,10 @@ Tally Compare(Pair& pair, int steps, int changes, Choices& choices) {
     REQUIRE(pair.updated.Solve(pair.problem, pair.layout, sets, driven, sign, pair.scale) == status);
     tally.regular += status == System::Status::kRegular;
     tally.singular += status != System::Status::kRegular;
-    if (status != System::Status::kInconsistent)
+    if (status != System::Status::kInconsistent) {
       tally.difference = std::max(tally.difference, pair.Difference());
+      tally.residual = std::max(tally.residual, Residual(pair, sets));
+    }
     const auto oriented = pair.fresh.SolveOriented(pair.problem, pair.layout, sets, driven, sign, pair.scale);
     REQUIRE(pair.updated.SolveOriented(pair.problem, pair.layout, sets, driven, sign, pair.scale) == oriented);
     sets[driven] = kept;
@@ -113,6 +178,7 @@ TEST_CASE("updated system: random sequences of sets, as eliminated afresh") {
     Pair pair(MakeProblem(12 + index, true, 24 + 2 * index, 1000, choices));
     const Tally tally = Compare(pair, 150, 3, choices);
     CHECK(tally.difference < 1e-9);
+    CHECK(tally.residual < 1e-13);
     CHECK(tally.regular == 150);
     negative += tally.negative;
     const auto& counts = pair.updated.updated().counts();
@@ -138,6 +204,26 @@ TEST_CASE("updated system: singular matrices are left to elimination, and it goe
   CHECK(regular > 300);
   CHECK(singular > 300);
   CHECK(solved > regular);
+}
+
+TEST_CASE("updated system: errors of the inverse are seen and mended") {
+  std::int64_t refined = 0, inverted = 0;
+  for (int index = 0; index < 10; ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    Problem problem = MakeProblem(20, true, 40, 1000, choices);
+    Eigen::MatrixXd J(40, 40);
+    for (double& x : J.reshaped()) x = static_cast<double>(choices.Integer(-1000, 1000));
+    for (int j = 0; j < 40; ++j) J.col(j) *= std::pow(10, -0.1 * j);
+    problem.A = J * J.transpose();
+    Pair pair(problem);
+    CHECK(Compare(pair, 300, 3, choices).residual < 1e-13);
+    const auto& counts = pair.updated.updated().counts();
+    refined += counts.refined;
+    inverted += counts.inverted;
+  }
+  CHECK(refined > 50);
+  CHECK(inverted > 20);
 }
 
 TEST_CASE("updated system: below the number of unknowns it does nothing, exact and fixed sizes have none") {
