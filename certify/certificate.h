@@ -14,8 +14,10 @@ namespace stiction {
 
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 
-// Requires: f is a solution (FindLawViolation is empty); otherwise InternalError.
+// Requires: f is a solution (FindLawViolation is empty; in space FindWeakViolation); otherwise InternalError.
 Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
+// Requires: dimension 3, FindCoulombViolation is empty for this bound; otherwise InternalError.
+Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f, const Rational& bound);
 // `symmetric` or `not-symmetric`.
 Json SymmetryCertificate(const ExactProblem& problem);
 // `psd` or `not-psd`. Of an asymmetric matrix only `not-psd` can be certified: otherwise InputError.

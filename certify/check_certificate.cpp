@@ -61,16 +61,33 @@ void RequireEqual(const Rational& found, const Rational& expected, const std::st
 
 // ---- Claims about a solution and about A and b -----------------------------------------------
 
-Json CheckSolution(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {"a", "f"});
-  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
+// witness.f, once witness.a is A f + b.
+ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
   const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
   const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
   const ExactVector answer = Accelerations(problem, f);
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));
-  if (const auto violation = FindLawViolation(problem, f))
-    throw Rejected{"witness.f", *violation, "a solution"};
+  return f;
+}
+
+Json CheckSolution(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "f"});
+  const ExactVector f = ReadForces(problem, witness);
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindLawViolation(problem, f);
+  if (violation) throw Rejected{"witness.f", *violation, "a solution"};
   return Json::object();
+}
+
+Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "bound", "f"});
+  if (problem.dimension != 3) throw Rejected{"problem.dimension", "2", "3: this claim is checked in space"};
+  const Rational bound = ReadNumber(witness["bound"], "witness.bound");
+  if (bound <= 0 || bound > 1) throw Rejected{"witness.bound", ToString(bound), "0 < bound <= 1"};
+  const ExactVector f = ReadForces(problem, witness);
+  if (const auto violation = FindCoulombViolation(problem, f, bound)) {
+    throw Rejected{"witness.f", *violation, "a solution within the bound"};
+  }
+  return {{"bound", ToString(bound)}};
 }
 
 Json CheckSymmetric(const ExactProblem& problem, const Json& witness) {
@@ -307,6 +324,7 @@ using Checker = std::function<Json(const ExactProblem&, const Json&)>;
 const std::map<std::string, Checker>& Checkers() {
   static const std::map<std::string, Checker> checkers = {
       {"solution-exists", CheckSolution},
+      {"coulomb-solution", CheckCoulomb},
       {"no-solution", CheckNone},
       {"safe", CheckSafety<CheckSafe>},
       {"unsafe", CheckSafety<CheckUnsafe>},

@@ -326,10 +326,18 @@ def violated(problem, f, a, row):
     return not (abs(fF) <= bound and aF * fF <= 0 and aF * (bound - abs(fF)) == 0)
 
 
-def check_solution(problem, witness):
-    fields(witness, "$.witness", "f", "a")
+def forces(problem, witness):
+    """f and a of a witness, once a = A f + b."""
     f, a = (vector(witness[k], f"$.witness.{k}", len(problem.b)) for k in "fa")
     equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")
+    return f, a
+
+
+def check_solution(problem, witness):
+    fields(witness, "$.witness", "f", "a")
+    f, a = forces(problem, witness)
+    if problem.dimension == 3:
+        return check_in_space(problem, f, a, weak)
     for i, contact, rows in planar_contacts(problem):
         force, answer = ([values[row] for row in rows] for values in (f, a))
         need(any(in_mode(mode, contact, force, answer) for mode in modes_of(contact)),
@@ -337,6 +345,50 @@ def check_solution(problem, witness):
              f"a force by the law of a {contact.kind} contact (number {i + 1})",
              f"; f = {', '.join(map(brief, force))}, a = {', '.join(map(brief, answer))}")
     return f"{len(problem.contacts)} contacts"
+
+
+# --- Solutions in space (certify/README.md, In space) ----------------------------------
+
+def weak(limit2, force2, answer2, power):
+    """(21), (22), of mu^2 fN^2, fF.fF, aF.aF and fF.aF: the direction of slip is free."""
+    return force2 <= limit2 and power <= 0 and (answer2 == 0 or force2 == limit2)
+
+
+def coulomb(bound):
+    """Coulomb's law, the cosine between fF and -aF being >= bound where both matter."""
+    def holds(limit2, force2, answer2, power):
+        return force2 <= limit2 and power <= 0 and power * power >= bound * bound * limit2 * answer2
+    return holds
+
+
+def check_in_space(problem, f, a, law):
+    row = 0
+    for i, contact in enumerate(problem.contacts):
+        place, of = f"$.witness.f[{row}]", f"of contact {i + 1}"
+        size = 1 if contact.mu is None else 3
+        fN, aN, fF, aF = f[row], a[row], f[row + 1:row + size], a[row + 1:row + size]
+        row += size
+        if contact.kind == "bilateral":
+            need(aN == 0, place, aN, f"aN = 0 {of}")
+            continue
+        need(fN >= 0 and aN >= 0 and fN * aN == 0, place, (str(fN), str(aN)),
+             f"fN, aN >= 0, one of them zero, {of}")
+        if contact.kind == "sliding":
+            need(fF == [-contact.mu * fN * u for u in contact.slip], place,
+                 tuple(str(x) for x in (fN, *fF)), f"fF = -mu fN slip {of}")
+        if contact.kind == "static":
+            limit = contact.mu * fN
+            need(law(limit * limit, dot(fF, fF), dot(aF, aF), dot(fF, aF)), place,
+                 tuple(str(x) for x in (fN, *fF, *aF)), f"fN, fF, aF by the law of friction {of}")
+    return f"{len(problem.contacts)} contacts in space"
+
+
+def check_coulomb(problem, witness):
+    fields(witness, "$.witness", "f", "a", "bound")
+    need(problem.dimension == 3, "$.problem.dimension", problem.dimension, "3")
+    bound = exact(witness["bound"], "$.witness.bound")
+    need(0 < bound <= 1, "$.witness.bound", bound, "a bound > 0 and <= 1")
+    return check_in_space(problem, *forces(problem, witness), coulomb(bound))
 
 
 # --- Contact modes (certify/README.md, Modes) ----------------------------------------
@@ -850,6 +902,7 @@ def check_runs(claim, problem, witness):
 
 CLAIMS = {
     "solution-exists": check_solution,
+    "coulomb-solution": check_coulomb,
     "no-solution": check_no_solution,
     "symmetric": check_symmetric,
     "not-symmetric": check_not_symmetric,
@@ -896,9 +949,12 @@ EPILOG = """claims:
                    for every valid problem
   h, not-h         whether b'v >= 0 for all v in the friction cones with A v = 0;
                    for problems without sliding contacts
-  solution-exists, no-solution
-                   for planar problems; no-solution by a Farkas vector for
-                   every word of contact modes, or prefix of words
+  solution-exists  for every valid problem; in space conditions (21), (22)
+  coulomb-solution for problems in space: the cosine of the angle between
+                   friction and the direction opposite to the tangential
+                   acceleration is at least the bound of the witness
+  no-solution      for planar problems, by a Farkas vector for every word of
+                   contact modes, or prefix of words
   safe, unsafe     for planar problems of static and frictionless contacts:
                    whether all determinants of reduced matrices are positive
   cycle, stall     for planar problems of static and frictionless contacts:

@@ -3,6 +3,8 @@
 
 #include "certify/certificate.h"
 #include "certify/no_solution.h"
+#include "certify/space.h"
+#include "solver/reduction.ipp"
 
 namespace stiction {
 
@@ -36,12 +38,21 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
 
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
                           const EnumerationOptions& options) {
-  if (PublishedHandles(problem)) {
-    const CompleteRun complete = RunComplete(problem, limits);
+  if (problem.dimension == 3) {
+    SpaceOptions space;
+    space.limits = limits;
+    const SpaceSolution solution = SolveInSpace(problem, space);
+    if (solution.outcome != Outcome::kSolved) return {nullptr, "none"};
+    return {SolutionCertificate(problem, solution.f), "complete"};
+  }
+  const Reduction<Rational> reduction(problem);  // 4.5, 6
+  if (reduction.end() == ReductionEnd::kReduced) {
+    const CompleteRun complete = RunComplete(reduction.problem(), limits);
     if (complete.verdict.outcome == Outcome::kSolved)
-      return {SolutionCertificate(problem, complete.f), "complete"};
-    const LemkeRun lemke = RunLemke(problem, limits);
-    if (lemke.verdict.outcome == Outcome::kSolved) return {SolutionCertificate(problem, lemke.f), "lemke"};
+      return {SolutionCertificate(problem, reduction.Forces(complete.f)), "complete"};
+    const LemkeRun lemke = RunLemke(reduction.problem(), limits);
+    if (lemke.verdict.outcome == Outcome::kSolved)
+      return {SolutionCertificate(problem, reduction.Forces(lemke.f)), "lemke"};
   }
   EnumerationOptions first = options;
   first.first_solution_only = true;

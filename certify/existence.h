@@ -2,8 +2,10 @@
 // Existence: a solution with its certificate, a proof that there is none, or neither.
 //
 // The cheapest method first: complete driving, which ends in a solution whenever A is symmetric positive
-// semidefinite and b in range(A) (solver/complete_driving.md); then Lemke's method, whose path is another; then
-// all contact modes, which decide every planar problem that is small enough.
+// semidefinite and b in range(A) (solver/complete_driving.md); then Lemke's method, whose path is another; both
+// after bilateral constraints and sliding contacts have left the problem (solver/reduction.h); then all contact
+// modes, which decide every planar problem that is small enough. In space complete driving on
+// polygons alone (space.h): it finds solutions of (21), (22), and proves nothing where it finds none.
 
 #ifndef STICTION_CERTIFY_EXISTENCE_H_
 #define STICTION_CERTIFY_EXISTENCE_H_
@@ -39,7 +41,7 @@ struct Existence {
   std::string_view method;  // that decided: complete, lemke, enumerate; or "none"
 };
 
-// Planar problems (otherwise InputError).
+// Any valid problem.
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
                           const EnumerationOptions& options = {});
 

@@ -73,10 +73,18 @@ Json LoopStateToJson(const ExactRun& run, const std::vector<std::string>& names)
 }
 
 Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
-  const auto violation = FindLawViolation(problem, f);
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindLawViolation(problem, f);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate("solution-exists", problem,
                          {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});
+}
+
+Json CoulombCertificate(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
+  const auto violation = FindCoulombViolation(problem, f, bound);
+  STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
+  return MakeCertificate(
+      "coulomb-solution", problem,
+      {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}, {"bound", ToString(bound)}});
 }
 
 Json SymmetryCertificate(const ExactProblem& problem) {

@@ -18,6 +18,22 @@ ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProbl
 // problems of frictionless and static contacts.
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f);
 
+// The same in space, for all kinds of contacts: the conditions (21), (22) for static ones, which leave the
+// direction of slip free,
+//
+//   abs(fF) <= mu fN,  fF.aF <= 0,  aF = 0 or abs(fF) = mu fN,
+//
+// aN = 0 for bilateral and fF = -mu fN slip for sliding ones. Lengths are compared by their squares.
+std::optional<std::string> FindWeakViolation(const ExactProblem& problem, const ExactProblem::Vector& f);
+
+// Coulomb's law in space up to a bound c, 0 < c <= 1, on the cosine between fF and -aF: for static contacts
+//
+//   abs(fF) <= mu fN,  -fF.aF >= c mu fN abs(aF).
+//
+// With c = 1 that is the law itself.
+std::optional<std::string> FindCoulombViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                                const Rational& bound);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_VERIFY_SOLUTION_H_

@@ -27,8 +27,8 @@ std::optional<LoopLength> LoopLengthOf(const std::string& signature) {
   return LoopLength{std::stoll(match[1]), std::stoll(match[2])};
 }
 
-Grid ReadGrid(const JsonPlace& facts) {
-  Grid grid;
+GridOutcomes ReadGrid(const JsonPlace& facts) {
+  GridOutcomes grid;
   const JsonPlace counts = facts.Required("grid", "outcomes over the policy grid");
   counts.RequireObject();
   for (int i = 0; i < kOutcomeCount; ++i) {
@@ -88,9 +88,11 @@ std::uint64_t Hash(std::string_view text) {  // FNV-1a
 
 }  // namespace
 
-std::int64_t Grid::Total() const { return std::accumulate(counts.begin(), counts.end(), std::int64_t{0}); }
+std::int64_t GridOutcomes::Total() const {
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
 
-bool Grid::IsAll(std::string_view outcome) const {
+bool GridOutcomes::IsAll(std::string_view outcome) const {
   const std::int64_t total = Total();
   for (int i = 0; i < kOutcomeCount; ++i) {
     if (kOutcomeNames[i] == outcome) return total > 0 && counts[i] == total;
@@ -98,7 +100,7 @@ bool Grid::IsAll(std::string_view outcome) const {
   return false;
 }
 
-bool Grid::AllLoop() const {
+bool GridOutcomes::AllLoop() const {
   const std::int64_t loops =
       counts[static_cast<int>(Outcome::kCycle)] + counts[static_cast<int>(Outcome::kStall)];
   return loops > 0 && loops == Total();

@@ -17,7 +17,7 @@
 namespace stiction {
 
 // Outcomes of one problem over the policy grid.
-struct Grid {
+struct GridOutcomes {
   std::array<std::int64_t, kOutcomeCount> counts = {};
 
   std::int64_t Total() const;
@@ -31,7 +31,7 @@ struct RunFacts {
   std::int64_t start = 0;   // in drives for a cycle, in steps for a stall
   std::int64_t period = 0;  // likewise
   std::int64_t steps = 0;   // from f = 0 to the end of the first repetition
-  Grid grid;
+  GridOutcomes grid;
   std::optional<bool> safe;  // where it was decided
 };
 

@@ -12,12 +12,12 @@
 namespace stiction {
 namespace {
 
-Cell Count(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : ""}; }
+HtmlCell Count(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : ""}; }
 
 // What must be zero.
-Cell Exception(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : "h5"}; }
+HtmlCell Exception(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : "h5"}; }
 
-Cell CountAndShare(std::int64_t count, std::int64_t total) {
+HtmlCell CountAndShare(std::int64_t count, std::int64_t total) {
   if (count == 0) return Count(0);
   return {Text(Grouped(count)) + Tag("small")(Percent(count, total))};
 }
@@ -113,7 +113,7 @@ Html HistogramTable(const Record& total, const std::string& caption, Histogram A
   Table table(caption, columns);
   for (const auto& [contacts, tally] : total.agreement) {
     if ((tally.*histogram).empty()) continue;
-    std::vector<Cell> cells = {{Text(Grouped(contacts))}};
+    std::vector<HtmlCell> cells = {{Text(Grouped(contacts))}};
     for (const int value : values) {
       const auto found = (tally.*histogram).find(value);
       cells.push_back(Count(found == (tally.*histogram).end() ? 0 : found->second));

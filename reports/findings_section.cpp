@@ -46,7 +46,7 @@ std::vector<std::string> MuColumn(const ExactProblem& problem) {
   return column;
 }
 
-Cell Number(const Rational& x, const std::string& style = "") {
+HtmlCell Number(const Rational& x, const std::string& style = "") {
   return {Text(ToString(x)), x == 0 && style.empty() ? "zero" : style};
 }
 
@@ -58,7 +58,7 @@ Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
   columns.insert(columns.end(), {{"b"}, {"mu"}});
   Table table(caption, columns);
   for (int row = 0; row < problem.rows(); ++row) {
-    std::vector<Cell> cells = {{Text(names[row])}};
+    std::vector<HtmlCell> cells = {{Text(names[row])}};
     for (int column = 0; column < problem.rows(); ++column) cells.push_back(Number(problem.A(row, column)));
     cells.push_back(Number(problem.b[row], "edge"));
     cells.push_back({Text(mu[row]), "edge"});
@@ -98,7 +98,7 @@ Html ProblemOf(const Finding& finding) {
 
 // ---- Words ----
 
-std::string GridText(const Grid& grid) {
+std::string GridText(const GridOutcomes& grid) {
   std::string text;
   for (int i = 0; i < kOutcomeCount; ++i) {
     if (grid.counts[i] == 0) continue;

@@ -94,7 +94,7 @@ Html Tag::Void() const {
 Table::Table(std::string caption, std::vector<Column> columns)
     : caption_(std::move(caption)), columns_(std::move(columns)) {}
 
-void Table::AddRow(const std::vector<Cell>& cells, int headers, const std::string& style) {
+void Table::AddRow(const std::vector<HtmlCell>& cells, int headers, const std::string& style) {
   STICTION_CHECK(cells.size() == columns_.size(),
                  fmt::format("table {}: {} cells for {} columns", caption_, cells.size(), columns_.size()));
   Html row;

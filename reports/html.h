@@ -61,7 +61,7 @@ struct Column {
   bool number = true;     // right-aligned
 };
 
-struct Cell {
+struct HtmlCell {
   Html content;
   std::string style = {};  // class names
 };
@@ -72,7 +72,7 @@ class Table {
   Table(std::string caption, std::vector<Column> columns);
 
   // The first `headers` cells are headers of the row. As many cells as columns (InternalError otherwise).
-  void AddRow(const std::vector<Cell>& cells, int headers = 1, const std::string& style = "");
+  void AddRow(const std::vector<HtmlCell>& cells, int headers = 1, const std::string& style = "");
   // One cell across all columns.
   void AddWide(const Html& content, const std::string& style);
   // The table in a frame that scrolls sideways where the page is narrow.

@@ -48,8 +48,8 @@ KindCounts CountAll(const std::vector<Discovery>& discoveries) {
   return all;
 }
 
-std::vector<Cell> KindRow(const std::string& kind, const KindCounts& c) {
-  std::vector<Cell> cells = {{Text(kind)}};
+std::vector<HtmlCell> KindRow(const std::string& kind, const KindCounts& c) {
+  std::vector<HtmlCell> cells = {{Text(kind)}};
   for (const std::int64_t count :
        {c.met, c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
     cells.push_back({Text(Grouped(count)), count == 0 ? "zero" : ""});

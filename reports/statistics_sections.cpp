@@ -32,7 +32,7 @@ std::int64_t Sum(const Outcomes& counts) {
   return sum;
 }
 
-Cell Count(std::int64_t count, const std::string& style = "") {
+HtmlCell Count(std::int64_t count, const std::string& style = "") {
   return {Text(Grouped(count)), count == 0 ? "zero" : style};
 }
 
@@ -46,7 +46,7 @@ std::string Heat(std::int64_t count, std::int64_t total) {
 }
 
 // A count above its rate per million.
-Cell CountAndRate(std::int64_t count, std::int64_t total, bool heat) {
+HtmlCell CountAndRate(std::int64_t count, std::int64_t total, bool heat) {
   if (count == 0) return Count(0);
   return {Text(Grouped(count)) + Tag("small")(PerMillion(count, total)), heat ? Heat(count, total) : ""};
 }
@@ -107,7 +107,7 @@ Html UnsolvedMap(const Record& total) {
   for (const int n : contacts) columns.push_back({Counted(n, "contact")});
   Table table("Runs not solved in doubles, per million", columns);
   for (const std::string& generator : generators) {
-    std::vector<Cell> cells = {{Text(generator)}};
+    std::vector<HtmlCell> cells = {{Text(generator)}};
     for (const int n : contacts) {
       const auto found = merged.find({generator, n});
       const std::int64_t problems = found == merged.end() ? 0 : found->second.problems;
@@ -120,14 +120,14 @@ Html UnsolvedMap(const Record& total) {
   return table.Done();
 }
 
-std::vector<Cell> OutcomeCells(const Tally& tally) {
-  std::vector<Cell> cells = {Count(tally.problems)};
+std::vector<HtmlCell> OutcomeCells(const Tally& tally) {
+  std::vector<HtmlCell> cells = {Count(tally.problems)};
   for (int i = 0; i < kOutcomeCount; ++i)
     cells.push_back(CountAndRate(tally.outcomes[i], tally.problems, i > 0));
   return cells;
 }
 
-std::vector<Cell> Joined(std::vector<Cell> left, const std::vector<Cell>& right) {
+std::vector<HtmlCell> Joined(std::vector<HtmlCell> left, const std::vector<HtmlCell>& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }
@@ -139,7 +139,7 @@ Html OutcomeTable(const Record& total) {
   Table table("Outcomes per generator, number of contacts and policy", columns);
   Groups groups;
   for (const auto& [key, tally] : total.tallies) {
-    const std::vector<Cell> names = {
+    const std::vector<HtmlCell> names = {
         {Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(PolicyText(key))}};
     table.AddRow(Joined(names, OutcomeCells(tally)), 3, groups.Style(key.generator));
   }
@@ -154,8 +154,8 @@ std::string InexactName(int outcome) {
                                                        : std::string(kOutcomeNames[outcome]);
 }
 
-std::vector<Cell> VerdictCells(const Outcomes& exact, int confirmed) {
-  std::vector<Cell> cells = {Count(Sum(exact))};
+std::vector<HtmlCell> VerdictCells(const Outcomes& exact, int confirmed) {
+  std::vector<HtmlCell> cells = {Count(Sum(exact))};
   for (int i = 0; i < kOutcomeCount; ++i) cells.push_back(Count(exact[i], i == confirmed ? "same" : ""));
   return cells;
 }
@@ -172,7 +172,7 @@ Html VerdictTable(const Tally& all) {
     if (Sum(exact) == 0) continue;
     // A solution that is wrong is never confirmed by another one that is right.
     const int same = inexact == static_cast<int>(Outcome::kSolved) ? -1 : inexact;
-    const Cell confirmed = {same < 0 ? Text("–") : Text(Percent(exact[same], Sum(exact)))};
+    const HtmlCell confirmed = {same < 0 ? Text("–") : Text(Percent(exact[same], Sum(exact)))};
     table.AddRow(Joined(Joined({{Text(InexactName(inexact))}}, VerdictCells(exact, same)), {confirmed}));
   }
   return table.Done();
@@ -192,7 +192,7 @@ Suspicions SuspicionsOf(const Tally& tally) {
   return suspicions;
 }
 
-std::vector<Cell> TrustCells(const Tally& tally) {
+std::vector<HtmlCell> TrustCells(const Tally& tally) {
   const Suspicions suspicions = SuspicionsOf(tally);
   return {Count(tally.problems),
           CountAndRate(suspicions.all, tally.problems, false),
@@ -221,8 +221,8 @@ Html TrustTable(const Record& total) {
 
 // ---- Pivots ----
 
-std::vector<Cell> PivotCells(const Tally& tally) {
-  std::vector<Cell> cells = {Count(tally.problems)};
+std::vector<HtmlCell> PivotCells(const Tally& tally) {
+  std::vector<HtmlCell> cells = {Count(tally.problems)};
   std::vector<std::int64_t> maxima;
   ForEachField(tally.maxima, [&](const char*, const char*, std::int64_t value) { maxima.push_back(value); });
   ForEachField(tally.sums, [&](const char*, const char*, std::int64_t sum) {
@@ -244,7 +244,7 @@ Html PivotTable(const Record& total) {
   Table table("Work per problem: mean, and maximum below", columns);
   Groups groups;
   for (const auto& [key, tally] : MergedBy(total, ByGeneratorAndContacts)) {
-    const std::vector<Cell> keys = {{Text(key.first)}, {Text(Grouped(key.second))}};
+    const std::vector<HtmlCell> keys = {{Text(key.first)}, {Text(Grouped(key.second))}};
     table.AddRow(Joined(keys, PivotCells(tally)), 2, groups.Style(key.first));
   }
   table.AddRow(Joined({{Text("all")}, {}}, PivotCells(AllOf(total))), 2, "total");

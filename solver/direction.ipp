@@ -215,7 +215,7 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayo
     Scalar change = Scalar(0);
     if (!IsUnknown(sets[row])) {
       for (int j = 0; j < rows; ++j) {
-        if (kIsExact<Scalar> && Sign(df_[j]) == 0) continue;
+        if (kIsExact<Scalar> && IsSurelyZero(df_[j])) continue;
         change += problem.A(row, j) * df_[j];
       }
     }

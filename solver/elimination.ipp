@@ -80,7 +80,7 @@ void Elimination<Scalar, Rows>::EliminateBelow(int column) {
         if (rank_ > 0) Fractions<Scalar>::DivideExactly(entry, Pivot(rank_ - 1));
       }
     } else {
-      if (Sign(below) == 0) continue;
+      if (IsSurelyZero(below)) continue;
       const Scalar factor = below / pivot;
       for (int j = column + 1; j < columns_; ++j) M_(i, j) -= factor * M_(rank_, j);
     }

@@ -74,8 +74,8 @@ int RowCount(const Contacts& contacts, int dimension) {
   return rows;
 }
 
-// Which variable stands in which row of a planar problem: a normal, or the friction of the normal
-// in the row before.
+// Which variable stands in which row: a normal, or the friction of the normal in the row before. In space
+// friction takes two rows.
 template <int Rows>
 class RowLayout {
  public:
@@ -97,13 +97,14 @@ class RowLayout<Eigen::Dynamic> {
  public:
   // Keeps the memory of the problem before.
   template <class Contacts>
-  void Assign(const Contacts& contacts) {
+  void Assign(const Contacts& contacts, int dimension = 2) {
     contact_of_.clear();
     normal_row_.clear();
     for (const auto& contact : contacts) {
       normal_row_.push_back(static_cast<int>(contact_of_.size()));
       contact_of_.push_back(static_cast<int>(normal_row_.size()) - 1);
-      if (contact.HasFrictionRows()) contact_of_.push_back(static_cast<int>(normal_row_.size()) - 1);
+      for (int k = 1; k < dimension && contact.HasFrictionRows(); ++k)
+        contact_of_.push_back(static_cast<int>(normal_row_.size()) - 1);
     }
   }
 

@@ -104,8 +104,6 @@ class PublishedAlgorithm {
   void Sweep();
   int ScanForViolated();
   int Pick(Scan scan, Resume resume) const;
-  int PickInOrder(bool normals, bool frictions, int first, int stride) const;
-  int PickMostViolated() const;
   bool NormalHolds(int row) const;
   bool FrictionHolds(int row) const;
   bool Violated(int row) const;
@@ -119,7 +117,6 @@ class PublishedAlgorithm {
   void Move(int row, IndexSet to);
   void MoveLimiting(int row, IndexSet wants);
   void GiveUpLimiting(int row, int driven);
-  bool GivesUp(bool wants_back, bool zero) const;
   void FileBySign(int row);
   bool InnerStateRecurs();
   bool BudgetSpent();

@@ -9,6 +9,7 @@
 
 #include "solver/direction.ipp"
 #include "solver/published.h"
+#include "solver/scan.h"
 #include "solver/step_size.ipp"
 
 namespace stiction {
@@ -195,48 +196,11 @@ int PublishedAlgorithm<Scalar, Rows>::ScanForViolated() {
 // The row of the variable to drive next, -1 if no condition is violated.
 template <class Scalar, int Rows>
 int PublishedAlgorithm<Scalar, Rows>::Pick(Scan scan, Resume resume) const {
-  const int contacts = layout_.ContactCount();
-  const bool round = resume == Resume::kRound && last_driven_contact_ >= 0;
-  const int first = round ? last_driven_contact_ : scan == Scan::kHighest ? contacts - 1 : 0;
-  switch (scan) {
-    case Scan::kLowest:
-      return PickInOrder(true, true, first, 1);
-    case Scan::kHighest:
-      return PickInOrder(true, true, first, contacts - 1);
-    case Scan::kNormalsFirst: {
-      const int normal = PickInOrder(true, false, first, 1);
-      return normal >= 0 ? normal : PickInOrder(false, true, first, 1);
-    }
-    case Scan::kMostViolated:
-      return PickMostViolated();
-  }
-  return -1;
-}
-
-// Goes round the contacts from `first` in steps of `stride` (1 upward, contacts - 1 downward).
-template <class Scalar, int Rows>
-int PublishedAlgorithm<Scalar, Rows>::PickInOrder(bool normals, bool frictions, int first, int stride) const {
-  const int contacts = layout_.ContactCount();
-  for (int k = 0, contact = first; k < contacts; ++k, contact = (contact + stride) % contacts) {
-    const int row = layout_.NormalRowOf(contact);
-    if (normals && Violated(row)) return row;
-    if (frictions && layout_.HasFriction(row) && Violated(row + 1)) return row + 1;
-  }
-  return -1;
-}
-
-template <class Scalar, int Rows>
-int PublishedAlgorithm<Scalar, Rows>::PickMostViolated() const {
-  int worst = -1;
-  const auto worse = [&](int row) {
-    if (worst < 0) return true;
-    if (layout_.IsNormal(row) != layout_.IsNormal(worst)) return layout_.IsNormal(row);
-    return layout_.IsNormal(row) ? state_.a[row] < state_.a[worst] : Abs(state_.a[row]) > Abs(state_.a[worst]);
+  const auto worse = [this](int row, int other) {
+    return layout_.IsNormal(row) ? state_.a[row] < state_.a[other] : Abs(state_.a[row]) > Abs(state_.a[other]);
   };
-  for (int row = 0; row < problem_->rows(); ++row) {
-    if (Violated(row) && worse(row)) worst = row;
-  }
-  return worst;
+  return PickViolated(
+      layout_, scan, resume, last_driven_contact_, [this](int row) { return Violated(row); }, worse);
 }
 
 // Establishes the conditions of a violated variable; a friction force that rests from before it was given
@@ -286,7 +250,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     statistics.longest_zero_run = std::max(statistics.longest_zero_run, zero_run_);
     const IndexSet from = state_.sets[step.limiting];
     const bool wants_back = step.limiting != driven && step.wants == last_left_[step.limiting];
-    const bool gives_up = GivesUp(wants_back, zero);
+    const bool gives_up = GivesUp(options_.policy.give_up, wants_back, zero, last_step_zero_);
     if (wants_back && zero != last_step_zero_) Consult(PolicySwitch::kGiveUp);
     statistics.bounces += wants_back && zero;
     statistics.give_ups += gives_up;
@@ -330,20 +294,6 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
         break;
     }
   }
-}
-
-template <class Scalar, int Rows>
-bool PublishedAlgorithm<Scalar, Rows>::GivesUp(bool wants_back, bool zero) const {
-  if (!wants_back) return false;
-  switch (options_.policy.give_up) {
-    case GiveUp::kFirst:
-      return zero;
-    case GiveUp::kPrevious:
-      return last_step_zero_;
-    case GiveUp::kSecond:
-      return zero && last_step_zero_;
-  }
-  return false;
 }
 
 template <class Scalar, int Rows>

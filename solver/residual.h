@@ -9,11 +9,24 @@
 // which vanish together exactly where (15), (16), (24) and (4.5) hold. r = 1 / max A_ii turns accelerations
 // into forces; the result is relative to the larger of max abs(f) and max abs(b) / max A_ii. Shapes: f, a rows
 // x 1. Planar problems. Allocates nothing. Not a number if a force or an acceleration is not finite.
+//
+// CoulombResidual is for Coulomb's law in space (and for all kinds of contacts):
+//
+//   static     abs(f - P(f - r (a + mu abs(aF) e_N))),  P the nearest point of the cone abs(fF) <= mu fN
+//   sliding    the normal part as above, and abs(fF + mu fN slip)      bilateral    abs(r aN)
+//
+// The static part vanishes exactly where f is in the cone, F = a + mu abs(aF) e_N in its dual cone, and f.F =
+// 0. Now F in the dual cone says aN >= 0; and f.F = fN aN + (mu fN abs(aF) + fF.aF), neither term negative. So
+// it vanishes exactly where fN aN = 0 and, if fN > 0 and aF /= 0, fF = -mu fN aF / abs(aF): Coulomb's law.
+// F is De Saxce's change of variables (cited from memory). The result is relative to max abs(b) / max A_ii
+// alone: beside forces that grow without end, any violation would be small.
 
 #ifndef STICTION_SOLVER_RESIDUAL_H_
 #define STICTION_SOLVER_RESIDUAL_H_
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "solver/problem.h"
 #include "solver/scalar.h"
@@ -63,6 +76,51 @@ template <class Scalar, int Rows, class Vector>
 Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
   const Residual<Scalar> residual = MeasureResidual(problem, f, a);
   return residual.scale > 0 ? Scalar(residual.worst / residual.scale) : residual.worst;
+}
+
+// The nearest point of the cone of forces (fN, fF) in space with abs(fF) <= mu fN, mu >= 0.
+template <class Scalar>
+std::array<Scalar, 3> ProjectOnCone(const std::array<Scalar, 3>& x, const Scalar& mu) {
+  using std::hypot;
+  const Scalar length = hypot(x[1], x[2]);
+  if (length <= mu * x[0]) return x;
+  if (mu * length <= -x[0]) return {Scalar(0), Scalar(0), Scalar(0)};
+  const Scalar normal = (x[0] + mu * length) / (1 + mu * mu);
+  const Scalar along = length > 0 ? Scalar(mu * normal / length) : Scalar(0);
+  return {normal, along * x[1], along * x[2]};
+}
+
+// Requires dimension 3 and a floating-point Scalar.
+template <class Scalar, class Vector>
+Scalar CoulombResidual(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
+  using std::hypot;
+  Scalar max_A = 0, max_b = 0, worst = 0, zero = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
+    max_A = std::max(max_A, problem.A(i, i));
+    max_b = std::max(max_b, Abs(problem.b[i]));
+  }
+  if (zero != 0) return zero;
+  const Scalar r = max_A > 0 ? 1 / max_A : Scalar(1);
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    Scalar gap = Abs(Scalar(r * a[row]));
+    if (contact.kind == ContactKind::kFrictionless || contact.kind == ContactKind::kSliding)
+      gap = Abs(Scalar(f[row] - std::max(Scalar(0), f[row] - r * a[row])));
+    if (contact.kind == ContactKind::kSliding) {
+      const Scalar limit = contact.mu * f[row];
+      gap = hypot(gap, hypot(f[row + 1] + limit * contact.slip[0], f[row + 2] + limit * contact.slip[1]));
+    }
+    if (contact.kind == ContactKind::kStatic) {
+      const Scalar shifted = a[row] + contact.mu * hypot(a[row + 1], a[row + 2]);
+      const std::array<Scalar, 3> wanted = ProjectOnCone<Scalar>(
+          {f[row] - r * shifted, f[row + 1] - r * a[row + 1], f[row + 2] - r * a[row + 2]}, contact.mu);
+      gap = hypot(f[row] - wanted[0], hypot(f[row + 1] - wanted[1], f[row + 2] - wanted[2]));
+    }
+    worst = std::max(worst, gap);
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return max_b > 0 ? worst / (max_b * r) : worst;
 }
 
 }  // namespace stiction

@@ -33,6 +33,13 @@ int Sign(const Scalar& x, const Scalar& tol) {
   }
 }
 
+// Whether x is zero and known to be: what may be skipped. Specialised beside a scalar that cannot tell some
+// signs.
+template <class Scalar>
+bool IsSurelyZero(const Scalar& x) {
+  return Sign(x) == 0;
+}
+
 template <class Scalar>
 Scalar Abs(const Scalar& x) {
   if constexpr (!kIsExact<Scalar>) {

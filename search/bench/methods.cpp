@@ -15,6 +15,7 @@
 #include "corpus/json_text.h"
 #include "search/bench/method.h"
 #include "search/bench/suite.h"
+#include "search/bench/table.h"
 #include "search/verbs/verbs.h"
 
 namespace stiction {
@@ -81,12 +82,6 @@ Sample Measured(std::vector<Method>& methods, int contacts, std::int64_t problem
 
 // ---- Tables --------------------------------------------------------------------------------------
 
-// Rows are objects with the same keys.
-struct Table {
-  std::string name, title;
-  Json rows = Json::array();
-};
-
 double Percent(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
@@ -120,8 +115,8 @@ Json OtherEnds(const std::vector<Measure>& measures) {
   return ends;
 }
 
-Table RunTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
-  Table table{"runs", "how runs end; what they count, mean and most, over what is solved"};
+BenchTable RunTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+  BenchTable table{"runs", "how runs end; what they count, mean and most, over what is solved"};
   for (const Sample& sample : samples) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const std::vector<Measure>& measures = sample.measures[m];
@@ -163,8 +158,8 @@ struct FoldCount {
   }
 };
 
-Table FoldTable(const std::vector<Sample>& samples) {
-  Table table{"folds", "problems on which complete driving folds, and descends"};
+BenchTable FoldTable(const std::vector<Sample>& samples) {
+  BenchTable table{"folds", "problems on which complete driving folds, and descends"};
   for (const Sample& sample : samples) {
     FoldCount count;
     for (const Measure& m : sample.measures[kComplete]) count.Count(m);
@@ -173,8 +168,8 @@ Table FoldTable(const std::vector<Sample>& samples) {
   return table;
 }
 
-Table FrictionTable(const std::vector<Sample>& samples) {
-  Table table{"friction", "the same by friction coefficient, all sizes"};
+BenchTable FrictionTable(const std::vector<Sample>& samples) {
+  BenchTable table{"friction", "the same by friction coefficient, all sizes"};
   std::array<FoldCount, kFrictionClasses> counts;
   for (const Sample& sample : samples) {
     for (std::size_t i = 0; i < sample.friction.size(); ++i)
@@ -214,8 +209,8 @@ Json GiveUpRow(const Method& method, int place, const std::vector<Sample>& sampl
           {"steps if folds", AverageOf(steps).mean}};
 }
 
-Table GiveUpTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
-  Table table{"give-ups", "folds of complete driving against give-ups of the published algorithm"};
+BenchTable GiveUpTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+  BenchTable table{"give-ups", "folds of complete driving against give-ups of the published algorithm"};
   for (const int place : kPublished) table.rows.push_back(GiveUpRow(methods[place], place, samples));
   return table;
 }
@@ -235,8 +230,9 @@ Quartiles RatioOf(const std::vector<Measure>& left, const std::vector<Measure>& 
   return QuartilesOf(ratios);
 }
 
-Table TimeTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
-  Table table{"times", "microseconds a problem, and times that of complete driving over doubles: quartiles"};
+BenchTable TimeTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+  BenchTable table{"times",
+                   "microseconds a problem, and times that of complete driving over doubles: quartiles"};
   for (const Sample& sample : samples) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       if (sample.measures[m].empty()) continue;
@@ -252,8 +248,8 @@ Table TimeTable(const std::vector<Method>& methods, const std::vector<Sample>& s
   return table;
 }
 
-Table StartTable(const std::vector<Sample>& samples) {
-  Table table{"starts", "starts that Ipopt needed; none: no solution from its twenty"};
+BenchTable StartTable(const std::vector<Sample>& samples) {
+  BenchTable table{"starts", "starts that Ipopt needed; none: no solution from its twenty"};
   for (const Sample& sample : samples) {
     std::int64_t one = 0, two = 0, three = 0, more = 0, none = 0;
     for (const Measure& m : sample.measures[kIpopt])
@@ -269,9 +265,9 @@ Table StartTable(const std::vector<Sample>& samples) {
   return table;
 }
 
-Table FrictionlessTable(const std::vector<Sample>& samples) {
-  Table table{"frictionless",
-              "without friction, microseconds: section 4, Lemke and, inside Ipopt, program (5)"};
+BenchTable FrictionlessTable(const std::vector<Sample>& samples) {
+  BenchTable table{"frictionless",
+                   "without friction, microseconds: section 4, Lemke and, inside Ipopt, program (5)"};
   for (const Sample& sample : samples) {
     const auto& baraff = sample.measures[kBaraffDouble];
     const auto& lemke = sample.measures[kLemkeDouble];
@@ -289,54 +285,15 @@ Table FrictionlessTable(const std::vector<Sample>& samples) {
   return table;
 }
 
-// ---- Printing ------------------------------------------------------------------------------------
+// ---- Output ------------------------------------------------------------------------------------
 
-// Objects count by name; arrays are quartiles.
-std::string CellText(const Json& cell) {
-  if (cell.is_null()) return "";
-  if (cell.is_string()) return cell.get<std::string>();
-  if (cell.is_number_integer()) return cell.dump();
-  if (cell.is_number()) {
-    const double x = cell.get<double>();
-    return x < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
-  }
-  if (cell.is_object()) {
-    std::string text;
-    for (const auto& [key, value] : cell.items())
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value.dump());
-    return text;
-  }
-  return fmt::format("{} ({} - {})", CellText(cell[1]), CellText(cell[0]), CellText(cell[2]));
-}
-
-void Print(const Table& table) {
-  fmt::print("\n{}\n", table.title);
-  if (table.rows.empty()) return;
-  std::vector<std::vector<std::string>> lines(1);
-  for (const auto& [key, value] : table.rows.front().items()) lines[0].push_back(key);
-  for (const Json& row : table.rows) {
-    auto& line = lines.emplace_back();
-    for (const Json& cell : row) line.push_back(CellText(cell));
-  }
-  for (const auto& line : lines) {
-    for (std::size_t column = 0; column < line.size(); ++column) {
-      std::size_t width = 0;
-      for (const auto& other : lines) width = std::max(width, other[column].size());
-      const bool words = table.rows.front().at(lines[0][column]).is_string();
-      fmt::print("{}", words ? fmt::format("  {:<{}}", line[column], width)
-                             : fmt::format("  {:>{}}", line[column], width));
-    }
-    fmt::print("\n");
-  }
-}
-
-Json ToJson(const BenchOptions& options, std::int64_t problems, const std::vector<Table>& tables,
+Json ToJson(const BenchOptions& options, std::int64_t problems, const std::vector<BenchTable>& tables,
             const std::vector<std::string>& mismatches) {
   Json json = {{"suite", "methods"},
                {"seed", options.seed},
                {"generator", options.generator ? Row(*options.generator).name : "definite"},
                {"problems", problems}};
-  for (const Table& table : tables) json[table.name] = table.rows;
+  for (const BenchTable& table : tables) json[table.name] = table.rows;
   json["mismatches"] = mismatches;
   return json;
 }
@@ -369,14 +326,14 @@ int BenchMethods(const BenchOptions& options) {
     for (const Sample& sample : *list)
       mismatches.insert(mismatches.end(), sample.mismatches.begin(), sample.mismatches.end());
   }
-  const std::vector<Table> tables = {RunTable(methods, samples),     FoldTable(samples),
-                                     FrictionTable(samples),         GiveUpTable(methods, samples),
-                                     TimeTable(methods, samples),    StartTable(samples),
-                                     FrictionlessTable(frictionless)};
+  const std::vector<BenchTable> tables = {RunTable(methods, samples),     FoldTable(samples),
+                                          FrictionTable(samples),         GiveUpTable(methods, samples),
+                                          TimeTable(methods, samples),    StartTable(samples),
+                                          FrictionlessTable(frictionless)};
   if (options.json) {
     std::cout << JsonText(ToJson(options, problems, tables, mismatches)) << "\n";
   } else {
-    for (const Table& table : tables) Print(table);
+    for (const BenchTable& table : tables) Print(table);
     fmt::print("\n{} mismatches\n", mismatches.size());
     for (const std::string& mismatch : mismatches) fmt::print("{}\n", mismatch);
   }

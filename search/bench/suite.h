@@ -36,6 +36,8 @@ int BenchGrowth(const BenchOptions& options);
 
 // Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
 int BenchLinearAlgebra(const BenchOptions& options);
+// The readings of section 5.6 side by side, on problems in space (space.cpp).
+int BenchSpace(const BenchOptions& options);
 
 }  // namespace stiction
 

@@ -82,6 +82,7 @@ constexpr std::array kSuites = {
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", BenchPeers},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
+    Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -106,8 +107,8 @@ void AddBench(CLI::App& program, Action& action) {
   verb.add_option("--problems", o->problems,
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
                   "methods, peers: problems of each number of contacts (default 800, 400); linear-algebra: "
-                  "systems of a row "
-                  "(default 200)")
+                  "systems of a row (default 200); space: problems of each family and number of contacts "
+                  "(default 2000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
                   "search, linear-algebra: counted runs; peers: 0.06 seconds each for a row and size")

@@ -10,6 +10,7 @@
 #include "certify/certificate.h"
 #include "certify/existence.h"
 #include "certify/safe.h"
+#include "certify/space.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
 
@@ -68,9 +69,20 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   return complete ? kExitDone : kExitUndecided;
 }
 
+// The best bound that was found, or null.
+Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
+  SpaceOptions options;
+  options.law = FrictionLaw::kCoulomb;
+  options.limits = limits;
+  const SpaceSolution solution = SolveInSpace(problem, options);
+  if (solution.outcome != Outcome::kSolved || solution.bound <= 0) return nullptr;
+  return CoulombCertificate(problem, solution.f, solution.bound);
+}
+
 Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   if (o.claim == "solution-exists")
     return DecideExistence(file.problem, o.limits, WithProgress({})).certificate;
+  if (o.claim == "coulomb-solution") return CertifyCoulomb(file.problem, o.limits);
   if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
   if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
   if (o.claim == "in-range") return RangeCertificate(file.problem);
@@ -109,9 +121,15 @@ int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
   return kExitDone;
 }
 
-// Loops are claimed of problems that the published algorithm handles, existence of planar ones.
+// Loops are claimed of problems that the published algorithm handles, modes listed of planar ones, Coulomb's
+// law of those in space.
 ProblemFile ReadFor(const CertifyOptions& o) {
-  if (o.all || o.claim == "solution-exists") return ReadPlanarProblem(o.file);
+  if (o.all) return ReadPlanarProblem(o.file);
+  if (o.claim == "coulomb-solution") {
+    ProblemFile file = ReadProblem(o.file);
+    if (file.problem.dimension == 3) return file;
+    throw InputError(o.file, "dimension", "2", "3: in the plane the claim is solution-exists");
+  }
   const bool handled = o.safe || o.claim == "safe" || o.claim == "cycle" || o.claim == "stall";
   return handled ? ReadHandledProblem(o.file) : ReadProblem(o.file);
 }
@@ -175,13 +193,14 @@ void AddCertify(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   verb.add_option("-o,--output", o->output, "certificate to write; - is standard output");
-  verb.add_option("--claim", o->claim,
-                  "what to certify, or its negation if that holds: solution-exists, symmetric, psd, in-range, "
-                  "h (b'v >= 0 "
-                  "for all v in the friction cones with A v = 0), safe, cycle, stall")
+  verb.add_option(
+          "--claim", o->claim,
+          "what to certify, or its negation if that holds: solution-exists, coulomb-solution (in space), "
+          "symmetric, psd, in-range, h (b'v >= 0 for all v in the friction cones with A v = 0), safe, "
+          "cycle, stall")
       ->capture_default_str()
-      ->check(
-          CLI::IsMember({"solution-exists", "symmetric", "psd", "in-range", "h", "safe", "cycle", "stall"}));
+      ->check(CLI::IsMember({"solution-exists", "coulomb-solution", "symmetric", "psd", "in-range", "h", "safe",
+                             "cycle", "stall"}));
   verb.add_flag(
       "--safe", o->safe,
       "the friction coefficient below which A is safe for the published algorithm (see certify/README.md), and "

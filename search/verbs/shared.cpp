@@ -66,8 +66,8 @@ ProblemFile ReadPlanarProblem(const std::string& file) {
   return problem;
 }
 
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method) {
-  ProblemFile problem = ReadPlanarProblem(file);
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& method, Dimensions dimensions) {
+  ProblemFile problem = dimensions == Dimensions::kAny ? ReadProblem(file) : ReadPlanarProblem(file);
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;

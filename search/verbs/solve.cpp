@@ -11,8 +11,11 @@
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
+#include "search/verbs/solve_published_space.h"
+#include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
 #include "solver/fast.h"
+#include "solver/reduction.ipp"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -21,8 +24,10 @@ namespace {
 struct SolveOptions {
   std::string file;
   std::string method = "baraff";
-  std::string arithmetic = "exact";
+  std::string arithmetic;  // empty: exact; double for method fast; interval for method baraff in space
   std::string policy = "paper";
+  std::string law = "baraff";
+  int sides = 8;
   Limits limits;
   Tolerances tolerances;
   bool json = false;
@@ -34,7 +39,18 @@ struct Solved {
   Json f, a, ray;
   Json residual;
   Json statistics;
-  Json word;  // cells of complete driving
+  Json word;
+};
+
+// What a method says of a problem.
+template <class Scalar>
+struct Answer {
+  using Vector = typename ContactProblem<Scalar>::Vector;
+
+  Verdict verdict;
+  Vector f, ray;  // empty where there is none
+  Json statistics;
+  Json word;  // cells, one letter per contact
 };
 
 Json RunToJson(const Verdict& verdict) {
@@ -54,79 +70,146 @@ Json CountersToJson(const S& statistics) {
   return json;
 }
 
-Solved SolveByPublished(const ExactProblem& problem, const PublishedOptions& options) {
+template <class Scalar>
+Answer<Scalar> AnswerOf(Outcome outcome, std::string_view reason) {
+  Answer<Scalar> answer;
+  answer.verdict.outcome = outcome;
+  answer.verdict.reason = reason;
+  return answer;
+}
+
+// ---- Exact arithmetic ------------------------------------------------------------------------
+
+Answer<Rational> RunPublished(const ExactProblem& problem, const PublishedOptions& options) {
   const ExactRun run = RunExact(problem, options);
-  Solved solved{run.verdict, VectorToJson(run.state.f), VectorToJson(run.a), {}, {}, {}, {}};
-  if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
-  solved.statistics = CountersToJson(run.verdict.statistics);
-  return solved;
+  return {run.verdict, run.state.f, run.ray, CountersToJson(run.verdict.statistics), {}};
 }
 
-Solved SolveByComplete(const ExactProblem& problem, const Limits& limits) {
-  const CompleteRun run = RunComplete(problem, limits);
-  Solved solved;
-  solved.verdict.outcome = run.verdict.outcome;
-  solved.verdict.reason = run.verdict.reason;
-  solved.f = VectorToJson(run.f);
-  solved.a = VectorToJson(run.a);
-  if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
-  solved.statistics = CountersToJson(run.verdict.statistics);
-  solved.word = run.word;
-  return solved;
+Answer<Rational> RunComplete(const ExactProblem& problem, const PublishedOptions& options) {
+  const CompleteRun run = RunComplete(problem, options.limits);
+  auto answer = AnswerOf<Rational>(run.verdict.outcome, run.verdict.reason);
+  answer.f = run.f;
+  answer.ray = run.ray;
+  answer.statistics = CountersToJson(run.verdict.statistics);
+  answer.word = run.word;
+  return answer;
 }
 
-Solved SolveByLemke(const ExactProblem& problem, const Limits& limits) {
-  const LemkeRun run = RunLemke(problem, limits);
-  Solved solved;
-  solved.verdict = run.verdict;
-  if (run.verdict.outcome == Outcome::kSolved) {
-    solved.f = VectorToJson(run.f);
-    solved.a = VectorToJson(run.a);
-  }
-  if (run.ray.size() > 0) solved.ray = VectorToJson(run.ray);
-  solved.statistics = {{"pivots", run.verdict.statistics.pivots}};
-  return solved;
+Answer<Rational> RunLemke(const ExactProblem& problem, const PublishedOptions& options) {
+  const LemkeRun run = RunLemke(problem, options.limits);
+  return {run.verdict, run.f, run.ray, {{"pivots", run.verdict.statistics.pivots}}, {}};
 }
 
 // The first solution in the order of the mode words. That there is none is a claim of `certify`.
-Solved SolveByModes(const ExactProblem& problem) {
+Answer<Rational> RunModes(const ExactProblem& problem) {
   EnumerationOptions options;
   options.first_solution_only = true;
   const Enumeration modes = EnumerateModes(problem, options);
-  Solved solved;
-  solved.verdict.outcome = modes.solutions.empty() ? Outcome::kUndecided : Outcome::kSolved;
-  if (modes.ProvesNoSolution()) solved.verdict.reason = "no mode has a solution; see certify";
-  if (!modes.solutions.empty()) {
-    solved.f = VectorToJson(modes.solutions.front().f);
-    solved.a = VectorToJson(Accelerations(problem, modes.solutions.front().f));
-  }
-  solved.statistics = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
-  return solved;
+  auto answer = AnswerOf<Rational>(modes.solutions.empty() ? Outcome::kUndecided : Outcome::kSolved, "");
+  if (modes.ProvesNoSolution()) answer.verdict.reason = "no mode has a solution; see certify";
+  if (!modes.solutions.empty()) answer.f = modes.solutions.front().f;
+  answer.statistics = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  return answer;
 }
 
 // Ipopt proposes, exact arithmetic decides.
-Solved SolveByIpopt(const ExactProblem& problem) {
+Answer<Rational> RunIpopt(const ExactProblem& problem) {
   IpoptProposer proposer;
   ProposalStatistics statistics;
   const auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
-  Solved solved;
-  solved.verdict.outcome = f ? Outcome::kSolved : Outcome::kUndecided;
-  if (!f) solved.verdict.reason = "no point that Ipopt proposed led to a solution";
-  if (f) {
-    solved.f = VectorToJson(*f);
-    solved.a = VectorToJson(Accelerations(problem, *f));
-  }
-  solved.statistics = {
+  auto answer = AnswerOf<Rational>(f ? Outcome::kSolved : Outcome::kUndecided,
+                                   f ? "" : "no point that Ipopt proposed led to a solution");
+  if (f) answer.f = *f;
+  answer.statistics = {
       {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
-  return solved;
+  return answer;
 }
 
-Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
-  if (method == "complete") return SolveByComplete(problem, options.limits);
-  if (method == "lemke") return SolveByLemke(problem, options.limits);
-  if (method == "enumerate") return SolveByModes(problem);
-  if (method == "ipopt") return SolveByIpopt(problem);
-  return SolveByPublished(problem, options);
+Answer<Rational> RunMethod(const std::string& method, const ExactProblem& problem,
+                           const PublishedOptions& options) {
+  if (method == "complete") return RunComplete(problem, options);
+  if (method == "lemke") return RunLemke(problem, options);
+  if (method == "enumerate") return RunModes(problem);
+  if (method == "ipopt") return RunIpopt(problem);
+  return RunPublished(problem, options);
+}
+
+// ---- Inexact arithmetics ---------------------------------------------------------------------
+
+template <class Scalar>
+Answer<Scalar> RunMethod(const std::string& method, const ContactProblem<Scalar>& problem,
+                         const PublishedOptions& options) {
+  Answer<Scalar> answer;
+  if (method == "complete") {
+    CompleteOptions complete;
+    complete.tolerances = options.tolerances;
+    complete.limits = options.limits;
+    CompleteDriving<Scalar> driving(complete);
+    const CompleteVerdict verdict = driving.Run(problem);
+    answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
+    answer.statistics = CountersToJson(verdict.statistics);
+    answer.word = driving.Word();
+    answer.f = driving.state().f;
+  } else if (method == "lemke") {
+    LemkeOptions lemke;
+    lemke.cover = Cover::kUnits;
+    lemke.tolerances = options.tolerances;
+    lemke.limits = options.limits;
+    LemkeAlgorithm<Scalar> algorithm(lemke);
+    answer.verdict = algorithm.Run(problem);
+    answer.statistics = {{"pivots", answer.verdict.statistics.pivots}};
+    if (answer.verdict.outcome == Outcome::kSolved) answer.f = algorithm.f();
+  } else if (method == "fast") {
+    FastOptions fast;
+    fast.tolerances = options.tolerances;
+    fast.limits = options.limits;
+    FastSolver<Scalar> solver(fast);
+    const FastVerdict verdict = solver.Run(problem);
+    answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
+    answer.statistics = CountersToJson(verdict.statistics);
+    if (verdict.outcome == Outcome::kSolved) answer.word = solver.Word();
+    answer.f = solver.f();
+  } else {
+    PublishedAlgorithm<Scalar> algorithm(options);
+    answer.verdict = algorithm.Run(problem);
+    answer.statistics = CountersToJson(answer.verdict.statistics);
+    answer.f = algorithm.state().f;
+  }
+  return answer;
+}
+
+// ---- Bilateral constraints and sliding contacts (4.5, 6) ---------------------------------------
+
+// The letters of all contacts; a bilateral one is always held.
+template <class Scalar>
+std::string FullWord(const ContactProblem<Scalar>& problem, const std::string& word) {
+  std::string full;
+  std::size_t next = 0;
+  for (const auto& contact : problem.contacts)
+    full += contact.kind == ContactKind::kBilateral ? '=' : word.at(next++);
+  return full;
+}
+
+// Runs a method for frictionless and static contacts on what remains of any planar problem.
+template <class Scalar>
+Answer<Scalar> RunReduced(const std::string& method, const ContactProblem<Scalar>& problem,
+                          const PublishedOptions& options) {
+  if (!Reduction<Scalar>::Concerns(problem)) return RunMethod(method, problem, options);
+  const Reduction<Scalar> reduction(problem, options.tolerances);
+  switch (reduction.end()) {
+    case ReductionEnd::kInconsistent:
+      return AnswerOf<Scalar>(Outcome::kSingular, "no forces keep the bilateral constraints");
+    case ReductionEnd::kSingular:
+      return AnswerOf<Scalar>(Outcome::kSingular, "the bilateral constraints are singular");
+    case ReductionEnd::kReduced:
+      break;
+  }
+  Answer<Scalar> answer = RunMethod(method, reduction.problem(), options);
+  const auto rows = reduction.problem().rows();
+  if (answer.f.size() == rows) answer.f = reduction.Forces(answer.f);
+  if (rows > 0 && answer.ray.size() == rows) answer.ray = reduction.Direction(answer.ray);
+  if (answer.word.is_string()) answer.word = FullWord(problem, answer.word.template get<std::string>());
+  return answer;
 }
 
 // The problem in rounded numbers; `rounded` receives the same problem exactly.
@@ -162,60 +245,37 @@ Json NumbersToJson(const Vector& values) {
   return json;
 }
 
-// Fills in what all inexact methods share: forces, accelerations, residual.
-template <class Scalar>
-void Describe(const ContactProblem<Scalar>& problem, const typename ContactProblem<Scalar>::Vector& f,
-              Solved& solved) {
-  if (f.size() != problem.rows()) return;
-  const typename ContactProblem<Scalar>::Vector a = problem.A * f + problem.b;
-  solved.f = NumbersToJson(f);
-  solved.a = NumbersToJson(a);
-  if (solved.verdict.outcome != Outcome::kSolved) return;
-  solved.residual = static_cast<double>(NaturalResidual(problem, f, a));
+Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
+  const bool any_kind = method == "enumerate" || method == "ipopt";
+  const Answer<Rational> answer =
+      any_kind ? RunMethod(method, problem, options) : RunReduced<Rational>(method, problem, options);
+  Solved solved;
+  solved.verdict = answer.verdict;
+  if (answer.f.size() == problem.rows()) {
+    solved.f = VectorToJson(answer.f);
+    solved.a = VectorToJson(Accelerations(problem, answer.f));
+  }
+  if (answer.ray.size() > 0) solved.ray = VectorToJson(answer.ray);
+  solved.statistics = answer.statistics;
+  solved.word = answer.word;
+  return solved;
 }
 
 template <class Scalar>
 Solved SolveRounded(const std::string& method, const ExactProblem& problem, const PublishedOptions& options,
                     ExactProblem& rounded) {
   const ContactProblem<Scalar> inexact = Round<Scalar>(problem, rounded);
+  const Answer<Scalar> answer = RunReduced<Scalar>(method, inexact, options);
   Solved solved;
-  if (method == "complete") {
-    CompleteOptions complete;
-    complete.tolerances = options.tolerances;
-    complete.limits = options.limits;
-    CompleteDriving<Scalar> driving(complete);
-    const CompleteVerdict verdict = driving.Run(inexact);
-    solved.verdict.outcome = verdict.outcome;
-    solved.verdict.reason = verdict.reason;
-    solved.statistics = CountersToJson(verdict.statistics);
-    solved.word = driving.Word();
-    Describe(inexact, driving.state().f, solved);
-  } else if (method == "lemke") {
-    LemkeOptions lemke;
-    lemke.cover = Cover::kUnits;
-    lemke.tolerances = options.tolerances;
-    lemke.limits = options.limits;
-    LemkeAlgorithm<Scalar> algorithm(lemke);
-    solved.verdict = algorithm.Run(inexact);
-    solved.statistics = {{"pivots", solved.verdict.statistics.pivots}};
-    if (solved.verdict.outcome == Outcome::kSolved) Describe(inexact, algorithm.f(), solved);
-  } else if (method == "fast") {
-    FastOptions fast;
-    fast.tolerances = options.tolerances;
-    fast.limits = options.limits;
-    FastSolver<Scalar> solver(fast);
-    const FastVerdict verdict = solver.Run(inexact);
-    solved.verdict.outcome = verdict.outcome;
-    solved.verdict.reason = verdict.reason;
-    solved.statistics = CountersToJson(verdict.statistics);
-    if (verdict.outcome == Outcome::kSolved) solved.word = solver.Word();
-    Describe(inexact, solver.f(), solved);
-  } else {
-    PublishedAlgorithm<Scalar> algorithm(options);
-    solved.verdict = algorithm.Run(inexact);
-    solved.statistics = CountersToJson(solved.verdict.statistics);
-    Describe(inexact, algorithm.state().f, solved);
-  }
+  solved.verdict = answer.verdict;
+  solved.statistics = answer.statistics;
+  solved.word = answer.word;
+  if (answer.f.size() != inexact.rows()) return solved;
+  const typename ContactProblem<Scalar>::Vector a = inexact.A * answer.f + inexact.b;
+  solved.f = NumbersToJson(answer.f);
+  solved.a = NumbersToJson(a);
+  if (answer.verdict.outcome == Outcome::kSolved)
+    solved.residual = static_cast<double>(NaturalResidual(inexact, answer.f, a));
   return solved;
 }
 
@@ -243,16 +303,51 @@ void PrintForPeople(const Json& result) {
   }
 }
 
-int Solve(const SolveOptions& o) {
+int Show(const Json& result, bool json, Outcome outcome) {
+  if (json) {
+    std::cout << JsonText(result) << "\n";
+  } else {
+    PrintForPeople(result);
+  }
+  return ExitOf(outcome);
+}
+
+int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) {
+  PublishedSpaceAnswer answer =
+      SolvePublishedInSpace(problem, o.arithmetic, {ParsePolicy(o.policy), o.tolerances, o.limits});
+  answer.result["assumptions"] = FailedAssumptions(problem);
+  return Show(answer.result, o.json, answer.outcome);
+}
+
+int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
+  SolvedInSpace solved =
+      SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
+  solved.result["assumptions"] = FailedAssumptions(problem);
+  return Show(solved.result, o.json, solved.outcome);
+}
+
+int Solve(const SolveOptions& given) {
+  SolveOptions o = given;
+  const bool in_space = ReadProblem(o.file).problem.dimension == 3;
+  if (in_space && o.method == "baraff") {
+    return SolveByPublishedInSpace(o, ReadHandledProblem(o.file, o.method, Dimensions::kAny).problem);
+  }
+  const bool fast = o.method == "fast";
+  if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
+  if (o.arithmetic == "interval") {
+    throw InputError(
+        "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
+        "of float, double, long-double, exact");
+  }
+  if (in_space) return SolveIn3D(o, ReadProblem(o.file).problem);
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
   }
-  const bool fast = o.method == "fast";
   if (fast && o.arithmetic == "exact") {
     throw InputError("--method fast: expected --arithmetic float, double or long-double");
   }
-  const ProblemFile file = any_kind || fast ? ReadPlanarProblem(o.file) : ReadHandledProblem(o.file, o.method);
+  const ProblemFile file = ReadPlanarProblem(o.file);
   const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
   ExactProblem rounded;
   const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
@@ -276,12 +371,7 @@ int Solve(const SolveOptions& o) {
   if (!solved.residual.is_null()) result["residual"] = solved.residual;
   result["assumptions"] = FailedAssumptions(file.problem);
   result["statistics"] = solved.statistics;
-  if (o.json) {
-    std::cout << JsonText(result) << "\n";
-  } else {
-    PrintForPeople(result);
-  }
-  return ExitOf(outcome);
+  return Show(result, o.json, outcome);
 }
 
 // Refuses what the specification names and this build does not have.
@@ -299,26 +389,34 @@ void AddSolve(CLI::App& program, Action& action) {
   verb.add_option("--method", o->method,
                   "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
                   "Lemke's method, "
-                  "lexicographic; fast: cells guessed and verified, complete driving behind it (inexact "
+                  "lexicographic; fast: cells guessed and verified, in space Newton's method, complete driving "
+                  "behind it (inexact "
                   "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
       ->capture_default_str()
       ->check([](const std::string& text) {
         return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
       });
-  CLI::Option* arithmetic = verb.add_option("--arithmetic", o->arithmetic,
-                                            "float, double, long-double or exact (rational); the default of "
-                                            "method fast is double");
-  arithmetic->capture_default_str()->check([](const std::string& text) {
-    return OnlyBuilt(text, {"float", "double", "long-double", "exact"}, "arithmetic");
-  });
+  verb.add_option(
+          "--arithmetic", o->arithmetic,
+          "float, double, long-double, exact (rational; the default), interval (the published algorithm in "
+          "space only, and its default); the default of method fast is double")
+      ->check([](const std::string& text) {
+        return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
+      });
   AddPolicyOption(verb, o->policy, Grid::kRefused);
+  verb.add_option(
+          "--law", o->law,
+          "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
+          "free; exact. coulomb: friction opposite to the acceleration; exact arithmetic gives a proved "
+          "bound on the angle. Inexact arithmetics solve coulomb, which implies baraff")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"baraff", "coulomb"}));
+  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
+      ->capture_default_str();
   AddLimits(verb, o->limits);
   AddTolerances(verb, o->tolerances);
   verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, arithmetic, &action] {
-    if (o->method == "fast" && arithmetic->count() == 0) o->arithmetic = "double";
-    action = [o] { return Solve(*o); };
-  });
+  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
 }
 
 }  // namespace stiction

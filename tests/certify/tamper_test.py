@@ -42,10 +42,16 @@ OUTSIDE = problem(["1"], [["1", "-1"], ["-1", "1"]], ["-1", "0"])
 # b is not in the range of A, and (H) holds.
 INSIDE = problem(["1/2", None], [["1", "-1", "0"], ["-1", "1", "0"], ["0", "0", "0"]], ["1", "1", "3"])
 
+SPACE = {"format": "stiction-problem", "version": 1, "name": "tampered", "dimension": 3,
+         "contacts": [{"kind": "static", "mu": "1/2"}, {"kind": "frictionless"}],
+         "A": [["3", "1", "0", "1"], ["1", "2", "0", "0"], ["0", "0", "1", "0"], ["1", "0", "0", "2"]],
+         "b": ["-2", "3", "1", "-1"]}
+
 # claim that is made, what is asked for, problem
 CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symmetric", SINGULAR),
           ("not-symmetric", "symmetric", ASYMMETRIC), ("psd", "psd", SINGULAR), ("not-psd", "psd", INDEFINITE),
           ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
+          ("solution-exists", "solution-exists", SPACE), ("coulomb-solution", "coulomb-solution", SPACE),
           ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE)]
 
 
@@ -97,6 +103,25 @@ def solves(contacts, A, b, f, a):
     return True
 
 
+def solves_in_space(contacts, A, b, f, a, bound):
+    """(21), (22); or with a bound Coulomb's law up to it."""
+    if a != [dot(row, f) + x for row, x in zip(A, b, strict=True)]:
+        return False
+    row = 0
+    for contact in contacts:
+        if min(f[row], a[row]) != 0:
+            return False
+        if contact["kind"] == "static":
+            fF, aF = f[row + 1:row + 3], a[row + 1:row + 3]
+            cap = (Fraction(contact["mu"]) * f[row])**2
+            gap, power = cap - dot(fF, fF), dot(fF, aF)
+            strict = bound is not None and power**2 >= bound**2 * cap * dot(aF, aF)
+            if gap < 0 or power > 0 or not (strict if bound is not None else gap == 0 or not any(aF)):
+                return False
+        row += 3 if contact["kind"] == "static" else 1
+    return bound is None or 0 < bound <= 1
+
+
 def in_cones(contacts, x, dual):
     """Planar: abs(xF) <= mu xN, or xN >= mu abs(xF) for the dual cones."""
     row = 0
@@ -145,6 +170,9 @@ def is_true(altered, original):
     if claim == "cycle":
         return part_of(altered, original)
     A, b = rows(altered["problem"]["A"]), numbers(altered["problem"]["b"])
+    if altered["problem"]["dimension"] == 3 and claim in ("solution-exists", "coulomb-solution"):
+        bound = Fraction(witness["bound"]) if claim == "coulomb-solution" else None
+        return solves_in_space(altered["problem"]["contacts"], A, b, numbers(witness["f"]), numbers(witness["a"]), bound)
     if claim == "solution-exists":
         return solves(altered["problem"]["contacts"], A, b, numbers(witness["f"]), numbers(witness["a"]))
     if claim == "symmetric":

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm in space over every arithmetic that it has there: floating point and intervals.
+//
+// Intervals   every sign that a step depends on is proved, or the run ends `undecided`. So `solved`, `ray` and
+//             `singular` are statements about the algorithm in exact arithmetic. An endless run cannot be
+//             proved: forces are irrational, and a state that stands again as far as rounding shows ends
+//             `undecided`.
+// Suspicions  what floating point does not solve is run again over long double, with finer tolerances and
+// states
+//             compared after finer rounding. `cycle` remains a suspicion.
+
+#ifndef STICTION_CERTIFY_PUBLISHED_SPACE_H_
+#define STICTION_CERTIFY_PUBLISHED_SPACE_H_
+
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "solver/published_space.h"
+
+namespace stiction {
+
+struct RoundedSpaceRun {
+  PublishedSpaceVerdict verdict;
+  std::vector<double> f, a;  // by row, in the problem's own axes, where the run ended; a = A f + b anew
+  double residual = 0;       // WeakResidual of f, a
+};
+
+struct Enclosure {
+  double low = 0, high = 0;
+};
+
+struct IntervalSpaceRun {
+  PublishedSpaceVerdict verdict;
+  std::vector<Enclosure> f, a;
+};
+
+// All require PublishedHandlesInSpace(problem), PublishedReadsInSpace(options.policy).
+
+// Each number of the problem rounded to the nearest double, and then to Scalar: float, double or long double.
+template <class Scalar>
+RoundedSpaceRun RunRoundedInSpace(const ExactProblem& problem, const PublishedOptions& options);
+
+// Over long double with the problem rounded to Scalar: loop_grain 1e-12, tolerances at least as fine as 1e-14.
+template <class Scalar>
+RoundedSpaceRun RunSuspicionInSpace(const ExactProblem& problem, const PublishedOptions& options);
+
+// Double ends around the problem's numbers. Of the tolerances loop_grain alone is read.
+IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_PUBLISHED_SPACE_H_

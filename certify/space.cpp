@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/space.h"
+
+#include <cmath>
+
+#include "certify/verify_solution.h"
+#include "solver/complete_space.ipp"
+#include "solver/coulomb.h"
+#include "solver/elimination.ipp"
+
+namespace stiction {
+
+template class SpatialDriving<Rational>;
+
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits) {
+  CompleteOptions options;
+  options.limits = limits;
+  SpatialDriving<Rational> driving(options);
+  SpaceRun run;
+  run.verdict = driving.Run(problem, polygons);
+  run.f = driving.f();
+  run.a = driving.a();
+  if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
+  run.word = driving.word();
+  return run;
+}
+
+// ---- Words as linear equations ---------------------------------------------------------------
+
+namespace {
+
+struct ModeSystem {
+  std::vector<ExactVector> columns;  // force per unit of an unknown
+  std::vector<ExactVector> rows;     // accelerations along these vanish
+  ExactVector guess;                 // of the unknowns
+};
+
+ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
+                      const ExactVector& guess) {
+  ModeSystem system;
+  std::vector<Rational> unknowns;
+  int row = 0;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const Contact<Rational>& contact = problem.contacts[i];
+    const auto unit = [&](int k) {
+      ExactVector v = ExactVector::Zero(problem.rows());
+      v[row + k] = 1;
+      return v;
+    };
+    const int held = modes[i].law == Law::kBreak ? 0 : modes[i].law == Law::kInside ? 3 : 1;
+    for (int k = 0; k < held; ++k) {
+      system.rows.push_back(unit(k));
+      system.columns.push_back(unit(k));
+      unknowns.push_back(guess[row + k]);
+    }
+    if (held == 1 && contact.HasFrictionRows()) {
+      const bool slips = modes[i].law == Law::kCorner;
+      const Planar<Rational>& direction = slips ? modes[i].direction : contact.slip;
+      const Rational factor = slips ? contact.mu : Rational(-contact.mu);
+      for (int k = 0; k < 2; ++k) system.columns.back()[row + 1 + k] = factor * direction[k];
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  system.guess = ExactVector(static_cast<int>(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j) system.guess[static_cast<int>(j)] = unknowns[j];
+  return system;
+}
+
+// x with M x = right; unknowns without a pivot stay as they are. False if the equations contradict each other.
+bool SolveWith(const ExactMatrix& M, ExactVector right, ExactVector& x) {
+  const int size = static_cast<int>(M.rows());
+  ExactVector guess = x;
+  Elimination<Rational> elimination;
+  elimination.Assign(M);
+  elimination.Run(size, size, size);
+  for (int i = 0; i < elimination.rank(); ++i) guess[elimination.pivot_column(i)] = 0;
+  ExactMatrix augmented(size, size + 1);
+  augmented << M, right - M * guess;
+  elimination.Assign(augmented);
+  elimination.Run(size, size, size + 1);
+  if (!elimination.IsConsistent(size)) return false;
+  elimination.BackSubstitute(size);
+  for (int i = 0; i < elimination.rank(); ++i) {
+    const int column = elimination.pivot_column(i);
+    x[column] = elimination.Solution(column);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
+                                      const ExactVector& guess) {
+  ModeSystem system = MakeSystem(problem, modes, guess);
+  const int size = static_cast<int>(system.columns.size());
+  ExactMatrix M(size, size);
+  ExactVector right(size);
+  for (int j = 0; j < size; ++j) {
+    const ExactVector image = Accelerations(problem, system.columns[j]) - problem.b;
+    for (int i = 0; i < size; ++i) M(i, j) = system.rows[i].dot(image);
+    right[j] = -system.rows[j].dot(problem.b);
+  }
+  if (!SolveWith(M, right, system.guess)) return std::nullopt;
+  ExactVector f = ExactVector::Zero(problem.rows());
+  for (int j = 0; j < size; ++j) f += system.guess[j] * system.columns[j];
+  return f;
+}
+
+// ---- Directions ------------------------------------------------------------------------------
+
+namespace {
+
+// A point of the circle near x / abs(x), from the tangent of half its angle with `bits` binary places.
+Planar<Rational> NearDirection(const Planar<Rational>& x, int bits) {
+  const double length = std::hypot(ToDouble(x[0]), ToDouble(x[1]));
+  const double c = ToDouble(x[0]) / length, s = ToDouble(x[1]) / length;
+  if (!(length > 0) || !std::isfinite(c) || !std::isfinite(s)) return {Rational(1), Rational(0)};
+  const double sign = c < 0 ? -1 : 1;
+  const double t = std::nearbyint(std::ldexp(sign * s / (1 + sign * c), bits));
+  Planar<Rational> point = OnCircle(Rational(Rational(t) / Rational(std::ldexp(1.0, bits))));
+  if (c < 0) point = {Rational(-point[0]), Rational(-point[1])};
+  return point;
+}
+
+// A point of the circle strictly between two corners, near x / abs(x), of few digits. Requires that x is
+// strictly between them too.
+Planar<Rational> DirectionBetween(const Planar<Rational>& from, const Planar<Rational>& to,
+                                  const Planar<Rational>& x) {
+  for (int bits = 2; bits < 50; bits += 2) {
+    const Planar<Rational> u = NearDirection(x, bits);
+    if (Cross(from, u) > 0 && Cross(u, to) > 0) return u;
+  }
+  return from;
+}
+
+RationalPolygons MakePolygons(const ExactProblem& problem, int sides) {
+  return RationalPolygons(problem.contacts.size(), FrictionPolygon<Rational>(sides));
+}
+
+Planar<Rational> TangentialOf(const ExactVector& values, int row) { return {values[row + 1], values[row + 2]}; }
+
+void Add(CompleteStatistics& sum, const CompleteStatistics& part) {
+  sum.pieces += part.pieces;
+  sum.folds += part.folds;
+  sum.descents += part.descents;
+  sum.ties += part.ties;
+  sum.stages += part.stages;
+}
+
+// The modes of a word on polygons; contacts on an edge slip along a point of the circle between its corners.
+std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const RationalPolygons& polygons,
+                               const SpaceRun& run) {
+  std::vector<SpaceMode> modes;
+  int row = 0;
+  for (std::size_t i = 0; i < run.word.size(); ++i) {
+    const SpaceCell& cell = run.word[i];
+    SpaceMode mode = {cell.law, {Rational(0), Rational(0)}};
+    if (cell.law == Law::kCorner) mode.direction = polygons[i].corner(cell.side);
+    if (cell.law == Law::kEdge) {
+      mode.law = Law::kCorner;
+      const Planar<Rational>&from = polygons[i].corner(cell.side), &to = polygons[i].corner(cell.side + 1);
+      const Planar<Rational> force = TangentialOf(run.f, row);
+      mode.direction = Cross(from, force) <= 0 ? from
+                       : Cross(force, to) <= 0 ? to
+                                               : DirectionBetween(from, to, force);
+    }
+    modes.push_back(mode);
+    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
+  }
+  return modes;
+}
+
+// What a point of Newton's method says that every contact does.
+std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector& f, const ExactVector& a) {
+  std::vector<SpaceMode> modes;
+  Rational max_A = 0;
+  for (int i = 0; i < problem.rows(); ++i) max_A = std::max<Rational>(max_A, problem.A(i, i));
+  const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
+  int row = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    SpaceMode mode = {Law::kFree, {Rational(0), Rational(0)}};
+    if (contact.kind == ContactKind::kBilateral) {
+      mode.law = Law::kHold;
+    } else if (f[row] <= r * a[row]) {
+      mode.law = Law::kBreak;
+    } else if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
+      const Planar<Rational> friction = TangentialOf(f, row), slip = TangentialOf(a, row);
+      const Planar<Rational> target = {Rational(friction[0] - r * slip[0]),
+                                       Rational(friction[1] - r * slip[1])};
+      const Rational limit = contact.mu * f[row];
+      mode.law = Dot(target, target) <= limit * limit ? Law::kInside : Law::kCorner;
+      mode.direction = NearDirection(target, 45);
+    }
+    modes.push_back(mode);
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return modes;
+}
+
+ContactProblem<double> InDoubles(const ExactProblem& problem) {
+  ContactProblem<double> rounded;
+  rounded.dimension = problem.dimension;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    rounded.contacts.push_back(
+        {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
+  }
+  rounded.A = problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  rounded.b = problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  return rounded;
+}
+
+// The word of Newton's method from f, solved exactly.
+std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
+                                          const ExactVector& f) {
+  CoulombOptions options;
+  options.sides = 0;  // from f only
+  CoulombSolver<double> solver(options);
+  const ContactProblem<double>::Vector start = f.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  if (!start.allFinite() || !rounded.A.allFinite() || !rounded.b.allFinite()) return std::nullopt;
+  if (solver.Run(rounded, &start).outcome != Outcome::kSolved) return std::nullopt;
+  const auto exact = [](double x) { return Rational(x); };
+  const ExactVector near = solver.f().unaryExpr(exact);
+  return SolveModes(problem, ModesNear(problem, near, solver.a().unaryExpr(exact)), near);
+}
+
+// Adds corners; false if there was none to add.
+bool RefineTowards(const std::vector<SpaceMode>& modes, RationalPolygons& polygons) {
+  bool added = false;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (modes[i].law == Law::kCorner) added = polygons[i].Insert(modes[i].direction) || added;
+  }
+  return added;
+}
+
+// Corners opposite to the accelerations of slipping contacts, with `bits` binary places.
+bool RefineAgainst(const ExactProblem& problem, const SpaceRun& run, int bits, RationalPolygons& polygons) {
+  bool added = false;
+  int row = 0;
+  for (std::size_t i = 0; i < run.word.size(); ++i) {
+    const bool slips = run.word[i].law == Law::kCorner || run.word[i].law == Law::kEdge;
+    if (slips) {
+      const Planar<Rational> a = TangentialOf(run.a, row);
+      added = polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
+    }
+    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
+  }
+  return added;
+}
+
+void Accept(const ExactProblem& problem, const ExactVector& f, SpaceSolution& solution) {
+  solution.outcome = Outcome::kSolved;
+  solution.reason = {};
+  solution.f = f;
+  solution.a = Accelerations(problem, f);
+}
+
+// One step toward (21), (22): whether it is the last.
+bool TryWeak(const ExactProblem& problem, const SpaceRun& run, RationalPolygons& polygons,
+             SpaceSolution& solution) {
+  if (!FindWeakViolation(problem, run.f)) {
+    Accept(problem, run.f, solution);
+    return true;
+  }
+  const std::vector<SpaceMode> modes = ModesOf(problem, polygons, run);
+  const auto f = SolveModes(problem, modes, run.f);
+  if (f && !FindWeakViolation(problem, *f)) {
+    Accept(problem, *f, solution);
+    return true;
+  }
+  solution.reason = "an edge of a polygon could not be replaced by a point of the circle";
+  return !RefineTowards(modes, polygons);
+}
+
+// The same toward Coulomb's law.
+bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, const SpaceRun& run,
+                RationalPolygons& polygons, SpaceSolution& solution) {
+  static const Rational kEnough = 1 - Rational(1, 1 << 20);
+  const auto consider = [&](const ExactVector& f) {
+    const auto bound = CoulombBound(problem, f);
+    if (!bound || (solution.outcome == Outcome::kSolved && *bound <= solution.bound)) return;
+    Accept(problem, f, solution);
+    solution.bound = *bound;
+  };
+  consider(run.f);
+  if (const auto f = NewtonSolution(problem, rounded, run.f)) consider(*f);
+  return solution.bound >= kEnough || !RefineAgainst(problem, run, 4 + 2 * solution.refinements, polygons);
+}
+
+}  // namespace
+
+SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options) {
+  RationalPolygons polygons = MakePolygons(problem, options.sides);
+  const bool coulomb = options.law == FrictionLaw::kCoulomb;
+  const ContactProblem<double> rounded = coulomb ? InDoubles(problem) : ContactProblem<double>();
+  SpaceSolution solution;
+  for (;; ++solution.refinements) {
+    SpaceRun run = RunSpace(problem, polygons, options.limits);
+    Add(solution.statistics, run.verdict.statistics);
+    if (run.verdict.outcome != Outcome::kSolved) {
+      if (solution.outcome == Outcome::kSolved) break;  // a bound that was not improved
+      solution.outcome = run.verdict.outcome;
+      solution.reason = run.verdict.reason;
+      solution.ray = std::move(run.ray);
+      solution.word = std::move(run.word);
+      break;
+    }
+    solution.word = run.word;
+    const bool last = coulomb ? TryCoulomb(problem, rounded, run, polygons, solution)
+                              : TryWeak(problem, run, polygons, solution);
+    if (last || solution.refinements == options.refinements) break;
+  }
+  return solution;
+}
+
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f) {
+  constexpr int kPlaces = 200;
+  if (FindCoulombViolation(problem, f, 0)) return std::nullopt;
+  const ExactVector a = Accelerations(problem, f);
+  Rational least = 1;  // of the squared cosines
+  int row = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    if (contact.kind == ContactKind::kStatic) {
+      const Rational power = Dot(TangentialOf(f, row), TangentialOf(a, row)), limit = contact.mu * f[row];
+      const Rational full = limit * limit * Dot(TangentialOf(a, row), TangentialOf(a, row));
+      if (full != 0) least = std::min<Rational>(least, power * power / full);
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  if (least == 1) return Rational(1);
+  mpz_class root = (least.get_num() << (2 * kPlaces)) / least.get_den();
+  root = sqrt(root);
+  mpz_class gap = (mpz_class(1) << kPlaces) - root;  // 1 - c, in units of 2^-200
+  const int spare = static_cast<int>(mpz_sizeinbase(gap.get_mpz_t(), 2)) - 8;
+  if (spare > 0) gap = ((gap >> spare) + 1) << spare;
+  Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
+  bound.canonicalize();
+  return bound < 0 ? Rational(0) : bound;
+}
+
+}  // namespace stiction

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/verbs/solve_space.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "certify/certificate.h"
+#include "certify/space.h"
+#include "corpus/input_error.h"
+#include "solver/coulomb.h"
+
+namespace stiction {
+namespace {
+
+template <class S>
+Json CountersToJson(const S& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+Json Beginning(const SolveSpaceOptions& o, Outcome outcome, std::string_view reason) {
+  Json json = {{"outcome", Name(outcome)}};
+  if (!reason.empty()) json["reason"] = reason;
+  json["method"] = o.method;
+  json["arithmetic"] = o.arithmetic;
+  json["law"] = o.law;
+  return json;
+}
+
+SolvedInSpace SolveExactly(const ExactProblem& problem, const SolveSpaceOptions& o) {
+  SpaceOptions options;
+  options.law = o.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
+  options.sides = o.sides;
+  options.limits = o.limits;
+  const SpaceSolution solution = SolveInSpace(problem, options);
+  const bool solved = solution.outcome == Outcome::kSolved;
+  Json json = Beginning(o, solution.outcome, solution.reason);
+  json["word"] = Name(solution.word);
+  if (solved) {
+    json["f"] = VectorToJson(solution.f);
+    json["a"] = VectorToJson(solution.a);
+    if (options.law == FrictionLaw::kCoulomb) json["bound"] = ToString(solution.bound);
+  }
+  if (solution.ray.size() > 0) json["ray"] = VectorToJson(solution.ray);
+  json["statistics"] = CountersToJson(solution.statistics);
+  json["statistics"]["refinements"] = solution.refinements;
+  return {solution.outcome, json};
+}
+
+template <class Scalar>
+ContactProblem<Scalar> Rounded(const ExactProblem& problem) {
+  const auto round = [](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); };
+  ContactProblem<Scalar> result;
+  result.dimension = problem.dimension;
+  for (const Contact<Rational>& contact : problem.contacts)
+    result.contacts.push_back(
+        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
+  result.A = problem.A.unaryExpr(round);
+  result.b = problem.b.unaryExpr(round);
+  return result;
+}
+
+template <class Vector>
+Json NumbersToJson(const Vector& values) {
+  Json json = Json::array();
+  for (const auto& value : values) {
+    const double number = static_cast<double>(value);
+    json.push_back(std::isfinite(number) ? Json(number) : Json(fmt::format("{}", number)));
+  }
+  return json;
+}
+
+// Coulomb's law, which implies the conditions (21), (22).
+template <class Scalar>
+SolvedInSpace SolveRounded(const ExactProblem& problem, const SolveSpaceOptions& o) {
+  CoulombOptions options;
+  options.tolerances = o.tolerances;
+  options.limits = o.limits;
+  options.sides = o.sides;
+  options.start = o.method == "fast" ? CoulombStart::kSweeps : CoulombStart::kComplete;
+  if constexpr (sizeof(Scalar) < sizeof(double)) options.residual = 1e-4;
+  CoulombSolver<Scalar> solver(options);
+  const CoulombVerdict verdict = solver.Run(Rounded<Scalar>(problem));
+  Json json = Beginning(o, verdict.outcome, verdict.reason);
+  json["f"] = NumbersToJson(solver.f());
+  json["a"] = NumbersToJson(solver.a());
+  json["residual"] = NumbersToJson(std::vector<double>{verdict.residual})[0];
+  json["statistics"] = CountersToJson(verdict.statistics);
+  return {verdict.outcome, json};
+}
+
+}  // namespace
+
+SolvedInSpace SolveSpace(const ExactProblem& problem, const SolveSpaceOptions& o) {
+  if (o.method != "complete" && o.method != "fast") {
+    throw InputError(
+        o.file, "dimension", "3",
+        fmt::format("2: method {} is not built for space yet; baraff, complete and fast are", o.method));
+  }
+  if (o.sides < 4 || o.sides % 4 != 0)
+    throw InputError(fmt::format("--sides {}: expected a multiple of 4, at least 4", o.sides));
+  if (o.method == "fast" && o.arithmetic == "exact")
+    throw InputError("--method fast: in space expected --arithmetic float, double or long-double");
+  if (o.arithmetic == "float") return SolveRounded<float>(problem, o);
+  if (o.arithmetic == "double") return SolveRounded<double>(problem, o);
+  if (o.arithmetic == "long-double") return SolveRounded<long double>(problem, o);
+  return SolveExactly(problem, o);
+}
+
+}  // namespace stiction

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coulomb's law in space, with the round cone: friction of a slipping contact is opposite to its acceleration.
+//
+// Newton's method on the map of Alart and Curnier (cited from memory), per static contact with r > 0:
+//
+//   sN = fN - r aN,  sF = fF - r aF,   fN - max(0, sN)  and  fF - P(sF),  P: nearest point of mu max(0, sN)
+//   disc
+//
+// whose zeros are the solutions. It is piecewise smooth; Newton's method with a line search converges near a
+// solution, quadratically. Where its step and a damped one fail, sweeps of projected Gauss-Seidel steps stand
+// in. Starts, in this order: a few sweeps of projected Gauss-Seidel steps (contact by contact a projected step
+// of the map of residual.h), where asked for; then the solutions of complete driving on polygons of more and
+// more sides, which exist wherever A is semidefinite and b in range(A).
+//
+// Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
+// CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
+// Singular A: Newton's matrix uses A + d max A_ii, d tiny; the map does not, so its zeros are unchanged.
+// Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
+// Cost    O(rows^3) per Newton step, O(rows^2) per sweep.
+
+#ifndef STICTION_SOLVER_COULOMB_H_
+#define STICTION_SOLVER_COULOMB_H_
+
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "solver/complete_space.h"
+
+namespace stiction {
+
+enum class CoulombStart : std::uint8_t {
+  kSweeps,    // quick: Gauss-Seidel, then Newton; complete driving behind it
+  kComplete,  // complete driving at once
+};
+
+struct CoulombOptions {
+  Tolerances tolerances;  // of complete driving
+  Limits limits;
+  double residual = 1e-8;  // relative; see CoulombResidual
+  CoulombStart start = CoulombStart::kSweeps;
+  int sides = 8;  // of the first polygon; 2, 4 and 8 times as many follow; 0: none
+  int sweeps = 20;
+  int newton_steps = 60;  // per start
+
+  bool operator==(const CoulombOptions&) const = default;
+};
+
+struct CoulombStatistics {
+  std::int64_t sweeps = 0;
+  std::int64_t newton_steps = 0;
+  std::int64_t starts = 0;
+  std::int64_t polygons = 0;
+  std::int64_t pieces = 0;
+
+  bool operator==(const CoulombStatistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, CoulombStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("sweeps", "Gauss-Seidel sweeps", s.sweeps);
+  visit("newton_steps", "steps of Newton's method", s.newton_steps);
+  visit("starts", "points from which it started", s.starts);
+  visit("polygons", "runs of complete driving", s.polygons);
+  visit("pieces", "linear pieces of their paths", s.pieces);
+}
+
+struct CoulombVerdict {
+  Outcome outcome = Outcome::kUndecided;  // solved, undecided
+  std::string_view reason;
+  double residual = 0;  // of the best point found
+  CoulombStatistics statistics;
+};
+
+// Reusable. Memory is kept between runs.
+template <class Scalar>
+class CoulombSolver {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+
+  explicit CoulombSolver(const CoulombOptions& options = {}) : options_(options) {}
+
+  CoulombOptions& options() { return options_; }
+
+  // With `start` (rows x 1, N), Newton's method begins there instead.
+  CoulombVerdict Run(const Problem& problem, const Vector* start = nullptr);
+
+  // The best point found.
+  const Vector& f() const { return best_f_; }
+  const Vector& a() const { return best_a_; }
+
+ private:
+  using Matrix = typename Problem::Matrix;
+  using Triple = std::array<Scalar, 3>;
+
+  void Start(const Problem& problem);
+  bool Reached() const;
+  void FromPolygon(int sides);
+  void Sweep(int count);
+  void Newton();
+  bool LineSearch(const Vector& step);
+  Vector DampedStep(const Matrix& J, const Vector& map) const;
+  Scalar Note();
+  Vector Map(const Vector& f, const Vector& a) const;
+  Matrix Slope() const;
+  void SlopeOfContact(int i, Matrix& J) const;
+
+  CoulombOptions options_;
+  SpatialDriving<Scalar> driving_;
+  const Problem* problem_ = nullptr;
+  std::vector<int> first_row_;
+  std::vector<Scalar> r_;  // by contact
+  Matrix regular_;         // A + d max A_ii
+  Vector f_, a_;
+  Vector best_f_, best_a_;
+  Scalar best_ = Scalar(0);
+  CoulombStatistics statistics_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_COULOMB_H_

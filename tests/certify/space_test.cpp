@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solutions in space: certificates of (21), (22) and of Coulomb's law up to a bound.
+
+#include "certify/space.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/certificate.h"
+#include "certify/existence.h"
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+ExactProblem OneContact(Rational mu, std::vector<Rational> b) {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, mu, {}}};
+  problem.A = Matrix({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  problem.b = Vector(b);
+  return problem;
+}
+
+ExactProblem RandomInSpace(int n, int index) {
+  static const std::vector<Rational> palette = {Rational(1, 5), Rational(1, 2), 1, 2, 5};
+  Choices choices(index);
+  ExactProblem problem;
+  problem.dimension = 3;
+  for (int i = 0; i < n; ++i)
+    problem.contacts.push_back({ContactKind::kStatic, palette[choices.Integer(0, 4)], {}});
+  const bool definite = index % 2 == 0;
+  const int columns = definite ? 3 * n : 1 + index % 6;
+  ExactMatrix J(3 * n, columns);
+  for (Rational& x : J.reshaped()) x = choices.Integer(-5, 5);
+  problem.A = J * J.transpose();
+  ExactVector y(columns);
+  for (Rational& x : y) x = choices.Integer(-5, 5);
+  problem.b = J * y;
+  if (definite) {
+    for (int i = 0; i < 3 * n; ++i) problem.A(i, i) += 1;
+  }
+  return problem;
+}
+
+TEST_CASE("verify in space: (21), (22) leave the direction of slip free, Coulomb does not") {
+  const ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
+  const auto weak = [&](std::vector<Rational> f) { return FindWeakViolation(problem, Vector(f)).value_or(""); };
+  const auto coulomb = [&](std::vector<Rational> f, Rational c) {
+    return FindCoulombViolation(problem, Vector(f), c).value_or("");
+  };
+  const std::vector<Rational> exact = {1, Rational(-3, 10), Rational(-4, 10)}, turned = {1, Rational(-1, 2), 0};
+  CHECK(weak(exact) == "");
+  CHECK(coulomb(exact, 1) == "");
+  CHECK(weak(turned) == "");
+  CHECK(coulomb(turned, 1).find("(fF.aF)^2 >= c^2 mu^2 fN^2 aF.aF") != std::string::npos);
+  // aF = (5/2, 4): the cosine is 5 / sqrt(89) = 0.529999...
+  CHECK(coulomb(turned, Rational(529, 1000)) == "");
+  CHECK(coulomb(turned, Rational(531, 1000)) != "");
+  CHECK(weak({1, Rational(-1, 4), 0}).find("aF = 0 or abs(fF) = mu fN") != std::string::npos);
+  CHECK(weak({1, Rational(1, 2), 0}).find("fF.aF <= 0") != std::string::npos);
+  CHECK(weak({1, -1, 0}).find("fF.fF <= mu^2 fN^2") != std::string::npos);
+  CHECK(coulomb({1, -1, 0}, Rational(1, 2)).find("fF.fF <= mu^2 fN^2") != std::string::npos);
+  CHECK(weak({2, 0, 0}).find("fN aN = 0") != std::string::npos);
+  CHECK(weak({0, 0, 0}).find("aN >= 0") != std::string::npos);
+  CHECK(weak({-1, 0, 0}).find("fN >= 0") != std::string::npos);
+}
+
+TEST_CASE("verify in space: bilateral and sliding contacts") {
+  ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
+  problem.contacts[0].kind = ContactKind::kSliding;
+  problem.contacts[0].slip = {Rational(3, 5), Rational(4, 5)};
+  CHECK(!FindWeakViolation(problem, Vector({1, Rational(-3, 10), Rational(-2, 5)})));
+  CHECK(FindWeakViolation(problem, Vector({1, Rational(3, 10), Rational(2, 5)})));
+  ExactProblem held;
+  held.dimension = 3;
+  held.contacts = {{ContactKind::kBilateral, 0, {}}};
+  held.A = Matrix({{1}});
+  held.b = Vector({1});
+  CHECK(!FindWeakViolation(held, Vector({-1})));
+  CHECK(FindWeakViolation(held, Vector({0})));
+}
+
+TEST_CASE("coulomb bound: rounded down, to eight digits of its distance from one") {
+  const ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
+  CHECK(CoulombBound(problem, Vector({1, Rational(-3, 10), Rational(-2, 5)})) == Rational(1));
+  const auto bound = CoulombBound(problem, Vector({1, Rational(-1, 2), 0}));
+  REQUIRE(bound);
+  CHECK(*bound * *bound * 89 <= 25);  // cosine 5 / sqrt(89)
+  CHECK((*bound + Rational(1, 128)) * (*bound + Rational(1, 128)) * 89 > 25);
+  CHECK(!CoulombBound(problem, Vector({0, 0, 0})));
+}
+
+TEST_CASE("space: every problem in range is certified, under either law") {
+  int refined = 0, edges = 0;
+  for (int index = 0; index < 150; ++index) {
+    CAPTURE(index);
+    const ExactProblem problem = RandomInSpace(1 + index % 3, index);
+    SpaceOptions options;
+    const SpaceSolution weak = SolveInSpace(problem, options);
+    REQUIRE(weak.outcome == Outcome::kSolved);
+    CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
+    CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
+    refined += weak.refinements > 0;
+    for (const SpaceCell& cell : weak.word) edges += cell.law == Law::kEdge;
+    options.law = FrictionLaw::kCoulomb;
+    const SpaceSolution strict = SolveInSpace(problem, options);
+    REQUIRE(strict.outcome == Outcome::kSolved);
+    CHECK(FindCoulombViolation(problem, strict.f, strict.bound).value_or("") == "");
+    CHECK(strict.bound >= 1 - Rational(1, 1 << 20));
+    const CheckReport report = CheckCertificate(CoulombCertificate(problem, strict.f, strict.bound), "here");
+    CHECK(report.reason == "");
+    CHECK(report.facts["bound"] == ToString(strict.bound));
+  }
+  CHECK(edges > 20);
+  CHECK(refined < 20);
+}
+
+TEST_CASE("space: the polygon alone proves its inner radius") {
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    const ExactProblem problem = RandomInSpace(1 + index % 2, 1000 + index);
+    for (const int sides : {4, 8, 16}) {
+      const FrictionPolygon<Rational> polygon(sides);
+      const SpaceRun run = RunSpace(problem, RationalPolygons(problem.contacts.size(), polygon), Limits{});
+      REQUIRE(run.verdict.outcome == Outcome::kSolved);
+      const auto bound = CoulombBound(problem, run.f);
+      REQUIRE(bound);
+      // Rounded down by at most 1/128 of the distance from one.
+      const Rational least = (1 + *bound * 127) / 128 + Rational(1, 64);
+      CHECK(least * least >= polygon.InnerRadiusSquared());
+    }
+  }
+}
+
+TEST_CASE("space: modes are linear equations, free unknowns as guessed") {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(2, {ContactKind::kStatic, 1, {}});
+  problem.A = ExactMatrix::Zero(6, 6);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) problem.A(i, j) = i % 3 == j % 3 ? 1 : 0;
+  }
+  problem.b = Vector({-2, 0, 0, -2, 0, 0});
+  const SpaceMode stick = {Law::kInside, {0, 0}};
+  const auto f = SolveModes(problem, {stick, stick}, Vector({1, 0, 0, Rational(1, 3), 0, 0}));
+  REQUIRE(f);
+  CHECK(*f == Vector({Rational(5, 3), 0, 0, Rational(1, 3), 0, 0}));
+  problem.b[3] = -3;  // the same contact cannot have two accelerations
+  CHECK(!SolveModes(problem, {stick, stick}, Vector({1, 0, 0, 1, 0, 0})));
+}
+
+TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
+  ExactProblem wedge = OneContact(1, {-1, 0, 0});
+  wedge.A = Matrix({{1, -1, 0}, {-1, 1, 0}, {0, 0, 1}});
+  const SpaceSolution stuck = SolveInSpace(wedge, {});
+  CHECK(stuck.outcome == Outcome::kRay);
+  CHECK(stuck.ray.size() == 3);
+  CHECK(DecideExistence(wedge, {}).certificate.is_null());
+  wedge.contacts[0].mu = Rational(1, 2);
+  const SpaceSolution solved = SolveInSpace(wedge, {});
+  REQUIRE(solved.outcome == Outcome::kSolved);
+  CHECK(solved.f == Vector({2, 1, 0}));
+  CHECK(!DecideExistence(wedge, {}).certificate.is_null());
+}
+
+TEST_CASE("space: altered certificates are rejected") {
+  SpaceOptions options;
+  options.law = FrictionLaw::kCoulomb;
+  ExactProblem problem;
+  SpaceSolution solution;
+  for (int index = 0; solution.bound == 0 || solution.bound == 1; index += 2) {  // the first that slips
+    problem = RandomInSpace(2, index);
+    solution = SolveInSpace(problem, options);
+  }
+  const Json good = CoulombCertificate(problem, solution.f, solution.bound);
+  REQUIRE(CheckCertificate(good, "here").accepted);
+  const auto rejects = [&good](auto alter) {
+    Json bad = good;
+    alter(bad);
+    return !CheckCertificate(bad, "here").accepted;
+  };
+  for (const char* bound : {"0", "-1/2", "2", "1"}) {
+    CAPTURE(bound);
+    CHECK(rejects([&](Json& c) { c["witness"]["bound"] = bound; }));
+  }
+  CHECK(rejects([](Json& c) { c["witness"].erase("bound"); }));
+  CHECK(rejects([](Json& c) { c["claim"] = "solution-exists"; }));
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(rejects([&](Json& c) { c["witness"]["a"][i] = "17"; }));
+    CHECK(rejects([&](Json& c) { c["witness"]["f"][i] = "17"; }));
+    CHECK(rejects([&](Json& c) { c["problem"]["b"][i] = "17/3"; }));
+  }
+}
+
+}  // namespace
+}  // namespace stiction

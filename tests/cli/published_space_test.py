@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction solve and bench in space: the readings of section 5.6, and what is said of runs that find nothing."""
+
+import json
+import math
+import unittest
+from pathlib import Path
+
+import cli
+
+SOURCES = Path(__file__).resolve().parents[2]
+RAY = SOURCES / "corpus/space/ray-under-slip-literal.json"
+CYCLE = SOURCES / "corpus/space/cycle-under-both-slips.json"
+
+# x to 1, where ax = 0; y until 1 + fy^2 = (5/4)^2.
+CIRCLE = {
+    "format": "stiction-problem", "version": 1, "name": "circle", "dimension": 3,
+    "contacts": [{"kind": "static", "mu": "5/4"}],
+    "A": [["2", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "b": ["-2", "-1", "-1"],
+}
+
+
+class Solve(cli.TestCase):
+    def solve(self, file, *more, code=0):
+        return self.succeeds("solve", file, "--json", *more, code=code).json()
+
+    def test_intervals_are_the_default_and_enclose_the_solution(self):
+        result = self.solve(self.file("p.json", CIRCLE))
+        self.assertEqual((result["outcome"], result["arithmetic"], result["policy"]), ("solved", "interval", "paper"))
+        for (low, high), expected in zip(result["f"], [1, 1, 0.75]):
+            self.assertLessEqual(low, expected)
+            self.assertGreaterEqual(high, expected)
+            self.assertLess(high - low, 1e-9)
+        self.assertEqual((result["statistics"]["drives"], result["statistics"]["redirects"]), (3, 0))
+        self.assertEqual(self.succeeds("solve", self.file("p.json", CIRCLE)).out.splitlines()[0], "solved")
+
+    def test_rounded_arithmetics(self):
+        for arithmetic in ["float", "double", "long-double"]:
+            with self.subTest(arithmetic=arithmetic):
+                result = self.solve(self.file("p.json", CIRCLE), "--arithmetic", arithmetic)
+                self.assertEqual((result["outcome"], result["arithmetic"]), ("solved", arithmetic))
+                self.assertTrue(all(math.isclose(x, y, rel_tol=1e-6) for x, y in zip(result["f"], [1, 1, 0.75])))
+                self.assertLess(result["residual"], 1e-6)
+                self.assertNotIn("suspected", result)
+
+    def test_every_problem_of_the_corpus_ends_as_it_says(self):
+        for file in [RAY, CYCLE]:
+            for policy, outcome in json.loads(file.read_text())["expect"].items():
+                with self.subTest(file=file.name, policy=policy):
+                    code = 0 if outcome == "solved" else 1
+                    result = self.solve(file, "--policy", policy, "--arithmetic", "double", code=code)
+                    self.assertEqual((result["outcome"], result["policy"]), (outcome, policy))
+
+    def test_an_unlimited_step_is_proved_and_a_cycle_is_not(self):
+        self.assertEqual(self.solve(RAY, code=1)["outcome"], "ray")
+        proved = self.solve(CYCLE, code=3)
+        self.assertEqual(proved["outcome"], "undecided")
+        self.assertIn("stands again", proved["reason"])
+        suspected = self.solve(CYCLE, "--arithmetic", "double", code=1)
+        self.assertEqual((suspected["start"], suspected["period"]), (7, 6))
+        self.assertIn("no proof", suspected["evidence"])
+        self.assertEqual(suspected["suspected"]["period"], 6)
+
+    def test_what_is_not_built_is_refused(self):
+        file = self.file("p.json", CIRCLE)
+        self.refuses("solve", file, "--arithmetic", "exact", says=["exact", "interval"])
+        for policy in ["slip=polygon", "file=yes", "apex=suspended"]:
+            self.refuses("solve", file, "--policy", policy, says=[policy, "slip=redirect"])
+        bilateral = dict(CIRCLE, contacts=[{"kind": "bilateral"}], A=[["1"]], b=["1"])
+        self.refuses("solve", self.file("b.json", bilateral), says=["contacts[0].kind", "bilateral", "static"])
+
+
+class Bench(cli.TestCase):
+    def test_every_run_is_counted_once_and_none_is_wrong(self):
+        arguments = ["bench", "--suite", "space", "--contacts", "2", "3", "--problems", "100", "--json"]
+        done = self.succeeds(*arguments)
+        tables = done.json()
+        self.assertEqual([(row["family"], row["contacts"], row["policy"]) for row in tables["sizes"]],
+                         [(family, contacts, policy) for family, contacts in
+                          [("definite", 2), ("definite", 3), ("one body", 3)] for policy in ["paper", "slip=redirect"]])
+        for row in tables["sizes"] + tables["friction"]:
+            ends = ["solved", "recurs", "approaches", "refuted", "ray", "limit", "singular", "undecided"]
+            self.assertEqual(sum(row[end] for end in ends), row["problems"])
+            self.assertEqual((row["wrong"], row["differ"]), (0, 0))
+            self.assertLessEqual(row["proved solved"], row["solved"])
+            self.assertEqual(row["breaks (21)" if row["policy"] != "paper" else "redirects"], 0)
+        for key in ["problems", "solved", "ray", "unsure"]:
+            self.assertEqual(sum(row[key] for row in tables["sizes"]), sum(row[key] for row in tables["friction"]))
+        self.assertEqual(self.succeeds(*arguments).out, done.out)
+        self.assertIn("readings of section 5.6", self.succeeds("bench", "--suite", "space", "--contacts", "1",
+                                                               "--problems", "5").out)
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Problems in space: solved, certified, checked; what is not built is refused."""
+
+import copy
+import json
+import subprocess
+import sys
+from fractions import Fraction
+
+import cli
+
+
+class Space(cli.TestCase):
+    def problems(self):
+        found = sorted((cli.ROOT / "corpus/space").glob("*.json"))
+        self.assertGreater(len(found), 3)
+        return found
+
+    def solvable(self):
+        return [file for file in self.problems() if not file.stem.startswith("no-solution")]
+
+    def check(self, certificate, accepted):
+        """Both checkers say the same."""
+        done = self.succeeds("check", certificate, "--json", code=0 if accepted else 1)
+        self.assertEqual([entry["accepted"] for entry in done.json()], [accepted])
+        independent = subprocess.run([sys.executable, cli.ROOT / "certify/check_certificate.py", certificate],
+                                     capture_output=True, text=True)
+        self.assertEqual(independent.returncode, 0 if accepted else 1, independent.stdout + independent.stderr)
+
+    def test_certificates_of_the_corpus_are_accepted(self):
+        certificates = sorted((cli.ROOT / "corpus/space/certificates").glob("*.json"))
+        self.assertGreater(len(certificates), 3)
+        for certificate in certificates:
+            with self.subTest(certificate=certificate.name):
+                self.check(certificate, accepted=True)
+
+    def test_every_problem_is_certified_under_both_laws(self):
+        for problem in self.solvable():
+            for claim in ("solution-exists", "coulomb-solution"):
+                with self.subTest(problem=problem.name, claim=claim):
+                    certificate = self.folder / "c.json"
+                    self.succeeds("certify", problem, "-o", certificate, "--claim", claim)
+                    value = json.loads(certificate.read_text())
+                    self.assertEqual(value["claim"], claim)
+                    if claim == "coulomb-solution":
+                        self.assertGreater(Fraction(value["witness"]["bound"]), 1 - Fraction(1, 2**20))
+                    self.check(certificate, accepted=True)
+
+    def test_every_altered_number_is_rejected(self):
+        def alterations(value, path=()):
+            if isinstance(value, str) and path[0] in ("witness", "problem") and path[-1] not in ("format", "kind"):
+                yield path
+            if isinstance(value, (dict, list)):
+                for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+                    yield from alterations(item, (*path, key))
+
+        certificate = self.folder / "c.json"
+        for claim in ("solution-exists", "coulomb-solution"):
+            self.succeeds("certify", cli.ROOT / "corpus/space/three-sliding-contacts.json", "-o", certificate,
+                          "--claim", claim)
+            good = json.loads(certificate.read_text())
+            paths = list(alterations(good))
+            self.assertGreater(len(paths), 100)
+            # All but A, whose columns of forces that are zero do not matter (tests/certify/tamper_test.py has A).
+            for number, path in enumerate(path for path in paths if path[1] != "A"):
+                with self.subTest(claim=claim, path=path):
+                    bad = copy.deepcopy(good)
+                    place = bad
+                    for key in path[:-1]:
+                        place = place[key]
+                    place[path[-1]] = str(Fraction(place[path[-1]]) + (1 if number % 2 else -1))
+                    self.check(self.file("bad.json", bad), accepted=False)
+
+    def test_a_solution_of_the_weak_law_is_no_solution_of_coulombs(self):
+        problem = {"format": "stiction-problem", "version": 1, "dimension": 3,
+                   "contacts": [{"kind": "static", "mu": "1/2"}],
+                   "A": [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "b": ["-1", "3", "4"]}
+        turned = {"f": ["1", "-1/2", "0"], "a": ["0", "5/2", "4"]}
+        def made(claim, **witness):
+            return self.file("c.json", {"format": "stiction-certificate", "version": 1, "claim": claim,
+                                        "problem": problem, "witness": {**turned, **witness}})
+        self.check(made("solution-exists"), accepted=True)
+        self.check(made("coulomb-solution", bound="1"), accepted=False)
+        self.check(made("coulomb-solution", bound="1/2"), accepted=True)
+        self.check(made("coulomb-solution", bound="0"), accepted=False)
+        self.check(made("coulomb-solution", bound="3/2"), accepted=False)
+        self.check(made("coulomb-solution"), accepted=False)
+        self.check(made("solution-exists", bound="1"), accepted=False)
+        exact = {"f": ["1", "-3/10", "-2/5"], "a": ["0", "27/10", "18/5"]}
+        self.check(made("coulomb-solution", bound="1", **exact), accepted=True)
+
+    def test_methods_and_arithmetics(self):
+        for problem in self.solvable():
+            for method, arithmetic in [("complete", "exact"), ("complete", "double"), ("complete", "long-double"),
+                                       ("complete", "float"), ("fast", "double"), ("fast", "long-double")]:
+                for law in ("baraff", "coulomb"):
+                    with self.subTest(problem=problem.name, method=method, arithmetic=arithmetic, law=law):
+                        done = self.succeeds("solve", problem, "--method", method, "--arithmetic", arithmetic,
+                                             "--law", law, "--json").json()
+                        self.assertEqual(done["outcome"], "solved")
+                        if arithmetic != "exact":
+                            self.assertLess(done["residual"], 1e-4 if arithmetic == "float" else 1e-10)
+                        self.assertEqual("bound" in done, arithmetic == "exact" and law == "coulomb")
+
+    def test_a_path_that_folds_and_descends(self):
+        problem = cli.ROOT / "corpus/space/fold-and-descent-two-contacts.json"
+        done = self.succeeds("solve", problem, "--method", "complete", "--json").json()
+        statistics = done["statistics"]
+        self.assertEqual((statistics["folds"], statistics["descents"], done["word"]), (2, 1, "I I"))
+
+    def test_more_sides(self):
+        problem = cli.ROOT / "corpus/space/three-sliding-contacts.json"
+        for sides in (4, 12, 16):
+            done = self.succeeds("solve", problem, "--method", "complete", "--sides", sides, "--json").json()
+            self.assertEqual(done["outcome"], "solved")
+        for sides in (0, 3, 6, -4):
+            self.refuses("solve", problem, "--method", "complete", "--sides", sides, says="multiple of 4")
+
+    def test_no_solution_is_a_ray_or_undecided(self):
+        problem = cli.ROOT / "corpus/space/no-solution-scripted-wedge.json"
+        done = self.succeeds("solve", problem, "--method", "complete", "--json", code=1).json()
+        self.assertEqual((done["outcome"], done["ray"]), ("ray", ["1", "1", "0"]))
+        for method in ("complete", "fast"):
+            done = self.succeeds("solve", problem, "--method", method, "--arithmetic", "double", "--json", code=3)
+            self.assertEqual(done.json()["outcome"], "undecided")
+        for claim in ("solution-exists", "coulomb-solution"):
+            out = self.folder / "none.json"
+            self.succeeds("certify", problem, "-o", out, "--claim", claim, code=3)
+            self.assertFalse(out.exists())
+
+    def test_what_is_not_built_for_space_is_refused(self):
+        problem = cli.ROOT / "corpus/space/three-sliding-contacts.json"
+        out = self.folder / "c.json"
+        for method in ("lemke", "enumerate", "ipopt"):
+            self.refuses("solve", problem, "--method", method, says=["dimension", "3", "not built for space"])
+        self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says="--arithmetic")
+        self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
+        self.refuses("replay", problem, says=["dimension", "3"])
+        self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
+        self.refuses("certify", problem, "--all", says=["dimension", "3"])
+        self.refuses("certify", cli.ROOT / "corpus/two-contact-cycle.json", "-o", out, "--claim", "coulomb-solution",
+                     says=["dimension", "in the plane the claim is solution-exists"])
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: Apache-2.0
+// Complete driving in space: what the proof promises of every path, and exact solutions of the polygonal law.
+
+#include "solver/complete_space.ipp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "certify/properties.h"
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+using Driving = SpatialDriving<Rational>;
+using Polygons = Driving::Polygons;
+
+struct SpaceRun {
+  CompleteVerdict verdict;
+  Driving::Path path;
+  ExactVector f, ray;
+  SpaceWord word;
+};
+
+SpaceRun RunSpace(const ExactProblem& problem, const Polygons& polygons) {
+  Driving driving;
+  SpaceRun run;
+  run.verdict = driving.Run(problem, polygons, &run.path);
+  run.f = driving.f();
+  run.ray = driving.ray();
+  run.word = driving.word();
+  return run;
+}
+
+Polygons AllWith(const ExactProblem& problem, int sides) {
+  return Polygons(problem.contacts.size(), FrictionPolygon<Rational>(sides));
+}
+
+// A = J J' (+ I), b = J y or, where A is definite, anything. `size` bounds the entries: small ones tie.
+ExactProblem RandomInSpace(const std::vector<Contact<Rational>>& contacts, int columns, int size, bool definite,
+                           Choices& choices) {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = contacts;
+  const int rows = RowCount(contacts, 3);
+  ExactMatrix J(rows, columns);
+  for (Rational& x : J.reshaped()) x = choices.Integer(-size, size);
+  problem.A = J * J.transpose();
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) problem.b[i] = choices.Integer(-3 * size, size);
+  if (definite) {
+    for (int i = 0; i < rows; ++i) problem.A(i, i) += 1;
+  } else {
+    ExactVector y(columns);
+    for (Rational& x : y) x = choices.Integer(-size, size);
+    problem.b = J * y;
+  }
+  return problem;
+}
+
+std::vector<Contact<Rational>> StaticContacts(int count, Choices& choices) {
+  static const std::vector<Rational> palette = {Rational(1, 5), Rational(1, 2), 1, 2, 5, 10};
+  std::vector<Contact<Rational>> contacts;
+  for (int i = 0; i < count; ++i)
+    contacts.push_back({ContactKind::kStatic, palette[choices.Integer(0, 5)], {}});
+  return contacts;
+}
+
+// ---- The law, from its definition alone --------------------------------------------------------
+
+Planar<Rational> Tangential(const ExactVector& values, int row) { return {values[row + 1], values[row + 2]}; }
+
+// fF is in mu fN times the polygon, and no corner has a smaller product with aF.
+void CheckFriction(const FrictionPolygon<Rational>& polygon, const Rational& bound, const Planar<Rational>& f,
+                   const Planar<Rational>& a) {
+  for (int k = 0; k < polygon.sides(); ++k) {
+    CHECK(Dot(polygon.normal(k), f) <= bound * polygon.reach(k));
+    CHECK(Dot(f, a) <= bound * Dot(polygon.corner(k), a));
+  }
+}
+
+void CheckLaw(const ExactProblem& problem, const Polygons& polygons, const ExactVector& f) {
+  const ExactVector a = Accelerations(problem, f);
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    if (contact.kind == ContactKind::kBilateral) {
+      CHECK(a[row] == 0);
+    } else {
+      CHECK(f[row] >= 0);
+      CHECK(a[row] >= 0);
+      CHECK(f[row] * a[row] == 0);
+    }
+    if (contact.kind == ContactKind::kStatic)
+      CheckFriction(polygons[i], contact.mu * f[row], Tangential(f, row), Tangential(a, row));
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+}
+
+// ---- The path --------------------------------------------------------------------------------
+
+// Determinant of the reduced matrix of a word, from its definition.
+int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
+                       const SpacePiece<Rational>& piece) {
+  std::vector<ExactVector> columns, rows;
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    const bool driven = static_cast<int>(i) == piece.driven && piece.stage == SpaceStage::kFriction;
+    const auto unit = [&](Rational n, Planar<Rational> t = {0, 0}) {
+      ExactVector v = ExactVector::Zero(problem.rows());
+      v[row] = n;
+      if (contact.HasFrictionRows()) {
+        v[row + 1] = t[0];
+        v[row + 2] = t[1];
+      }
+      return v;
+    };
+    const SpaceCell cell = piece.word[i];
+    const Rational mu = driven ? Rational(0) : contact.mu;
+    const auto corner = [&] {
+      const Planar<Rational>& d = polygons[i].corner(cell.side);
+      return unit(1, {mu * d[0], mu * d[1]});
+    };
+    switch (cell.law) {
+      case Law::kNone:
+      case Law::kBreak:
+        break;
+      case Law::kHold:
+        if (cell.side == 1) break;  // dependent
+        [[fallthrough]];
+      case Law::kFree:
+        columns.push_back(unit(1));
+        rows.push_back(unit(1));
+        break;
+      case Law::kEdge:
+        columns.push_back(unit(0, polygons[i].edge(cell.side)));
+        rows.push_back(columns.back());
+        [[fallthrough]];
+      case Law::kCorner:
+        columns.push_back(corner());
+        rows.push_back(unit(1));
+        break;
+      case Law::kInside:
+        for (const ExactVector& v : {unit(1), unit(0, {1, 0}), unit(0, {0, 1})}) {
+          columns.push_back(v);
+          rows.push_back(v);
+        }
+        break;
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  const int size = static_cast<int>(columns.size());
+  ExactMatrix M(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) M(i, j) = rows[i].dot(ExactVector(problem.A * columns[j]));
+  }
+  int sign = 1;
+  for (int k = 0; k < size; ++k) {
+    int pivot = k;
+    while (pivot < size && M(pivot, k) == 0) ++pivot;
+    if (pivot == size) return 0;
+    if (pivot != k) {
+      M.row(k).swap(M.row(pivot));
+      sign = -sign;
+    }
+    sign *= Sign(M(k, k));
+    for (int i = k + 1; i < size; ++i) {
+      const Rational factor = M(i, k) / M(k, k);
+      for (int j = k; j < size; ++j) M(i, j) -= factor * M(k, j);
+    }
+  }
+  return sign;
+}
+
+struct PathCounts {
+  int folds = 0, descents = 0, ties = 0, flat = 0;
+};
+
+void CheckPath(const ExactProblem& problem, const Polygons& polygons, const SpaceRun& run, PathCounts& counts) {
+  std::set<std::tuple<int, SpaceStage, SpaceWord>> visited;
+  for (const auto& piece : run.path) {
+    const int determinant = ReducedDeterminant(problem, polygons, piece);
+    CHECK(piece.determinant == determinant);
+    CHECK(Sign(piece.driven_rate) == determinant);
+    CHECK(piece.da == ExactVector(problem.A * piece.df));
+    CHECK(visited.emplace(piece.driven, piece.stage, piece.word).second);
+    CHECK(piece.s >= 0);
+    counts.flat += determinant == 0;
+  }
+  counts.folds += run.verdict.statistics.folds > 0;
+  counts.descents += run.verdict.statistics.descents > 0;
+  counts.ties += run.verdict.statistics.ties > 0;
+}
+
+// Nodes are left upward at index +1 and downward at index -1.
+void CheckNodes(const ExactProblem& problem, const Polygons& polygons, const SpaceRun& run) {
+  for (std::size_t k = 0; k < run.path.size(); ++k) {
+    const auto& piece = run.path[k];
+    if (piece.descends) CHECK(piece.determinant <= 0);
+    if (!piece.ends && !piece.descends) continue;
+    // The word of the node: the next piece of another stage holds all contacts before it in the same cells.
+    SpacePiece<Rational> node = piece;
+    node.stage = SpaceStage::kNone;
+    if (piece.descends) {
+      node.word[piece.driven] = {};
+      if (piece.stage == SpaceStage::kFriction) node.word[piece.driven] = {Law::kFree, 0};
+    } else if (piece.stage == SpaceStage::kNormal) {
+      node.word[piece.driven] = {Law::kFree, 0};
+    }
+    CHECK(ReducedDeterminant(problem, polygons, node) == (piece.descends ? -1 : 1));
+  }
+}
+
+void CheckSolved(const ExactProblem& problem, const Polygons& polygons, PathCounts& counts) {
+  const SpaceRun run = RunSpace(problem, polygons);
+  REQUIRE(run.verdict.outcome == Outcome::kSolved);
+  CheckLaw(problem, polygons, run.f);
+  CheckPath(problem, polygons, run, counts);
+  CheckNodes(problem, polygons, run);
+  std::int64_t words = 1;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    if (contact.kind == ContactKind::kBilateral) continue;
+    words *= contact.kind == ContactKind::kStatic && contact.mu > 0 ? 2 * polygons[i].sides() + 2 : 2;
+  }
+  CHECK(run.verdict.statistics.pieces <= words - 1);
+}
+
+TEST_CASE("space: definite problems are solved, and every path is as the proof says") {
+  PathCounts counts;
+  for (int index = 0; index < 160; ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    const int n = 1 + index % 3;
+    const auto contacts = StaticContacts(n, choices);
+    const ExactProblem problem = RandomInSpace(contacts, 3 * n + 1, 1000, true, choices);
+    CheckSolved(problem, AllWith(problem, index % 2 == 0 ? 8 : 4), counts);
+  }
+  CHECK(counts.ties == 0);
+  CHECK(counts.folds > 3);
+  CHECK(counts.descents > 0);
+}
+
+TEST_CASE("space: singular and degenerate problems are solved") {
+  PathCounts counts;
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    Choices choices(5000 + index);
+    const int n = 1 + index % 3;
+    const auto contacts = StaticContacts(n, choices);
+    const ExactProblem problem = RandomInSpace(contacts, 1 + index % 6, 1 + index % 3, false, choices);
+    CheckSolved(problem, AllWith(problem, index % 2 == 0 ? 8 : 4), counts);
+  }
+  CHECK(counts.ties > 100);
+}
+
+TEST_CASE("space: where the reduced determinant is zero, the path goes on") {
+  PathCounts counts;
+  for (int index = 0; index < 400; ++index) {
+    CAPTURE(index);
+    Choices choices(15000 + index);
+    auto contacts = StaticContacts(2, choices);
+    for (auto& contact : contacts) contact.mu = choices.Integer(1, 3);
+    const ExactProblem problem = RandomInSpace(contacts, 6, 1, true, choices);
+    CheckSolved(problem, AllWith(problem, 4), counts);
+  }
+  CHECK(counts.flat > 0);
+}
+
+TEST_CASE("space: four contacts, more corners, corners of one's own") {
+  PathCounts counts;
+  for (int index = 0; index < 12; ++index) {
+    CAPTURE(index);
+    Choices choices(9000 + index);
+    const auto contacts = StaticContacts(4, choices);
+    const ExactProblem problem = RandomInSpace(contacts, index % 2 == 0 ? 13 : 6, 5, index % 2 == 0, choices);
+    Polygons polygons = AllWith(problem, 4 + 4 * (index % 3));
+    CHECK(polygons[1].Insert(OnCircle(Rational(1, 7))));
+    CHECK(polygons[2].Insert(OnCircle(Rational(-9, 4))));
+    CheckSolved(problem, polygons, counts);
+  }
+}
+
+// The kinds of all four, and smooth static contacts.
+std::vector<Contact<Rational>> MixedContacts(int count, Choices& choices) {
+  std::vector<Contact<Rational>> contacts = StaticContacts(count, choices);
+  for (auto& contact : contacts) {
+    const auto pick = choices.Integer(0, 4);
+    if (pick == 0) contact = {ContactKind::kBilateral, 0, {}};
+    if (pick == 1) contact = {ContactKind::kFrictionless, 0, {}};
+    if (pick == 2) contact.mu = 0;
+  }
+  return contacts;
+}
+
+TEST_CASE("space: bilateral, frictionless, smooth and static contacts mix, degenerate or not") {
+  PathCounts counts;
+  int held = 0;
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    Choices choices(20000 + index);
+    const auto contacts = MixedContacts(2 + index % 3, choices);
+    for (const auto& contact : contacts) held += contact.kind == ContactKind::kBilateral;
+    const ExactProblem problem =
+        RandomInSpace(contacts, 2 + index % 5, index % 2 == 0 ? 1 : 50, index % 3 == 0, choices);
+    CheckSolved(problem, AllWith(problem, 4), counts);
+  }
+  CHECK(held > 100);
+  CHECK(counts.ties > 30);
+}
+
+// Every contact twice.
+TEST_CASE("space: duplicated contacts are solved") {
+  PathCounts counts;
+  for (int index = 0; index < 40; ++index) {
+    CAPTURE(index);
+    Choices choices(40000 + index);
+    const int n = 1 + index % 2;
+    auto contacts = StaticContacts(n, choices);
+    const ExactProblem single = RandomInSpace(contacts, 3 * n + 1, 9, true, choices);
+    contacts.insert(contacts.end(), contacts.begin(), contacts.end());
+    ExactProblem twice = single;
+    twice.contacts = contacts;
+    std::vector<int> rows;
+    for (int copy = 0; copy < 2; ++copy) {
+      for (int row = 0; row < 3 * n; ++row) rows.push_back(row);
+    }
+    twice.A = ExactMatrix(single.A(rows, rows));
+    twice.b = ExactVector(single.b(rows));
+    CheckSolved(twice, AllWith(twice, 8), counts);
+  }
+}
+
+// b + e e_N + (e^2, e^3, ...) for a number e that is small enough here.
+ExactProblem Perturbed(ExactProblem problem) {
+  Rational e = 1;
+  mpz_mul_2exp(e.get_den_mpz_t(), e.get_den_mpz_t(), 300);
+  Rational power = e;
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    problem.b[row] += e;
+    for (const int end = row + (contact.HasFrictionRows() ? 3 : 1); row < end; ++row) {
+      power *= e;
+      problem.b[row] += power;
+    }
+  }
+  return problem;
+}
+
+TEST_CASE("space: ties are told as a small perturbation of b tells them") {
+  int tied = 0;
+  for (int index = 0; index < 120; ++index) {
+    CAPTURE(index);
+    Choices choices(60000 + index);
+    const int n = 1 + index % 3;
+    const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 1 + index % 6, 1, false, choices);
+    const Polygons polygons = AllWith(problem, index % 2 == 0 ? 8 : 4);
+    const SpaceRun symbolic = RunSpace(problem, polygons), real = RunSpace(Perturbed(problem), polygons);
+    tied += symbolic.verdict.statistics.ties > 0;
+    CHECK(real.verdict.statistics.ties == 0);
+    REQUIRE(symbolic.path.size() == real.path.size());
+    for (std::size_t k = 0; k < real.path.size(); ++k) {
+      CHECK(symbolic.path[k].word == real.path[k].word);
+      CHECK(symbolic.path[k].df == real.path[k].df);
+    }
+    CHECK(symbolic.word == real.word);
+  }
+  CHECK(tied > 50);
+}
+
+// Forces that all contacts allow, whatever the accelerations.
+bool IsInCone(const ExactProblem& problem, const Polygons& polygons, const ExactVector& v) {
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    if (contact.kind != ContactKind::kBilateral && v[row] < 0) return false;
+    if (contact.HasFrictionRows()) {
+      for (int k = 0; k < polygons[i].sides(); ++k) {
+        if (Dot(polygons[i].normal(k), Tangential(v, row)) > contact.mu * v[row] * polygons[i].reach(k))
+          return false;
+      }
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return true;
+}
+
+TEST_CASE("space: where b is not in the range of A, a ray is a certificate") {
+  PathCounts counts;
+  int rays = 0, solved = 0;
+  for (int index = 0; index < 250; ++index) {
+    CAPTURE(index);
+    Choices choices(80000 + index);
+    ExactProblem problem =
+        RandomInSpace(MixedContacts(1 + index % 3, choices), 1 + index % 4, 2, false, choices);
+    for (Rational& x : problem.b) x = choices.Integer(-3, 3);
+    if (IsInRange(problem)) continue;
+    const Polygons polygons = AllWith(problem, 8);
+    const SpaceRun run = RunSpace(problem, polygons);
+    CheckPath(problem, polygons, run, counts);
+    if (run.verdict.outcome == Outcome::kSolved) {
+      ++solved;
+      CheckLaw(problem, polygons, run.f);
+      continue;
+    }
+    REQUIRE(run.verdict.outcome == Outcome::kRay);
+    ++rays;
+    CHECK(problem.b.dot(run.ray) < 0);
+    CHECK(ExactVector(problem.A * run.ray) == ExactVector::Zero(problem.rows()));
+    CHECK(IsInCone(problem, polygons, run.ray));
+  }
+  CHECK(rays > 30);
+  CHECK(solved > 30);
+}
+
+TEST_CASE("space: a problem of the plane, put into space, is solved by forces of the plane") {
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    const int n = 1 + index % 3;
+    const auto plane = Random<Rational>(static_cast<GeneratorId>(index % kGeneratorCount), n, index);
+    ExactProblem problem;
+    problem.dimension = 3;
+    problem.contacts = plane.contacts;
+    problem.A = ExactMatrix::Zero(3 * n, 3 * n);
+    problem.b = ExactVector::Zero(3 * n);
+    const auto in_space = [](int row) { return row / 2 * 3 + row % 2; };
+    for (int i = 0; i < 2 * n; ++i) {
+      problem.b[in_space(i)] = plane.b[i];
+      for (int j = 0; j < 2 * n; ++j) problem.A(in_space(i), in_space(j)) = plane.A(i, j);
+    }
+    for (int i = 0; i < n; ++i) problem.A(3 * i + 2, 3 * i + 2) = 1;  // ay = fy
+    const SpaceRun run = RunSpace(problem, AllWith(problem, 4));
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    ExactVector f(2 * n);
+    for (int i = 0; i < 2 * n; ++i) f[i] = run.f[in_space(i)];
+    CHECK(FindViolation(plane, f).value_or("") == "");
+    for (int i = 0; i < n; ++i) CHECK(run.f[3 * i + 2] == 0);
+  }
+}
+
+TEST_CASE("space: sliding contacts end in a solution or a ray") {
+  PathCounts counts;
+  std::map<Outcome, int> outcomes;
+  for (int index = 0; index < 120; ++index) {
+    CAPTURE(index);
+    Choices choices(90000 + index);
+    auto contacts = StaticContacts(1 + index % 3, choices);
+    contacts[0].kind = ContactKind::kSliding;
+    contacts[0].slip = OnCircle(Rational(Rational(choices.Integer(-4, 4)) / 3));
+    const ExactProblem problem = RandomInSpace(contacts, 7, 3, true, choices);
+    const Polygons polygons = AllWith(problem, 4);
+    const SpaceRun run = RunSpace(problem, polygons);
+    ++outcomes[run.verdict.outcome];
+    if (run.verdict.outcome != Outcome::kSolved) continue;
+    CheckLaw(problem, polygons, run.f);
+    const Rational limit = contacts[0].mu * run.f[0];
+    CHECK(run.f[1] == -limit * contacts[0].slip[0]);
+    CHECK(run.f[2] == -limit * contacts[0].slip[1]);
+  }
+  CHECK(outcomes[Outcome::kSolved] + outcomes[Outcome::kRay] == 120);
+  CHECK(outcomes[Outcome::kRay] > 0);
+}
+
+TEST_CASE("space: bilateral contacts that contradict each other are a ray") {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(2, {ContactKind::kBilateral, 0, {}});
+  problem.A = Matrix({{2, 2}, {2, 2}});
+  problem.b = Vector({1, 1});
+  const Polygons polygons = AllWith(problem, 4);
+  const SpaceRun agreed = RunSpace(problem, polygons);
+  CHECK(agreed.verdict.outcome == Outcome::kSolved);
+  CHECK(agreed.f == Vector({Rational(-1, 2), 0}));
+  problem.b = Vector({1, 2});
+  const SpaceRun torn = RunSpace(problem, polygons);
+  CHECK(torn.verdict.outcome == Outcome::kRay);
+  CHECK(torn.ray == Vector({1, -1}));
+}
+
+TEST_CASE("space: a budget ends the run") {
+  Choices choices(1);
+  const ExactProblem problem = RandomInSpace(StaticContacts(3, choices), 10, 1000, true, choices);
+  Driving driving;
+  driving.options().limits.pivots = 2;
+  const CompleteVerdict verdict = driving.Run(problem, AllWith(problem, 8));
+  CHECK(verdict.outcome == Outcome::kLimit);
+  CHECK(verdict.statistics.pieces == 2);
+}
+
+TEST_CASE("space: doubles take the exact path, or are undecided") {
+  int same = 0, undecided = 0;
+  for (int index = 0; index < 200; ++index) {
+    CAPTURE(index);
+    Choices choices(70000 + index);
+    const int n = 1 + index % 4;
+    const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 3 * n + 1, index % 2 == 0 ? 1000 : 2,
+                                               index % 2 == 0, choices);
+    const Polygons polygons = AllWith(problem, 8);
+    SpatialDriving<double>::Polygons rounded;
+    for (const auto& polygon : polygons)
+      rounded.emplace_back(polygon, [](const Rational& x) { return ToDouble(x); });
+    SpatialDriving<double> driving;
+    const CompleteVerdict verdict = driving.Run(As<double>(problem), rounded);
+    undecided += verdict.outcome == Outcome::kUndecided;
+    if (verdict.outcome != Outcome::kSolved) continue;
+    same += driving.word() == RunSpace(problem, polygons).word;
+  }
+  CHECK(undecided < 20);
+  CHECK(same > 150);
+}
+
+// ---- Polygons --------------------------------------------------------------------------------
+
+TEST_CASE("polygon: corners are points of the circle, in order, symmetric to quarter turns") {
+  for (const int sides : {4, 8, 12, 32}) {
+    const FrictionPolygon<Rational> polygon(sides);
+    REQUIRE(polygon.sides() == sides);
+    for (int k = 0; k < sides; ++k) {
+      CHECK(Dot(polygon.corner(k), polygon.corner(k)) == 1);
+      CHECK(Cross(polygon.corner(k), polygon.corner(k + 1)) > 0);
+      CHECK(polygon.corner(k + sides / 4) == Planar<Rational>{-polygon.corner(k)[1], polygon.corner(k)[0]});
+      CHECK(Dot(polygon.normal(k), polygon.corner(k)) == polygon.reach(k));
+      CHECK(Dot(polygon.normal(k), polygon.corner(k + 1)) == polygon.reach(k));
+    }
+  }
+  CHECK(FrictionPolygon<Rational>(4).InnerRadiusSquared() == Rational(1, 2));
+  CHECK(FrictionPolygon<Rational>(8).InnerRadiusSquared() == Rational(4, 5));
+  CHECK(FrictionPolygon<Rational>(16).InnerRadiusSquared() == Rational(16, 17));
+  CHECK_THROWS_AS(FrictionPolygon<Rational>(6), InternalError);
+}
+
+TEST_CASE("polygon: a corner is added once, in its place") {
+  FrictionPolygon<Rational> polygon(4);
+  const Planar<Rational> corner = OnCircle(Rational(-3));  // in the third quadrant
+  CHECK(polygon.Insert(corner));
+  CHECK(!polygon.Insert(corner));
+  CHECK(!polygon.Insert({Rational(0), Rational(1)}));
+  REQUIRE(polygon.sides() == 5);
+  CHECK(polygon.corner(3) == corner);
+  CHECK(polygon.reach(4) == Cross(polygon.corner(4), polygon.corner(0)));
+}
+
+TEST_CASE("polygon: the projection is the nearest point") {
+  Choices choices(11);
+  for (int index = 0; index < 300; ++index) {
+    const FrictionPolygon<Rational> polygon(4 + 4 * (index % 3));
+    const Rational radius = choices.Integer(0, 3);
+    const Planar<Rational> x = {choices.Integer(-5, 5), choices.Integer(-5, 5)}, p = polygon.Project(x, radius);
+    const Planar<Rational> gap = {x[0] - p[0], x[1] - p[1]};
+    for (int k = 0; k < polygon.sides(); ++k) {
+      CHECK(Dot(polygon.normal(k), p) <= radius * polygon.reach(k));
+      CHECK(radius * Dot(gap, polygon.corner(k)) <= Dot(gap, p));  // no corner is nearer to x
+    }
+  }
+}
+
+// ---- Null vectors ----------------------------------------------------------------------------
+
+TEST_CASE("null vector: components are the minors, up to one positive factor") {
+  Choices choices(7);
+  int singular = 0, dependent = 0;
+  for (int index = 0; index < 400; ++index) {
+    const int k = 1 + index % 4;
+    RowMajorMatrix<Rational> M(k, k + 1);
+    for (Rational& x : M.reshaped()) x = choices.Integer(-1, 1);
+    const auto minor = [&M, k](int without) {
+      ExactMatrix square(k, k);
+      for (int j = 0, to = 0; j <= k; ++j) {
+        if (j != without) square.col(to++) = M.col(j);
+      }
+      std::vector<int> order(k);
+      Rational sum = 0;  // over all permutations
+      for (int i = 0; i < k; ++i) order[i] = i;
+      do {
+        Rational product = 1;
+        for (int i = 0; i < k; ++i) {
+          product *= square(i, order[i]);
+          for (int j = 0; j < i; ++j) {
+            if (order[j] > order[i]) product = -product;
+          }
+        }
+        sum += product;
+      } while (std::next_permutation(order.begin(), order.end()));
+      return sum;
+    };
+    std::vector<Rational> wanted;
+    for (int j = 0; j <= k; ++j) wanted.push_back(((k - j) % 2 == 0 ? 1 : -1) * minor(j));
+    RowMajorMatrix<Rational> copy = M;
+    const auto z = OrientedNullVector(copy, Rational(0));
+    const bool zero = std::all_of(wanted.begin(), wanted.end(), [](const Rational& x) { return x == 0; });
+    CHECK(z.has_value() == !zero);
+    dependent += zero;
+    if (!z) continue;
+    singular += wanted[k] == 0;
+    for (int i = 0; i <= k; ++i) {
+      CHECK(Sign((*z)[i]) == Sign(wanted[i]));
+      for (int j = 0; j < i; ++j) CHECK((*z)[i] * wanted[j] == (*z)[j] * wanted[i]);
+    }
+  }
+  CHECK(singular > 20);
+  CHECK(dependent > 20);
+}
+
+}  // namespace
+}  // namespace stiction

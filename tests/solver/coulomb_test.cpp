@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coulomb's law in space: the residual that measures it, and the solver that is judged by it.
+
+#include "solver/coulomb.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "solver/residual.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+using Problem = ContactProblem<double>;
+
+// n contacts, A = J J', b = J y with entries in [-1, 1]; + identity and any b where definite.
+Problem RandomRound(int n, int columns, bool definite, Choices& choices) {
+  static const std::vector<double> palette = {0.25, 0.5, 0.75, 1, 2};
+  const auto draw = [&] { return static_cast<double>(choices.Integer(-1000, 1000)) / 1000; };
+  Problem problem;
+  problem.dimension = 3;
+  for (int i = 0; i < n; ++i)
+    problem.contacts.push_back({ContactKind::kStatic, palette[choices.Integer(0, 4)], {}});
+  Problem::Matrix J(3 * n, columns);
+  for (double& x : J.reshaped()) x = draw();
+  Problem::Vector y(columns);
+  for (double& x : y) x = draw();
+  problem.A = J * J.transpose();
+  problem.b = J * y;
+  if (definite) {
+    problem.A += Problem::Matrix::Identity(3 * n, 3 * n);
+    for (double& x : problem.b) x += draw() - 0.5;
+  }
+  return problem;
+}
+
+Problem OneContact(double mu, std::vector<double> b) {
+  Problem problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, mu, {}}};
+  problem.A = Problem::Matrix::Identity(3, 3);
+  problem.b = Eigen::Map<Problem::Vector>(b.data(), 3);
+  return problem;
+}
+
+// ---- The residual ------------------------------------------------------------------------------
+
+TEST_CASE("cone: the projection is the nearest point") {
+  Choices choices(3);
+  const auto draw = [&] { return static_cast<double>(choices.Integer(-100, 100)) / 50; };
+  for (int index = 0; index < 2000; ++index) {
+    const double mu = index % 5 == 0 ? 0 : std::abs(draw());
+    const std::array<double, 3> x = {draw(), draw(), draw()}, p = ProjectOnCone(x, mu);
+    CHECK(std::hypot(p[1], p[2]) <= mu * p[0] + 1e-12);
+    CHECK(p[0] >= 0);
+    // x - p is in the polar cone and at a right angle to p: Moreau's decomposition.
+    const double n = x[0] - p[0], t = std::hypot(x[1] - p[1], x[2] - p[2]);
+    CHECK(n + mu * t <= 1e-12);
+    CHECK(std::abs(n * p[0] + (x[1] - p[1]) * p[1] + (x[2] - p[2]) * p[2]) <= 1e-12);
+  }
+}
+
+double ResidualOf(const Problem& problem, std::vector<double> f) {
+  const Problem::Vector forces = Eigen::Map<Problem::Vector>(f.data(), static_cast<int>(f.size()));
+  return CoulombResidual(problem, forces, Problem::Vector(problem.A * forces + problem.b));
+}
+
+TEST_CASE("coulomb residual: zero at solutions, and only there") {
+  // Slip: fN = 1, friction 1/2 against (3, 4) / 5.
+  const Problem slips = OneContact(0.5, {-1, 3, 4});
+  CHECK(ResidualOf(slips, {1, -0.3, -0.4}) <= 1e-15);
+  CHECK(ResidualOf(slips, {1, -0.4, -0.3}) > 0.01);  // allowed by (21), (22), not by Coulomb
+  CHECK(ResidualOf(slips, {1, -0.15, -0.2}) > 0.01);
+  CHECK(ResidualOf(slips, {1, 0.3, 0.4}) > 0.01);
+  CHECK(ResidualOf(slips, {1.1, -0.33, -0.44}) > 0.01);
+  const Problem sticks = OneContact(0.5, {-1, 0.3, -0.1});
+  CHECK(ResidualOf(sticks, {1, -0.3, 0.1}) <= 1e-15);
+  CHECK(ResidualOf(sticks, {1, -0.3, 0}) > 0.01);
+  const Problem parts = OneContact(0.5, {1, 3, 4});
+  CHECK(ResidualOf(parts, {0, 0, 0}) == 0);
+  CHECK(ResidualOf(parts, {0.5, 0, 0}) > 0.01);
+  CHECK(std::isnan(ResidualOf(parts, {std::numeric_limits<double>::quiet_NaN(), 0, 0})));
+}
+
+TEST_CASE("coulomb residual: bilateral and sliding contacts") {
+  Problem held;
+  held.dimension = 3;
+  held.contacts = {{ContactKind::kBilateral, 0, {}}};
+  held.A = Problem::Matrix::Identity(1, 1);
+  held.b = Problem::Vector::Ones(1);
+  CHECK(ResidualOf(held, {-1}) == 0);
+  CHECK(ResidualOf(held, {0}) > 0.1);
+  Problem slides = OneContact(0.5, {-1, 3, 4});
+  slides.contacts[0].kind = ContactKind::kSliding;
+  slides.contacts[0].slip = {0, 1};
+  CHECK(ResidualOf(slides, {1, 0, -0.5}) == 0);
+  CHECK(ResidualOf(slides, {1, 0, 0.5}) > 0.1);
+}
+
+// ---- The solver --------------------------------------------------------------------------------
+
+TEST_CASE("coulomb: one contact slips, sticks, parts") {
+  for (const CoulombStart start : {CoulombStart::kSweeps, CoulombStart::kComplete}) {
+    CoulombOptions options;
+    options.start = start;
+    CoulombSolver<double> solver(options);
+    const auto solve = [&solver](const Problem& problem) {
+      REQUIRE(solver.Run(problem).outcome == Outcome::kSolved);
+      return solver.f();
+    };
+    CHECK((solve(OneContact(0.5, {-1, 3, 4})) - Eigen::Vector3d(1, -0.3, -0.4)).norm() < 1e-14);
+    CHECK((solve(OneContact(0.5, {-1, 0.3, -0.1})) - Eigen::Vector3d(1, -0.3, 0.1)).norm() < 1e-14);
+    CHECK(solve(OneContact(0.5, {1, 3, 4})).norm() == 0);
+  }
+}
+
+TEST_CASE("coulomb: random problems are solved to rounding, from either start") {
+  for (const CoulombStart start : {CoulombStart::kSweeps, CoulombStart::kComplete}) {
+    CoulombOptions options;
+    options.start = start;
+    CoulombSolver<double> solver(options);
+    std::int64_t polygons = 0;
+    for (int index = 0; index < 240; ++index) {
+      CAPTURE(index);
+      Choices choices(index);
+      const int n = 1 + index % 8;
+      const bool definite = index % 2 == 0;
+      const Problem problem = RandomRound(n, definite ? 3 * n : 1 + index % 7, definite, choices);
+      const CoulombVerdict verdict = solver.Run(problem);
+      CHECK(verdict.outcome == Outcome::kSolved);
+      CHECK(verdict.residual < (definite ? 1e-13 : 1e-8));
+      CHECK(verdict.residual == CoulombResidual(problem, solver.f(), solver.a()));
+      polygons += verdict.statistics.polygons;
+    }
+    CHECK((start == CoulombStart::kComplete ? polygons > 200 : polygons < 50));  // f = 0 asks for none
+  }
+}
+
+TEST_CASE("coulomb: other kinds of contacts stand beside") {
+  CoulombSolver<double> solver;
+  for (int index = 0; index < 100; ++index) {
+    CAPTURE(index);
+    Choices choices(5000 + index);
+    Problem problem = RandomRound(4, 12, true, choices);
+    problem.contacts[0] = {ContactKind::kBilateral, 0, {}};
+    problem.contacts[1] = {ContactKind::kFrictionless, 0, {}};
+    problem.contacts[2].mu = 0;
+    const std::vector<int> rows = {0, 3, 6, 7, 8, 9, 10, 11};
+    problem.A = Problem::Matrix(problem.A(rows, rows));
+    problem.b = Problem::Vector(problem.b(rows));
+    REQUIRE(solver.Run(problem).outcome == Outcome::kSolved);
+    CHECK(std::abs(solver.a()[0]) < 1e-12);
+    CHECK(solver.f()[1] >= 0);
+    CHECK(std::hypot(solver.f()[3], solver.f()[4]) < 1e-12);
+  }
+}
+
+TEST_CASE("coulomb: what has no solution is undecided") {
+  // A wedge: aN + ax = -1 whatever the forces.
+  Problem problem = OneContact(1, {-1, 0, 0});
+  problem.A << 1, -1, 0, -1, 1, 0, 0, 0, 1;
+  CoulombSolver<double> solver;
+  const CoulombVerdict verdict = solver.Run(problem);
+  CHECK(verdict.outcome == Outcome::kUndecided);
+  CHECK(verdict.reason == "the residual is above the tolerance");
+  problem.b[0] = std::numeric_limits<double>::infinity();
+  CHECK(solver.Run(problem).outcome == Outcome::kUndecided);
+}
+
+TEST_CASE("coulomb: no contacts, no forces") {
+  Problem problem;
+  problem.dimension = 3;
+  problem.A.resize(0, 0);
+  problem.b.resize(0);
+  CHECK(CoulombSolver<double>().Run(problem).outcome == Outcome::kSolved);
+}
+
+TEST_CASE("coulomb: a start that is given is used") {
+  const Problem problem = OneContact(0.5, {-1, 3, 4});
+  const Problem::Vector start = Eigen::Vector3d(1, -0.3, -0.4);
+  CoulombSolver<double> solver;
+  const CoulombVerdict verdict = solver.Run(problem, &start);
+  CHECK(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.sweeps == 0);
+  CHECK(verdict.statistics.newton_steps <= 1);
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm in space (readings.md, 8): examples by hand, planar problems in space, random ones.
+
+#include "certify/published_space.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "solver/weak_residual.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+constexpr Slip kSlips[] = {Slip::kLiteral, Slip::kRedirect};
+
+PublishedOptions Reading(Slip slip) {
+  PublishedOptions options;
+  options.policy.slip = slip;
+  return options;
+}
+
+ExactProblem InSpace(const std::vector<Rational>& mu, const std::vector<std::vector<Rational>>& A,
+                     const std::vector<Rational>& b) {
+  ExactProblem problem = MakeProblem(mu, A, b);
+  problem.dimension = 3;
+  return problem;
+}
+
+ExactProblem OneContact(const Rational& mu, const std::vector<Rational>& b) {
+  return InSpace({mu}, {{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}, b);
+}
+
+struct Ended {
+  PublishedSpaceVerdict verdict;
+  Trace<double> trace;
+  Eigen::VectorXd f, a;
+};
+
+Ended Run(const ExactProblem& problem, const PublishedOptions& options) {
+  PublishedInSpace<double> algorithm(options);
+  Ended ended;
+  const auto rounded = As<double>(problem);
+  ended.verdict = algorithm.Run(rounded, &ended.trace);
+  ended.f = algorithm.f();
+  ended.a = rounded.A * ended.f + rounded.b;
+  CHECK((ended.a - algorithm.a()).norm() <= 1e-9 * (1 + rounded.b.norm()));
+  return ended;
+}
+
+void CheckNear(const Eigen::VectorXd& found, const std::vector<double>& expected) {
+  REQUIRE(found.size() == static_cast<int>(expected.size()));
+  for (int i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(expected[i]).margin(1e-12));
+}
+
+void CheckForces(const Ended& ended, const std::vector<double>& f) {
+  CHECK(ended.verdict.outcome == Outcome::kSolved);
+  CheckNear(ended.f, f);
+}
+
+// ---- One contact -----------------------------------------------------------------------------
+
+TEST_CASE("space: a contact pushed less than its limit sticks, x established before y") {
+  for (const Slip slip : kSlips) {
+    const Ended ended = Run(OneContact(2, {-2, -1, 1}), Reading(slip));
+    CheckForces(ended, {1, 1, -1});
+    REQUIRE(ended.trace.pivots.size() == 3);
+    CheckNear(ended.trace.pivots[1].f, {1, 1, 0});
+    CHECK(ended.trace.pivots[2].sets ==
+          std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kSticking, IndexSet::kSticking});
+    CHECK(ended.verdict.statistics.drives == 3);
+  }
+}
+
+TEST_CASE("space: at its limit in x a contact is done, and y is not driven") {
+  const Ended ended = Run(OneContact(Rational(1, 2), {-2, 1, -1}), {});
+  CheckForces(ended, {1, -0.5, 0});  // fF.aF = -1/4, though aF = (1/2, -1) is not opposite to it
+  CHECK(ended.trace.pivots.back().sets ==
+        std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kAtUpper, IndexSet::kNone});
+  CHECK(ended.verdict.statistics.drives == 2);
+}
+
+TEST_CASE("space: the circle (23) ends the drive of y") {
+  const Ended ended = Run(OneContact(Rational(5, 4), {-2, -1, -1}), {});
+  CheckForces(ended, {1, 1, 0.75});
+  CHECK(ended.trace.pivots.back().s == Approx(0.75));
+  CHECK(ended.trace.pivots.back().sets[1] == IndexSet::kAtUpper);
+}
+
+TEST_CASE("space: with ax = 0 from the start only y is driven, with aF = 0 nothing is") {
+  CHECK(Run(OneContact(2, {-2, 0, 1}), {}).verdict.statistics.drives == 2);
+  CheckForces(Run(OneContact(2, {-2, 0, 1}), {}), {1, 0, -1});
+  CHECK(Run(OneContact(2, {-2, 0, 0}), {}).verdict.statistics.drives == 1);
+}
+
+// Sticking at f = (5/4, 3/5, 0), contact 1 is moved by contact 2 along (5/4 - s/4, 3/5, 4 s/5), which meets its
+// circle at s = 1.
+TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps its direction") {
+  const ExactProblem problem = InSpace({1, -1},
+                                       {{1, 0, 0, Rational(1, 4)},
+                                        {0, 1, 0, 0},
+                                        {0, 0, 1, Rational(-4, 5)},
+                                        {Rational(1, 4), 0, Rational(-4, 5), 3}},
+                                       {Rational(-5, 4), Rational(-3, 5), 0, -10});
+  for (const Slip slip : kSlips) {
+    const Ended ended = Run(problem, Reading(slip));
+    REQUIRE(ended.trace.pivots.size() >= 4);
+    const Pivot<double>& leaves = ended.trace.pivots[ended.trace.pivots.size() - 2];
+    CHECK(leaves.limiting == 1);
+    CHECK(leaves.from == IndexSet::kSticking);
+    CHECK(leaves.to == IndexSet::kAtUpper);
+    CHECK(leaves.s == Approx(1));
+    CheckNear(leaves.f, {1, 0.6, 0.8, 1});
+    CHECK(ended.verdict.outcome == Outcome::kSolved);
+    CHECK(ended.f[2] / ended.f[1] == Approx(4.0 / 3));
+    CHECK(std::hypot(ended.f[1], ended.f[2]) == Approx(ended.f[0]));
+  }
+}
+
+// While contact 3 is driven, fN of contact 2 in C and aN of contact 1 in NC reach zero at s = 1.
+TEST_CASE("space: ties follow the switch") {
+  const ExactProblem problem = InSpace({-1, -1, -1}, {{1, 0, -1}, {0, 1, 1}, {-1, 1, 10}}, {1, -1, -100});
+  PublishedOptions options;
+  options.policy.admit = Admit::kEager;
+  for (const Ties ties : {Ties::kSets, Ties::kContacts}) {
+    options.policy.ties = ties;
+    const Ended ended = Run(problem, options);
+    REQUIRE(ended.trace.pivots.size() > 2);
+    CHECK(ended.trace.pivots[1].s == Approx(1));
+    CHECK(ended.trace.pivots[1].limiting == (ties == Ties::kSets ? 1 : 0));
+  }
+}
+
+// ---- Two readings of the recorded direction ---------------------------------------------------
+
+// Contact 1 slips with d = (-1, 0) while fN of contact 2 is driven, and ax of contact 1 reaches zero at 2/3 of
+// the way, with ay = 1.
+ExactProblem Turning() {
+  return InSpace({1, 1},
+                 {{4, 0, 0, -1, 0, 0},
+                  {0, 3, 0, 0, 0, 0},
+                  {0, 0, 1, 0, 0, 0},
+                  {-1, 0, 0, 3, 0, 0},
+                  {0, 0, 0, 0, 2, 0},
+                  {0, 0, 0, 0, 0, 1}},
+                 {-2, 2, 1, -2, -1, 0});
+}
+
+TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once the sets are full") {
+  const Ended ended = Run(Turning(), Reading(Slip::kLiteral));
+  CHECK(ended.trace.pivots[2].s == Approx(10.0 / 11));
+  CHECK(ended.verdict.breaks == 1);
+  CHECK(ended.verdict.redirects == 0);
+  // To zero, then x until ax = 0, then y until the circle.
+  CheckForces(ended, {8.0 / 11, -2.0 / 3, -std::sqrt(92.0) / 33, 10.0 / 11, 0.5, 0});
+}
+
+TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it against its acceleration") {
+  const Ended ended = Run(Turning(), Reading(Slip::kRedirect));
+  CHECK(ended.trace.pivots[2].s == Approx(2.0 / 3));
+  CHECK(ended.trace.pivots[2].limiting == 1);
+  CHECK(ended.trace.pivots[2].to == IndexSet::kNone);
+  CHECK(ended.verdict.redirects == 1);
+  CHECK(ended.verdict.breaks == 0);
+  CHECK(ended.verdict.statistics.give_ups == 0);
+  const double along = -8 / (11 * std::sqrt(5.0));
+  CheckForces(ended, {8.0 / 11, 2 * along, along, 10.0 / 11, 0.5, 0});
+}
+
+TEST_CASE(
+    "space: literally, forces of a definite static problem can be driven without end; intervals prove it") {
+  const ExactProblem problem = InSpace({2, 2},
+                                       {{2, 0, 0, -1, 0, 1},
+                                        {0, 3, 0, 1, 0, 0},
+                                        {0, 0, 1, 0, 0, 0},
+                                        {-1, 1, 0, 4, 2, -1},
+                                        {0, 0, 0, 2, 4, 0},
+                                        {1, 0, 0, -1, 0, 2}},
+                                       {-2, -2, 2, 0, 2, 1});
+  CHECK(Run(problem, Reading(Slip::kLiteral)).verdict.outcome == Outcome::kRay);
+  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kLiteral)).verdict.outcome == Outcome::kRay);
+  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kRedirect)).verdict.outcome == Outcome::kSolved);
+}
+
+TEST_CASE("space: both readings loop on a definite problem; a loop is a suspicion, over intervals undecided") {
+  const ExactProblem problem = InSpace({3, 3},
+                                       {{3, 0, 0, 0, 0, 1},
+                                        {0, 3, 1, 0, 1, -1},
+                                        {0, 1, 3, -1, 1, 0},
+                                        {0, 0, -1, 2, 0, 0},
+                                        {0, 1, 1, 0, 3, 0},
+                                        {1, -1, 0, 0, 0, 3}},
+                                       {-1, 2, 0, -1, -2, 1});
+  for (const Slip slip : kSlips) {
+    const PublishedSpaceVerdict verdict = Run(problem, Reading(slip)).verdict;
+    CHECK(verdict.outcome == Outcome::kCycle);
+    const PublishedSpaceVerdict again = RunSuspicionInSpace<double>(problem, Reading(slip)).verdict;
+    CHECK(again.outcome == Outcome::kCycle);
+    CHECK(again.start == verdict.start);
+    CHECK(again.period == verdict.period);
+    CHECK(RunIntervalsInSpace(problem, Reading(slip)).verdict.outcome == Outcome::kUndecided);
+  }
+}
+
+// ---- Planar problems in space ------------------------------------------------------------------
+
+// x for the friction of the plane; y has rows of its own, and nothing moves it.
+ExactProblem Embedded(const ExactProblem& planar) {
+  ExactProblem problem = planar;
+  problem.dimension = 3;
+  const int n = static_cast<int>(planar.contacts.size());
+  problem.A = ExactMatrix::Constant(3 * n, 3 * n, Rational(0));
+  problem.b = ExactVector::Constant(3 * n, Rational(0));
+  const auto place = [](int row) { return row / 2 * 3 + row % 2; };
+  for (int i = 0; i < 2 * n; ++i) {
+    problem.b[place(i)] = planar.b[i];
+    for (int j = 0; j < 2 * n; ++j) problem.A(place(i), place(j)) = planar.A(i, j);
+  }
+  for (int contact = 0; contact < n; ++contact)
+    problem.A(3 * contact + 2, 3 * contact + 2) = planar.A(2 * contact + 1, 2 * contact + 1);
+  return problem;
+}
+
+void CheckEqual(const Statistics& found, const Statistics& expected) {
+  Statistics numbers = found;
+  std::vector<std::pair<std::string, std::int64_t>> left, right;
+  ForEachField(numbers,
+               [&](const char* name, const char*, std::int64_t value) { left.emplace_back(name, value); });
+  numbers = expected;
+  ForEachField(numbers,
+               [&](const char* name, const char*, std::int64_t value) { right.emplace_back(name, value); });
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    CAPTURE(left[i].first);
+    CHECK(left[i].second == right[i].second);
+  }
+}
+
+// Whether a friction variable goes from NC- through CF to NC+, or back, by a step of length zero or right after
+// one. In space that is back to the set that it came from, NCF, and looks like a bounce.
+bool PassesThroughSticking(const Trace<Rational>& trace) {
+  for (std::size_t i = 0; i < trace.pivots.size(); ++i) {
+    const Pivot<Rational>& first = trace.pivots[i];
+    if (LimitSign(first.from) == 0) continue;
+    for (std::size_t k = i + 1; k < trace.pivots.size() && trace.pivots[k].drive == first.drive; ++k) {
+      const Pivot<Rational>& pivot = trace.pivots[k];
+      if (pivot.limiting != first.limiting || LimitSign(pivot.wanted) != -LimitSign(first.from)) continue;
+      if (pivot.s == 0 || trace.pivots[k - 1].s == 0) return true;
+    }
+  }
+  return false;
+}
+
+// False if the plane has a distinction that space has not.
+bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
+  CAPTURE(PolicyName(policy));
+  const ExactRun plane = RunExact(planar, {policy, {}, {}});
+  const Verdict& expected = plane.verdict;
+  if (PassesThroughSticking(plane.trace)) return false;
+  const Ended ended = Run(Embedded(planar), {policy, {}, {}});
+  CHECK(ended.verdict.outcome == expected.outcome);
+  CHECK(ended.verdict.start == expected.start);
+  CHECK(ended.verdict.period == expected.period);
+  CheckEqual(ended.verdict.statistics, expected.statistics);
+  CHECK(ended.verdict.redirects == 0);
+  CHECK(ended.verdict.breaks == 0);
+  for (int i = 0; i < planar.rows(); ++i)
+    CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.state.f[i])).margin(1e-6));
+  return true;
+}
+
+// With the readings that are built for space.
+Policy RandomReading(Choices& choices) {
+  Policy policy = RandomPolicy(choices);
+  policy.file = File::kNo;
+  policy.apex = Apex::kKept;
+  policy.slip = kSlips[choices.Integer(0, 1)];
+  return policy;
+}
+
+TEST_CASE("space: a planar problem takes the steps that it takes in the plane, under every policy") {
+  Choices choices(56);
+  int compared = 0;
+  for (int k = 0; k < 600; ++k) {
+    const GeneratorId ids[] = {GeneratorId::kIntegers, GeneratorId::kPsd, GeneratorId::kSmall};
+    compared += CheckAsInThePlane(Random<Rational>(ids[k % 3], 1 + k % 4, k), RandomReading(choices));
+  }
+  CHECK(compared >= 560);
+}
+
+TEST_CASE("space: intervals take the steps of exact arithmetic, bounces too, or are undecided") {
+  int bounced = 0, decided = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ExactProblem planar = Random<Rational>(GeneratorId::kIntegers, 2 + k % 3, k);
+    if (PublishedAlgorithm<double>().Run(As<double>(planar)).statistics.bounces == 0) continue;
+    const ExactRun plane = RunExact(planar, {});
+    const PublishedSpaceVerdict verdict = RunIntervalsInSpace(Embedded(planar), {}).verdict;
+    ++bounced;
+    if (verdict.outcome == Outcome::kUndecided || PassesThroughSticking(plane.trace)) continue;
+    ++decided;
+    CAPTURE(k);
+    CHECK(verdict.outcome == plane.verdict.outcome);
+    CheckEqual(verdict.statistics, plane.verdict.statistics);
+  }
+  CHECK(bounced >= 15);
+  CHECK(decided >= bounced / 2);
+}
+
+TEST_CASE("space: what loops in the plane loops in space") {
+  Choices choices(57);
+  for (const Slip slip : kSlips) {
+    Policy policy;
+    policy.slip = slip;
+    CheckAsInThePlane(ReferenceProblem(), policy);
+    for (const CyclingSeed& seed : CyclingSeeds()) CheckAsInThePlane(Cycling(seed), policy);
+  }
+  for (const CyclingSeed& seed : CyclingSeeds()) CheckAsInThePlane(Cycling(seed), RandomReading(choices));
+}
+
+// ---- Random problems -----------------------------------------------------------------------------
+
+ExactProblem RandomInSpace(int contacts, std::uint64_t index) {
+  Choices choices(ProblemSeed(56, contacts, index));
+  const int rows = 3 * contacts, columns = rows + 1;
+  ExactMatrix J(rows, columns), w(columns, 1);
+  for (auto& entry : J.reshaped()) entry = choices.Integer(-1000, 1000);
+  for (auto& entry : w.reshaped()) entry = choices.Integer(-1000, 1000);
+  const Rational mu[] = {Rational(1, 5), Rational(1, 2), 1, 2, 5};
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(contacts, {ContactKind::kStatic, mu[index % 5], {}});
+  if (index % 4 == 3) problem.contacts.back().kind = ContactKind::kFrictionless;
+  const int kept = RowCount(problem.contacts, 3);
+  problem.A = (J * J.transpose()).eval().topLeftCorner(kept, kept);
+  problem.b = (J * w).eval().topRows(kept);
+  return problem;
+}
+
+TEST_CASE("space: solved means (15), (21), (22), over doubles and over intervals") {
+  Choices choices(58);
+  int solved = 0, proved = 0;
+  for (int k = 0; k < 400; ++k) {
+    const ExactProblem problem = RandomInSpace(1 + k % 4, k);
+    const PublishedOptions options{RandomReading(choices), {}, {}};
+    CAPTURE(k, PolicyName(options.policy));
+    const Ended ended = Run(problem, options);
+    const IntervalSpaceRun enclosed = RunIntervalsInSpace(problem, options);
+    if (ended.verdict.outcome == Outcome::kSolved) {
+      ++solved;
+      CHECK(WeakResidual(As<double>(problem), ended.f, ended.a) < 1e-9);
+    }
+    if (enclosed.verdict.outcome == Outcome::kUndecided) continue;
+    ++proved;
+    CHECK(enclosed.verdict.outcome == ended.verdict.outcome);
+    CHECK(enclosed.verdict.statistics == ended.verdict.statistics);
+    for (int i = 0; i < problem.rows(); ++i) {
+      CHECK(enclosed.f[i].low <= enclosed.f[i].high);
+      CHECK(ended.f[i] == Approx((enclosed.f[i].low + enclosed.f[i].high) / 2).margin(1e-9));
+    }
+  }
+  CHECK(solved >= 380);
+  CHECK(proved >= 380);
+}
+
+// ---- Frames --------------------------------------------------------------------------------------
+
+// Friction of all contacts in the axes (c, s), (-s, c) h; h = -1 mirrors.
+ExactProblem InAxes(const ExactProblem& problem, const Rational& c, const Rational& s, int h, ExactMatrix& Q) {
+  Q = ExactMatrix::Constant(problem.rows(), problem.rows(), Rational(0));
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    Q(row, row) = 1;
+    if (contact.HasFrictionRows()) {
+      Q(row + 1, row + 1) = c;
+      Q(row + 1, row + 2) = s;
+      Q(row + 2, row + 1) = -s * h;
+      Q(row + 2, row + 2) = c * h;
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  ExactProblem other = problem;
+  other.A = Q * problem.A * Q.transpose();
+  other.b = Q * problem.b;
+  return other;
+}
+
+Eigen::VectorXd TurnedBack(const ExactMatrix& Q, const Eigen::VectorXd& f) {
+  return Q.unaryExpr([](const Rational& x) { return ToDouble(x); }).transpose() * f;
+}
+
+TEST_CASE("space: turned axes may lead elsewhere, and there too to a solution") {
+  int differ = 0, both = 0;
+  for (int k = 0; k < 200; ++k) {
+    const ExactProblem problem = RandomInSpace(1 + k % 3, k);
+    ExactMatrix Q;
+    const ExactProblem turned = InAxes(problem, Rational(3, 5), Rational(4, 5), 1, Q);
+    for (const Slip slip : kSlips) {
+      const Ended here = Run(problem, Reading(slip)), there = Run(turned, Reading(slip));
+      if (here.verdict.outcome != Outcome::kSolved || there.verdict.outcome != Outcome::kSolved) continue;
+      ++both;
+      const auto rounded = As<double>(problem);
+      const Eigen::VectorXd f = TurnedBack(Q, there.f), a = rounded.A * f + rounded.b;
+      CHECK(WeakResidual(rounded, f, a) < 1e-9);
+      differ += (f - here.f).norm() > 1e-6 * (1 + f.norm());
+    }
+  }
+  CHECK(both >= 380);
+  CHECK(differ >= 40);
+}
+
+TEST_CASE("space: mirrored axes change nothing, and what sticks does not ask for axes") {
+  for (int k = 0; k < 100; ++k) {
+    const ExactProblem problem = RandomInSpace(1 + k % 3, k);
+    ExactMatrix Q;
+    const ExactProblem mirrored = InAxes(problem, -1, 0, k % 2 == 0 ? 1 : -1, Q);
+    for (const Slip slip : kSlips) {
+      const Ended here = Run(problem, Reading(slip)), there = Run(mirrored, Reading(slip));
+      CHECK(here.verdict.outcome == there.verdict.outcome);
+      CHECK(here.verdict.statistics == there.verdict.statistics);
+      CHECK((TurnedBack(Q, there.f) - here.f).norm() < 1e-8 * (1 + here.f.norm()));
+    }
+  }
+  ExactMatrix Q;
+  const ExactProblem turned = InAxes(OneContact(2, {-2, -1, 1}), Rational(3, 5), Rational(4, 5), 1, Q);
+  CheckNear(TurnedBack(Q, Run(turned, {}).f), {1, 1, -1});
+}
+
+// ---- How runs end --------------------------------------------------------------------------------
+
+TEMPLATE_TEST_CASE("space: every scalar solves", "", float, double, long double) {
+  PublishedInSpace<TestType> algorithm;
+  const auto problem = As<TestType>(Turning());
+  CHECK(algorithm.Run(problem).outcome == Outcome::kSolved);
+  CHECK(static_cast<double>(algorithm.f()[1]) == Approx(-2.0 / 3).epsilon(1e-5));
+  CHECK(algorithm.Run(problem).outcome == Outcome::kSolved);  // again, with the memory of the run before
+}
+
+TEST_CASE("space: no contacts, budgets, and what is no number") {
+  ExactProblem none = NoContacts();
+  none.dimension = 3;
+  CHECK(Run(none, {}).verdict.outcome == Outcome::kSolved);
+  PublishedOptions options;
+  options.limits.drives = 2;
+  const PublishedSpaceVerdict verdict = PublishedInSpace<double>(options).Run(As<double>(Turning()));
+  CHECK(verdict.outcome == Outcome::kLimit);
+  CHECK(verdict.reason == "drives");
+  ContactProblem<double> broken = As<double>(Turning());
+  broken.A(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(PublishedInSpace<double>().Run(broken).outcome == Outcome::kUndecided);
+}
+
+TEST_CASE("space: the readings that are built") {
+  CHECK(PublishedReadsInSpace(ParsePolicy("slip=redirect,scan=highest,ties=contacts")));
+  for (const char* policy : {"slip=polygon", "file=yes", "apex=suspended"})
+    CHECK_FALSE(PublishedReadsInSpace(ParsePolicy(policy)));
+  CHECK(PublishedHandlesInSpace(Turning()));
+  CHECK_FALSE(PublishedHandlesInSpace(ReferenceProblem()));
+}
+
+TEST_CASE("weak residual: zero at a solution, the size of what is broken elsewhere") {
+  const auto problem = As<double>(OneContact(Rational(1, 2), {-2, 1, -1}));  // r = 1/2, scale 1
+  const auto residual = [&](std::vector<double> f) {
+    const Eigen::VectorXd forces = Eigen::Map<Eigen::VectorXd>(f.data(), 3);
+    const Eigen::VectorXd a = problem.A * forces + problem.b;
+    return WeakResidual(problem, forces, a);
+  };
+  CHECK(residual({1, -0.5, 0}) == 0);
+  CHECK(residual({1, -0.75, 0}) == Approx(0.25));      // outside the circle
+  CHECK(residual({1, -0.25, 0}) == Approx(0.25));      // inside, though aF /= 0
+  CHECK(residual({1, 0.5, 0}) == Approx(0.75));        // along its acceleration
+  CHECK(residual({0.75, -0.375, 0}) == Approx(0.25));  // aN = -1/2
+}
+
+}  // namespace
+}  // namespace stiction
