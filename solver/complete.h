@@ -52,6 +52,7 @@ struct CompleteOptions {
   Tolerances tolerances;
   Limits limits;
   double residual = 1e-8;
+  int update_from = kUpdateFrom;
 
   bool operator==(const CompleteOptions&) const = default;
 };
@@ -135,6 +136,7 @@ class CompleteDriving {
   // For the outcome `ray` of an exact run with A symmetric and positive semidefinite: v in K with A v = 0 and
   // b.v < 0, so that b is not in range(A).
   const Vector& ray() const { return direction_.df(); }
+  const DirectionSystem<Scalar, Rows>& direction() const { return direction_; }
   // The word: the cell of every contact; kNone for contacts that the run did not finish.
   Cell CellOf(int contact) const;
   std::string Word() const;

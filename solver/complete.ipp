@@ -39,7 +39,7 @@ void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, Path<Scalar>* 
   if (path_ != nullptr) path_->clear();
   layout_.Assign(problem.contacts);
   scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Start(problem);
+  direction_.Start(problem, options_.update_from);
   if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
   for (int row = 0; row < rows; ++row) state_.f[row] = Scalar(0);
   state_.a = problem.b;

@@ -18,16 +18,20 @@
 //            with the orientation of Cramer's rule (complete_driving.md, 4).
 // Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, a column
 //            with friction at its limit by the denominator of mu; df and da become fractions at the end.
-// Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart.
+// Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart. Over
+//            floating-point scalars and with dynamic sizes, O(k^2) from some number of unknowns on, if few sets
+//            have changed since the call before (updated_system.h).
 
 #ifndef STICTION_SOLVER_DIRECTION_H_
 #define STICTION_SOLVER_DIRECTION_H_
 
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "solver/elimination.h"
 #include "solver/state.h"
+#include "solver/updated_system.h"
 
 namespace stiction {
 
@@ -39,8 +43,14 @@ class DirectionSystem {
 
   enum class Status { kRegular, kSingular, kInconsistent };
 
-  // Takes the problem that is to be solved from now on. Its A must stay as it is over fraction-free scalars.
-  void Start(const Problem& problem);
+  // Whether systems of many unknowns are updated; what updated() is then.
+  static constexpr bool kUpdates = std::is_floating_point_v<Scalar> && Rows == Eigen::Dynamic;
+  struct NotUpdated {};
+  using Updated = std::conditional_t<kUpdates, UpdatedSystem<Scalar>, NotUpdated>;
+
+  // Takes the problem that is to be solved from now on. Its A must stay as it is. `update_from`: number of
+  // unknowns, at least 1, from which on the system is updated.
+  void Start(const Problem& problem, int update_from = kUpdateFrom);
 
   // Requires: the driven variable is in neither C nor CF. `sign` is df_d, +1 or -1.
   Status Solve(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
@@ -52,12 +62,19 @@ class DirectionSystem {
                                    const IndexSets<Rows>& sets, int driven, int side,
                                    const Scale<Scalar>& scale);
 
+  // df() becomes the forces of the unknowns and of friction at its limits at which a = A f + b rests in C and
+  // CF, all other forces zero; da() becomes a. Allocates where it does not update.
+  Status SolveForces(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
+                     const Scale<Scalar>& scale);
+
   const Vector& df() const { return df_; }
   const Vector& da() const { return da_; }
+  const Updated& updated() const { return updated_; }
 
  private:
   using Entry = typename Fractions<Scalar>::Integer;
 
+  void TurnRound();
   void Assemble(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
                 int sign);
   Entry ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row, int column,
@@ -73,6 +90,7 @@ class DirectionSystem {
   RowArray<int, Rows> unknown_;       // row of each unknown
   Elimination<Scalar, Rows> system_;  // reduced matrix, right side in column unknowns_
   Vector df_, da_;
+  [[no_unique_address]] Updated updated_;
 
   // Of fraction-free scalars: A_ij = integer_A_(i, j) / row_scale_[i]; numerators of df.
   Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> integer_A_;

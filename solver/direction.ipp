@@ -8,12 +8,14 @@
 
 #include "solver/direction.h"
 #include "solver/elimination.ipp"
+#include "solver/updated_system.ipp"
 
 namespace stiction {
 
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::Start(const Problem& problem) {
+void DirectionSystem<Scalar, Rows>::Start(const Problem& problem, int update_from) {
   const int rows = problem.rows();
+  if constexpr (kUpdates) updated_.Start(problem, update_from);
   Reset<int, Rows>(unknown_, rows, 0);
   system_.Resize(rows, rows + 1);
   if constexpr (Rows == Eigen::Dynamic) {
@@ -37,6 +39,12 @@ template <class Scalar, int Rows>
 auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const RowLayout<Rows>& layout,
                                           const IndexSets<Rows>& sets, int driven, int sign,
                                           const Scale<Scalar>& scale) -> Status {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
+      if (sign < 0) TurnRound();
+      return Status::kRegular;
+    }
+  }
   Assemble(problem, layout, sets, driven, sign);
   const Status status = Eliminate(scale);
   if (status != Status::kInconsistent) Spread(problem, layout, sets, driven, driven, sign);
@@ -48,6 +56,12 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
                                                                 const RowLayout<Rows>& layout,
                                                                 const IndexSets<Rows>& sets, int driven,
                                                                 int side, const Scale<Scalar>& scale) {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
+      if (updated_.determinant_sign() * side < 0) TurnRound();
+      return updated_.determinant_sign();
+    }
+  }
   Assemble(problem, layout, sets, driven, side);
   const Status status = Eliminate(scale);
   if (status == Status::kSingular || system_.rank() + 1 < unknowns_) return std::nullopt;
@@ -64,10 +78,43 @@ std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& p
   return sign;
 }
 
-// The sign of the limit at which the friction of a normal row is held, 0 if it is not.
-template <int Rows>
-int FrictionLimitSign(const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int row) {
-  return layout.IsNormal(row) && layout.HasFriction(row) ? LimitSign(sets[row + 1]) : 0;
+template <class Scalar, int Rows>
+auto DirectionSystem<Scalar, Rows>::SolveForces(const Problem& problem, const RowLayout<Rows>& layout,
+                                                const IndexSets<Rows>& sets, const Scale<Scalar>& scale)
+    -> Status {
+  if constexpr (kUpdates) {
+    if (updated_.Solve(problem, layout, sets, Updated::kLoads, scale, df_, da_)) return Status::kRegular;
+  }
+  std::vector<int> unknowns;
+  for (int row = 0; row < problem.rows(); ++row) {
+    if (IsUnknown(sets[row])) unknowns.push_back(row);
+  }
+  const int size = static_cast<int>(unknowns.size());
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M(size, size + 1);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) {
+      const int limit = FrictionLimitSign(layout, sets, unknowns[j]);
+      M(i, j) = ReducedEntry(problem, layout, unknowns[i], unknowns[j], limit);
+    }
+    M(i, size) = -problem.b[unknowns[i]];
+  }
+  Elimination<Scalar> system;
+  system.Assign(M);
+  system.Run(size, size, size + 1, scale.rate);
+  if (!system.IsConsistent(size, scale.rate)) return Status::kInconsistent;
+  system.BackSubstitute(size);
+  for (int row = 0; row < problem.rows(); ++row) df_[row] = Scalar(0);
+  for (int i = 0; i < size; ++i) df_[unknowns[i]] = system.Solution(i);
+  FollowLimits(problem, layout, sets, df_);
+  da_ = problem.A * df_ + problem.b;
+  for (const int row : unknowns) da_[row] = Scalar(0);
+  return system.rank() == size ? Status::kRegular : Status::kSingular;
+}
+
+template <class Scalar, int Rows>
+void DirectionSystem<Scalar, Rows>::TurnRound() {
+  df_ = -df_;
+  da_ = -da_;
 }
 
 // The reduced system of equation (9): A_CC x = -v_1, where a normal's column takes +-mu times the column
@@ -112,15 +159,7 @@ auto DirectionSystem<Scalar, Rows>::ColumnEntry(const Problem& problem, const Ro
     }
     return entry;
   } else {
-    Scalar entry = problem.A(row, column);
-    if (limit == 0) return entry;
-    const Scalar along = problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
-    if (limit > 0) {
-      entry += along;
-    } else {
-      entry -= along;
-    }
-    return entry;
+    return ReducedEntry(problem, layout, row, column, limit);
   }
 }
 
@@ -129,7 +168,9 @@ auto DirectionSystem<Scalar, Rows>::Eliminate(const Scale<Scalar>& scale) -> Sta
   system_.Run(unknowns_, unknowns_, unknowns_ + 1, scale.rate);
   if (!system_.IsConsistent(unknowns_, scale.rate)) return Status::kInconsistent;
   system_.BackSubstitute(unknowns_);
-  return system_.rank() == unknowns_ ? Status::kRegular : Status::kSingular;
+  if (system_.rank() < unknowns_) return Status::kSingular;
+  if constexpr (kUpdates) updated_.Forget();
+  return Status::kRegular;
 }
 
 // Cramer's rule where the determinant is zero, for rank k - 1: with the right side in place of the one column
@@ -169,16 +210,7 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayo
   for (int row = 0; row < rows; ++row) df_[row] = Scalar(0);
   for (int i = 0; i < unknowns_; ++i) df_[unknown_[i]] = system_.numerator(i);  // over 1
   df_[driven] = Scalar(sign);
-  for (int row = 0; row < rows; ++row) {
-    const int limit = FrictionLimitSign(layout, sets, row);
-    if (limit == 0) continue;
-    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * df_[row];
-    if (limit > 0) {
-      df_[row + 1] = bound;
-    } else {
-      df_[row + 1] = -bound;
-    }
-  }
+  FollowLimits(problem, layout, sets, df_);
   for (int row = 0; row < rows; ++row) {
     Scalar change = Scalar(0);
     if (!IsUnknown(sets[row])) {

@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "solver/step_size.h"
@@ -57,6 +58,11 @@ class PublishedAlgorithm {
   // switches that the run consulted.
   Verdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
 
+  // Runs from the forces of `guess`, e.g. the sets in which a run of a problem nearby ended: one entry per row.
+  // Variables whose conditions do not hold with these forces leave their sets, and the forces are solved for
+  // again; where that has no solution, the run starts from f = 0. Work: one factorization, then as the run.
+  Verdict RunFrom(const Problem& problem, std::span<const IndexSet> guess, Trace<Scalar>* trace = nullptr);
+
   // The state in which the last run ended.
   const State& state() const { return state_; }
   // The set that each variable last left in the last drive (kNone: none), and whether the last step of
@@ -87,10 +93,14 @@ class PublishedAlgorithm {
   static constexpr std::string_view kNotFinite = "a number is not finite";
 
   void Start(const Problem& problem, Trace<Scalar>* trace);
+  void Rest();
+  bool Adopt(std::span<const IndexSet> guess);
+  int DropViolated();
   bool Ended() const { return ended_; }
   void End(Outcome outcome, std::string_view reason = {});
 
   // Main loop (4.3, 5.5).
+  void ComputeForces();
   void Sweep();
   int ScanForViolated();
   int Pick(Scan scan, Resume resume) const;

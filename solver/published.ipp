@@ -20,18 +20,33 @@ template <class Scalar, int Rows>
 Verdict PublishedAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
   Start(problem, trace);
   if (!IsFinite(problem)) End(Outcome::kUndecided, kNotFinite);
+  ComputeForces();
+  return verdict_;
+}
+
+template <class Scalar, int Rows>
+Verdict PublishedAlgorithm<Scalar, Rows>::RunFrom(const Problem& problem, std::span<const IndexSet> guess,
+                                                  Trace<Scalar>* trace) {
+  Start(problem, trace);
+  if (!IsFinite(problem)) End(Outcome::kUndecided, kNotFinite);
+  if (!Ended() && !Adopt(guess)) Rest();
+  ComputeForces();
+  return verdict_;
+}
+
+template <class Scalar, int Rows>
+void PublishedAlgorithm<Scalar, Rows>::ComputeForces() {
   while (!Ended()) {
     if (OuterStateRecurs()) break;
     Sweep();
     const int violated = ScanForViolated();
     if (violated < 0) {
-      if (!IsFinite()) return verdict_;
+      if (!IsFinite()) return;
       End(Outcome::kSolved);
     } else {
       Establish(violated);
     }
   }
-  return verdict_;
 }
 
 template <class Scalar, int Rows>
@@ -45,12 +60,10 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
   }
   layout_.Assign(problem.contacts);
   scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Start(problem);
+  direction_.Start(problem, options_.update_from);
   step_size_.Resize(rows);
   if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
-  for (int row = 0; row < rows; ++row) state_.f[row] = Scalar(0);
-  state_.a = problem.b;
-  Reset<IndexSet, Rows>(state_.sets, rows, IndexSet::kNone);
+  Rest();
   Reset<IndexSet, Rows>(last_left_, rows, IndexSet::kNone);
   verdict_ = {};
   ended_ = false;
@@ -58,6 +71,46 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
   last_step_zero_ = false;
   outer_states_.clear();
   inner_states_.clear();
+}
+
+// f = 0, and no variable in a set.
+template <class Scalar, int Rows>
+void PublishedAlgorithm<Scalar, Rows>::Rest() {
+  for (int row = 0; row < problem_->rows(); ++row) state_.f[row] = Scalar(0);
+  state_.a = problem_->b;
+  Reset<IndexSet, Rows>(state_.sets, problem_->rows(), IndexSet::kNone);
+}
+
+// A state that a run could be in: the conditions of all variables in sets hold, all other forces are zero.
+template <class Scalar, int Rows>
+bool PublishedAlgorithm<Scalar, Rows>::Adopt(std::span<const IndexSet> guess) {
+  using System = DirectionSystem<Scalar, Rows>;
+  std::copy(guess.begin(), guess.end(), state_.sets.begin());
+  do {
+    const auto status = direction_.SolveForces(*problem_, layout_, state_.sets, scale_);
+    if (status == System::Status::kInconsistent) return false;
+    state_.f = direction_.df();
+    state_.a = direction_.da();
+  } while (DropViolated() > 0);
+  return true;
+}
+
+// Returns how many variables left C, CF, NC- or NC+, so that forces change.
+template <class Scalar, int Rows>
+int PublishedAlgorithm<Scalar, Rows>::DropViolated() {
+  int left = 0;
+  const auto drop = [&](int row) {
+    left += IsUnknown(state_.sets[row]) || LimitSign(state_.sets[row]) != 0;
+    state_.sets[row] = IndexSet::kNone;
+  };
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (state_.sets[row] == IndexSet::kNone) continue;
+    const bool normal = layout_.IsNormal(row);
+    if (normal ? NormalHolds(row) : FrictionHolds(row)) continue;
+    drop(row);
+    if (normal && layout_.HasFriction(row)) drop(row + 1);
+  }
+  return left;
 }
 
 template <class Scalar, int Rows>

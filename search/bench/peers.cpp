@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 #include "corpus/json_text.h"
@@ -335,12 +336,12 @@ Json CountsOf(const Statistics& statistics) {
   return json;
 }
 
-// The first run takes the memory; the median of three more, where they are short, is the time.
+// `-afresh`: every direction system is eliminated afresh. The first run takes the memory; the median of three
+// more, where they are short, is the time.
 template <class Solver>
-Growth Grow(const PeerProblem& problem) {
+Growth Grow(const PeerProblem& problem, Solver solver) {
   Growth growth;
   const double held = Held();
-  Solver solver;
   std::vector<double> seconds;
   while (seconds.empty() || (seconds.size() < 4 && seconds[0] < 1)) {
     const auto start = Clock::now();
@@ -358,7 +359,7 @@ Growth Grow(const PeerProblem& problem) {
 struct GrowthMethod {
   std::string name;
   std::vector<std::string> shown;  // counters in the text
-  bool per_contact;                // how they are shown
+  std::string step;                // counter of the steps that directions are solved for; empty: it has none
   std::function<Growth(const PeerProblem&)> run;
   bool stopped = false;
   std::vector<double> log_size, log_time;
@@ -379,10 +380,36 @@ Json GrowthJson(const std::string& name, int contacts, const Growth& growth) {
 }
 
 Json MeasureGrowth(bool friction, const PeersOptions& o) {
+  using Published = PublishedAlgorithm<double>;
+  using Complete = CompleteDriving<double>;
+  PublishedOptions published;
+  CompleteOptions complete;
+  published.update_from = complete.update_from = std::numeric_limits<int>::max();
+  const std::vector<std::string> drives = {"drives", "pivots"}, stages = {"stages", "pieces"};
   std::vector<GrowthMethod> methods = {
-      {"published", {"drives", "pivots"}, true, Grow<PublishedAlgorithm<double>>, false, {}, {}},
-      {"complete", {"stages", "pieces"}, true, Grow<CompleteDriving<double>>, false, {}, {}},
-      {"fast", {"exchanges", "factorizations"}, false, Grow<FastSolver<double>>, false, {}, {}},
+      {"published", drives, "steps", [](auto& problem) { return Grow(problem, Published()); }, false, {}, {}},
+      {"published-afresh",
+       drives,
+       "steps",
+       [&](auto& problem) { return Grow(problem, Published(published)); },
+       false,
+       {},
+       {}},
+      {"complete", stages, "pieces", [](auto& problem) { return Grow(problem, Complete()); }, false, {}, {}},
+      {"complete-afresh",
+       stages,
+       "pieces",
+       [&](auto& problem) { return Grow(problem, Complete(complete)); },
+       false,
+       {},
+       {}},
+      {"fast",
+       {"exchanges", "factorizations"},
+       "",
+       [](auto& problem) { return Grow(problem, FastSolver<double>()); },
+       false,
+       {},
+       {}},
   };
   std::vector<int> sizes =
       o.contacts.empty() ? std::vector<int>{2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000} : o.contacts;
@@ -396,7 +423,7 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
     const PeerProblem problem = MakeProblem(size, friction, true, ProblemSeed(o.seed, 5000 + size, 0));
     for (GrowthMethod& method : methods) {
       if (method.stopped) {
-        if (!o.json) fmt::print("{:6} {:10} {:>12}\n", size, method.name, "-");
+        if (!o.json) fmt::print("{:6} {:16} {:>12}\n", size, method.name, "-");
         continue;
       }
       const Growth growth = method.run(problem);
@@ -407,12 +434,18 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
       }
       points.push_back(GrowthJson(method.name, size, growth));
       if (o.json) continue;
-      fmt::print("{:6} {:10} {:>12.4f} {:>9.3f}", size, method.name, 1e3 * growth.seconds, 1e-6 * growth.bytes);
+      fmt::print("{:6} {:16} {:>12.4f} {:>9.3f}", size, method.name, 1e3 * growth.seconds, 1e-6 * growth.bytes);
       for (const auto& counter : method.shown) {
         const auto count = growth.counts[counter].get<std::int64_t>();
-        if (method.per_contact)
+        if (method.step.empty()) {
+          fmt::print("   {} {}", count, counter);
+        } else {
           fmt::print("   {:.2f} {} a contact", static_cast<double>(count) / size, counter);
-        if (!method.per_contact) fmt::print("   {} {}", count, counter);
+        }
+      }
+      if (!method.step.empty()) {
+        const auto steps = growth.counts[method.step].get<double>();
+        fmt::print("   {:.1f} us a step", 1e6 * growth.seconds / std::max(1.0, steps));
       }
       fmt::print("{}\n", growth.solved ? "" : "   not solved");
       std::fflush(stdout);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suite `peers`: becomes the program stiction-peers, which stands beside this one.
+// Suites `peers` and `growth`: they become the program stiction-peers, which stands beside this one.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,11 +11,14 @@
 #include "search/bench/suite.h"
 
 namespace stiction {
+namespace {
 
-int BenchPeers(const BenchOptions& options) {
+// `tables`: options that name them.
+int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tables) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
   std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed), "--seconds",
                                     std::to_string(0.06 * options.repeat)};
+  words.insert(words.end(), tables.begin(), tables.end());
   if (options.json) words.push_back("--json");
   if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
   if (!options.contacts.empty()) words.push_back("--contacts");
@@ -27,5 +30,11 @@ int BenchPeers(const BenchOptions& options) {
   throw InputError(fmt::format("{}: cannot be run: {}; expected the program stiction-peers", program.string(),
                                std::strerror(errno)));
 }
+
+}  // namespace
+
+int BenchPeers(const BenchOptions& options) { return BecomePeers(options, {}); }
+
+int BenchGrowth(const BenchOptions& options) { return BecomePeers(options, {"--table", "growth"}); }
 
 }  // namespace stiction

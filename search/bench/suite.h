@@ -30,6 +30,10 @@ int BenchMethods(const BenchOptions& options);
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
 
+// Of it, the growth of time and memory with the number of contacts, direction systems updated and solved
+// afresh.
+int BenchGrowth(const BenchOptions& options);
+
 // Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
 int BenchLinearAlgebra(const BenchOptions& options);
 // The readings of section 5.6 side by side, on problems in space (space.cpp).

@@ -80,6 +80,7 @@ constexpr std::array kSuites = {
     Suite{"search", "problems a second of the search's hot path", BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", BenchPeers},
+    Suite{"growth", "of it, time and memory at up to 2000 contacts", BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
 };

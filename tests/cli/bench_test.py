@@ -143,6 +143,17 @@ class Peers(cli.TestCase):
         for name in ["growth-frictionless", "growth-planar"]:
             self.assertTrue(all(point["solved"] for point in tables[name]["points"] if point["method"] == "fast"))
 
+    def test_growth_takes_the_same_steps_updated_and_afresh(self):
+        done = cli.run("bench", "--suite", "growth", "--json", "--contacts", 3, 8, "--repeat", 1)
+        self.assertEqual(done.code, 0, done.err)
+        tables = done.json()["tables"]
+        self.assertEqual([table["name"] for table in tables], ["growth-frictionless", "growth-planar"])
+        for table in tables:
+            points = {(point["method"], point["contacts"]): point for point in table["points"]}
+            for method in ["published", "complete"]:
+                for contacts in [3, 8]:
+                    self.assertEqual(points[method, contacts]["counts"], points[method + "-afresh", contacts]["counts"])
+
     def test_bad_options_exit_with_2(self):
         self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
 

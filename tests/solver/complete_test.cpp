@@ -356,18 +356,15 @@ enum class Parting { kNever, kFold, kOtherSets, kUnexplained };
 // different sets: complete driving leaves the contacts after the driven one alone.
 Parting FirstDifference(const ExactProblem& problem, const Path<Rational>& path,
                         const std::vector<Pivot<Rational>>& pivots) {
-  const auto earlier = [](const auto& sets, int driven) {
-    return std::vector<IndexSet>(sets.begin(), sets.begin() + driven);
-  };
   std::vector<IndexSet> before(problem.rows(), IndexSet::kNone);  // of the published algorithm
   for (std::size_t k = 0; k < std::max(path.size(), pivots.size()); ++k) {
     if (k == path.size() || k == pivots.size())
       return Parting::kOtherSets;  // a later contact rests in one only
     const Piece<Rational>& piece = path[k];
     const Pivot<Rational>& pivot = pivots[k];
-    if (piece.driven != pivot.driven || earlier(before, piece.driven) != earlier(piece.cell, piece.driven)) {
+    if (piece.driven != pivot.driven) return Parting::kOtherSets;
+    if (!std::equal(before.begin(), before.begin() + piece.driven, piece.cell.begin()))
       return Parting::kOtherSets;
-    }
     const bool folds = piece.determinant < 0;
     const bool bounces = pivot.s == 0 && pivot.gave_up;
     if (folds && bounces) return Parting::kFold;
