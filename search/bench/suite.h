@@ -20,6 +20,7 @@ struct BenchOptions {
   int repeat = 5;
   std::uint64_t seed = 1;
   std::optional<GeneratorId> generator;  // empty: the suite's own
+  std::string scenes = "corpus/scenes";  // folder
   bool json = false;
 };
 
@@ -38,6 +39,8 @@ int BenchGrowth(const BenchOptions& options);
 int BenchLinearAlgebra(const BenchOptions& options);
 // The readings of section 5.6 side by side, on problems in space (space.cpp).
 int BenchSpace(const BenchOptions& options);
+// The scenes of a folder, minimal and full models side by side (scenes.cpp). InputError if there are none.
+int BenchScenes(const BenchOptions& options);
 
 }  // namespace stiction
 

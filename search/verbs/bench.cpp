@@ -83,6 +83,7 @@ constexpr std::array kSuites = {
     Suite{"growth", "of it, time and memory at up to 2000 contacts", BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
+    Suite{"scenes", "frames a second of the scenes of a folder, minimal and full models", BenchScenes},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -111,7 +112,7 @@ void AddBench(CLI::App& program, Action& action) {
                   "(default 2000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
-                  "search, linear-algebra: counted runs; peers: 0.06 seconds each for a row and size")
+                  "search, linear-algebra, scenes: counted runs; peers: 0.06 seconds each for a row and size")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_option("--seed", o->seed, "of the problems")
@@ -121,6 +122,7 @@ void AddBench(CLI::App& program, Action& action) {
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
           "search: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
+  verb.add_option("--scenes", o->scenes, "scenes: the folder")->capture_default_str();
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });
 }

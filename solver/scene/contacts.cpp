@@ -79,13 +79,14 @@ CarryingEdge<Scalar> FarthestEdge(const PlacedShape<Scalar>& polygon, const std:
 template <class Scalar>
 class PairFinder {
  public:
-  PairFinder(const Scalar& gap, TouchPoint<Scalar> pattern, std::vector<TouchPoint<Scalar>>& found)
-      : gap_(gap), pattern_(std::move(pattern)), found_(found) {}
+  PairFinder(const Scalar& gap, const Scalar& margin, TouchPoint<Scalar> pattern,
+             std::vector<TouchPoint<Scalar>>& found)
+      : gap_(gap), reach_(gap + margin), pattern_(std::move(pattern)), found_(found) {}
 
   // P belongs to the pattern's a, Q to its b.
   void Find(const PlacedShape<Scalar>& P, const PlacedShape<Scalar>& Q) {
     for (int i = 0; i < 2; ++i) {
-      if (P.low[i] - Q.high[i] > gap_ || Q.low[i] - P.high[i] > gap_) return;
+      if (P.low[i] - Q.high[i] > reach_ || Q.low[i] - P.high[i] > reach_) return;
     }
     const bool disc_p = P.corners.empty(), disc_q = Q.corners.empty();
     if (disc_p && disc_q) return Round(pattern_, P.center, P.radius, Q.center, Q.radius);
@@ -107,7 +108,7 @@ class PairFinder {
     const Vector2<Scalar> apart = center_a - center_b;
     if (Sign(apart[0]) == 0 && Sign(apart[1]) == 0) return;  // no direction to part them in
     contact.gap = Length<Scalar>(apart) - radius_a - radius_b;
-    if (contact.gap > gap_) return;
+    if (contact.gap > reach_) return;
     contact.normal = UnitVector<Scalar>(apart);
     contact.point = center_b + radius_b * contact.normal;
     contact.radius_a = radius_a;
@@ -118,7 +119,7 @@ class PairFinder {
 
   void PolygonDisc(TouchPoint<Scalar> contact, const PlacedShape<Scalar>& disc, const PlacedShape<Scalar>& polygon) {
     const CarryingEdge<Scalar> edge = FarthestEdge<Scalar>(polygon, {disc.center}, disc.radius);
-    if (edge.distance > gap_) return;
+    if (edge.distance > reach_) return;
     const Scalar s = edge.Along(disc.center);
     const std::size_t next = (edge.index + 1) % polygon.corners.size();
     if (s < 0) return Round(contact, disc.center, disc.radius, polygon.corners[edge.index], Scalar(0));
@@ -141,7 +142,7 @@ class PairFinder {
 
   // The edge of `other` that faces the carrying edge, as far as it is opposite to it.
   void Clip(const TouchPoint<Scalar>& contact, const CarryingEdge<Scalar>& edge, const PlacedShape<Scalar>& other) {
-    if (edge.distance > gap_) return;
+    if (edge.distance > reach_) return;
     std::size_t facing = 0;
     std::optional<Scalar> least;
     for (std::size_t i = 0; i < other.corners.size(); ++i) {
@@ -169,7 +170,7 @@ class PairFinder {
   }
 
   void Add(TouchPoint<Scalar> contact, const CarryingEdge<Scalar>& edge, const Scalar& s, const Scalar& height) {
-    if (height > gap_) return;
+    if (height > reach_) return;
     contact.point = edge.Point(s);
     contact.normal = edge.normal;
     contact.gap = height;
@@ -177,7 +178,7 @@ class PairFinder {
     found_.push_back(contact);
   }
 
-  Scalar gap_;
+  Scalar gap_, reach_;
   TouchPoint<Scalar> pattern_;
   std::vector<TouchPoint<Scalar>>& found_;
 };
@@ -221,7 +222,7 @@ TouchPoint<Scalar> Given(const Scene<Scalar>& scene, const GivenContact<Scalar>&
 }  // namespace
 
 template <class Scalar>
-std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene) {
+std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene, const Scalar& margin) {
   std::vector<TouchPoint<Scalar>> found;
   for (const auto& given : scene.contacts) found.push_back(Given(scene, given));
   const int bodies = static_cast<int>(scene.bodies.size());
@@ -240,7 +241,7 @@ std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene) {
           pattern.shape_a = static_cast<int>(i);
           pattern.shape_b = static_cast<int>(j);
           pattern.mu = facts.mu;
-          PairFinder<Scalar>(scene.gap, pattern, found).Find(placed[a][i], placed[b][j]);
+          PairFinder<Scalar>(scene.gap, margin, pattern, found).Find(placed[a][i], placed[b][j]);
         }
       }
     }
@@ -248,7 +249,7 @@ std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene) {
   return found;
 }
 
-template std::vector<TouchPoint<double>> FindContacts(const Scene<double>&);
-template std::vector<TouchPoint<mpq_class>> FindContacts(const Scene<mpq_class>&);
+template std::vector<TouchPoint<double>> FindContacts(const Scene<double>&, const double&);
+template std::vector<TouchPoint<mpq_class>> FindContacts(const Scene<mpq_class>&, const mpq_class&);
 
 }  // namespace stiction

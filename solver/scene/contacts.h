@@ -39,12 +39,13 @@ struct TouchPoint {
   bool flat_b = true;
 };
 
-// Given contacts first, whatever their gap, then those found, by pairs of bodies in order.
+// Given contacts first, whatever their gap, then those found, by pairs of bodies in order. With a margin (m, >= 0)
+// also those that are so much farther apart than the gap: which may touch soon.
 template <class Scalar>
-std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene);
+std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene, const Scalar& margin = Scalar(0));
 
-extern template std::vector<TouchPoint<double>> FindContacts(const Scene<double>&);
-extern template std::vector<TouchPoint<mpq_class>> FindContacts(const Scene<mpq_class>&);
+extern template std::vector<TouchPoint<double>> FindContacts(const Scene<double>&, const double&);
+extern template std::vector<TouchPoint<mpq_class>> FindContacts(const Scene<mpq_class>&, const mpq_class&);
 
 }  // namespace stiction
 

@@ -16,6 +16,12 @@ constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
 constexpr int kHoldRounds = 8;
 
+// The derivative of the gap: negative where the contact closes.
+double ApproachOf(const Scene<double>& scene, const TouchPoint<double>& contact) {
+  const auto &a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
+  return Dot<double>(contact.normal, a.VelocityAt(contact.point) - b.VelocityAt(contact.point));
+}
+
 void Turn(Vector2<double>& rotation, double angle) {
   if (angle == 0) return;
   rotation = UnitVector<double>(Rotate<double>(MakeVector2<double>(std::cos(angle), std::sin(angle)), rotation));
@@ -55,7 +61,7 @@ Simulation::Simulation(Scene<double> scene, const SimulationOptions& options,
 }
 
 void Simulation::Step() {
-  contacts_ = FindContacts(scene_);
+  FindStepContacts();
   if (HasDrifted()) CorrectPositions();
   if (Collides()) ApplyImpulses();
   Move(Accelerations());
@@ -70,6 +76,22 @@ Simulation::Model Simulation::AssembleAt(Level level, const std::vector<bool>& h
   options.minimal = options_.minimal;
   options.held = held;
   return Assemble(scene_, contacts_, options);
+}
+
+void Simulation::FindStepContacts() {
+  double fastest = Length<double>(scene_.gravity) * options_.step;
+  for (const auto& body : scene_.bodies) {
+    double radius = 0;
+    for (const auto& shape : body.shapes) {
+      radius = std::max(radius, Length<double>(shape.center) + shape.radius);
+      for (const auto& corner : shape.polygon) radius = std::max(radius, Length<double>(corner));
+    }
+    fastest = std::max(fastest, Length<double>(body.velocity) + std::abs(body.spin) * radius);
+  }
+  contacts_ = FindContacts<double>(scene_, 2 * options_.step * fastest);
+  std::erase_if(contacts_, [this](const TouchPoint<double>& contact) {
+    return contact.gap + options_.step * ApproachOf(scene_, contact) > scene_.gap;
+  });
 }
 
 // ---- Solving ---------------------------------------------------------------------------------
@@ -125,14 +147,12 @@ void Simulation::CorrectPositions() {
     scene_.bodies[i].position += change[i].head<2>();
     Turn(scene_.bodies[i].rotation, change[i][2]);
   }
-  contacts_ = FindContacts(scene_);
+  FindStepContacts();
 }
 
 bool Simulation::Collides() const {
   return std::any_of(contacts_.begin(), contacts_.end(), [this](const TouchPoint<double>& contact) {
-    const auto &a = scene_.bodies[contact.a], &b = scene_.bodies[contact.b];
-    const double speed =
-        Dot<double>(contact.normal, a.VelocityAt(contact.point) - b.VelocityAt(contact.point));
+    const double speed = ApproachOf(scene_, contact);
     return speed < -scene_.rest && std::max(contact.gap, 0.0) + options_.step * speed < 0;
   });
 }

@@ -3,7 +3,7 @@
 //
 // A step of length h, from a state (x, v):
 //
-//   1 contacts    those within the gap
+//   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities
 //   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
 //                 assemble.h, one linear correction; contacts are found again
 //   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level `impulses`, an inelastic collision with
@@ -134,6 +134,7 @@ class Simulation {
   Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
+  void FindStepContacts();
   Changes Response(const Model& model, const Forces& f) const;
   bool HasDrifted() const;
   bool Collides() const;
