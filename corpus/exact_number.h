@@ -8,7 +8,8 @@
 
 namespace stiction {
 
-// A string is exact, a JSON number is taken at its double value; anything else is refused. Strict: strings only.
+// A string is exact, a JSON number is taken at its double value; anything else is refused. Strict: strings
+// only.
 Rational ExactNumber(const JsonPlace& place, bool strict = false);
 
 }  // namespace stiction

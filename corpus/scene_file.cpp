@@ -69,8 +69,7 @@ BodyShape<Rational> ReadBox(const JsonPlace& place, const Vector& center) {
   }
   BodyShape<Rational> shape;
   for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-    shape.polygon.push_back(
-        MakeVector2<Rational>(center[0] + x * size[0] / 2, center[1] + y * size[1] / 2));
+    shape.polygon.push_back(MakeVector2<Rational>(center[0] + x * size[0] / 2, center[1] + y * size[1] / 2));
   return shape;
 }
 
@@ -123,8 +122,8 @@ void ReadMass(const JsonPlace& place, RigidBody<Rational>& body) {
 
 RigidBody<Rational> ReadBody(const JsonPlace& place) {
   place.RequireObject();
-  place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "angle", "velocity", "spin", "force",
-                   "torque", "shapes", "level"});
+  place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "angle", "velocity", "spin",
+                   "force", "torque", "shapes", "level"});
   RigidBody<Rational> body;
   body.name = place.Required("name", "a name").Text("a name");
   if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
@@ -174,8 +173,8 @@ void ReadHeader(const JsonPlace& place) {
   const JsonPlace found = place.Required("format", format);
   if (found.Text(format) != kFormat) found.Refuse(format);
   place.Required("version", version).Integer(kVersion, kVersion, version);
-  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step", "seconds",
-                   "bodies", "joints", "contacts", "pairs"});
+  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
+                   "seconds", "bodies", "joints", "contacts", "pairs"});
   place.Required("dimension", "2").Integer(2, 2, "2");
 }
 
@@ -256,7 +255,8 @@ Vector SceneReader::Direction(const JsonPlace& place, const std::string& world, 
     if (place.Optional(world)) found->Refuse('"' + world + "\" or \"" + local + "\", not both");
     return ReadDirection(*found);
   }
-  return RotateBack<Rational>(scene_.bodies[b].rotation, ReadDirection(place.Required(world, "a direction [x, y]")));
+  return RotateBack<Rational>(scene_.bodies[b].rotation,
+                              ReadDirection(place.Required(world, "a direction [x, y]")));
 }
 
 Joint<Rational> SceneReader::OneJoint(const JsonPlace& place) const {
@@ -278,7 +278,8 @@ Joint<Rational> SceneReader::OneJoint(const JsonPlace& place) const {
     return joint;
   }
   joint.direction = Direction(place, "direction", "axis", joint.b);
-  joint.relative_rotation = RotateBack<Rational>(scene_.bodies[joint.b].rotation, scene_.bodies[joint.a].rotation);
+  joint.relative_rotation =
+      RotateBack<Rational>(scene_.bodies[joint.b].rotation, scene_.bodies[joint.a].rotation);
   const auto turn = place.Optional("turn");
   if (turn && joint.kind != JointKind::kSlider) turn->Refuse("no turn of a rail");
   if (turn) joint.relative_rotation = ReadRotation(*turn);
@@ -402,7 +403,8 @@ std::string Print(const SceneFile& file) {
       text += JsonText(value);
       continue;
     }
-    for (std::size_t i = 0; i < value.size(); ++i) text += (i == 0 ? "[\n    " : ",\n    ") + JsonText(value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      text += (i == 0 ? "[\n    " : ",\n    ") + JsonText(value[i]);
     text += "\n  ]";
   }
   return text + "\n}\n";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene files: `stiction-scene`, version 1, read and written exactly. README.md of scenes/ has the keys.
 //
-// Numbers are those of problem files. A wrong file is an InputError with file, JSON path, what was found and what
-// was expected.
+// Numbers are those of problem files. A wrong file is an InputError with file, JSON path, what was found and
+// what was expected.
 
 #ifndef STICTION_CORPUS_SCENE_FILE_H_
 #define STICTION_CORPUS_SCENE_FILE_H_

@@ -72,9 +72,10 @@ int BenchScenes(const BenchOptions& o) {
   std::sort(files.begin(), files.end());
   Json rows = Json::array();
   if (!o.json) {
-    fmt::print("frames a second of one thread, contacts, assembly and solving counted; rows and problems of a frame\n"
-               "{:24} {:>10} {:>24} {:>6} {:>6} | {:>10} {:>6} {:>6}\n",
-               "scene", "minimal", "(least - most)", "rows", "prob.", "full", "rows", "prob.");
+    fmt::print(
+        "frames a second of one thread, contacts, assembly and solving counted; rows and problems of a frame\n"
+        "{:24} {:>10} {:>24} {:>6} {:>6} | {:>10} {:>6} {:>6}\n",
+        "scene", "minimal", "(least - most)", "rows", "prob.", "full", "rows", "prob.");
   }
   for (const auto& path : files) {
     const SceneFile file = ReadScene(path);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction assemble, simulate, draw: scenes.
 
-#include "corpus/scene_file.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <iostream>
 #include <set>
 
+#include "corpus/scene_file.h"
 #include "search/verbs/verbs.h"
 #include "solver/scene/assemble.h"
 #include "solver/scene/draw.h"
@@ -49,14 +48,15 @@ int RunAssemble(const AssembleCommand& o) {
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
   for (const int i : model.colliding) {
     if (options.level == Level::kForces) {
-      std::cerr << fmt::format("stiction: {}: contact {} approaches; a collision (--level impulses) comes first\n",
-                               o.scene, i + 1);
+      std::cerr << fmt::format(
+          "stiction: {}: contact {} approaches; a collision (--level impulses) comes first\n", o.scene, i + 1);
     }
   }
   if (o.output == "-" && model.islands.size() > 1) {
-    throw InputError(fmt::format("{}: found {} independent problems, expected one to write to standard output "
-                                 "(--full keeps them together)",
-                                 o.scene, model.islands.size()));
+    throw InputError(
+        fmt::format("{}: found {} independent problems, expected one to write to standard output "
+                    "(--full keeps them together)",
+                    o.scene, model.islands.size()));
   }
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     ProblemFile problem;
@@ -66,7 +66,8 @@ int RunAssemble(const AssembleCommand& o) {
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
     const std::string name = NumberedFile(o.output, i, model.islands.size());
     WriteText(name, Print(problem));
-    out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(), problem.problem.rows());
+    out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
+                       problem.problem.rows());
   }
   if (model.islands.empty()) out << "no contacts and no joints: nothing to solve\n";
   if (o.explain) {
@@ -109,7 +110,8 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
 
 void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t frame, const char* level,
                   const ContactProblem<double>& problem) {
-  const Json origin = {{"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
+  const Json origin = {
+      {"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
 
@@ -120,8 +122,8 @@ Scene<double> RoundedScene(const SceneFile& file, const std::string& source) {
     const double sum = body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
                        body.velocity.sum() + body.spin + body.force.sum() + body.torque;
     if (!std::isfinite(sum))
-      throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none", source,
-                                   body.name));
+      throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none",
+                                   source, body.name));
   }
   return scene;
 }
@@ -138,8 +140,8 @@ class SimulationWriter {
   void Add(const Simulation& simulation, bool shown) {
     const Energy energy = EnergyOf(simulation.scene());
     const Drift drift = DriftOf(simulation.scene());
-    energy_ += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic, energy.potential,
-                           energy.total());
+    energy_ += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
+                           energy.potential, energy.total());
     drift_ += fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
     worst_.joints = std::max(worst_.joints, drift.joints);
     worst_.overlap = std::max(worst_.overlap, drift.overlap);
@@ -162,7 +164,8 @@ class SimulationWriter {
         moved.bodies[i].position = {x, y};
         moved.bodies[i].rotation = {c, s};
       }
-      WriteText((folder / "frames" / fmt::format("{:05}.svg", k)).string(), DrawSvg(moved, view_, frames_[k].marks));
+      WriteText((folder / "frames" / fmt::format("{:05}.svg", k)).string(),
+                DrawSvg(moved, view_, frames_[k].marks));
     }
   }
 
@@ -172,7 +175,8 @@ class SimulationWriter {
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+    if (error)
+      throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
   }
 
   const SimulateCommand& o_;
@@ -196,7 +200,8 @@ int RunSimulate(const SimulateCommand& o) {
   if (!o.problems.empty()) {
     observe = [&o, &file](const FrameProblem& met) {
       const char* level = kLevelNames[static_cast<int>(met.level)];
-      const std::string name = fmt::format("{}-{:05}-{}-{}.json", file.scene.name, met.frame, level, met.island + 1);
+      const std::string name =
+          fmt::format("{}-{:05}-{}-{}.json", file.scene.name, met.frame, level, met.island + 1);
       WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
     };
   }
@@ -222,8 +227,8 @@ int RunSimulate(const SimulateCommand& o) {
   ForEachField(simulation.statistics(), [](const char* name, const char* help, std::int64_t value) {
     fmt::print("{:12} {:>10}   {}\n", name, value, help);
   });
-  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", writer.worst().joints, writer.worst().overlap,
-             (fs::path(o.output) / "animation.html").string());
+  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", writer.worst().joints,
+             writer.worst().overlap, (fs::path(o.output) / "animation.html").string());
   return kExitDone;
 }
 
@@ -260,9 +265,10 @@ void AddAssemble(CLI::App& program, Action& action) {
   auto o = std::make_shared<AssembleCommand>();
   CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
   verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
-  verb.add_option("-o,--output", o->output,
-                  "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
-                  "standard output")
+  verb.add_option(
+          "-o,--output", o->output,
+          "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
+          "standard output")
       ->required();
   verb.add_option("--level", o->level, "forces at this instant, or impulses of a collision")
       ->capture_default_str()
@@ -276,9 +282,10 @@ void AddSimulate(CLI::App& program, Action& action) {
   auto o = std::make_shared<SimulateCommand>();
   CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
   verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
-  verb.add_option("-o,--output", o->output,
-                  "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
-                  "has no answer (exit 3)")
+  verb.add_option(
+          "-o,--output", o->output,
+          "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
+          "has no answer (exit 3)")
       ->required();
   verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
   verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));

@@ -13,12 +13,14 @@
 //                  b_N += vN / h + max(gap, 0) / h^2,   b_F += vF / h,   joints: b += v / h,
 //                so that aN >= 0 says that the gap stays open until the end of the step (to first order), and
 //                what rest there is of velocities that should be zero is taken away.
-//   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision, restitution 0,
+//   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision,
+//   restitution 0,
 //                Coulomb's law between impulse and velocity after; friction is static throughout, and whatever
-//                slips is at its limit by the law itself. Every problem of this kind has a solution: gaps are >= 0,
-//                so b is in range(A) + K* (complete_driving.md, 5). (Restitution 0 and laws at this level: D. E. Stewart,
-//                J. C. Trinkle, IJNME 39, 1996, 2673-2691, cited from memory.)
-//   positions    displacements after = A l + b, b the gaps and the displacements of joints: the least correction, in the
+//                slips is at its limit by the law itself. Every problem of this kind has a solution: gaps are
+//                >= 0, so b is in range(A) + K* (complete_driving.md, 5). (Restitution 0 and laws at this
+//                level: D. E. Stewart, J. C. Trinkle, IJNME 39, 1996, 2673-2691, cited from memory.)
+//   positions    displacements after = A l + b, b the gaps and the displacements of joints: the least
+//   correction, in the
 //                metric of the masses, that mends overlap and joints to first order. No friction.
 //
 // bias, the velocity-dependent part, is the second derivative of what the row measures where no body
@@ -29,14 +31,15 @@
 //   against a corner or disc at d of b    g = abs(c - d) - radii:
 //       bias = n.(c'' - d'') + (t.(c' - d'))^2 / abs(c - d)
 //
-// with c'' = -w_a^2 (c - x_a) of a point that turns with its body, likewise q'', d''. [Baraff94], section 3 takes
-// such terms into b without writing them out. Tangential rows measure the relative acceleration of the two material points,
-// which is the derivative of the tangential velocity where that is zero, as it is at static contacts:
+// with c'' = -w_a^2 (c - x_a) of a point that turns with its body, likewise q'', d''. [Baraff94], section 3
+// takes such terms into b without writing them out. Tangential rows measure the relative acceleration of the
+// two material points, which is the derivative of the tangential velocity where that is zero, as it is at
+// static contacts:
 //       bias = t.(-w_a^2 r_a + w_b^2 r_b)
 //
 // Only what is required (`minimal`), each step exact:
-//   frictionless contacts have one row; contacts that part have none (at the level of forces); inner contacts of
-//   a face are dropped (FindRedundant); islands are problems of their own. Joints are bilateral rows, which
+//   frictionless contacts have one row; contacts that part have none (at the level of forces); inner contacts
+//   of a face are dropped (FindRedundant); islands are problems of their own. Joints are bilateral rows, which
 //   solver/reduction.h eliminates before a method runs.
 
 #ifndef STICTION_SOLVER_SCENE_ASSEMBLE_H_
@@ -55,9 +58,9 @@ enum class Level : std::uint8_t { kForces, kImpulses, kPositions };
 template <class Scalar>
 struct AssembleOptions {
   Level level = Level::kForces;
-  Scalar step = Scalar(0);    // h, s; 0: the instant itself
-  bool minimal = true;        // false: islands together, redundant contacts kept, two rows for every contact
-  std::vector<bool> held;     // contacts, by number, that count as static whatever their tangential speed
+  Scalar step = Scalar(0);  // h, s; 0: the instant itself
+  bool minimal = true;      // false: islands together, redundant contacts kept, two rows for every contact
+  std::vector<bool> held;   // contacts, by number, that count as static whatever their tangential speed
 };
 
 enum class OmissionReason : std::uint8_t { kSeparating, kRedundant };
@@ -73,7 +76,8 @@ struct SceneModel {
   std::vector<Constraint<Scalar, 3>> constraints;  // that the problems hold
   std::vector<Island<Scalar>> islands;
   std::vector<Omission> omitted;
-  std::vector<int> colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
+  std::vector<int>
+      colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
 };
 
 template <class Scalar>

@@ -38,7 +38,8 @@ std::vector<BodyDynamics<Scalar, 3>> DynamicsOf(const Scene<Scalar>& scene) {
 
 // The velocity along d of a's point at arm_a relative to b's at arm_b.
 template <class Scalar>
-ConstraintRow<Scalar, 3> RowAlong(const Vector2<Scalar>& d, const Vector2<Scalar>& arm_a, const Vector2<Scalar>& arm_b) {
+ConstraintRow<Scalar, 3> RowAlong(const Vector2<Scalar>& d, const Vector2<Scalar>& arm_a,
+                                  const Vector2<Scalar>& arm_b) {
   ConstraintRow<Scalar, 3> row;
   row.J[0] << d[0], d[1], Cross<Scalar>(arm_a, d);
   row.J[1] << Scalar(-d[0]), Scalar(-d[1]), Scalar(-Cross<Scalar>(arm_b, d));
@@ -95,7 +96,8 @@ Constraint<Scalar, 3> ContactConstraint(const Scene<Scalar>& scene, const TouchP
 }
 
 template <class Scalar>
-Constraint<Scalar, 3> BilateralRow(const Joint<Scalar>& joint, int source, int part, ConstraintRow<Scalar, 3> row) {
+Constraint<Scalar, 3> BilateralRow(const Joint<Scalar>& joint, int source, int part,
+                                   ConstraintRow<Scalar, 3> row) {
   Constraint<Scalar, 3> constraint;
   constraint.bodies = {joint.a, joint.b};
   constraint.law.kind = ContactKind::kBilateral;
@@ -135,7 +137,8 @@ void AddRail(const Scene<Scalar>& scene, int source, std::vector<Constraint<Scal
   ConstraintRow<Scalar, 3> lock;
   lock.J[0] << Scalar(0), Scalar(0), Scalar(1);
   lock.J[1] << Scalar(0), Scalar(0), Scalar(-1);
-  lock.error = Cross<Scalar>(Rotate<Scalar>(b.rotation, joint.relative_rotation), a.rotation);  // sine of the turn
+  lock.error =
+      Cross<Scalar>(Rotate<Scalar>(b.rotation, joint.relative_rotation), a.rotation);  // sine of the turn
   constraints.push_back(BilateralRow(joint, source, 1, std::move(lock)));
 }
 
@@ -157,7 +160,8 @@ std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene) 
 template <class Scalar>
 class Assembler {
  public:
-  Assembler(const Scene<Scalar>& scene, const AssembleOptions<Scalar>& options) : scene_(scene), options_(options) {
+  Assembler(const Scene<Scalar>& scene, const AssembleOptions<Scalar>& options)
+      : scene_(scene), options_(options) {
     model_.bodies = DynamicsOf(scene);
     for (const auto& body : model_.bodies) free_.push_back(body.FreeAcceleration());
   }

@@ -64,13 +64,14 @@ CarryingEdge<Scalar> EdgeOf(const PlacedShape<Scalar>& polygon, std::size_t i) {
 
 // The edge of the polygon that `points`, less a radius, are farthest outside of.
 template <class Scalar>
-CarryingEdge<Scalar> FarthestEdge(const PlacedShape<Scalar>& polygon, const std::vector<Vector2<Scalar>>& points,
-                                  const Scalar& radius) {
+CarryingEdge<Scalar> FarthestEdge(const PlacedShape<Scalar>& polygon,
+                                  const std::vector<Vector2<Scalar>>& points, const Scalar& radius) {
   std::optional<CarryingEdge<Scalar>> farthest;
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     CarryingEdge<Scalar> edge = EdgeOf(polygon, i);
     edge.distance = edge.Height(points[0]) - radius;
-    for (const auto& point : points) edge.distance = std::min<Scalar>(edge.distance, edge.Height(point) - radius);
+    for (const auto& point : points)
+      edge.distance = std::min<Scalar>(edge.distance, edge.Height(point) - radius);
     if (!farthest || edge.distance > farthest->distance) farthest = edge;
   }
   return *farthest;
@@ -117,7 +118,8 @@ class PairFinder {
     found_.push_back(contact);
   }
 
-  void PolygonDisc(TouchPoint<Scalar> contact, const PlacedShape<Scalar>& disc, const PlacedShape<Scalar>& polygon) {
+  void PolygonDisc(TouchPoint<Scalar> contact, const PlacedShape<Scalar>& disc,
+                   const PlacedShape<Scalar>& polygon) {
     const CarryingEdge<Scalar> edge = FarthestEdge<Scalar>(polygon, {disc.center}, disc.radius);
     if (edge.distance > reach_) return;
     const Scalar s = edge.Along(disc.center);
@@ -141,7 +143,8 @@ class PairFinder {
   }
 
   // The edge of `other` that faces the carrying edge, as far as it is opposite to it.
-  void Clip(const TouchPoint<Scalar>& contact, const CarryingEdge<Scalar>& edge, const PlacedShape<Scalar>& other) {
+  void Clip(const TouchPoint<Scalar>& contact, const CarryingEdge<Scalar>& edge,
+            const PlacedShape<Scalar>& other) {
     if (edge.distance > reach_) return;
     std::size_t facing = 0;
     std::optional<Scalar> least;
@@ -169,7 +172,8 @@ class PairFinder {
     if (s0 > edge.length && s0 - edge.length <= gap_) Add(contact, edge, s0, h0);
   }
 
-  void Add(TouchPoint<Scalar> contact, const CarryingEdge<Scalar>& edge, const Scalar& s, const Scalar& height) {
+  void Add(TouchPoint<Scalar> contact, const CarryingEdge<Scalar>& edge, const Scalar& s,
+           const Scalar& height) {
     if (height > reach_) return;
     contact.point = edge.Point(s);
     contact.normal = edge.normal;

@@ -35,7 +35,8 @@ struct Screen {
 
 std::string Head(const Screen& screen) {
   return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\">\n"
       "<defs><marker id=\"tip\" markerWidth=\"6\" markerHeight=\"6\" refX=\"5\" refY=\"3\" orient=\"auto\">"
       "<path d=\"M0,0 L6,3 L0,6 z\" fill=\"#d00000\"/></marker></defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
@@ -48,8 +49,9 @@ std::string Pieces(const RigidBody<double>& body, double scale) {
   for (const auto& shape : body.shapes) {
     if (shape.IsDisc()) {
       // The radius line shows the turning.
-      text += fmt::format("<circle cx=\"{0:.5g}\" cy=\"{1:.5g}\" r=\"{2:.5g}\"/><path d=\"M{0:.5g},{1:.5g} h{2:.5g}\"/>",
-                          shape.center[0], shape.center[1], shape.radius);
+      text += fmt::format(
+          "<circle cx=\"{0:.5g}\" cy=\"{1:.5g}\" r=\"{2:.5g}\"/><path d=\"M{0:.5g},{1:.5g} h{2:.5g}\"/>",
+          shape.center[0], shape.center[1], shape.radius);
       continue;
     }
     text += "<polygon points=\"";
@@ -62,13 +64,13 @@ std::string Pieces(const RigidBody<double>& body, double scale) {
 
 std::string Matrix(const Screen& screen, double x, double y, double c, double s) {
   const double k = screen.scale;
-  return fmt::format("matrix({:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g})", k * c, -k * s, -k * s, -k * c, screen.X(x),
-                     screen.Y(y));
+  return fmt::format("matrix({:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g})", k * c, -k * s, -k * s, -k * c,
+                     screen.X(x), screen.Y(y));
 }
 
 std::string Circle(const Screen& screen, const Vector2<double>& p, const char* fill, double radius) {
-  return fmt::format("<circle cx=\"{:.5g}\" cy=\"{:.5g}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>\n", screen.X(p[0]),
-                     screen.Y(p[1]), radius, fill);
+  return fmt::format("<circle cx=\"{:.5g}\" cy=\"{:.5g}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>\n",
+                     screen.X(p[0]), screen.Y(p[1]), radius, fill);
 }
 
 }  // namespace
@@ -104,7 +106,8 @@ void View::AddMargin() {
   top += margin;
   // Not flatter nor taller than a screen.
   const double width = right - left, height = top - bottom;
-  const double more_width = std::max(0.0, height - width) / 2, more_height = std::max(0.0, width / 2 - height) / 2;
+  const double more_width = std::max(0.0, height - width) / 2,
+               more_height = std::max(0.0, width / 2 - height) / 2;
   left -= more_width, right += more_width, bottom -= more_height, top += more_height;
 }
 
@@ -139,7 +142,8 @@ std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& m
                         Matrix(screen, body.position[0], body.position[1], body.rotation[0], body.rotation[1]),
                         Pieces(body, screen.scale));
   }
-  for (const auto& joint : scene.joints) text += Circle(screen, scene.bodies[joint.a].At(joint.at_a), "white", 4);
+  for (const auto& joint : scene.joints)
+    text += Circle(screen, scene.bodies[joint.a].At(joint.at_a), "white", 4);
   for (const auto& point : marks.contacts) text += Circle(screen, point, "#30c030", 3);
   const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {
@@ -221,8 +225,8 @@ requestAnimationFrame(tick);
 
 }  // namespace
 
-std::string DrawAnimation(const Scene<double>& scene, const View& view, const std::vector<RecordedFrame>& frames,
-                          double rate) {
+std::string DrawAnimation(const Scene<double>& scene, const View& view,
+                          const std::vector<RecordedFrame>& frames, double rate) {
   const Screen screen(view);
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
@@ -231,8 +235,9 @@ std::string DrawAnimation(const Scene<double>& scene, const View& view, const st
       Escaped(scene.name));
   text += Head(screen) + "<g id=\"bodies\">\n";
   for (const auto& body : scene.bodies) text += "<g>" + Pieces(body, screen.scale) + "</g>\n";
-  text += "</g>\n<g id=\"marks\"></g>\n</svg>\n<p><button id=\"play\">Pause</button> "
-          "<input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> <span id=\"time\"></span></p>\n";
+  text +=
+      "</g>\n<g id=\"marks\"></g>\n</svg>\n<p><button id=\"play\">Pause</button> "
+      "<input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> <span id=\"time\"></span></p>\n";
   text += fmt::format("<script>\nconst rate = {:.6g};\nconst frames = [\n", rate);
   const double force_scale = ForceScale(scene, view);
   for (const auto& frame : frames) text += FrameData(scene, screen, frame, force_scale);

@@ -43,8 +43,8 @@ double ForceScale(const Scene<double>& scene, const View& view);
 
 std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks);
 // `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
-std::string DrawAnimation(const Scene<double>& scene, const View& view, const std::vector<RecordedFrame>& frames,
-                          double rate);
+std::string DrawAnimation(const Scene<double>& scene, const View& view,
+                          const std::vector<RecordedFrame>& frames, double rate);
 
 }  // namespace stiction
 

@@ -7,9 +7,9 @@
 //                     rounding over rationals: symmetric, positive semidefinite, range(A) = range(J)
 //   accelerations     W (F + J' f)
 //
-// Only entries of rows that share a body which can move are formed, and only one triangle of them. An island is a
-// set of bodies that constraints connect; fixed bodies connect nothing. Each island is a problem of its own: the
-// A of all is the block diagonal of theirs.
+// Only entries of rows that share a body which can move are formed, and only one triangle of them. An island is
+// a set of bodies that constraints connect; fixed bodies connect nothing. Each island is a problem of its own:
+// the A of all is the block diagonal of theirs.
 
 #ifndef STICTION_SOLVER_SCENE_MECHANICS_H_
 #define STICTION_SOLVER_SCENE_MECHANICS_H_
@@ -79,7 +79,8 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
 // Sets the island's problem from its constraints' laws, rows and b.
 template <class Scalar, int Dof>
 void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension, Island<Scalar>& island);
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
+                 Island<Scalar>& island);
 
 // W J' f of an island's forces, added to `change`, a vector per body.
 template <class Scalar, int Dof>
@@ -97,10 +98,10 @@ void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
 //
 // Proof. Let aN = w aN[j] + (1 - w) aN[k] + d, d >= 0 the excess of b_N, and aF = aF[j] = aF[k].
 //   A solution without the constraint is one with it at f = 0: aN >= 0 by the formula; fN aN = 0; fF = 0.
-//   A solution with it, forces (fN, fF): give w (fN, fF) to j, the rest to k. J' f, so every acceleration, stays as
-//   it is. Where fN > 0, aN = 0, so aN[j] = 0 if w > 0, and aN[k] = 0 if w < 1: (15) holds for those that
-//   get some. abs(fF) <= mu fN adds up, as mu is the same; aF > 0 had all of them at -mu fN, aF < 0 at mu fN, and
-//   for aF = 0 nothing else is asked: (16) holds. Sliding: fF = -mu slip fN adds up.    QED
+//   A solution with it, forces (fN, fF): give w (fN, fF) to j, the rest to k. J' f, so every acceleration,
+//   stays as it is. Where fN > 0, aN = 0, so aN[j] = 0 if w > 0, and aN[k] = 0 if w < 1: (15) holds for those
+//   that get some. abs(fF) <= mu fN adds up, as mu is the same; aF > 0 had all of them at -mu fN, aF < 0 at mu
+//   fN, and for aF = 0 nothing else is asked: (16) holds. Sliding: fF = -mu slip fN adds up.    QED
 // Different mu break it: the wrenches that the two can give need not contain that of a rough contact between.
 // Over doubles equality is to 1e-12 of the numbers compared.
 template <class Scalar, int Dof>

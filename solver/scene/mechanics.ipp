@@ -22,7 +22,8 @@ inline int RootOf(std::vector<int>& parent, int i) {
 
 template <class Scalar, int Dof>
 std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                        const std::vector<Constraint<Scalar, Dof>>& constraints, bool together) {
+                                        const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                        bool together) {
   const int count = static_cast<int>(bodies.size());
   std::vector<int> parent(count);
   std::iota(parent.begin(), parent.end(), 0);
@@ -54,7 +55,8 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
 
 template <class Scalar, int Dof>
 void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension, Island<Scalar>& island) {
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
+                 Island<Scalar>& island) {
   using Vector = Eigen::Matrix<Scalar, Dof, 1>;
   struct Touch {
     int row;
@@ -133,12 +135,14 @@ class RowView {
 template <class Scalar>
 int SignOfExcess(const Scalar& x, const Scalar& w, const Scalar& y, const Scalar& z) {
   const Scalar scale = std::max<Scalar>(Scalar(1), std::max<Scalar>(Abs(x), std::max<Scalar>(Abs(y), Abs(z))));
-  return Sign<Scalar>(Scalar(x - w * y - (Scalar(1) - w) * z), Scalar(scale / Scalar(1000000) / Scalar(1000000)));
+  return Sign<Scalar>(Scalar(x - w * y - (Scalar(1) - w) * z),
+                      Scalar(scale / Scalar(1000000) / Scalar(1000000)));
 }
 
 // Whether constraint i is the combination of j and k that FindRedundant asks for.
 template <class Scalar, int Dof>
-bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j, const Constraint<Scalar, Dof>& k) {
+bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j,
+               const Constraint<Scalar, Dof>& k) {
   const RowView<Scalar, Dof> inner(i), first(j), second(k);
   int widest = 0;
   const auto width = [&](int at) { return Abs<Scalar>(Scalar(first.J(0, at) - second.J(0, at))); };
@@ -153,12 +157,14 @@ bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& 
   for (int row = 0; row < static_cast<int>(i.rows.size()); ++row) {
     for (int at = 0; at < 2 * Dof; ++at) {
       if (SignOfExcess<Scalar>(inner.J(row, at), w, first.J(row, at), second.J(row, at)) != 0) return false;
-      if (row > 0 && SignOfExcess<Scalar>(first.J(row, at), Scalar(1), second.J(row, at), Scalar(0)) != 0) return false;
+      if (row > 0 && SignOfExcess<Scalar>(first.J(row, at), Scalar(1), second.J(row, at), Scalar(0)) != 0)
+        return false;
     }
     const int excess = SignOfExcess<Scalar>(inner.b(row), w, first.b(row), second.b(row));
     if (row == 0 && excess < 0) return false;
     if (row == 0 || i.law.kind != ContactKind::kStatic) continue;
-    if (excess != 0 || SignOfExcess<Scalar>(first.b(row), Scalar(1), second.b(row), Scalar(0)) != 0) return false;
+    if (excess != 0 || SignOfExcess<Scalar>(first.b(row), Scalar(1), second.b(row), Scalar(0)) != 0)
+      return false;
   }
   return true;
 }
@@ -169,8 +175,8 @@ std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& cons
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const auto& [bodies, law, rows, from_joint, source, part] = constraints[i];
     if (law.kind == ContactKind::kBilateral) continue;
-    groups[{std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1]), static_cast<int>(law.kind)}].push_back(
-        static_cast<int>(i));
+    groups[{std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1]), static_cast<int>(law.kind)}]
+        .push_back(static_cast<int>(i));
   }
   std::vector<bool> redundant(constraints.size(), false);
   for (const auto& [key, group] : groups) {

@@ -76,7 +76,8 @@ std::string PolygonFault(const std::vector<Vector2<Exact>>& polygon) {
   // One turn to the left at every corner is not enough: a star has that too.
   if (!CGAL::is_simple_2(points.begin(), points.end(), Kernel())) return "edges that cross or touch";
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto turn = CGAL::orientation(points[i], points[(i + 1) % points.size()], points[(i + 2) % points.size()]);
+    const auto turn =
+        CGAL::orientation(points[i], points[(i + 1) % points.size()], points[(i + 2) % points.size()]);
     if (turn != CGAL::LEFT_TURN)
       return "no turn to the left at corner " + std::to_string((i + 1) % points.size());
   }
@@ -126,12 +127,13 @@ Scene<double> Round(const Scene<Exact>& scene) {
     rounded.bodies.push_back(std::move(copy));
   }
   for (const auto& joint : scene.joints) {
-    rounded.joints.push_back({joint.kind, joint.a, joint.b, NearestVector(joint.at_a), NearestVector(joint.at_b),
-                              NearestVector(joint.direction), NearestVector(joint.relative_rotation)});
+    rounded.joints.push_back({joint.kind, joint.a, joint.b, NearestVector(joint.at_a),
+                              NearestVector(joint.at_b), NearestVector(joint.direction),
+                              NearestVector(joint.relative_rotation)});
   }
   for (const auto& given : scene.contacts) {
-    rounded.contacts.push_back({given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b),
-                                NearestVector(given.normal)});
+    rounded.contacts.push_back(
+        {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});
   }
   for (const auto& pair : scene.pairs) {
     PairRule<double> rule = {pair.a, pair.b, {}, pair.collide};

@@ -87,7 +87,7 @@ template <class Scalar>
 struct Scene {
   std::string name;
   Vector2<Scalar> gravity = MakeVector2<Scalar>(Scalar(0), Scalar(0));  // m/s^2
-  Scalar mu = Scalar(0);                                               // of all pairs without a rule
+  Scalar mu = Scalar(0);                                                // of all pairs without a rule
   Scalar gap = Scalar(0);   // shapes that are no farther apart count as touching
   Scalar rest = Scalar(0);  // a tangential speed up to which a contact counts as at rest
   std::vector<RigidBody<Scalar>> bodies;
@@ -100,8 +100,8 @@ struct Scene {
 // exactly.
 std::string PolygonFault(const std::vector<Vector2<mpq_class>>& polygon);
 
-// Area (times a density of 1), centre and moment of inertia about the origin of the pieces together; pieces that
-// overlap count twice. Discs: pi as a double.
+// Area (times a density of 1), centre and moment of inertia about the origin of the pieces together; pieces
+// that overlap count twice. Discs: pi as a double.
 template <class Scalar>
 struct MassProperties {
   Scalar area = Scalar(0), inertia = Scalar(0);

@@ -24,13 +24,14 @@ double ApproachOf(const Scene<double>& scene, const TouchPoint<double>& contact)
 
 void Turn(Vector2<double>& rotation, double angle) {
   if (angle == 0) return;
-  rotation = UnitVector<double>(Rotate<double>(MakeVector2<double>(std::cos(angle), std::sin(angle)), rotation));
+  rotation =
+      UnitVector<double>(Rotate<double>(MakeVector2<double>(std::cos(angle), std::sin(angle)), rotation));
 }
 
 }  // namespace
 
-bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem, ContactProblem<double>::Vector& f,
-                std::int64_t& fallbacks) {
+bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
   const auto run = [&](const ContactProblem<double>& p) {
     const FastVerdict verdict = solver.Run(p);
     fallbacks += verdict.statistics.fallbacks;
@@ -114,8 +115,9 @@ bool Simulation::Solve(const Model& model, Level level, Forces& f) {
 
 void Simulation::Fail(const Model& model, Level level, std::size_t island) const {
   throw SimulationError(
-      fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided", statistics_.frames,
-                  time(), kLevelNames[static_cast<int>(level)], island + 1, model.islands[island].problem.rows()),
+      fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided",
+                  statistics_.frames, time(), kLevelNames[static_cast<int>(level)], island + 1,
+                  model.islands[island].problem.rows()),
       model.islands[island].problem);
 }
 
@@ -246,8 +248,7 @@ Energy EnergyOf(const Scene<double>& scene) {
   Energy energy;
   for (const auto& body : scene.bodies) {
     if (body.fixed) continue;
-    energy.kinetic +=
-        (body.mass * body.velocity.squaredNorm() + body.inertia * body.spin * body.spin) / 2;
+    energy.kinetic += (body.mass * body.velocity.squaredNorm() + body.inertia * body.spin * body.spin) / 2;
     energy.potential -= body.mass * scene.gravity.dot(body.position);
   }
   return energy;
@@ -255,7 +256,8 @@ Energy EnergyOf(const Scene<double>& scene) {
 
 Drift DriftOf(const Scene<double>& scene) {
   Drift drift;
-  for (const auto& joint : JointConstraints(scene)) drift.joints = std::max(drift.joints, std::abs(joint.rows[0].error));
+  for (const auto& joint : JointConstraints(scene))
+    drift.joints = std::max(drift.joints, std::abs(joint.rows[0].error));
   for (const auto& contact : FindContacts(scene)) drift.overlap = std::max(drift.overlap, -contact.gap);
   return drift;
 }

@@ -6,21 +6,23 @@
 //   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities
 //   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
 //                 assemble.h, one linear correction; contacts are found again
-//   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level `impulses`, an inelastic collision with
+//   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
+//   `impulses`, an inelastic collision with
 //                 restitution 0 and Coulomb's law, v += W J' p
 //   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f)
 //   5 motion      x += h v, with the new v (the symplectic Euler method)
 //
-// At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn round
-// within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are computed
-// again. Sliding contacts can leave no solution at all (section 6 of [Baraff94] asks for an impulsive force then):
-// the frame is solved with every contact static, that is, by one inelastic step at the level of velocities, which always
-// has a solution; it is counted.
+// At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
+// round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are
+// computed again. Sliding contacts can leave no solution at all (section 6 of [Baraff94] asks for an impulsive
+// force then): the frame is solved with every contact static, that is, by one inelastic step at the level of
+// velocities, which always has a solution; it is counted.
 //
-// Which solution. Forces and accelerations need not be unique. The answer is that of FastSolver started afresh in
-// each frame: projected Gauss-Seidel sweeps from f = 0, then exchanges; complete driving from f = 0 where these
-// end in nothing. So it depends on the state alone, not on how the state was reached. Of solutions that differ in
-// their accelerations this prefers those near f = 0: a contact that can do without a force at first sight does.
+// Which solution. Forces and accelerations need not be unique. The answer is that of FastSolver started afresh
+// in each frame: projected Gauss-Seidel sweeps from f = 0, then exchanges; complete driving from f = 0 where
+// these end in nothing. So it depends on the state alone, not on how the state was reached. Of solutions that
+// differ in their accelerations this prefers those near f = 0: a contact that can do without a force at first
+// sight does.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
 // Cost. Three problems for each island at most, mostly one; dense in the rows of an island.
@@ -158,10 +160,10 @@ class Simulation {
 Energy EnergyOf(const Scene<double>& scene);
 Drift DriftOf(const Scene<double>& scene);
 
-// f of a problem of any kinds: FastSolver after reduction.h, checked by the natural residual of the whole problem.
-// False if there is none to `options.residual`.
-bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem, ContactProblem<double>::Vector& f,
-                std::int64_t& fallbacks);
+// f of a problem of any kinds: FastSolver after reduction.h, checked by the natural residual of the whole
+// problem. False if there is none to `options.residual`.
+bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
 
 }  // namespace stiction
 

@@ -11,8 +11,8 @@ const std::string kBodies =
         {"name": "block", "mass": "2", "position": ["0", "1"], "shapes": [{"box": ["1", "1"]}]}])";
 
 std::string Text(const std::string& bodies = kBodies, const std::string& more = "") {
-  return R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 2, "bodies": )" + bodies + more +
-         "}";
+  return R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 2, "bodies": )" + bodies +
+         more + "}";
 }
 
 std::string Body(const std::string& members) {
@@ -33,11 +33,10 @@ void CheckRefused(const std::string& text, const std::string& where, const std::
 }
 
 TEST_CASE("scene file: mass properties of shapes, exact numbers and world points are read") {
-  const SceneFile file = ParseScene(
-      Text(kBodies, R"(, "gravity": ["0", "-981/100"], "mu": 0.5, "step": "1/240",
+  const SceneFile file = ParseScene(Text(kBodies, R"(, "gravity": ["0", "-981/100"], "mu": 0.5, "step": "1/240",
         "joints": [{"kind": "rail", "bodies": ["block", "floor"], "at": ["1", "1"], "direction": ["3", "4"]}],
         "pairs": [{"bodies": ["floor", "block"], "mu": "1/3", "collide": true}])"),
-      "file");
+                                    "file");
   const auto& scene = file.scene;
   CHECK(scene.bodies[1].inertia == Rational(1, 3));  // m (w^2 + h^2) / 12
   CHECK(scene.gravity[1] == Rational(-981, 100));
@@ -64,10 +63,11 @@ TEST_CASE("scene file: errors name the place, what was found and what was expect
   CheckRefused(Text("{}"), "bodies", "an array of bodies");
   CheckRefused(Body(R"("mass": "0", "inertia": "1")"), "bodies[0].mass", "a number > 0");
   CheckRefused(Body(R"("mass": "1")"), "bodies[0]", "inertia");
-  CheckRefused(Body(R"("mass": "1", "shapes": [{"disc": "1", "center": ["1", "0"]}])"), "bodies[0]", "centre of mass");
+  CheckRefused(Body(R"("mass": "1", "shapes": [{"disc": "1", "center": ["1", "0"]}])"), "bodies[0]",
+               "centre of mass");
   CheckRefused(Body(R"("mass": "1", "shapes": [{"disc": "-1"}])"), "bodies[0].shapes[0].disc", "a number > 0");
-  CheckRefused(Body(R"("mass": "1", "shapes": [{"polygon": [[0,0],[0,1],[1,0]]}])"), "bodies[0].shapes[0].polygon",
-               "anticlockwise");
+  CheckRefused(Body(R"("mass": "1", "shapes": [{"polygon": [[0,0],[0,1],[1,0]]}])"),
+               "bodies[0].shapes[0].polygon", "anticlockwise");
   CheckRefused(Body(R"("mass": "1", "shapes": [{"polygon": [[0,0],[2,0],[1,1],[2,2],[0,2]]}])"),
                "bodies[0].shapes[0].polygon", "strictly convex");
   CheckRefused(Body(R"("mass": "1", "shapes": [{"polygon": [[0,2],[-1,-1],[2,1],[-2,1],[1,-1]]}])"),
@@ -88,8 +88,8 @@ TEST_CASE("scene file: errors name the place, what was found and what was expect
     "direction": [0, 0]}])"),
                "joints[0].direction", "not zero");
   CheckRefused(R"({"format": "stiction-scene", "version": 2, "name": "s"})", "version", "1");
-  CheckRefused(R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 3, "bodies": []})", "dimension",
-               "2");
+  CheckRefused(R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 3, "bodies": []})",
+               "dimension", "2");
 }
 
 }  // namespace

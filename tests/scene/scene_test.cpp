@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contacts, rows, assembly: closed forms exactly, and minimal models against full ones.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -210,7 +211,8 @@ TEST_CASE("rows: velocity and bias of a contact are the derivatives of its gap")
       const auto contacts = FindContacts(scene);
       REQUIRE(contacts.size() >= 1);
       for (std::size_t i = 0; i < contacts.size(); ++i) {
-        if (contacts.size() == 2 && contacts[i].gap > contacts[1 - i].gap) continue;  // a clipped end, no corner
+        if (contacts.size() == 2 && contacts[i].gap > contacts[1 - i].gap)
+          continue;  // a clipped end, no corner
         const auto gap = [i](const Scene<double>& at) { return FindContacts(at).at(i).gap; };
         const auto [first, second] = Derivatives(scene, gap);
         const auto constraint = ContactConstraint(scene, contacts[i]);
@@ -335,14 +337,21 @@ TEST_CASE("scene: a contact counts as sliding from the stated speed on, by the s
 
 // ---- Minimal models --------------------------------------------------------------------------
 
-TEST_CASE("assemble: every scene of the corpus has an A that is symmetric and semidefinite, with b in its range") {
+// A fixed body that turns pushes with whatever force it takes: its motion need not be in range(A).
+bool IsDriven(const Scene<Rational>& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const auto& body) { return body.fixed && body.spin != 0; });
+}
+
+TEST_CASE(
+    "assemble: every scene has an A that is symmetric and semidefinite, with b in its range unless driven") {
   for (const std::string& name : SceneNames()) {
     INFO(name);
     const auto scene = NamedScene(name).scene;
     for (const auto& island : Assemble(scene, FindContacts(scene)).islands) {
       CHECK(IsSymmetric(island.problem));
       CHECK(IsPositiveSemidefinite(island.problem));
-      CHECK(IsInRange(island.problem));
+      if (!IsDriven(scene)) CHECK(IsInRange(island.problem));
     }
   }
 }

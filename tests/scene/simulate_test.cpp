@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stepping through time: closed forms, rest, energy, which of several solutions.
 
+#include "solver/scene/simulate.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 
 #include "corpus/scene_file.h"
 #include "solver/residual.h"
-#include "solver/scene/simulate.h"
 
 namespace stiction {
 namespace {
@@ -111,7 +112,8 @@ TEST_CASE("simulate: of three solutions the contact that can leave leaves") {
   CHECK(simulation.forces()[0].force.norm() == 0);
 }
 
-TEST_CASE("simulate: where sliding leaves no solution, one inelastic step at the level of velocities is taken") {
+TEST_CASE(
+    "simulate: where sliding leaves no solution, one inelastic step at the level of velocities is taken") {
   Simulation simulation = Run("rod-without-solution", 1);
   CHECK(simulation.statistics().impulsive == 1);
   const auto& rod = simulation.scene().bodies[1];
@@ -138,6 +140,25 @@ TEST_CASE("simulate: minimal and full models move alike where accelerations are 
     full.minimal = false;
     CHECK(LargestMove(Run(name, 60).scene(), Run(name, 60, full).scene()) < 1e-6);
   }
+}
+
+TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes") {
+  SimulationOptions options;
+  options.step = 1.0 / 120;
+  const Simulation feeder = Run("block-feeder", 1200, options);
+  int out = 0;
+  for (const auto& body : feeder.scene().bodies)
+    out += body.name.starts_with("block") && body.position[0] > 0.9;
+  CHECK(out >= 2);
+  options.step = 1.0 / 240;
+  Simulation jack(NamedScene("double-action-jack"), options);
+  std::vector<double> heights;  // of the load, after every half turn of the crank
+  for (int i = 0; i < 2000; ++i) {
+    if (i % 250 == 0) heights.push_back(jack.scene().bodies[7].position[1]);
+    jack.Step();
+    CHECK(DriftOf(jack.scene()).joints < 1e-3);
+  }
+  for (std::size_t i = 1; i < heights.size(); ++i) CHECK(heights[i] > heights[i - 1] + 0.1);
 }
 
 TEST_CASE("simulate: every problem is shown, and the same run twice is the same") {
