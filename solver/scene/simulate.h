@@ -35,6 +35,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/coulomb.h"
 #include "solver/fast.h"
 #include "solver/scene/assemble.h"
 
@@ -47,7 +48,8 @@ struct SimulationOptions {
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
-  FastOptions fast;
+  FastOptions fast;        // in the plane, and without friction
+  CoulombOptions coulomb;  // in space
 };
 
 // Counters since the start.
@@ -95,10 +97,12 @@ class SimulationError : public std::runtime_error {
 };
 
 // A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
-struct AppliedForce {
-  Vector2<double> point, force;
+template <int Dimension>
+struct AppliedForceIn {
+  Eigen::Matrix<double, Dimension, 1> point, force;
   bool from_joint = false;
 };
+using AppliedForce = AppliedForceIn<2>;
 
 struct Energy {
   double kinetic = 0, potential = 0;  // J; potential of gravity, zero at the origin
@@ -111,27 +115,42 @@ struct Drift {
   double overlap = 0;  // m
 };
 
-class Simulation {
+// What solves the problems of a scene: SolveScene(solver, problem, f, fallbacks).
+template <class SceneType>
+struct SolverOf;
+
+template <>
+struct SolverOf<Scene<double>> {
+  explicit SolverOf(const SimulationOptions& options) : fast(options.fast) {}
+  FastSolver<double> fast;
+};
+
+template <class SceneType>
+class SimulationOf {
  public:
+  using Types = SceneTypes<SceneType>;
+  using Touch = typename Types::Touch;
+  using Applied = AppliedForceIn<Types::kDimension>;
+
   // Requires a finite scene. `observe` sees every problem before it is solved.
-  explicit Simulation(Scene<double> scene, const SimulationOptions& options = {},
-                      std::function<void(const FrameProblem&)> observe = {});
+  explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
+                        std::function<void(const FrameProblem&)> observe = {});
 
   // One step. SimulationError if a problem is not solved; the state is then that of the frame's start, but for
   // corrected positions and impulses.
   void Step();
 
-  const Scene<double>& scene() const { return scene_; }
+  const SceneType& scene() const { return scene_; }
   double time() const { return static_cast<double>(statistics_.frames) * options_.step; }
   const SimulationStatistics& statistics() const { return statistics_; }
   // Of the last step.
-  const std::vector<AppliedForce>& forces() const { return forces_; }
-  const std::vector<TouchPoint<double>>& contacts() const { return contacts_; }
+  const std::vector<Applied>& forces() const { return forces_; }
+  const std::vector<Touch>& contacts() const { return contacts_; }
 
  private:
-  using Model = SceneModel<double>;
+  using Model = typename Types::Model;
   using Forces = std::vector<ContactProblem<double>::Vector>;
-  using Changes = std::vector<Eigen::Matrix<double, 3, 1>>;
+  using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
 
   Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
@@ -147,22 +166,24 @@ class Simulation {
   void KeepForces(const Model& model, const Forces& f);
   void Move(const Changes& accelerations);
 
-  Scene<double> scene_;
+  SceneType scene_;
   SimulationOptions options_;
   std::function<void(const FrameProblem&)> observe_;
-  FastSolver<double> solver_;
+  SolverOf<SceneType> solver_;
   SimulationStatistics statistics_;
-  std::vector<TouchPoint<double>> contacts_;
-  std::vector<AppliedForce> forces_;
+  std::vector<Touch> contacts_;
+  std::vector<Applied> forces_;
   std::size_t failed_ = 0;  // island
 };
+using Simulation = SimulationOf<Scene<double>>;
+extern template class SimulationOf<Scene<double>>;
 
 Energy EnergyOf(const Scene<double>& scene);
 Drift DriftOf(const Scene<double>& scene);
 
-// f of a problem of any kinds: FastSolver after reduction.h, checked by the natural residual of the whole
-// problem. False if there is none to `options.residual`.
-bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
+// f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole problem.
+// False if there is none to `options.residual`.
+bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
 
 }  // namespace stiction
