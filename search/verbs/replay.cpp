@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "certify/certificate.h"
+#include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
 
@@ -32,7 +33,8 @@ std::string Describe(const Verdict& verdict) {
                        verdict.start, unit, verdict.period, unit);
   }
   if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
-  return std::string(Name(verdict.outcome));
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
 }
 
 // ---- The trace for people --------------------------------------------------------------------
@@ -45,6 +47,7 @@ class Narrator {
   }
 
   void Table() const {
+    fmt::print("{}", Kinds());
     fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven", "goal", "length",
                "what happens");
     for (std::size_t k = 0; k < run_.trace.pivots.size(); ++k) {
@@ -52,12 +55,19 @@ class Narrator {
       fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, pivot.drive, names_[pivot.driven],
                  Name(pivot.goal), ToString(pivot.s), Event(pivot));
     }
+    Ray();
   }
 
   void Steps() const {
-    fmt::print("f = 0, a = b = {}; all sets are empty (4.3).\n", List(problem_.b));
+    ExactProblem::Vector a = Accelerations(problem_, run_.initial_f);
+    const std::string kinds = Kinds();
+    if (kinds.empty()) {
+      fmt::print("f = 0, a = b = {}; all sets are empty (4.3).\n", List(a));
+    } else {
+      fmt::print("{}Before the first drive f = {}, a = {}; all other variables are in no set (4.3).\n", kinds,
+                 List(run_.initial_f), List(a));
+    }
     int drive = 0;
-    ExactProblem::Vector a = problem_.b;
     for (const Pivot<Rational>& pivot : run_.trace.pivots) {
       if (pivot.drive != drive) StartDrive(pivot, a);
       drive = pivot.drive;
@@ -65,6 +75,7 @@ class Narrator {
       Step(pivot);
     }
     fmt::print("\n");
+    Ray();
   }
 
  private:
@@ -72,6 +83,29 @@ class Narrator {
     std::vector<std::string> numbers;
     for (const Rational& value : values) numbers.push_back(ToString(value));
     return fmt::format("({})", fmt::join(numbers, ", "));
+  }
+
+  // What bilateral and sliding contacts do all the time, one line each.
+  std::string Kinds() const {
+    std::string text;
+    for (int i = 0; i < layout_.ContactCount(); ++i) {
+      const Contact<Rational>& contact = problem_.contacts[i];
+      const int row = layout_.NormalRowOf(i);
+      if (contact.kind == ContactKind::kBilateral)
+        text += fmt::format("Contact {} is bilateral: {} stays in C, a_{} = 0 (4.5).\n", i + 1, names_[row],
+                            names_[row]);
+      if (contact.kind == ContactKind::kSliding) {
+        const Rational factor = -contact.mu * contact.slip[0];
+        text += fmt::format("Contact {} slides: f_{} = {} f_{} (24).\n", i + 1, names_[row + 1],
+                            ToString(factor), names_[row]);
+      }
+    }
+    return text;
+  }
+
+  // The direction without an end; with sliding contacts the impulsive direction of section 6.
+  void Ray() const {
+    if (run_.ray.size() > 0) fmt::print("no limit to the step along df = {}\n", List(run_.ray));
   }
 
   // Sets in the paper's names, with their members.
@@ -173,6 +207,11 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
                    {"statistics", StatisticsToJson(run.verdict.statistics)},
                    {"f", VectorToJson(run.state.f)},
                    {"pivots", pivots}};
+    if (!run.verdict.reason.empty()) result["reason"] = run.verdict.reason;
+    if (run.ray.size() > 0) result["ray"] = VectorToJson(run.ray);
+    if (o.step)
+      result["initial"] = {{"f", VectorToJson(run.initial_f)},
+                           {"a", VectorToJson(Accelerations(file.problem, run.initial_f))}};
     std::cout << JsonText(result) << "\n";
   } else {
     fmt::print("{}: {} contacts, policy {}\n", file.name, file.problem.contacts.size(), PolicyName(policy));
@@ -257,7 +296,7 @@ void AddReplay(CLI::App& program, Action& action) {
   AddLimits(verb, o->limits);
   verb.callback([o, &action] {
     action = [o] {
-      const ProblemFile file = ReadHandledProblem(o->file);
+      const ProblemFile file = ReadPlanarProblem(o->file);
       return o->all_policies ? ReplayAll(*o, file) : ReplayOne(*o, file);
     };
   });

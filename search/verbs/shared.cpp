@@ -66,13 +66,13 @@ ProblemFile ReadPlanarProblem(const std::string& file) {
   return problem;
 }
 
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method, Dimensions dimensions) {
-  ProblemFile problem = dimensions == Dimensions::kAny ? ReadProblem(file) : ReadPlanarProblem(file);
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what) {
+  ProblemFile problem = ReadPlanarProblem(file);
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
     throw InputError(file, fmt::format("contacts[{}].kind", i), KindName(kind),
-                     "frictionless or static: method " + method + " is built for these");
+                     fmt::format("frictionless or static: {} is a property of problems of these", what));
   }
   return problem;
 }

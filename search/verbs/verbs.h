@@ -40,12 +40,9 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A problem that the pivoting methods handle: frictionless and static contacts, in the plane (PublishedHandles)
-// or, where any dimension is welcome, in space (PublishedHandlesInSpace). InputError that names the contact
-// otherwise.
-enum class Dimensions { kPlanar, kAny };
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method = "baraff",
-                               Dimensions dimensions = Dimensions::kPlanar);
+// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names the
+// contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
 
 // A planar problem of any kinds; InputError otherwise.
 ProblemFile ReadPlanarProblem(const std::string& file);

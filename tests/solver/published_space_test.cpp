@@ -37,7 +37,7 @@ ExactProblem OneContact(const Rational& mu, const std::vector<Rational>& b) {
 
 struct Ended {
   PublishedSpaceVerdict verdict;
-  Trace<double> trace;
+  SpaceTrace<double> trace;
   Eigen::VectorXd f, a;
 };
 
@@ -68,9 +68,9 @@ TEST_CASE("space: a contact pushed less than its limit sticks, x established bef
   for (const Slip slip : kSlips) {
     const Ended ended = Run(OneContact(2, {-2, -1, 1}), Reading(slip));
     CheckForces(ended, {1, 1, -1});
-    REQUIRE(ended.trace.pivots.size() == 3);
-    CheckNear(ended.trace.pivots[1].f, {1, 1, 0});
-    CHECK(ended.trace.pivots[2].sets ==
+    REQUIRE(ended.trace.size() == 3);
+    CheckNear(ended.trace[1].f, {1, 1, 0});
+    CHECK(ended.trace[2].sets ==
           std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kSticking, IndexSet::kSticking});
     CHECK(ended.verdict.statistics.drives == 3);
   }
@@ -79,7 +79,7 @@ TEST_CASE("space: a contact pushed less than its limit sticks, x established bef
 TEST_CASE("space: at its limit in x a contact is done, and y is not driven") {
   const Ended ended = Run(OneContact(Rational(1, 2), {-2, 1, -1}), {});
   CheckForces(ended, {1, -0.5, 0});  // fF.aF = -1/4, though aF = (1/2, -1) is not opposite to it
-  CHECK(ended.trace.pivots.back().sets ==
+  CHECK(ended.trace.back().sets ==
         std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kAtUpper, IndexSet::kNone});
   CHECK(ended.verdict.statistics.drives == 2);
 }
@@ -87,8 +87,8 @@ TEST_CASE("space: at its limit in x a contact is done, and y is not driven") {
 TEST_CASE("space: the circle (23) ends the drive of y") {
   const Ended ended = Run(OneContact(Rational(5, 4), {-2, -1, -1}), {});
   CheckForces(ended, {1, 1, 0.75});
-  CHECK(ended.trace.pivots.back().s == Approx(0.75));
-  CHECK(ended.trace.pivots.back().sets[1] == IndexSet::kAtUpper);
+  CHECK(ended.trace.back().s == Approx(0.75));
+  CHECK(ended.trace.back().sets[1] == IndexSet::kAtUpper);
 }
 
 TEST_CASE("space: with ax = 0 from the start only y is driven, with aF = 0 nothing is") {
@@ -108,8 +108,8 @@ TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps
                                        {Rational(-5, 4), Rational(-3, 5), 0, -10});
   for (const Slip slip : kSlips) {
     const Ended ended = Run(problem, Reading(slip));
-    REQUIRE(ended.trace.pivots.size() >= 4);
-    const Pivot<double>& leaves = ended.trace.pivots[ended.trace.pivots.size() - 2];
+    REQUIRE(ended.trace.size() >= 4);
+    const SpacePivot<double>& leaves = ended.trace[ended.trace.size() - 2];
     CHECK(leaves.limiting == 1);
     CHECK(leaves.from == IndexSet::kSticking);
     CHECK(leaves.to == IndexSet::kAtUpper);
@@ -129,9 +129,9 @@ TEST_CASE("space: ties follow the switch") {
   for (const Ties ties : {Ties::kSets, Ties::kContacts}) {
     options.policy.ties = ties;
     const Ended ended = Run(problem, options);
-    REQUIRE(ended.trace.pivots.size() > 2);
-    CHECK(ended.trace.pivots[1].s == Approx(1));
-    CHECK(ended.trace.pivots[1].limiting == (ties == Ties::kSets ? 1 : 0));
+    REQUIRE(ended.trace.size() > 2);
+    CHECK(ended.trace[1].s == Approx(1));
+    CHECK(ended.trace[1].limiting == (ties == Ties::kSets ? 1 : 0));
   }
 }
 
@@ -152,7 +152,7 @@ ExactProblem Turning() {
 
 TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once the sets are full") {
   const Ended ended = Run(Turning(), Reading(Slip::kLiteral));
-  CHECK(ended.trace.pivots[2].s == Approx(10.0 / 11));
+  CHECK(ended.trace[2].s == Approx(10.0 / 11));
   CHECK(ended.verdict.breaks == 1);
   CHECK(ended.verdict.redirects == 0);
   // To zero, then x until ax = 0, then y until the circle.
@@ -161,9 +161,9 @@ TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once
 
 TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it against its acceleration") {
   const Ended ended = Run(Turning(), Reading(Slip::kRedirect));
-  CHECK(ended.trace.pivots[2].s == Approx(2.0 / 3));
-  CHECK(ended.trace.pivots[2].limiting == 1);
-  CHECK(ended.trace.pivots[2].to == IndexSet::kNone);
+  CHECK(ended.trace[2].s == Approx(2.0 / 3));
+  CHECK(ended.trace[2].limiting == 1);
+  CHECK(ended.trace[2].to == IndexSet::kNone);
   CHECK(ended.verdict.redirects == 1);
   CHECK(ended.verdict.breaks == 0);
   CHECK(ended.verdict.statistics.give_ups == 0);
