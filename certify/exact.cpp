@@ -96,8 +96,8 @@ ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& optio
 ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
   const Remainder remainder(problem);
   const auto obstacle = remainder.Obstacle();
-  ExactRun run = obstacle ? Unstarted(problem, *obstacle)
-                          : remainder.Restored(RunRemaining(remainder.problem(), options));
+  ExactRun run =
+      obstacle ? Unstarted(problem, *obstacle) : remainder.Restored(RunRemaining(remainder.problem(), options));
   run.policy = options.policy;
   return run;
 }

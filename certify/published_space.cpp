@@ -235,7 +235,8 @@ IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const Publishe
 
 template RoundedSpaceRun RunRoundedInSpace<float>(const ExactProblem&, const PublishedOptions&, KeepTrace);
 template RoundedSpaceRun RunRoundedInSpace<double>(const ExactProblem&, const PublishedOptions&, KeepTrace);
-template RoundedSpaceRun RunRoundedInSpace<long double>(const ExactProblem&, const PublishedOptions&, KeepTrace);
+template RoundedSpaceRun RunRoundedInSpace<long double>(const ExactProblem&, const PublishedOptions&,
+                                                        KeepTrace);
 template RoundedSpaceRun RunSuspicionInSpace<float>(const ExactProblem&, const PublishedOptions&);
 template RoundedSpaceRun RunSuspicionInSpace<double>(const ExactProblem&, const PublishedOptions&);
 template RoundedSpaceRun RunSuspicionInSpace<long double>(const ExactProblem&, const PublishedOptions&);

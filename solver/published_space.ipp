@@ -654,10 +654,11 @@ void PublishedInSpace<Scalar>::RecordStep(const Step<Scalar>& step, IndexSet fro
   if (trace_ == nullptr) return;
   SpacePivot<Scalar>& pivot = trace_->back();
   const int contact = layout_.ContactOf(step.limiting);
+  const bool at_limit = step.wants == IndexSet::kAtUpper && !gave_up;  // NCF stands on the first row
   pivot.s = step.s;
   pivot.limiting = step.limiting;
   pivot.from = from;
-  pivot.to = state_.sets[step.limiting];
+  pivot.to = state_.sets[at_limit ? FrictionOf(step.limiting) : step.limiting];
   pivot.wanted = step.wants;
   pivot.gave_up = gave_up;
   pivot.turned_away = from == IndexSet::kAtUpper && pivot.to == IndexSet::kNone && !gave_up &&

@@ -37,7 +37,8 @@ void Reduction<Scalar>::Sort(const Problem& problem) {
       const bool slides = contact.kind == ContactKind::kSliding;
       for (int i = 0; i < (slides ? 1 : rows); ++i) row_of_.push_back(row + i);
       contact_of_.push_back(number);
-      reduced_.contacts.push_back(slides ? Contact<Scalar>{ContactKind::kFrictionless, Scalar(0), {}} : contact);
+      reduced_.contacts.push_back(slides ? Contact<Scalar>{ContactKind::kFrictionless, Scalar(0), {}}
+                                         : contact);
     }
     row += rows;
     ++number;

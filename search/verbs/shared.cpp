@@ -127,6 +127,17 @@ Json StatisticsToJson(const Statistics& statistics) {
   return json;
 }
 
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
+}
+
 Json FailedAssumptions(const ExactProblem& problem) {
   Json failed = Json::array();
   if (const auto pair = FindAsymmetry(problem.A)) {

@@ -40,8 +40,8 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names the
-// contact otherwise.
+// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
+// the contact otherwise.
 ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
 
 // A planar problem of any kinds; InputError otherwise.
@@ -66,6 +66,10 @@ std::string Expected(const ProblemFile& file, const Policy& policy);
 void WriteText(const std::string& file, const std::string& text);
 
 Json StatisticsToJson(const Statistics& statistics);
+
+inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
 
 // The assumptions of the paper that fail, each with its exact witness.
 Json FailedAssumptions(const ExactProblem& problem);
