@@ -256,7 +256,7 @@ void CheckProblem(const ExactProblem& problem) {
 }
 
 Json ContactToJson(const Contact<Rational>& contact, int dimension) {
-  Json json = {{"kind", kKindNames[static_cast<int>(contact.kind)]}};
+  Json json = {{"kind", Name(contact.kind)}};
   if (contact.HasFrictionRows()) json["mu"] = ToString(contact.mu);
   if (!HasSlip(contact)) return json;
   if (dimension == 2) {
@@ -305,6 +305,8 @@ std::string PrintedValue(const std::string& key, const Json& value) {
 }
 
 }  // namespace
+
+std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 ProblemFile ParseProblem(std::string_view text, const std::string& source) {
   const Json json = ParseJson(text, source);
