@@ -374,7 +374,7 @@ TEST_CASE("safe: below the threshold a problem is safe, at and just above it is 
 
 // The verdicts of check_certificate.py.
 std::vector<bool> PythonAccepts(const std::vector<Json>& certificates) {
-  const auto sources = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const std::filesystem::path sources = STICTION_SOURCES;
   std::string folder = (std::filesystem::temp_directory_path() / "stiction-safe-XXXXXX").string();
   REQUIRE(mkdtemp(folder.data()) != nullptr);
   std::string command = "python3 '" + (sources / "certify/check_certificate.py").string() + "'";
