@@ -306,8 +306,6 @@ std::string PrintedValue(const std::string& key, const Json& value) {
 
 }  // namespace
 
-std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
-
 ProblemFile ParseProblem(std::string_view text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace place(json, source, "");
@@ -343,6 +341,8 @@ Json ProblemToJson(const ExactProblem& problem) {
   json["b"] = NumbersToJson(problem.b);
   return json;
 }
+
+std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 Json ToJson(const ProblemFile& file) {
   const Json problem = ProblemToJson(file.problem);
