@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"

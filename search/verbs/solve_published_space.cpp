@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "certify/published_space.h"
 #include "corpus/input_error.h"
 #include "search/verbs/verbs.h"
@@ -23,13 +21,7 @@ Json OutcomeToJson(const PublishedSpaceVerdict& verdict) {
   return json;
 }
 
-Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
-Json VectorToJson(const std::vector<double>& values) {
-  Json json = Json::array();
-  for (const double x : values) json.push_back(NumberToJson(x));
-  return json;
-}
+Json VectorToJson(const std::vector<double>& values) { return NumbersToJson(values); }
 
 Json VectorToJson(const std::vector<Enclosure>& values) {
   Json json = Json::array();
