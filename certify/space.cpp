@@ -13,12 +13,13 @@ namespace stiction {
 
 template class SpatialDriving<Rational>;
 
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits) {
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                  std::vector<SpacePiece<Rational>>* path) {
   CompleteOptions options;
   options.limits = limits;
   SpatialDriving<Rational> driving(options);
   SpaceRun run;
-  run.verdict = driving.Run(problem, polygons);
+  run.verdict = driving.Run(problem, polygons, path);
   run.f = driving.f();
   run.a = driving.a();
   if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();

@@ -37,8 +37,9 @@ struct SpaceRun {
   SpaceWord word;
 };
 
-// Complete driving over rationals.
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits);
+// Complete driving over rationals; with `path`, every linear piece is recorded.
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                  std::vector<SpacePiece<Rational>>* path = nullptr);
 
 enum class FrictionLaw { kBaraff, kCoulomb };
 

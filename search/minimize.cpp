@@ -11,6 +11,7 @@
 #include "certify/properties.h"
 #include "search/rounding.h"
 #include "search/signature.h"
+#include "solver/reduction.ipp"
 
 namespace stiction {
 namespace {
@@ -55,6 +56,22 @@ ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
   return Restrict(problem, std::move(contacts), rows);
 }
 
+// What bilateral contacts leave of the problem (4.5): the same run, without them. Sliding contacts stay.
+std::optional<ExactProblem> WithoutBilateral(const ExactProblem& problem) {
+  ExactProblem unsliding = problem;
+  std::vector<Contact<Rational>> kept;
+  for (auto& contact : unsliding.contacts) {
+    if (contact.kind != ContactKind::kBilateral) kept.push_back(contact);
+    if (contact.kind == ContactKind::kSliding) contact.kind = ContactKind::kStatic;  // of as many rows
+  }
+  if (kept.size() == problem.contacts.size()) return std::nullopt;
+  const Reduction<Rational> reduction(unsliding);
+  if (reduction.end() != ReductionEnd::kReduced) return std::nullopt;
+  ExactProblem remaining = reduction.problem();
+  remaining.contacts = std::move(kept);
+  return remaining;
+}
+
 std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int contact) {
   if (!problem.contacts[contact].HasFrictionRows()) return std::nullopt;
   std::vector<Contact<Rational>> contacts = problem.contacts;
@@ -86,7 +103,8 @@ class Minimizer {
     if (const auto lack = Lacks(result_.problem)) throw InputError("minimize: " + *lack);
     bool progress = true;
     while (progress && !Cancelled()) {
-      progress = DropContacts();
+      progress = Try(WithoutBilateral(result_.problem));
+      progress |= DropContacts();
       progress |= DropFriction();
       progress |= StretchTangents();
       progress |= RoundAll();

@@ -83,6 +83,7 @@ constexpr std::array kSuites = {
     Suite{"growth", "of it, time and memory at up to 2000 contacts", BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
+    Suite{"sliding", "section 6, contacts that slide: counts and outcomes", BenchSliding},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -108,7 +109,7 @@ void AddBench(CLI::App& program, Action& action) {
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
                   "methods, peers: problems of each number of contacts (default 800, 400); linear-algebra: "
                   "systems of a row (default 200); space: problems of each family and number of contacts "
-                  "(default 2000)")
+                  "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
                   "search, linear-algebra: counted runs; peers: 0.06 seconds each for a row and size")
@@ -119,7 +120,7 @@ void AddBench(CLI::App& program, Action& action) {
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   verb.add_option_function<std::string>(
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
-          "search: this one alone; methods: instead of the positive definite family")
+          "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });

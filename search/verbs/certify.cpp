@@ -120,17 +120,16 @@ int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
   return kExitDone;
 }
 
-// Loops are claimed of problems that the published algorithm handles, modes listed of planar ones, Coulomb's
-// law of those in space.
+// Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
+// Coulomb's law is that of problems in space.
 ProblemFile ReadFor(const CertifyOptions& o) {
-  if (o.all) return ReadPlanarProblem(o.file);
+  if (o.all || o.claim == "cycle" || o.claim == "stall") return ReadPlanarProblem(o.file);
   if (o.claim == "coulomb-solution") {
     ProblemFile file = ReadProblem(o.file);
     if (file.problem.dimension == 3) return file;
     throw InputError(o.file, "dimension", "2", "3: in the plane the claim is solution-exists");
   }
-  const bool handled = o.safe || o.claim == "safe" || o.claim == "cycle" || o.claim == "stall";
-  return handled ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  return o.safe || o.claim == "safe" ? ReadHandledProblem(o.file, "safety") : ReadProblem(o.file);
 }
 
 int RunCertify(const CertifyOptions& o) {

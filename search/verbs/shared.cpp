@@ -52,13 +52,13 @@ ProblemFile ReadPlanarProblem(const std::string& file) {
   return problem;
 }
 
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method, Dimensions dimensions) {
-  ProblemFile problem = dimensions == Dimensions::kAny ? ReadProblem(file) : ReadPlanarProblem(file);
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what) {
+  ProblemFile problem = ReadPlanarProblem(file);
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
     throw InputError(file, fmt::format("contacts[{}].kind", i), std::string(Name(kind)),
-                     "frictionless or static: method " + method + " is built for these");
+                     fmt::format("frictionless or static: {} is a property of problems of these", what));
   }
   return problem;
 }
@@ -108,6 +108,17 @@ void WriteText(const std::string& file, const std::string& text) {
 }
 
 Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
+}
 
 Json FailedAssumptions(const ExactProblem& problem) {
   Json failed = Json::array();

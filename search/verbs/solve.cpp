@@ -189,14 +189,8 @@ Answer<Scalar> RunReduced(const std::string& method, const ContactProblem<Scalar
                           const PublishedOptions& options) {
   if (!Reduction<Scalar>::Concerns(problem)) return RunMethod(method, problem, options);
   const Reduction<Scalar> reduction(problem, options.tolerances);
-  switch (reduction.end()) {
-    case ReductionEnd::kInconsistent:
-      return AnswerOf<Scalar>(Outcome::kSingular, "no forces keep the bilateral constraints");
-    case ReductionEnd::kSingular:
-      return AnswerOf<Scalar>(Outcome::kSingular, "the bilateral constraints are singular");
-    case ReductionEnd::kReduced:
-      break;
-  }
+  if (reduction.end() != ReductionEnd::kReduced)
+    return AnswerOf<Scalar>(Outcome::kSingular, Reason(reduction.end()));
   Answer<Scalar> answer = RunMethod(method, reduction.problem(), options);
   const auto rows = reduction.problem().rows();
   if (answer.f.size() == rows) answer.f = reduction.Forces(answer.f);
@@ -292,7 +286,7 @@ int Solve(const SolveOptions& given) {
   SolveOptions o = given;
   const bool in_space = ReadProblem(o.file).problem.dimension == 3;
   if (in_space && o.method == "baraff") {
-    return SolveByPublishedInSpace(o, ReadHandledProblem(o.file, o.method, Dimensions::kAny).problem);
+    return SolveByPublishedInSpace(o, ReadProblem(o.file).problem);
   }
   const bool fast = o.method == "fast";
   if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";

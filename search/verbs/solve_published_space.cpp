@@ -36,6 +36,7 @@ PublishedSpaceAnswer Answer(const Run& run, const PublishedOptions& options) {
   json["policy"] = PolicyName(options.policy);
   json["f"] = VectorToJson(run.f);
   json["a"] = VectorToJson(run.a);
+  if (!run.ray.empty()) json["ray"] = VectorToJson(run.ray);
   json["statistics"] = StatisticsToJson(run.verdict.statistics);
   json["statistics"]["redirects"] = run.verdict.redirects;
   json["statistics"]["breaks"] = run.verdict.breaks;

@@ -40,12 +40,9 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A problem that the pivoting methods handle: frictionless and static contacts, in the plane (PublishedHandles)
-// or, where any dimension is welcome, in space (PublishedHandlesInSpace). InputError that names the contact
-// otherwise.
-enum class Dimensions { kPlanar, kAny };
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method = "baraff",
-                               Dimensions dimensions = Dimensions::kPlanar);
+// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
+// the contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
 
 // A planar problem of any kinds; InputError otherwise.
 ProblemFile ReadPlanarProblem(const std::string& file);
@@ -84,6 +81,10 @@ Json NumbersToJson(const Numbers& numbers) {
   for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
   return json;
 }
+
+inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
 
 // The assumptions of the paper that fail, each with its exact witness.
 Json FailedAssumptions(const ExactProblem& problem);

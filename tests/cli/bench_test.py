@@ -158,5 +158,24 @@ class Peers(cli.TestCase):
         self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
 
 
+class Sliding(cli.TestCase):
+    def test_every_problem_has_one_outcome_and_every_cycle_is_decided(self):
+        arguments = ["bench", "--suite", "sliding", "--contacts", "1", "2", "--problems", "20000", "--json"]
+        done = self.succeeds(*arguments)
+        rows = done.json()["rows"]
+        self.assertEqual([(row["generator"], row["contacts"], row["sliding"]) for row in rows],
+                         [(generator, *size) for generator in ["integers", "small"]
+                          for size in [(1, 1), (2, 1), (2, 2)]])
+        outcomes = ["solved", "cycle", "stall", "ray", "singular", "limit", "undecided"]
+        for row in rows:
+            self.assertEqual(sum(row[outcome] for outcome in outcomes), 20000)
+            self.assertEqual(row["stall"], 0)
+            self.assertEqual(row["refuted"] + row["with a solution"] + row["without"], row["cycle"])
+            self.assertLessEqual(row["every policy"], row["cycle"])
+            self.assertGreater(row["ray"], 0)
+        self.assertGreater(rows[1]["with a solution"], 0)
+        self.assertEqual(self.succeeds(*arguments).out, done.out)
+
+
 if __name__ == "__main__":
     cli.main()

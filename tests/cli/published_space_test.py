@@ -66,8 +66,20 @@ class Solve(cli.TestCase):
         self.refuses("solve", file, "--arithmetic", "exact", says=["exact", "interval"])
         for policy in ["slip=polygon", "file=yes", "apex=suspended"]:
             self.refuses("solve", file, "--policy", policy, says=[policy, "slip=redirect"])
-        bilateral = dict(CIRCLE, contacts=[{"kind": "bilateral"}], A=[["1"]], b=["1"])
-        self.refuses("solve", self.file("b.json", bilateral), says=["contacts[0].kind", "bilateral", "static"])
+
+    def test_bilateral_and_sliding_contacts(self):
+        contacts = [{"kind": "bilateral"}, {"kind": "sliding", "mu": "1", "slip": ["3/5", "4/5"]}]
+        problem = dict(CIRCLE, contacts=contacts, b=["-3", "-3", "1", "2"],
+                       A=[["1", "0", "0", "0"], ["0", "4", "2", "0"], ["0", "2", "4", "1"], ["0", "0", "1", "3"]])
+        file = self.file("p.json", problem)
+        for arithmetic in ["interval", "double"]:  # aN2 = (4 - 6/5) fN2 - 3
+            result = self.solve(file, "--arithmetic", arithmetic)
+            f = [sum(x) / 2 for x in result["f"]] if arithmetic == "interval" else result["f"]
+            self.assertTrue(all(math.isclose(x, y) for x, y in zip(f, [3, 15 / 14, -9 / 14, -12 / 14])), f)
+        problem["contacts"][1]["mu"] = "4"
+        ray = self.solve(self.file("p.json", problem), "--arithmetic", "double", code=1)
+        self.assertEqual(ray["outcome"], "ray")
+        self.assertTrue(all(math.isclose(x, y, abs_tol=1e-15) for x, y in zip(ray["ray"], [0, 1, -12 / 5, -16 / 5])))
 
 
 class Bench(cli.TestCase):

@@ -14,43 +14,6 @@
 namespace stiction::testing {
 namespace {
 
-// Bodies' worth of degrees of freedom, and contacts of every kind on them: A = J J', b = J c. With repeated
-// bilateral rows, so that A_BB is singular.
-ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant = nullptr) {
-  Choices choices(seed);
-  ExactProblem problem;
-  const int contacts = static_cast<int>(choices.Integer(1, 5));
-  for (int i = 0; i < contacts; ++i) {
-    Contact<Rational> contact;
-    const std::int64_t kind = choices.Integer(0, sliding ? 3 : 2);
-    contact.kind = static_cast<ContactKind>(kind);
-    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 4)) / 2;
-    if (contact.kind == ContactKind::kSliding) contact.slip[0] = choices.Integer(0, 1) == 0 ? 1 : -1;
-    problem.contacts.push_back(contact);
-  }
-  const int rows = RowCount(problem.contacts, 2), columns = static_cast<int>(choices.Integer(2, 2 + rows));
-  Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic> J(rows, columns);
-  ExactVector c(columns);
-  for (int j = 0; j < columns; ++j) {
-    c[j] = choices.Integer(-9, 9);
-    for (int i = 0; i < rows; ++i) J(i, j) = choices.Integer(-3, 3);
-  }
-  const auto layout = LayoutOf(problem);
-  int first = -1;
-  for (int i = 0; i < contacts; ++i) {
-    if (problem.contacts[i].kind != ContactKind::kBilateral) continue;
-    const int row = layout.NormalRowOf(i);
-    if (first >= 0 && choices.Integer(0, 2) == 0) {
-      J.row(row) = J.row(first) * Rational(-2);
-      if (redundant != nullptr) ++*redundant;
-    }
-    if (first < 0) first = row;
-  }
-  problem.A = J * J.transpose();
-  problem.b = J * c;
-  return problem;
-}
-
 ContactProblem<double> Rounded(const ExactProblem& problem) {
   ContactProblem<double> rounded = As<double>(problem);
   for (std::size_t i = 0; i < problem.contacts.size(); ++i)
