@@ -464,8 +464,7 @@ inline std::array<int, kMaxContacts> DrawPlaces(int contacts, Choices& choices) 
   std::array<int, kMaxContacts> places;
   for (int i = 0; i < contacts; ++i) places[i] = i;
   if (choices.Integer(0, 1) == 0) return places;
-  for (int i = 0; i + 1 < contacts; ++i)
-    std::swap(places[i], places[i + choices.Integer(0, contacts - 1 - i)]);
+  for (int i = 0; i + 1 < contacts; ++i) std::swap(places[i], places[i + choices.Integer(0, contacts - 1 - i)]);
   return places;
 }
 
@@ -479,7 +478,8 @@ inline double DrawSmall(int least, int most, Choices& choices) {
 //
 // Bounds, without the factors 4^(n-i), which are powers of two of whole rows: J in units of 2^-20, abs(J) <=
 // 2^21 + 1, so that abs(A) <= 9 (2^21 + 1)^2 < 2^46; y in units of 8^-n >= 2^-24, abs(J y) <= 8 (2^21 + 1) 3
-// 2^24 + 2^44 < 2^50. The moves of J are less than 1/2 beside its inverse, so that the normals stay independent.
+// 2^24 + 2^44 < 2^50. The moves of J are less than 1/2 beside its inverse, so that the normals stay
+// independent.
 template <class Scalar, int Rows>
 void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows(), contacts = rows / 2;

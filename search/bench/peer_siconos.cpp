@@ -74,9 +74,11 @@ class SiconosContender : public Contender {
       LinearComplementarityProblem lcp = {rows_, of.matrix.get(), of.b.data()};
       lcp_lexicolemke(&lcp, f_.data(), a_.data(), &info, options_.get());
     } else {
-      const bool plane = method_ == SiconosMethod::kFriction2dNsgs || method_ == SiconosMethod::kFriction2dLemke;
+      const bool plane =
+          method_ == SiconosMethod::kFriction2dNsgs || method_ == SiconosMethod::kFriction2dLemke;
       const int dimension = plane ? 2 : 3;
-      FrictionContactProblem problem = {dimension, rows_ / dimension, of.matrix.get(), of.b.data(), of.mu.data()};
+      FrictionContactProblem problem = {dimension, rows_ / dimension, of.matrix.get(), of.b.data(),
+                                        of.mu.data()};
       const auto driver = plane ? fc2d_driver : fc3d_driver;
       info = driver(&problem, f_.data(), a_.data(), options_.get());
     }

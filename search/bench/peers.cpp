@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction-peers: stiction beside the solvers of other packages, on the same problems in the same run. A program
-// of its own, so that stiction is not linked with these packages.
+// stiction-peers: stiction beside the solvers of other packages, on the same problems in the same run. A
+// program of its own, so that stiction is not linked with these packages.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

@@ -47,9 +47,9 @@ Growth Grow(const PeerProblem& problem, Solver solver) {
   const double held = Held();
   std::vector<double> seconds;
   while (seconds.empty() || (seconds.size() < 4 && seconds[0] < 1)) {
-    const auto start = PeerClock::now();
+    const Stopwatch watch = StartWatch();
     const auto verdict = solver.Run(problem);
-    seconds.push_back(SecondsSince(start));
+    seconds.push_back(watch.Seconds());
     growth.solved = verdict.outcome == Outcome::kSolved;
     growth.counts = CountsOf(verdict.statistics);
     if (seconds.size() == 1) growth.bytes = Held() - held;

@@ -11,10 +11,13 @@
 // rounded
 //             a million times finer: there it `recurs` (same start, same period), or the run only `approaches`
 //             a loop (a later start, or another period), or it is `refuted`.
-// Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an edge`
-//             counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which the paper's
-//             conditions exclude; certify/space.h then turns it into a solution of them, for which polygons may need
-//             more corners (`refined`).
+// Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an
+// edge`
+//             counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which the
+//             paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
+//             polygons may need more corners (`refined`).
+
+#include "certify/space.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +26,6 @@
 #include <iostream>
 
 #include "certify/published_space.h"
-#include "certify/space.h"
 #include "certify/verify_solution.h"
 #include "search/bench/measure.h"
 #include "search/bench/suite.h"
@@ -227,9 +229,10 @@ std::string NameOf(const std::array<int, 2>& mu) {
 int BenchSpace(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(2000);
   const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{1, 2, 3, 4} : options.contacts;
-  BenchTable by_size{"sizes",
-                     "readings of section 5.6: outcomes over doubles, and what intervals prove of them; slip=polygon "
-                     "exactly"};
+  BenchTable by_size{
+      "sizes",
+      "readings of section 5.6: outcomes over doubles, and what intervals prove of them; slip=polygon "
+      "exactly"};
   BenchTable by_friction{"friction", "the same by friction coefficient, all sizes"};
   std::array<std::array<Count, kFrictions.size()>, kReadings.size()> of_friction;
   std::int64_t bad = 0;

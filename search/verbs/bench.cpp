@@ -85,7 +85,8 @@ constexpr std::array kSuites = {
     Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", 2000, BenchPeers},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", 2000, BenchGrowth},
-    Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts, BenchLinearAlgebra},
+    Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts,
+          BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
 };
 
@@ -94,8 +95,8 @@ int RunBench(const BenchOptions& o) {
   const int most = o.generator ? kMaxContacts : suite->most_contacts;
   for (const int contacts : o.contacts) {
     if (contacts > most) {
-      throw InputError(fmt::format("--contacts: found {}, expected 1 to {} for suite {}{}", contacts, most, o.suite,
-                                   o.generator ? " with a generator" : ""));
+      throw InputError(fmt::format("--contacts: found {}, expected 1 to {} for suite {}{}", contacts, most,
+                                   o.suite, o.generator ? " with a generator" : ""));
     }
   }
   return suite->run(o);

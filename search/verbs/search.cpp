@@ -209,8 +209,8 @@ ProblemFile StoredFile(const ProblemVerb& o) {
     throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));
   const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), *o.unit));
   if (*o.index >= problems) {
-    throw InputError(
-        fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, *o.unit, problems - 1));
+    throw InputError(fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, *o.unit,
+                                 problems - 1));
   }
   return RegenerateFile(campaign, *o.unit, *o.index);
 }
@@ -312,7 +312,8 @@ void AddProblem(CLI::App& program, Action& action) {
                               "problem file");
   verb.add_option("STORE", o->store, "store of a search");
   verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
-  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")->check(CLI::NonNegativeNumber);
+  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
+      ->check(CLI::NonNegativeNumber);
   verb.add_option("--exponential", o->exponential,
                   "instead: the problem of so many contacts without friction, 1 to 200, on which the published "
                   "algorithm takes 2^n - 1 pivots")

@@ -634,7 +634,8 @@ TEST_CASE("exponential: the simplest choices make the family itself, with fricti
     for (int i = 0; i < 2 * contacts; ++i) {
       for (int j = 0; j < contacts; ++j) CHECK(plain.A(i, 2 * j + 1) == (i == 2 * j + 1 ? 1 : 0));
     }
-    const auto scaled = Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(Record{0, 0, 1}));
+    const auto scaled =
+        Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(Record{0, 0, 1}));
     CHECK(Equal(Normals(scaled, order), ExponentialFamily(contacts, true)));
     CHECK(scaled.A(1, 1) == scaled.A(0, 0) / plain.A(0, 0));
   }
