@@ -275,9 +275,11 @@ int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) 
   return Show(answer.result, o.json, answer.outcome);
 }
 
-int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
+// `polygon`: asked for as a reading of the published algorithm.
+int SolveIn3D(const SolveOptions& o, bool polygon, const ExactProblem& problem) {
   SolvedInSpace solved =
       SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
+  if (polygon) solved.result["policy"] = "slip=polygon";
   solved.result["assumptions"] = FailedAssumptions(problem);
   return Show(solved.result, o.json, solved.outcome);
 }
@@ -285,6 +287,8 @@ int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
 int Solve(const SolveOptions& given) {
   SolveOptions o = given;
   const bool in_space = ReadProblem(o.file).problem.dimension == 3;
+  const bool polygon = in_space && o.method == "baraff" && ParsePolicy(o.policy) == ParsePolicy("slip=polygon");
+  if (polygon) o.method = "complete";  // which that reading is
   if (in_space && o.method == "baraff") {
     return SolveByPublishedInSpace(o, ReadProblem(o.file).problem);
   }
@@ -295,7 +299,7 @@ int Solve(const SolveOptions& given) {
         "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
         "of float, double, long-double, exact");
   }
-  if (in_space) return SolveIn3D(o, ReadProblem(o.file).problem);
+  if (in_space) return SolveIn3D(o, polygon, ReadProblem(o.file).problem);
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));

@@ -74,8 +74,8 @@ PublishedSpaceAnswer SolvePublishedInSpace(const ExactProblem& problem, const st
                                            const PublishedOptions& options) {
   if (!PublishedReadsInSpace(options.policy)) {
     throw InputError(
-        fmt::format("--policy {}: expected file=no, apex=kept and slip=literal or slip=redirect in "
-                    "space, where no other reading of these is built",
+        fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
+                    "slip=polygon alone; no other reading of these is built",
                     PolicyName(options.policy)));
   }
   const std::string chosen = arithmetic.empty() ? "interval" : arithmetic;
