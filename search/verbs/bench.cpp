@@ -89,6 +89,7 @@ constexpr std::array kSuites = {
           BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
     Suite{"sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts, BenchSliding},
+    Suite{"scenes", "frames a second of the scenes of a folder, minimal and full models", kMaxContacts, BenchScenes},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -129,7 +130,7 @@ void AddBench(CLI::App& program, Action& action) {
                   "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
-                  "search, linear-algebra: counted runs; peers: 0.06 seconds each for a row and size")
+                  "search, linear-algebra, scenes: counted runs; peers: 0.06 seconds each for a row and size")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_option("--seed", o->seed, "of the problems")
@@ -139,6 +140,7 @@ void AddBench(CLI::App& program, Action& action) {
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
           "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
+  verb.add_option("--scenes", o->scenes, "scenes: the folder")->capture_default_str();
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });
 }

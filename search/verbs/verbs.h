@@ -36,6 +36,9 @@ void AddBench(CLI::App& program, Action& action);
 void AddImport(CLI::App& program, Action& action);
 void AddExport(CLI::App& program, Action& action);
 void AddSurvey(CLI::App& program, Action& action);
+void AddAssemble(CLI::App& program, Action& action);
+void AddSimulate(CLI::App& program, Action& action);
+void AddDraw(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
