@@ -3,10 +3,11 @@
 
 #include <cmath>
 
+#include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
+#include "corpus/rounded.h"
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
-#include "solver/elimination.ipp"
 
 namespace stiction {
 
@@ -67,32 +68,11 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
   return system;
 }
 
-// x with M x = right; unknowns without a pivot stay as they are. False if the equations contradict each other.
-bool SolveWith(const ExactMatrix& M, ExactVector right, ExactVector& x) {
-  const int size = static_cast<int>(M.rows());
-  ExactVector guess = x;
-  Elimination<Rational> elimination;
-  elimination.Assign(M);
-  elimination.Run(size, size, size);
-  for (int i = 0; i < elimination.rank(); ++i) guess[elimination.pivot_column(i)] = 0;
-  ExactMatrix augmented(size, size + 1);
-  augmented << M, right - M * guess;
-  elimination.Assign(augmented);
-  elimination.Run(size, size, size + 1);
-  if (!elimination.IsConsistent(size)) return false;
-  elimination.BackSubstitute(size);
-  for (int i = 0; i < elimination.rank(); ++i) {
-    const int column = elimination.pivot_column(i);
-    x[column] = elimination.Solution(column);
-  }
-  return true;
-}
-
 }  // namespace
 
 std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
                                       const ExactVector& guess) {
-  ModeSystem system = MakeSystem(problem, modes, guess);
+  const ModeSystem system = MakeSystem(problem, modes, guess);
   const int size = static_cast<int>(system.columns.size());
   ExactMatrix M(size, size);
   ExactVector right(size);
@@ -101,9 +81,10 @@ std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::ve
     for (int i = 0; i < size; ++i) M(i, j) = system.rows[i].dot(image);
     right[j] = -system.rows[j].dot(problem.b);
   }
-  if (!SolveWith(M, right, system.guess)) return std::nullopt;
+  const auto x = SolveEquations(M, right, system.guess);
+  if (!x) return std::nullopt;
   ExactVector f = ExactVector::Zero(problem.rows());
-  for (int j = 0; j < size; ++j) f += system.guess[j] * system.columns[j];
+  for (int j = 0; j < size; ++j) f += (*x)[j] * system.columns[j];
   return f;
 }
 
@@ -198,18 +179,6 @@ std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector&
   return modes;
 }
 
-ContactProblem<double> InDoubles(const ExactProblem& problem) {
-  ContactProblem<double> rounded;
-  rounded.dimension = problem.dimension;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    rounded.contacts.push_back(
-        {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
-  }
-  rounded.A = problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  rounded.b = problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  return rounded;
-}
-
 // The word of Newton's method from f, solved exactly.
 std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
                                           const ExactVector& f) {
@@ -292,7 +261,7 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
 SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options) {
   RationalPolygons polygons = MakePolygons(problem, options.sides);
   const bool coulomb = options.law == FrictionLaw::kCoulomb;
-  const ContactProblem<double> rounded = coulomb ? InDoubles(problem) : ContactProblem<double>();
+  const ContactProblem<double> rounded = coulomb ? Rounded<double>(problem) : ContactProblem<double>();
   SpaceSolution solution;
   for (;; ++solution.refinements) {
     SpaceRun run = RunSpace(problem, polygons, options.limits);

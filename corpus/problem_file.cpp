@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/exact_number.h"
 #include "solver/check.h"
 #include "solver/options.h"
 #include "solver/solution.h"
@@ -78,25 +79,7 @@ ExactProblem ProblemReader::Read(const JsonPlace& place) const {
   return problem;
 }
 
-std::optional<Rational> ExactValue(const Json& json) {
-  if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
-  if (json.is_number_integer()) {
-    const Rational x(json.dump(), 10);
-    return IsExactDouble(x) ? std::optional(x) : std::nullopt;
-  }
-  if (json.is_number_float() && std::isfinite(json.get<double>())) return Rational(json.get<double>());
-  return std::nullopt;
-}
-
-Rational ProblemReader::Number(const JsonPlace& place) const {
-  const Json& json = place.json();
-  std::optional<Rational> x;
-  if (!strict_ || json.is_string()) x = ExactValue(json);
-  if (x.has_value()) return *std::move(x);
-  if (!strict_ && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");
-  place.Refuse(std::string(strict_ ? "an exact number as a string" : "a number") +
-               R"(, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))");
-}
+Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
 
 std::vector<Contact<Rational>> ProblemReader::Contacts(const JsonPlace& place, int dimension) const {
   const std::size_t count = place.Size("an array of contacts");
@@ -256,7 +239,7 @@ void CheckProblem(const ExactProblem& problem) {
 }
 
 Json ContactToJson(const Contact<Rational>& contact, int dimension) {
-  Json json = {{"kind", kKindNames[static_cast<int>(contact.kind)]}};
+  Json json = {{"kind", Name(contact.kind)}};
   if (contact.HasFrictionRows()) json["mu"] = ToString(contact.mu);
   if (!HasSlip(contact)) return json;
   if (dimension == 2) {
@@ -304,7 +287,28 @@ std::string PrintedValue(const std::string& key, const Json& value) {
   return JsonText(value);
 }
 
+// The exact value of a JSON number or string; empty where it has none.
+std::optional<Rational> ExactValue(const Json& json) {
+  if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
+  if (json.is_number_integer()) {
+    const Rational x(json.dump(), 10);
+    return IsExactDouble(x) ? std::optional(x) : std::nullopt;
+  }
+  if (json.is_number_float() && std::isfinite(json.get<double>())) return Rational(json.get<double>());
+  return std::nullopt;
+}
+
 }  // namespace
+
+Rational ExactNumber(const JsonPlace& place, bool strict) {
+  const Json& json = place.json();
+  std::optional<Rational> x;
+  if (!strict || json.is_string()) x = ExactValue(json);
+  if (x.has_value()) return *std::move(x);
+  if (!strict && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");
+  place.Refuse(std::string(strict ? "an exact number as a string" : "a number") +
+               R"(, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))");
+}
 
 ProblemFile ParseProblem(std::string_view text, const std::string& source) {
   const Json json = ParseJson(text, source);
@@ -341,6 +345,8 @@ Json ProblemToJson(const ExactProblem& problem) {
   json["b"] = NumbersToJson(problem.b);
   return json;
 }
+
+std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 Json ToJson(const ProblemFile& file) {
   const Json problem = ProblemToJson(file.problem);

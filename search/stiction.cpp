@@ -33,6 +33,9 @@ int Main(int argc, char** argv) {
   AddImport(program, action);
   AddExport(program, action);
   AddSurvey(program, action);
+  AddAssemble(program, action);
+  AddSimulate(program, action);
+  AddDraw(program, action);
   AddPolicies(program, action);
   AddBench(program, action);
   try {

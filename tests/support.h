@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certify/exact.h"
+#include "search/exponential.h"
 #include "search/generators.h"
 
 namespace stiction::testing {
@@ -60,22 +61,6 @@ inline ExactProblem ThreeSolutions() { return MakeProblem({1}, {{1, 2}, {2, 5}},
 
 // A positive semidefinite, b not in its range, no solution.
 inline ExactProblem NoSolution() { return MakeProblem({1}, {{1, -1}, {-1, 1}}, {-1, 0}); }
-
-// The frictionless algorithm takes 2^n - 1 pivots.
-inline ExactProblem ExponentialFamily(int n) {
-  ExactProblem problem;
-  problem.contacts.assign(n, {ContactKind::kFrictionless, 0, {}});
-  problem.A.resize(n, n);
-  problem.b.resize(n);
-  Rational power = 1;
-  for (int i = n; i >= 1; --i) {
-    power /= 8;
-    problem.b[i - 1] = power - 1;
-    for (int j = 1; j <= n; ++j)
-      problem.A(i - 1, j - 1) = i == j ? 1 + 4 * (n - i) : 2 + 4 * (n - std::max(i, j));
-  }
-  return problem;
-}
 
 inline ExactProblem NoContacts() { return MakeProblem({}, {}, {}); }
 

@@ -20,6 +20,7 @@ struct BenchOptions {
   int repeat = 5;
   std::uint64_t seed = 1;
   std::optional<GeneratorId> generator;  // empty: the suite's own
+  std::string scenes = "corpus/scenes";  // folder
   bool json = false;
 };
 
@@ -40,6 +41,9 @@ int BenchLinearAlgebra(const BenchOptions& options);
 int BenchSpace(const BenchOptions& options);
 // The published algorithm where contacts slide (sliding.cpp).
 int BenchSliding(const BenchOptions& options);
+
+// The scenes of a folder, minimal and full models side by side (scenes.cpp). InputError if there are none.
+int BenchScenes(const BenchOptions& options);
 
 }  // namespace stiction
 

@@ -30,15 +30,6 @@ RoundedSpaceRun RunAgain(const std::string& arithmetic, const ExactProblem& prob
   return RunSuspicionInSpace<long double>(problem, options);
 }
 
-Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
-template <class Vector>
-Json NumbersToJson(const Vector& values) {
-  Json json = Json::array();
-  for (const double x : values) json.push_back(NumberToJson(x));
-  return json;
-}
-
 template <class Vector>
 std::string List(const Vector& values) {
   std::vector<std::string> numbers;

@@ -18,20 +18,6 @@ namespace {
 
 constexpr int kExactAssumptionContacts = 50;
 
-const char* KindName(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::kBilateral:
-      return "bilateral";
-    case ContactKind::kFrictionless:
-      return "frictionless";
-    case ContactKind::kStatic:
-      return "static";
-    case ContactKind::kSliding:
-      return "sliding";
-  }
-  return "";
-}
-
 template <class Options>
 void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
   ForEachField(options, [&verb, &group](const NumberRow& row, auto& value) {
@@ -71,7 +57,7 @@ ProblemFile ReadHandledProblem(const std::string& file, const std::string& what)
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
-    throw InputError(file, fmt::format("contacts[{}].kind", i), KindName(kind),
+    throw InputError(file, fmt::format("contacts[{}].kind", i), std::string(Name(kind)),
                      fmt::format("frictionless or static: {} is a property of problems of these", what));
   }
   return problem;
@@ -121,11 +107,7 @@ void WriteText(const std::string& file, const std::string& text) {
   if (!out) throw InputError(fmt::format("{}: cannot be written", file));
 }
 
-Json StatisticsToJson(const Statistics& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
+Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
 
 std::string Describe(const Verdict& verdict) {
   const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";

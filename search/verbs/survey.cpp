@@ -20,6 +20,7 @@
 #include "solver/check.h"
 #include "solver/complete.h"
 #include "solver/lemke.h"
+#include "solver/proximal.h"
 #include "solver/reduction.ipp"
 #include "solver/residual.h"
 
@@ -130,9 +131,11 @@ ContactProblem<double> InDoubles(const ExactProblem& problem) {
 }
 
 // The natural residual of f, a double vector, on the exact problem: evaluated over rationals.
-double VerifiedResidual(const ExactProblem& problem, const Eigen::VectorXd& f) {
+template <class Problem>
+double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
   const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
-  return ToDouble(NaturalResidual(problem, exact, Accelerations(problem, exact)));
+  const ExactVector a = problem.A * exact + problem.b;
+  return ToDouble(NaturalResidual(problem, exact, a));
 }
 
 // A run over doubles that calls itself solved is solved if the residual of its forces says so.
@@ -181,6 +184,21 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
   if (outcome == Outcome::kSolved && !(run.contains("residual") && run["residual"] <= kWrong)) {
     run["outcome"] = "wrong";
   }
+  return run;
+}
+
+// The proximal method, for which A stays sparse.
+Json RunSparse(const SparseProblem& problem) {
+  const SparseContactProblem<double> rounded = InDoubles(problem);
+  const Stopwatch watch;
+  ProximalNewton<double> method;
+  const ProximalVerdict verdict = method.Run(rounded);
+  Json run = {{"method", "proximal"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["factorizations"] = verdict.factorizations;
+  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
+  if (method.f().allFinite()) run["residual"] = VerifiedResidual(OverRationals(problem), method.f());
+  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
   return run;
 }
 
@@ -287,8 +305,18 @@ Json SpatialRuns(const ExactProblem&, const Limits&) {
       {{{"method", "none"}, {"outcome", "not tried"}, {"reason", "three dimensions are not built"}}});
 }
 
-Json Runs(const ExactProblem& problem, const Limits& limits) {
-  return problem.dimension == 2 ? PlanarRuns(problem, limits) : SpatialRuns(problem, limits);
+Json Runs(const SparseProblem& problem, const std::string& source, const SurveyOptions& o) {
+  const bool planar = problem.dimension == 2;
+  Json runs = Json::array();
+  if (planar && problem.contacts.size() > kExactContacts) runs.push_back(RunSparse(problem));
+  if (problem.rows() <= o.rows) {
+    const ExactProblem dense = ToDense(problem, source).problem;
+    for (Json& run : planar ? PlanarRuns(dense, o.limits) : SpatialRuns(dense, o.limits))
+      runs.push_back(std::move(run));
+  }
+  if (runs.empty())
+    runs.push_back({{"method", "none"}, {"outcome", "not tried"}, {"reason", "more rows than --rows"}});
+  return runs;
 }
 
 // ---- One problem -----------------------------------------------------------------------------
@@ -304,12 +332,7 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
   entry["curvature"] = CurvatureToJson(problem, exact);
   entry["range"] = RangeToJson(problem, exact);
   entry["meets assumptions"] = MeetsAll(entry);
-  if (problem.rows() > o.rows) {
-    entry["runs"] =
-        Json::array({{{"method", "none"}, {"outcome", "not tried"}, {"reason", "more rows than --rows"}}});
-    return entry;
-  }
-  entry["runs"] = Runs(dense(), o.limits);
+  entry["runs"] = Runs(problem, source, o);
   const double relative = entry["asymmetry"]["relative"].get<double>();
   if (relative == 0 || relative > kRounding) return entry;
   Symmetrize(problem);
@@ -318,7 +341,7 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
   symmetrized["curvature"] = CurvatureToJson(problem, exact);
   symmetrized["range"] = RangeToJson(problem, exact);
   symmetrized["meets assumptions"] = MeetsAll(symmetrized);
-  symmetrized["runs"] = Runs(dense(), o.limits);
+  symmetrized["runs"] = Runs(problem, source, o);
   entry["symmetrized"] = symmetrized;
   return entry;
 }
@@ -436,7 +459,7 @@ void AddSurvey(CLI::App& program, Action& action) {
   verb.add_option("PATH", o->paths,
                   "problems in any format that import reads, stiction-problem files, or folders")
       ->required();
-  verb.add_option("--rows", o->rows, "the most rows of a problem that is solved, not only judged")
+  verb.add_option("--rows", o->rows, "the most rows for methods that hold A as a dense matrix")
       ->check(CLI::Range(0, kMostDenseRows))
       ->capture_default_str();
   AddLimits(verb, o->limits);

@@ -36,6 +36,9 @@ void AddBench(CLI::App& program, Action& action);
 void AddImport(CLI::App& program, Action& action);
 void AddExport(CLI::App& program, Action& action);
 void AddSurvey(CLI::App& program, Action& action);
+void AddAssemble(CLI::App& program, Action& action);
+void AddSimulate(CLI::App& program, Action& action);
+void AddDraw(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
@@ -65,7 +68,22 @@ std::string Expected(const ProblemFile& file, const Policy& policy);
 // Writes a text file; "-" is standard output.
 void WriteText(const std::string& file, const std::string& text);
 
-Json StatisticsToJson(const Statistics& statistics);
+// What has a table of counters (ForEachField), by their names.
+template <class S>
+Json StatisticsToJson(const S& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
 
 inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"

@@ -47,6 +47,20 @@ class PublishedProblems(cli.TestCase):
                     exact = variant["runs"][-1]
                     self.assertEqual((exact["arithmetic"], exact["certificate"]), ("exact", "solution-exists"))
 
+    def test_large_planar_ones_are_solved_with_a_verified_residual(self):
+        large = {"friction/FrictionContactProblem00237.dat": 376,
+                 "friction/fc2d_granularflowonwall_00667_00000.dat": 667,
+                 "friction/fc2d_granularflowonwall_07002_00801.dat": 7002}
+        folder = pathlib.Path(os.environ["STICTION_DATA"])
+        paths = [folder / name for name in large]
+        entries = self.succeeds("survey", *paths, "--rows", 0, "--json", timeout=600).json()
+        for contacts, entry in zip(large.values(), entries, strict=True):
+            with self.subTest(contacts=contacts):
+                self.assertEqual(entry["contacts"], contacts)
+                [run] = entry["runs"]
+                self.assertEqual((run["method"], run["outcome"]), ("proximal", "solved"))
+                self.assertLess(run["residual"], 1e-9)
+
     def test_two_storages_of_one_problem_are_the_same_problem(self):
         folder = pathlib.Path(os.environ["STICTION_DATA"]) / "friction"
         problems = []

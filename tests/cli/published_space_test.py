@@ -61,10 +61,17 @@ class Solve(cli.TestCase):
         self.assertIn("no proof", suspected["evidence"])
         self.assertEqual(suspected["suspected"]["period"], 6)
 
+    def test_the_polygon_is_complete_driving_and_exact(self):
+        for file in [RAY, CYCLE]:  # which the other readings do not solve
+            read = self.solve(file, "--policy", "slip=polygon")
+            self.assertEqual((read["outcome"], read["method"], read["policy"], read["arithmetic"]),
+                             ("solved", "complete", "slip=polygon", "exact"))
+            self.assertEqual(read["f"], self.solve(file, "--method", "complete")["f"])
+
     def test_what_is_not_built_is_refused(self):
         file = self.file("p.json", CIRCLE)
         self.refuses("solve", file, "--arithmetic", "exact", says=["exact", "interval"])
-        for policy in ["slip=polygon", "file=yes", "apex=suspended"]:
+        for policy in ["scan=highest,slip=polygon", "file=yes", "apex=suspended"]:
             self.refuses("solve", file, "--policy", policy, says=[policy, "slip=redirect"])
 
     def test_bilateral_and_sliding_contacts(self):
@@ -89,13 +96,19 @@ class Bench(cli.TestCase):
         tables = done.json()
         self.assertEqual([(row["family"], row["contacts"], row["policy"]) for row in tables["sizes"]],
                          [(family, contacts, policy) for family, contacts in
-                          [("definite", 2), ("definite", 3), ("one body", 3)] for policy in ["paper", "slip=redirect"]])
+                          [("definite", 2), ("definite", 3), ("one body", 3)]
+                          for policy in ["paper", "slip=redirect", "slip=polygon"]])
         for row in tables["sizes"] + tables["friction"]:
             ends = ["solved", "recurs", "approaches", "refuted", "ray", "limit", "singular", "undecided"]
             self.assertEqual(sum(row[end] for end in ends), row["problems"])
             self.assertEqual((row["wrong"], row["differ"]), (0, 0))
             self.assertLessEqual(row["proved solved"], row["solved"])
             self.assertEqual(row["breaks (21)" if row["policy"] != "paper" else "redirects"], 0)
+            if row["policy"] == "slip=polygon":
+                self.assertEqual((row["solved"], row["proved solved"]), (row["problems"], row["problems"]))
+                self.assertLess(row["refined"], row["on an edge"])
+            else:
+                self.assertEqual(row["on an edge"], 0)
         for key in ["problems", "solved", "ray", "unsure"]:
             self.assertEqual(sum(row[key] for row in tables["sizes"]), sum(row[key] for row in tables["friction"]))
         self.assertEqual(self.succeeds(*arguments).out, done.out)

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "certify/existence.h"
-#include "certify/modes.h"
+#include "certify/verify_solution.h"
 #include "solver/direction.ipp"
 #include "solver/published.ipp"
 #include "solver/reduction.ipp"
@@ -41,7 +41,7 @@ TEST_CASE("4.5: complete driving on the reduction solves problems with bilateral
     const CompleteRun run = RunComplete(reduction.problem(), {});
     REQUIRE(run.verdict.outcome == Outcome::kSolved);
     const ExactVector f = reduction.Forces(run.f);
-    const auto violation = FindLawViolation(problem, f);
+    const auto violation = FindViolation(problem, f);
     INFO(violation.value_or(""));
     REQUIRE_FALSE(violation);
     for (int row = 0; row < reduction.problem().rows(); ++row) CHECK(f[reduction.row_of()[row]] == run.f[row]);
@@ -95,7 +95,7 @@ TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where 
     const CompleteRun run = RunComplete(reduction.problem(), {});
     if (run.verdict.outcome == Outcome::kSolved) {
       ++solved;
-      REQUIRE_FALSE(FindLawViolation(problem, reduction.Forces(run.f)));
+      REQUIRE_FALSE(FindViolation(problem, reduction.Forces(run.f)));
       continue;
     }
     REQUIRE(run.verdict.outcome == Outcome::kRay);

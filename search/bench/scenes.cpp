@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench --suite scenes: frames a second with the whole frame counted, and what the minimal model saves.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "corpus/scene_file.h"
+#include "search/bench/suite.h"
+#include "solver/scene/simulate.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::int64_t kFrames = 600;  // at most, of one run
+
+struct Measured {
+  double least = 0, median = 0, most = 0;  // frames a second
+  double rows = 0, problems = 0;           // of a frame
+  std::string failure;
+};
+
+Measured Measure(const SceneFile& file, bool minimal, int repeat) {
+  SimulationOptions options;
+  options.step = ToDouble(file.step);
+  options.minimal = minimal;
+  const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / options.step), 1, kFrames);
+  const Scene<double> scene = Round(file.scene);
+  Measured measured;
+  std::vector<double> rates;
+  for (int run = 0; run < repeat; ++run) {
+    Simulation simulation(scene, options);
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      for (std::int64_t k = 0; k < frames; ++k) simulation.Step();
+    } catch (const SimulationError& error) {
+      measured.failure = error.what();
+      return measured;
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rates.push_back(static_cast<double>(frames) / seconds);
+    measured.rows = static_cast<double>(simulation.statistics().rows) / static_cast<double>(frames);
+    measured.problems = static_cast<double>(simulation.statistics().problems) / static_cast<double>(frames);
+  }
+  std::sort(rates.begin(), rates.end());
+  measured.least = rates.front();
+  measured.median = rates[rates.size() / 2];
+  measured.most = rates.back();
+  return measured;
+}
+
+Json ToJson(const Measured& m) {
+  if (!m.failure.empty()) return {{"failure", m.failure}};
+  return {{"frames_a_second", {{"least", m.least}, {"median", m.median}, {"most", m.most}}},
+          {"rows", m.rows},
+          {"problems", m.problems}};
+}
+
+}  // namespace
+
+int BenchScenes(const BenchOptions& o) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(o.scenes, error)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  if (error || files.empty())
+    throw InputError(fmt::format("{}: found no scenes, expected a folder of stiction-scene files", o.scenes));
+  std::sort(files.begin(), files.end());
+  Json rows = Json::array();
+  if (!o.json) {
+    fmt::print(
+        "frames a second of one thread, contacts, assembly and solving counted; rows and problems of a frame\n"
+        "{:24} {:>10} {:>24} {:>6} {:>6} | {:>10} {:>6} {:>6}\n",
+        "scene", "minimal", "(least - most)", "rows", "prob.", "full", "rows", "prob.");
+  }
+  for (const auto& path : files) {
+    const SceneFile file = ReadScene(path);
+    const Measured minimal = Measure(file, true, o.repeat), full = Measure(file, false, o.repeat);
+    rows.push_back({{"scene", file.scene.name}, {"minimal", ToJson(minimal)}, {"full", ToJson(full)}});
+    if (o.json) continue;
+    for (const Measured* m : {&minimal, &full}) {
+      if (!m->failure.empty()) fmt::print("{}: {}\n", file.scene.name, m->failure);
+    }
+    fmt::print("{:24} {:>10.0f} {:>24} {:>6.1f} {:>6.2f} | {:>10.0f} {:>6.1f} {:>6.2f}\n", file.scene.name,
+               minimal.median, fmt::format("({:.0f} - {:.0f})", minimal.least, minimal.most), minimal.rows,
+               minimal.problems, full.median, full.rows, full.problems);
+    std::fflush(stdout);
+  }
+  if (o.json) std::cout << JsonText(rows) << "\n";
+  return 0;
+}
+
+}  // namespace stiction

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction assemble, simulate, draw: scenes.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "corpus/scene_file.h"
+#include "search/verbs/verbs.h"
+#include "solver/scene/assemble.h"
+#include "solver/scene/draw.h"
+#include "solver/scene/simulate.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
+
+// ---- assemble --------------------------------------------------------------------------------
+
+struct AssembleCommand {
+  std::string scene, output, level = "forces";
+  bool explain = false, full = false;
+};
+
+// FILE.json of one problem; FILE-1.json, FILE-2.json, ... of several.
+std::string NumberedFile(const std::string& file, std::size_t number, std::size_t count) {
+  if (count == 1 || file == "-") return file;
+  const fs::path path(file);
+  fs::path numbered = path.parent_path() / path.stem();
+  numbered += fmt::format("-{}", number + 1);
+  numbered += path.extension();
+  return numbered.string();
+}
+
+int RunAssemble(const AssembleCommand& o) {
+  const SceneFile file = ReadScene(o.scene);
+  const auto contacts = FindContacts(file.scene);
+  AssembleOptions<Rational> options;
+  options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
+  options.minimal = !o.full;
+  const SceneModel<Rational> model = Assemble(file.scene, contacts, options);
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  for (const int i : model.colliding) {
+    if (options.level == Level::kForces) {
+      std::cerr << fmt::format(
+          "stiction: {}: contact {} approaches; a collision (--level impulses) comes first\n", o.scene, i + 1);
+    }
+  }
+  if (o.output == "-" && model.islands.size() > 1) {
+    throw InputError(
+        fmt::format("{}: found {} independent problems, expected one to write to standard output "
+                    "(--full keeps them together)",
+                    o.scene, model.islands.size()));
+  }
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    ProblemFile problem;
+    problem.problem = model.islands[i].problem;
+    problem.name = file.scene.name;
+    if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
+    problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    const std::string name = NumberedFile(o.output, i, model.islands.size());
+    WriteText(name, Print(problem));
+    out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
+                       problem.problem.rows());
+  }
+  if (model.islands.empty()) out << "no contacts and no joints: nothing to solve\n";
+  if (o.explain) {
+    for (const std::string& line : Explain(file.scene, contacts, model, options)) out << line << "\n";
+  }
+  return kExitDone;
+}
+
+// ---- simulate --------------------------------------------------------------------------------
+
+struct SimulateCommand {
+  std::string scene, output, problems;
+  std::optional<double> seconds, step;
+  double rest = 0;
+  int frames_a_second = 30;
+  bool full = false, svg = true;
+};
+
+ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
+  ProblemFile file;
+  file.name = name;
+  file.origin = origin;
+  file.problem.dimension = problem.dimension;
+  for (const auto& contact : problem.contacts) {
+    Contact<Rational> exact;
+    exact.kind = contact.kind;
+    exact.mu = Rational(contact.mu);
+    for (int i = 0; i < 2; ++i) exact.slip[i] = Rational(contact.slip[i]);
+    file.problem.contacts.push_back(exact);
+  }
+  const int rows = problem.rows();
+  file.problem.A.resize(rows, rows);
+  file.problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    file.problem.b[i] = Rational(problem.b[i]);
+    for (int j = 0; j < rows; ++j) file.problem.A(i, j) = Rational(problem.A(i, j));
+  }
+  return file;
+}
+
+void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t frame, const char* level,
+                  const ContactProblem<double>& problem) {
+  const Json origin = {
+      {"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
+  WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
+}
+
+// The finite scene of a file.
+Scene<double> RoundedScene(const SceneFile& file, const std::string& source) {
+  Scene<double> scene = Round(file.scene);
+  for (const auto& body : scene.bodies) {
+    const double sum = body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
+                       body.velocity.sum() + body.spin + body.force.sum() + body.torque;
+    if (!std::isfinite(sum))
+      throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none",
+                                   source, body.name));
+  }
+  return scene;
+}
+
+// The folder with what a run writes.
+class SimulationWriter {
+ public:
+  explicit SimulationWriter(const SimulateCommand& o) : o_(o) {
+    MakeFolder(o.output);
+    if (o.svg) MakeFolder(fs::path(o.output) / "frames");
+    if (!o.problems.empty()) MakeFolder(o.problems);
+  }
+
+  void Add(const Simulation& simulation, bool shown) {
+    const Energy energy = EnergyOf(simulation.scene());
+    const Drift drift = DriftOf(simulation.scene());
+    energy_ += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
+                           energy.potential, energy.total());
+    drift_ += fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
+    worst_.joints = std::max(worst_.joints, drift.joints);
+    worst_.overlap = std::max(worst_.overlap, drift.overlap);
+    if (!shown) return;
+    view_.Include(simulation.scene());
+    frames_.push_back(Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
+  }
+
+  void Write(const Scene<double>& scene) {
+    const fs::path folder(o_.output);
+    view_.AddMargin();
+    WriteText((folder / "energy.csv").string(), energy_);
+    WriteText((folder / "drift.csv").string(), drift_);
+    WriteText((folder / "animation.html").string(),
+              DrawAnimation(scene, view_, frames_, static_cast<double>(o_.frames_a_second)));
+    Scene<double> moved = scene;
+    for (std::size_t k = 0; o_.svg && k < frames_.size(); ++k) {
+      for (std::size_t i = 0; i < moved.bodies.size(); ++i) {
+        const auto& [x, y, c, s] = frames_[k].bodies[i];
+        moved.bodies[i].position = {x, y};
+        moved.bodies[i].rotation = {c, s};
+      }
+      WriteText((folder / "frames" / fmt::format("{:05}.svg", k)).string(),
+                DrawSvg(moved, view_, frames_[k].marks));
+    }
+  }
+
+  const Drift& worst() const { return worst_; }
+
+ private:
+  static void MakeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  }
+
+  const SimulateCommand& o_;
+  std::string energy_ = "time_s,kinetic_J,potential_J,total_J\n";
+  std::string drift_ = "time_s,joints_m,overlap_m\n";
+  Drift worst_;
+  View view_;
+  std::vector<RecordedFrame> frames_;
+};
+
+int RunSimulate(const SimulateCommand& o) {
+  const SceneFile file = ReadScene(o.scene);
+  SimulationOptions options;
+  options.step = o.step.value_or(ToDouble(file.step));
+  options.rest = o.rest;
+  options.minimal = !o.full;
+  const double seconds = o.seconds.value_or(ToDouble(file.seconds));
+  const Scene<double> scene = RoundedScene(file, o.scene);
+  SimulationWriter writer(o);
+  std::function<void(const FrameProblem&)> observe;
+  if (!o.problems.empty()) {
+    observe = [&o, &file](const FrameProblem& met) {
+      const char* level = kLevelNames[static_cast<int>(met.level)];
+      const std::string name =
+          fmt::format("{}-{:05}-{}-{}.json", file.scene.name, met.frame, level, met.island + 1);
+      WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
+    };
+  }
+  Simulation simulation(scene, options, observe);
+  const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
+  double next = 0;
+  try {
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const bool shown = simulation.time() >= next - 1e-9;
+      if (shown) next += 1.0 / o.frames_a_second;
+      if (k == 0) writer.Add(simulation, shown);
+      simulation.Step();
+      writer.Add(simulation, k == 0 || shown);
+    }
+  } catch (const SimulationError& error) {
+    const fs::path at = fs::path(o.output) / "undecided.json";
+    WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
+    writer.Write(scene);
+    std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
+    return kExitUndecided;
+  }
+  writer.Write(scene);
+  ForEachField(simulation.statistics(), [](const char* name, const char* help, std::int64_t value) {
+    fmt::print("{:12} {:>10}   {}\n", name, value, help);
+  });
+  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", writer.worst().joints,
+             writer.worst().overlap, (fs::path(o.output) / "animation.html").string());
+  return kExitDone;
+}
+
+// ---- draw ------------------------------------------------------------------------------------
+
+struct DrawCommand {
+  std::string scene, output;
+};
+
+int RunDraw(const DrawCommand& o) {
+  const SceneFile file = ReadScene(o.scene);
+  const Scene<double> scene = RoundedScene(file, o.scene);
+  SimulationOptions options;
+  options.step = ToDouble(file.step);
+  Simulation simulation(scene, options);
+  Marks marks;
+  try {
+    simulation.Step();
+    marks = MarksOf(simulation);
+  } catch (const SimulationError& error) {
+    std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
+    for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
+  }
+  View view;
+  view.Include(scene);
+  view.AddMargin();
+  WriteText(o.output, DrawSvg(scene, view, marks));
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddAssemble(CLI::App& program, Action& action) {
+  auto o = std::make_shared<AssembleCommand>();
+  CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
+  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option(
+          "-o,--output", o->output,
+          "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
+          "standard output")
+      ->required();
+  verb.add_option("--level", o->level, "forces at this instant, or impulses of a collision")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"forces", "impulses"}));
+  verb.add_flag("--explain", o->explain, "what was modelled, what was left out, and why that is exact");
+  verb.add_flag("--full", o->full, "one problem, with two rows for every contact, redundant ones too");
+  verb.callback([o, &action] { action = [o] { return RunAssemble(*o); }; });
+}
+
+void AddSimulate(CLI::App& program, Action& action) {
+  auto o = std::make_shared<SimulateCommand>();
+  CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
+  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option(
+          "-o,--output", o->output,
+          "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
+          "has no answer (exit 3)")
+      ->required();
+  verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
+  verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));
+  verb.add_option("--rest", o->rest,
+                  "speed up to which a contact counts as at rest, m/s [what gravity makes in one step]")
+      ->check(CLI::Range(1e-15, 1e6));
+  verb.add_option("--frames", o->frames_a_second, "pictures a second of simulated time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
+  verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
+  verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
+  verb.callback([o, &action] { action = [o] { return RunSimulate(*o); }; });
+}
+
+void AddDraw(CLI::App& program, Action& action) {
+  auto o = std::make_shared<DrawCommand>();
+  CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
+  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
+  verb.callback([o, &action] { action = [o] { return RunDraw(*o); }; });
+}
+
+}  // namespace stiction

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/scene/draw.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stiction {
+namespace {
+
+constexpr double kWidth = 800;  // pixels
+constexpr std::array kLevelColours = {"#e89a3c", "#9a6fb0", "#6aa84f", "#4f81bd", "#c0504d"};
+
+const char* ColourOf(const RigidBody<double>& body) {
+  if (body.fixed) return "#333333";
+  const int count = static_cast<int>(kLevelColours.size());
+  return kLevelColours[static_cast<std::size_t>(((body.level % count) + count) % count)];
+}
+
+// From the world to pixels; y points up in the world.
+struct Screen {
+  double scale, left, top, width, height;
+
+  explicit Screen(const View& view)
+      : scale(kWidth / (view.right - view.left)),
+        left(view.left),
+        top(view.top),
+        width(kWidth),
+        height(std::ceil(scale * (view.top - view.bottom))) {}
+  double X(double x) const { return scale * (x - left); }
+  double Y(double y) const { return scale * (top - y); }
+};
+
+std::string Head(const Screen& screen) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\">\n"
+      "<defs><marker id=\"tip\" markerWidth=\"6\" markerHeight=\"6\" refX=\"5\" refY=\"3\" orient=\"auto\">"
+      "<path d=\"M0,0 L6,3 L0,6 z\" fill=\"#d00000\"/></marker></defs>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+      screen.width, screen.height);
+}
+
+// The pieces of a body in its own coordinates, y up.
+std::string Pieces(const RigidBody<double>& body, double scale) {
+  std::string text;
+  for (const auto& shape : body.shapes) {
+    if (shape.IsDisc()) {
+      // The radius line shows the turning.
+      text += fmt::format(
+          "<circle cx=\"{0:.5g}\" cy=\"{1:.5g}\" r=\"{2:.5g}\"/><path d=\"M{0:.5g},{1:.5g} h{2:.5g}\"/>",
+          shape.center[0], shape.center[1], shape.radius);
+      continue;
+    }
+    text += "<polygon points=\"";
+    for (const auto& corner : shape.polygon) text += fmt::format("{:.6g},{:.6g} ", corner[0], corner[1]);
+    text += "\"/>";
+  }
+  return fmt::format("<g fill=\"{}\" stroke=\"black\" stroke-width=\"{:.4g}\" fill-opacity=\"0.85\">{}</g>",
+                     ColourOf(body), 1 / scale, text);
+}
+
+std::string Matrix(const Screen& screen, double x, double y, double c, double s) {
+  const double k = screen.scale;
+  return fmt::format("matrix({:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g})", k * c, -k * s, -k * s, -k * c,
+                     screen.X(x), screen.Y(y));
+}
+
+std::string Circle(const Screen& screen, const Vector2<double>& p, const char* fill, double radius) {
+  return fmt::format("<circle cx=\"{:.5g}\" cy=\"{:.5g}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>\n",
+                     screen.X(p[0]), screen.Y(p[1]), radius, fill);
+}
+
+}  // namespace
+
+void View::Include(const Scene<double>& scene) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (!(right > left)) left = bottom = kInfinite, right = top = -kInfinite;
+  for (const bool fixed : {false, true}) {
+    // Fixed bodies may be as large as a ground: they count where no moving body has set the view.
+    if (fixed && right > left) break;
+    for (const auto& body : scene.bodies) {
+      if (body.fixed != fixed) continue;
+      const auto include = [this](const Vector2<double>& p, double r) {
+        left = std::min(left, p[0] - r);
+        right = std::max(right, p[0] + r);
+        bottom = std::min(bottom, p[1] - r);
+        top = std::max(top, p[1] + r);
+      };
+      include(body.position, 0.01);
+      for (const auto& shape : body.shapes) {
+        if (shape.IsDisc()) include(body.At(shape.center), shape.radius);
+        for (const auto& corner : shape.polygon) include(body.At(corner), 0);
+      }
+    }
+  }
+}
+
+void View::AddMargin() {
+  const double margin = 0.15 * std::max({right - left, top - bottom, 1e-3});
+  left -= margin;
+  right += margin;
+  bottom -= margin;
+  top += margin;
+  // Not flatter nor taller than a screen.
+  const double width = right - left, height = top - bottom;
+  const double more_width = std::max(0.0, height - width) / 2,
+               more_height = std::max(0.0, width / 2 - height) / 2;
+  left -= more_width, right += more_width, bottom -= more_height, top += more_height;
+}
+
+Marks MarksOf(const Simulation& simulation) {
+  Marks marks;
+  for (const auto& contact : simulation.contacts()) marks.contacts.push_back(contact.point);
+  marks.forces = simulation.forces();
+  return marks;
+}
+
+RecordedFrame Record(const Scene<double>& scene, double time, Marks marks) {
+  RecordedFrame frame;
+  frame.time = time;
+  for (const auto& body : scene.bodies)
+    frame.bodies.push_back({body.position[0], body.position[1], body.rotation[0], body.rotation[1]});
+  frame.marks = std::move(marks);
+  return frame;
+}
+
+double ForceScale(const Scene<double>& scene, const View& view) {
+  double mass = 0;
+  for (const auto& body : scene.bodies) mass += body.fixed ? 0 : body.mass;
+  const double weight = mass * Length<double>(scene.gravity);
+  return (view.top - view.bottom) / 4 / (weight > 0 ? weight : 1);
+}
+
+std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks) {
+  const Screen screen(view);
+  std::string text = Head(screen);
+  for (const auto& body : scene.bodies) {
+    text += fmt::format("<g transform=\"{}\">{}</g>\n",
+                        Matrix(screen, body.position[0], body.position[1], body.rotation[0], body.rotation[1]),
+                        Pieces(body, screen.scale));
+  }
+  for (const auto& joint : scene.joints)
+    text += Circle(screen, scene.bodies[joint.a].At(joint.at_a), "white", 4);
+  for (const auto& point : marks.contacts) text += Circle(screen, point, "#30c030", 3);
+  const double scale = ForceScale(scene, view);
+  for (const auto& force : marks.forces) {
+    if (force.from_joint || Length<double>(force.force) == 0) continue;
+    const Vector2<double> tip = force.point + scale * force.force;
+    text += fmt::format(
+        "<line x1=\"{:.5g}\" y1=\"{:.5g}\" x2=\"{:.5g}\" y2=\"{:.5g}\" stroke=\"#d00000\" stroke-width=\"1.5\" "
+        "marker-end=\"url(#tip)\"/>\n",
+        screen.X(force.point[0]), screen.Y(force.point[1]), screen.X(tip[0]), screen.Y(tip[1]));
+  }
+  return text + "</svg>\n";
+}
+
+namespace {
+
+std::string FrameData(const Scene<double>& scene, const Screen& screen, const RecordedFrame& frame,
+                      double force_scale) {
+  std::string poses, joints, contacts, forces;
+  Scene<double> moved = scene;
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const auto& [x, y, c, s] = frame.bodies[i];
+    moved.bodies[i].position = {x, y};
+    moved.bodies[i].rotation = {c, s};
+    if (!scene.bodies[i].fixed || i < frame.bodies.size()) poses += '"' + Matrix(screen, x, y, c, s) + "\",";
+  }
+  for (const auto& joint : scene.joints) {
+    const Vector2<double> p = moved.bodies[joint.a].At(joint.at_a);
+    joints += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
+  }
+  for (const auto& p : frame.marks.contacts)
+    contacts += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
+  for (const auto& force : frame.marks.forces) {
+    if (force.from_joint) continue;
+    const Vector2<double> tip = force.point + force_scale * force.force;
+    forces += fmt::format("[{:.1f},{:.1f},{:.1f},{:.1f}],", screen.X(force.point[0]), screen.Y(force.point[1]),
+                          screen.X(tip[0]), screen.Y(tip[1]));
+  }
+  return fmt::format("[{:.4g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
+}
+
+// Names come from files.
+std::string Escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return text;
+}
+
+constexpr const char* kScript = R"js(
+const bodies = [...document.querySelectorAll('#bodies > g')], marks = document.getElementById('marks');
+const slider = document.getElementById('frame'), play = document.getElementById('play');
+const label = document.getElementById('time');
+slider.max = frames.length - 1;
+function circle(p, fill, r) { return `<circle cx="${p[0]}" cy="${p[1]}" r="${r}" fill="${fill}" stroke="black"/>`; }
+function show(k) {
+  const [time, poses, joints, contacts, forces] = frames[k];
+  poses.forEach((m, i) => bodies[i].setAttribute('transform', m));
+  marks.innerHTML = joints.map(p => circle(p, 'white', 4)).join('') +
+    contacts.map(p => circle(p, '#30c030', 3)).join('') +
+    forces.map(f => `<line x1="${f[0]}" y1="${f[1]}" x2="${f[2]}" y2="${f[3]}" stroke="#d00000" ` +
+      `stroke-width="1.5" marker-end="url(#tip)"/>`).join('');
+  slider.value = k;
+  label.textContent = `t = ${time.toFixed(3)} s`;
+}
+let playing = true, began = null, first = 0;
+function tick(now) {
+  if (playing) {
+    if (began === null) { began = now; first = +slider.value; }
+    show((first + Math.floor((now - began) / 1000 * rate)) % frames.length);
+  }
+  requestAnimationFrame(tick);
+}
+play.onclick = () => { playing = !playing; began = null; play.textContent = playing ? 'Pause' : 'Play'; };
+slider.oninput = () => { playing = false; began = null; play.textContent = 'Play'; show(+slider.value); };
+show(0);
+requestAnimationFrame(tick);
+)js";
+
+}  // namespace
+
+std::string DrawAnimation(const Scene<double>& scene, const View& view,
+                          const std::vector<RecordedFrame>& frames, double rate) {
+  const Screen screen(view);
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
+      "<style>body{{font-family:sans-serif;margin:1em}} svg{{border:1px solid #ccc;max-width:100%}} "
+      "input{{width:60%;vertical-align:middle}}</style></head><body><h1>{0}</h1>\n",
+      Escaped(scene.name));
+  text += Head(screen) + "<g id=\"bodies\">\n";
+  for (const auto& body : scene.bodies) text += "<g>" + Pieces(body, screen.scale) + "</g>\n";
+  text +=
+      "</g>\n<g id=\"marks\"></g>\n</svg>\n<p><button id=\"play\">Pause</button> "
+      "<input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> <span id=\"time\"></span></p>\n";
+  text += fmt::format("<script>\nconst rate = {:.6g};\nconst frames = [\n", rate);
+  const double force_scale = ForceScale(scene, view);
+  for (const auto& frame : frames) text += FrameData(scene, screen, frame, force_scale);
+  return text + "];" + kScript + "</script></body></html>\n";
+}
+
+}  // namespace stiction

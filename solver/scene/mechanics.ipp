@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definitions for mechanics.h, in its order.
+
+#ifndef STICTION_SOLVER_SCENE_MECHANICS_IPP_
+#define STICTION_SOLVER_SCENE_MECHANICS_IPP_
+
+#include <algorithm>
+#include <numeric>
+
+#include "solver/scalar.h"
+#include "solver/scene/mechanics.h"
+
+namespace stiction {
+
+inline int RootOf(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+template <class Scalar, int Dof>
+std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                        const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                        bool together) {
+  const int count = static_cast<int>(bodies.size());
+  std::vector<int> parent(count);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto member = [&](const Constraint<Scalar, Dof>& constraint) {
+    return !bodies[constraint.bodies[0]].fixed ? constraint.bodies[0] : constraint.bodies[1];
+  };
+  for (const auto& constraint : constraints) {
+    const auto [first, second] = constraint.bodies;
+    if (!bodies[first].fixed && !bodies[second].fixed) parent[RootOf(parent, first)] = RootOf(parent, second);
+  }
+  std::vector<Island<Scalar>> islands;
+  std::vector<int> island_of(count, -1);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const int body = member(constraints[i]);
+    if (bodies[body].fixed && !together) continue;
+    int& island = island_of[together ? 0 : RootOf(parent, body)];
+    if (island < 0) {
+      island = static_cast<int>(islands.size());
+      islands.emplace_back();
+    }
+    islands[island].constraints.push_back(static_cast<int>(i));
+  }
+  for (int body = 0; body < count && !islands.empty(); ++body) {
+    const int island = island_of[together ? 0 : RootOf(parent, body)];
+    if (!bodies[body].fixed && island >= 0) islands[island].bodies.push_back(body);
+  }
+  return islands;
+}
+
+template <class Scalar, int Dof>
+void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
+                 Island<Scalar>& island) {
+  using Vector = Eigen::Matrix<Scalar, Dof, 1>;
+  struct Touch {
+    int row;
+    const Vector* J;
+    Vector WJ;
+  };
+  std::vector<std::vector<Touch>> touches(bodies.size());
+  ContactProblem<Scalar>& problem = island.problem;
+  problem.dimension = dimension;
+  problem.contacts.clear();
+  int rows = 0;
+  for (const int i : island.constraints) {
+    const auto& constraint = constraints[i];
+    problem.contacts.push_back(constraint.law);
+    for (const auto& row : constraint.rows) {
+      for (int side = 0; side < 2; ++side) {
+        const int body = constraint.bodies[side];
+        if (!bodies[body].fixed) touches[body].push_back({rows, &row.J[side], bodies[body].W * row.J[side]});
+      }
+      ++rows;
+    }
+  }
+  problem.A = ContactProblem<Scalar>::Matrix::Constant(rows, rows, Scalar(0));
+  problem.b.resize(rows);
+  for (const int body : island.bodies) {
+    const auto& list = touches[body];
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) problem.A(list[i].row, list[j].row) += list[i].J->dot(list[j].WJ);
+    }
+  }
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < i; ++j) problem.A(j, i) = problem.A(i, j);
+  }
+  int at = 0;
+  for (const int i : island.constraints) {
+    for (const auto& row : constraints[i].rows) problem.b[at++] = row.b;
+  }
+}
+
+template <class Scalar, int Dof>
+void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island<Scalar>& island,
+                 const typename ContactProblem<Scalar>::Vector& f,
+                 std::vector<Eigen::Matrix<Scalar, Dof, 1>>& change) {
+  int at = 0;
+  for (const int i : island.constraints) {
+    for (const auto& row : constraints[i].rows) {
+      for (int side = 0; side < 2; ++side) {
+        const int body = constraints[i].bodies[side];
+        if (!bodies[body].fixed) change[body] += bodies[body].W * row.J[side] * f[at];
+      }
+      ++at;
+    }
+  }
+}
+
+// The rows of a constraint as seen from the lower of its bodies.
+template <class Scalar, int Dof>
+class RowView {
+ public:
+  explicit RowView(const Constraint<Scalar, Dof>& constraint)
+      : constraint_(constraint), swapped_(constraint.bodies[1] < constraint.bodies[0]) {}
+
+  const Scalar& J(int row, int k) const {
+    const int side = k < Dof ? 0 : 1;
+    return constraint_.rows[row].J[swapped_ ? 1 - side : side][k % Dof];
+  }
+  const Scalar& b(int row) const { return constraint_.rows[row].b; }
+
+ private:
+  const Constraint<Scalar, Dof>& constraint_;
+  bool swapped_;
+};
+
+// x - (w y + (1 - w) z) as a sign, zero within rounding.
+template <class Scalar>
+int SignOfExcess(const Scalar& x, const Scalar& w, const Scalar& y, const Scalar& z) {
+  const Scalar scale = std::max<Scalar>(Scalar(1), std::max<Scalar>(Abs(x), std::max<Scalar>(Abs(y), Abs(z))));
+  return Sign<Scalar>(Scalar(x - w * y - (Scalar(1) - w) * z),
+                      Scalar(scale / Scalar(1000000) / Scalar(1000000)));
+}
+
+// Whether constraint i is the combination of j and k that FindRedundant asks for.
+template <class Scalar, int Dof>
+bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j,
+               const Constraint<Scalar, Dof>& k) {
+  const RowView<Scalar, Dof> inner(i), first(j), second(k);
+  int widest = 0;
+  const auto width = [&](int at) { return Abs<Scalar>(Scalar(first.J(0, at) - second.J(0, at))); };
+  for (int at = 1; at < 2 * Dof; ++at) {
+    if (width(at) > width(widest)) widest = at;
+  }
+  Scalar w(1);
+  if (Sign(width(widest)) != 0) {
+    w = Scalar(inner.J(0, widest) - second.J(0, widest)) / Scalar(first.J(0, widest) - second.J(0, widest));
+    if (w < 0 || w > 1) return false;
+  }
+  for (int row = 0; row < static_cast<int>(i.rows.size()); ++row) {
+    for (int at = 0; at < 2 * Dof; ++at) {
+      if (SignOfExcess<Scalar>(inner.J(row, at), w, first.J(row, at), second.J(row, at)) != 0) return false;
+      if (row > 0 && SignOfExcess<Scalar>(first.J(row, at), Scalar(1), second.J(row, at), Scalar(0)) != 0)
+        return false;
+    }
+    const int excess = SignOfExcess<Scalar>(inner.b(row), w, first.b(row), second.b(row));
+    if (row == 0 && excess < 0) return false;
+    if (row == 0 || i.law.kind != ContactKind::kStatic) continue;
+    if (excess != 0 || SignOfExcess<Scalar>(first.b(row), Scalar(1), second.b(row), Scalar(0)) != 0)
+      return false;
+  }
+  return true;
+}
+
+template <class Scalar, int Dof>
+bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j) {
+  const bool same_bodies = i.bodies == j.bodies || i.bodies == std::array<int, 2>{j.bodies[1], j.bodies[0]};
+  return same_bodies && i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
+}
+
+template <class Scalar, int Dof>
+std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
+  const int count = static_cast<int>(constraints.size());
+  std::vector<bool> redundant(constraints.size(), false);
+  std::vector<int> others;
+  for (int i = 0; i < count; ++i) {
+    if (constraints[i].law.kind == ContactKind::kBilateral) continue;
+    others.clear();
+    for (int j = 0; j < count; ++j) {
+      if (j != i && !redundant[j] && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
+    }
+    for (std::size_t j = 0; j < others.size() && !redundant[i]; ++j) {
+      for (std::size_t k = j; k < others.size() && !redundant[i]; ++k)
+        redundant[i] = IsBetween(constraints[i], constraints[others[j]], constraints[others[k]]);
+    }
+  }
+  return redundant;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SCENE_MECHANICS_IPP_

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Simulate: a scene over doubles, stepped through time.
+//
+// A step of length h, from a state (x, v):
+//
+//   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities
+//   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
+//                 assemble.h, one linear correction; contacts are found again
+//   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
+//   `impulses`, an inelastic collision with
+//                 restitution 0 and Coulomb's law, v += W J' p
+//   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f)
+//   5 motion      x += h v, with the new v (the symplectic Euler method)
+//
+// At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
+// round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are
+// computed again. Sliding contacts can leave no solution at all (section 6 of [Baraff94] asks for an impulsive
+// force then): the frame is solved with every contact static, that is, by one inelastic step at the level of
+// velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
+// counted.
+//
+// Which solution. Forces and accelerations need not be unique. The answer is that of FastSolver started afresh
+// in each frame: projected Gauss-Seidel sweeps from f = 0, then exchanges; complete driving from f = 0 where
+// these end in nothing. So it depends on the state alone, not on how the state was reached. Of solutions that
+// differ in their accelerations this prefers those near f = 0: a contact that can do without a force at first
+// sight does.
+//
+// Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
+// Cost. For each island one problem of forces, another for every time that contacts come to rest within the
+// step, one of positions where there are joints, one of impulses in a collision; dense in the rows of an
+// island.
+
+#ifndef STICTION_SOLVER_SCENE_SIMULATE_H_
+#define STICTION_SOLVER_SCENE_SIMULATE_H_
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "solver/fast.h"
+#include "solver/scene/assemble.h"
+
+namespace stiction {
+
+inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
+
+struct SimulationOptions {
+  double step = 1.0 / 60;  // s
+  // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
+  double rest = 0;
+  bool minimal = true;
+  FastOptions fast;
+};
+
+// Counters since the start.
+struct SimulationStatistics {
+  std::int64_t frames = 0;
+  std::int64_t contacts = 0;
+  std::int64_t problems = 0;
+  std::int64_t rows = 0;
+  std::int64_t collisions = 0;   // frames with impulses
+  std::int64_t corrections = 0;  // frames with corrected positions
+  std::int64_t stopped = 0;      // contacts that came to rest within a step
+  std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
+  std::int64_t fallbacks = 0;    // problems that complete driving solved
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, SimulationStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("frames", "steps", s.frames);
+  visit("contacts", "contacts found, of all frames", s.contacts);
+  visit("problems", "problems solved", s.problems);
+  visit("rows", "their rows", s.rows);
+  visit("collisions", "frames with impulses", s.collisions);
+  visit("corrections", "frames with corrected positions", s.corrections);
+  visit("stopped", "sliding contacts that came to rest within a step", s.stopped);
+  visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
+  visit("fallbacks", "problems that complete driving solved", s.fallbacks);
+}
+
+// A problem that a frame met, and where.
+struct FrameProblem {
+  std::int64_t frame = 0;  // from 0
+  Level level = Level::kForces;
+  int island = 0;
+  const ContactProblem<double>& problem;
+};
+
+class SimulationError : public std::runtime_error {
+ public:
+  SimulationError(const std::string& message, ContactProblem<double> problem)
+      : std::runtime_error(message), problem(std::move(problem)) {}
+
+  ContactProblem<double> problem;
+};
+
+// A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
+struct AppliedForce {
+  Vector2<double> point, force;
+  bool from_joint = false;
+};
+
+struct Energy {
+  double kinetic = 0, potential = 0;  // J; potential of gravity, zero at the origin
+  double total() const { return kinetic + potential; }
+};
+
+// How far a state is from what joints and shapes demand.
+struct Drift {
+  double joints = 0;   // m, or the sine of an angle
+  double overlap = 0;  // m
+};
+
+class Simulation {
+ public:
+  // Requires a finite scene. `observe` sees every problem before it is solved.
+  explicit Simulation(Scene<double> scene, const SimulationOptions& options = {},
+                      std::function<void(const FrameProblem&)> observe = {});
+
+  // One step. SimulationError if a problem is not solved; the state is then that of the frame's start, but for
+  // corrected positions and impulses.
+  void Step();
+
+  const Scene<double>& scene() const { return scene_; }
+  double time() const { return static_cast<double>(statistics_.frames) * options_.step; }
+  const SimulationStatistics& statistics() const { return statistics_; }
+  // Of the last step.
+  const std::vector<AppliedForce>& forces() const { return forces_; }
+  const std::vector<TouchPoint<double>>& contacts() const { return contacts_; }
+
+ private:
+  using Model = SceneModel<double>;
+  using Forces = std::vector<ContactProblem<double>::Vector>;
+  using Changes = std::vector<Eigen::Matrix<double, 3, 1>>;
+
+  Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
+  bool Solve(const Model& model, Level level, Forces& f);
+  [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
+  void FindStepContacts();
+  Changes Response(const Model& model, const Forces& f) const;
+  bool HasDrifted() const;
+  bool Collides() const;
+  void CorrectPositions();
+  void ApplyImpulses();
+  Changes Accelerations();
+  int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
+  void KeepForces(const Model& model, const Forces& f);
+  void Move(const Changes& accelerations);
+
+  Scene<double> scene_;
+  SimulationOptions options_;
+  std::function<void(const FrameProblem&)> observe_;
+  FastSolver<double> solver_;
+  SimulationStatistics statistics_;
+  std::vector<TouchPoint<double>> contacts_;
+  std::vector<AppliedForce> forces_;
+  std::size_t failed_ = 0;  // island
+};
+
+Energy EnergyOf(const Scene<double>& scene);
+Drift DriftOf(const Scene<double>& scene);
+
+// f of a problem of any kinds: FastSolver after reduction.h, checked by the natural residual of the whole
+// problem. False if there is none to `options.residual`.
+bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SCENE_SIMULATE_H_

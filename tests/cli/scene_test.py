@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes: assemble, simulate, draw."""
+
+import csv
+import json
+import xml.etree.ElementTree as ElementTree
+
+import cli
+
+FOLDER = cli.ROOT / "corpus" / "scenes"
+
+
+class Scenes(cli.TestCase):
+    def assemble(self, name, *options):
+        output = self.folder / f"{name}.json"
+        done = cli.run("assemble", FOLDER / f"{name}.json", "-o", output, *options)
+        self.assertEqual(done.code, 0, done.err)
+        return done.out, output
+
+    def test_assembled_problems_are_solved_exactly(self):
+        for name, code in (("rod-at-rest", 0), ("incline-slides", 0), ("ladder-stands", 0),
+                           ("pendulum-at-the-bottom", 0), ("rod-without-solution", 1)):
+            with self.subTest(scene=name):
+                _, output = self.assemble(name)
+                self.assertEqual(cli.run("solve", output, "--method", "complete").code, code)
+        _, output = self.assemble("rod-at-rest")
+        self.assertEqual(cli.run("solve", output, "--method", "complete", "--json").json()["f"], ["17/2", "-3"])
+
+    def test_islands_are_files_of_their_own_and_everything_is_explained(self):
+        out, output = self.assemble("two-towers", "--explain")
+        rows = [len(json.loads(output.with_name(f"two-towers-{i}.json").read_text())["b"]) for i in (1, 2)]
+        self.assertEqual(rows, [8, 2])
+        for phrase in ("it parts", "on a flat face", "problem 1 of 2", "frictionless, one row"):
+            self.assertIn(phrase, out)
+        _, output = self.assemble("two-towers", "--full")
+        self.assertEqual(len(json.loads(output.read_text())["b"]), 16)
+
+    def test_one_problem_goes_to_standard_output_and_several_do_not(self):
+        done = cli.run("assemble", FOLDER / "rod-at-rest.json", "-o", "-")
+        self.assertEqual(json.loads(done.out)["A"][0], ["8/5", "6/5"])
+        done = cli.run("assemble", FOLDER / "two-towers.json", "-o", "-")
+        self.assertEqual((done.code, done.out), (2, ""))
+
+    def test_a_simulation_writes_pictures_energies_and_drift(self):
+        folder, problems = self.folder / "run", self.folder / "problems"
+        done = cli.run("simulate", FOLDER / "double-action-jack.json", "-o", folder, "--seconds", "0.5",
+                       "--problems", problems)
+        self.assertEqual(done.code, 0, done.err)
+        with open(folder / "energy.csv", newline="", encoding="utf-8") as file:
+            energies = list(csv.DictReader(file))
+        self.assertEqual(len(energies), 121)
+        for row in energies:
+            self.assertAlmostEqual(float(row["kinetic_J"]) + float(row["potential_J"]), float(row["total_J"]), 6)
+        self.assertEqual(len((folder / "drift.csv").read_text().splitlines()), 122)
+        frames = sorted((folder / "frames").iterdir())
+        self.assertGreaterEqual(len(frames), 15)
+        for frame in frames:
+            ElementTree.parse(frame)
+        page = (folder / "animation.html").read_text()
+        self.assertNotIn("http://", page.replace("http://www.w3.org/2000/svg", ""))
+        self.assertNotIn("https://", page)
+        written = sorted(problems.iterdir())
+        self.assertGreater(len(written), 100)
+        self.assertEqual(cli.run("solve", written[50], "--method", "fast", "--arithmetic", "double").code, 0)
+
+    def test_a_frame_without_an_answer_is_exit_3_and_its_problem_is_written(self):
+        jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}
+        scene = {"format": "stiction-scene", "version": 1, "name": "vice", "dimension": 2, "bodies": [
+            {"name": "left", "position": [-1.25, 0], "velocity": [1, 0], **jaw},
+            {"name": "right", "position": [1.25, 0], "velocity": [-1, 0], **jaw},
+            {"name": "block", "mass": "1", "shapes": [{"box": [1, 1]}]}]}
+        folder = self.folder / "vice"
+        done = cli.run("simulate", self.file("vice.json", scene), "-o", folder, "--no-svg")
+        self.assertEqual(done.code, 3)
+        self.assertIn("frame ", done.err)
+        self.assertTrue((folder / "animation.html").exists())
+        self.assertFalse((folder / "frames").exists())
+        problem = json.loads((folder / "undecided.json").read_text())
+        self.assertEqual(problem["format"], "stiction-problem")
+
+    def test_every_scene_is_drawn(self):
+        for scene in sorted(FOLDER.glob("*.json")):
+            with self.subTest(scene=scene.name):
+                done = cli.run("draw", scene, "-o", "-")
+                self.assertEqual(done.code, 0, done.err)
+                ElementTree.fromstring(done.out)
+
+    def test_bad_scenes_are_refused_with_their_place(self):
+        scene = json.loads((FOLDER / "rod-at-rest.json").read_text())
+        scene["bodies"][1]["mass"] = "-1"
+        file = self.file("bad.json", scene)
+        for verb in ("assemble", "simulate", "draw"):
+            done = cli.run(verb, file, "-o", self.folder / "out")
+            self.assertEqual((done.code, done.out), (2, ""))
+            self.assertIn('bodies[1].mass: found "-1", expected a number > 0', done.err)
+
+    def test_the_benchmark_shows_both_models(self):
+        folder = self.folder / "scenes"
+        folder.mkdir()
+        (folder / "stack.json").write_text((FOLDER / "stack.json").read_text())
+        done = cli.run("bench", "--suite", "scenes", "--scenes", folder, "--repeat", 1, "--json")
+        (row,) = done.json()
+        self.assertEqual((row["scene"], row["minimal"]["rows"], row["full"]["rows"]), ("stack", 20, 20))
+        self.assertEqual(cli.run("bench", "--suite", "scenes", "--scenes", self.folder / "none").code, 2)
+
+
+if __name__ == "__main__":
+    cli.main()
