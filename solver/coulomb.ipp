@@ -158,9 +158,9 @@ auto CoulombSolver<Scalar>::Answer(const Vector& f) const -> Vector {
 // there.
 template <class Scalar>
 bool CoulombSolver<Scalar>::Newton() {
-  constexpr Scalar kShift = 1e-10;
+  const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
   regular_ = problem_->A;
-  regular_.diagonal() += std::max(rho_, kShift) * weight_;
+  regular_.diagonal() += std::max(rho_, shift) * weight_;
   a_ = Answer(f_);
   Note();
   Vector map = Map(f_, a_);
