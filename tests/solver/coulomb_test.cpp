@@ -119,6 +119,8 @@ TEST_CASE("one contact: its force obeys the law, also where W is not symmetric")
     ++counts[f[0] == 0 ? 0 : slack > 1e-9 ? 1 : 2];
   }
   for (const int count : counts) CHECK(count > 200);
+  const auto immovable = SolveOneContact<double>(Eigen::Vector3d(1, 0, 0).asDiagonal(), {-1, 3, 4}, 0.5);
+  CHECK(std::hypot(immovable[1] + 0.3, immovable[2] + 0.4) < 1e-14);
 }
 
 // ---- The solver --------------------------------------------------------------------------------
