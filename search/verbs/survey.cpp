@@ -17,6 +17,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
 #include "search/verbs/verbs.h"
 #include "solver/check.h"
 #include "solver/complete.h"
@@ -122,17 +123,6 @@ Json MeetsAll(const Json& entry) {
 
 // ---- Runs ------------------------------------------------------------------------------------
 
-ContactProblem<double> InDoubles(const ExactProblem& problem) {
-  ContactProblem<double> rounded;
-  rounded.dimension = problem.dimension;
-  for (const auto& contact : problem.contacts)
-    rounded.contacts.push_back(
-        {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
-  rounded.A = problem.A.unaryExpr(&ToDouble);
-  rounded.b = problem.b.unaryExpr(&ToDouble);
-  return rounded;
-}
-
 // The natural residual of f, a double vector, on the exact problem: evaluated over rationals.
 template <class Problem>
 double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
@@ -143,7 +133,7 @@ double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
 
 // A run over doubles that calls itself solved is solved if the residual of its forces says so.
 Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
-  const ContactProblem<double> whole = InDoubles(problem);
+  const ContactProblem<double> whole = Rounded<double>(problem);
   const Stopwatch watch;
   std::optional<Reduction<double>> reduction;  // bilateral and sliding contacts leave a problem first (4.5, 6)
   if (Reduction<double>::Concerns(whole)) reduction.emplace(whole);
@@ -307,7 +297,7 @@ Json RunCoulomb(const ExactProblem& problem, const Limits& limits) {
   CoulombOptions options;
   options.limits = limits;
   CoulombSolver<double> solver(options);
-  const ContactProblem<double> rounded = InDoubles(problem);
+  const ContactProblem<double> rounded = Rounded<double>(problem);
   const Stopwatch watch;
   const CoulombVerdict verdict = solver.Run(rounded);
   Json run = {{"method", "fast"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
