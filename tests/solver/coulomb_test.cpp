@@ -210,6 +210,18 @@ TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
   }
 }
 
+TEST_CASE("coulomb: proximal steps solve most asymmetric problems with repeated contacts") {
+  CoulombOptions options;
+  options.sides = 0;
+  CoulombSolver<double> solver(options);
+  int solved = 0;
+  for (int index = 0; index < 60; ++index) {
+    Choices choices(9000 + index);
+    solved += solver.Run(Repeated(6, 4, 1e-3, choices)).outcome == Outcome::kSolved;
+  }
+  CHECK(solved >= 53);  // 47 without them
+}
+
 TEST_CASE("coulomb: other kinds of contacts stand beside") {
   CoulombSolver<double> solver;
   for (int index = 0; index < 100; ++index) {
