@@ -106,8 +106,7 @@ Json AnswersToJson(const Answers& answers) {
   if (!answers.modes) return json;
   Json solutions = Json::array();
   for (const WordSolution& solution : answers.modes->solutions) {
-    Json word = Json::array();
-    for (const Mode mode : solution.word) word.push_back(Name(mode));
+    const Json word = WordToJson(solution.word);
     solutions.push_back({{"modes", word}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
   }
   json.push_back({{"method", "enumerate"},

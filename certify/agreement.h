@@ -24,7 +24,6 @@
 
 #include "certify/exact.h"
 #include "certify/existence.h"
-#include "certify/modes.h"
 
 namespace stiction {
 

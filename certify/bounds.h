@@ -2,8 +2,8 @@
 // The paper's assumptions on problems too large for exact elimination: bounds from doubles that hold all the
 // same.
 //
-//   semidefinite   x'Ax >= least x'x for all x      a Cholesky factorization that ran to its end, and its
-//   rounding
+//   semidefinite   x'Ax >= least x'x for all x      a Cholesky factorization that ran to its end,
+//                                                   and a bound for its rounding
 //                  x'Ax = value < 0 for this x      value over rationals
 //   range          abs(A x - b) <= distance abs(b)  the residual of an x, over rationals
 //

@@ -14,7 +14,7 @@ namespace stiction {
 
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 
-// Requires: f is a solution (FindLawViolation is empty; in space FindWeakViolation); otherwise InternalError.
+// Requires: f is a solution (FindViolation is empty; in space FindWeakViolation); otherwise InternalError.
 Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
 // Requires: dimension 3, FindCoulombViolation is empty for this bound; otherwise InternalError.
 Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f, const Rational& bound);

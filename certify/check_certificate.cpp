@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <map>
 #include <set>
 
 #include "certify/certificate.h"
@@ -12,52 +12,10 @@
 #include "certify/properties.h"
 #include "certify/safe.h"
 #include "certify/verify_solution.h"
-#include "corpus/json_text.h"
+#include "certify/witness.h"
 
 namespace stiction {
 namespace {
-
-struct Rejected {
-  std::string path, found, expected;
-};
-
-// An object with exactly these keys, in any order.
-void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
-  if (!json.is_object()) throw Rejected{path, Shown(json), "an object"};
-  for (const auto& [key, value] : json.items()) {
-    if (!keys.contains(key))
-      throw Rejected{path + "." + key, "an unknown key", fmt::format("{}", fmt::join(keys, ", "))};
-  }
-  for (const std::string& key : keys) {
-    if (!json.contains(key))
-      throw Rejected{path, "no key '" + key + "'", fmt::format("{}", fmt::join(keys, ", "))};
-  }
-}
-
-Rational ReadNumber(const Json& json, const std::string& path) {
-  if (json.is_string()) {
-    if (const auto value = ParseRational(json.get_ref<const std::string&>())) return *value;
-  }
-  throw Rejected{path, Shown(json), "an exact number as a string"};
-}
-
-std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
-  if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
-  throw Rejected{path, Shown(json), fmt::format("an integer >= {}", least)};
-}
-
-ExactVector ReadVector(const Json& json, const std::string& path, int size) {
-  if (!json.is_array() || static_cast<int>(json.size()) != size) {
-    throw Rejected{path, Shown(json), fmt::format("a list of {} numbers", size)};
-  }
-  ExactVector values(size);
-  for (int i = 0; i < size; ++i) values[i] = ReadNumber(json[i], fmt::format("{}[{}]", path, i));
-  return values;
-}
-
-void RequireEqual(const Rational& found, const Rational& expected, const std::string& path) {
-  if (found != expected) throw Rejected{path, ToString(found), ToString(expected)};
-}
 
 // ---- Claims about a solution and about A and b -----------------------------------------------
 
@@ -73,7 +31,7 @@ ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
 Json CheckSolution(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"a", "f"});
   const ExactVector f = ReadForces(problem, witness);
-  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindLawViolation(problem, f);
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
   if (violation) throw Rejected{"witness.f", *violation, "a solution"};
   return Json::object();
 }
@@ -112,9 +70,7 @@ Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"D", "L"});
   const int rows = problem.rows();
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
-  if (!witness["L"].is_array() || static_cast<int>(witness["L"].size()) != rows) {
-    throw Rejected{"witness.L", Shown(witness["L"]), fmt::format("{} rows", rows)};
-  }
+  RequireList(witness["L"], "witness.L", static_cast<std::size_t>(rows), "rows");
   ExactMatrix L(rows, rows);
   for (int i = 0; i < rows; ++i) {
     L.row(i) = ReadVector(witness["L"][i], fmt::format("witness.L[{}]", i), rows).transpose();
@@ -135,10 +91,7 @@ Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
 Json CheckNotSemidefinite(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
-  Rational curvature = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    for (int j = 0; j < problem.rows(); ++j) curvature += x[i] * problem.A(i, j) * x[j];
-  }
+  const Rational curvature = x.dot(problem.A * x);
   RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");
   if (curvature >= 0) throw Rejected{"witness.value", ToString(curvature), "x'Ax < 0"};
   return Json::object();
@@ -147,24 +100,17 @@ Json CheckNotSemidefinite(const ExactProblem& problem, const Json& witness) {
 Json CheckInRange(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
-  for (int i = 0; i < problem.rows(); ++i) {
-    Rational image = 0;
-    for (int j = 0; j < problem.rows(); ++j) image += problem.A(i, j) * x[j];
-    RequireEqual(image, problem.b[i], fmt::format("(A x)[{}]", i));
-  }
+  const ExactVector image = problem.A * x;
+  for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], problem.b[i], fmt::format("(A x)[{}]", i));
   return Json::object();
 }
 
 Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "y"});
   const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
-  Rational product = 0;
-  for (int j = 0; j < problem.rows(); ++j) {
-    Rational entry = 0;
-    for (int i = 0; i < problem.rows(); ++i) entry += y[i] * problem.A(i, j);
-    RequireEqual(entry, 0, fmt::format("(y'A)[{}]", j));
-    product += y[j] * problem.b[j];
-  }
+  const ExactVector image = problem.A.transpose() * y;
+  for (int j = 0; j < problem.rows(); ++j) RequireEqual(image[j], 0, fmt::format("(y'A)[{}]", j));
+  const Rational product = y.dot(problem.b);
   RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
   if (product == 0) throw Rejected{"witness.value", "0", "y'b /= 0"};
   return Json::object();
@@ -190,13 +136,9 @@ Json CheckNotHypothesis(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"v", "value"});
   RequireCones(problem);
   const ExactVector v = ReadVector(witness["v"], "witness.v", problem.rows());
-  Rational product = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    Rational image = 0;
-    for (int j = 0; j < problem.rows(); ++j) image += problem.A(i, j) * v[j];
-    RequireEqual(image, 0, fmt::format("(A v)[{}]", i));
-    product += problem.b[i] * v[i];
-  }
+  const ExactVector image = problem.A * v;
+  for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));
+  const Rational product = problem.b.dot(v);
   if (const auto violation = FindConeViolation(problem, v)) throw Rejected{"witness.v", *violation, "v in K"};
   RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
   if (product >= 0) throw Rejected{"witness.value", ToString(product), "b'v < 0"};
@@ -233,7 +175,7 @@ void CompareRun(const ExactRun& run, const Json& described, const std::string& p
     }
   };
   const Json& pivots = described["pivots"];
-  if (!pivots.is_array()) throw Rejected{path + ".pivots", Shown(pivots), "a list"};
+  RequireList(pivots, path + ".pivots");
   for (std::size_t k = 0; k < std::min(pivots.size(), run.trace.pivots.size()); ++k) {
     const std::string where = fmt::format("{}.pivots[{}]", path, k);
     Json found = pivots[k];
@@ -266,12 +208,10 @@ std::string StepsAsText(const ExactRun& run, const std::vector<std::string>& nam
   return steps.dump();
 }
 
-Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
+template <Outcome loop>
+Json CheckLoop(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"runs"});
-  if (!PublishedHandles(problem)) {
-    throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts",
-                   "those"};
-  }
+  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
   const Json& runs = witness["runs"];
   if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shown(runs), "at least one run"};
   const std::vector<std::string> names = VariableNames(problem);
@@ -304,30 +244,13 @@ Json CheckLoop(const ExactProblem& problem, const Json& witness, Outcome loop) {
           {"period", runs[0]["period"]}};
 }
 
-Json CheckNone(const ExactProblem& problem, const Json& witness) {
-  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
-  const NoSolutionCheck check = CheckNoSolution(problem, witness);
-  if (check.fault) throw Rejected{check.fault->path, check.fault->found, check.fault->expected};
-  return check.facts;
-}
-
-// Claims of safe.h.
-template <SafetyCheck (*check)(const ExactProblem&, const Json&)>
-Json CheckSafety(const ExactProblem& problem, const Json& witness) {
-  const SafetyCheck result = check(problem, witness);
-  if (result.fault) throw Rejected{result.fault->path, result.fault->found, result.fault->expected};
-  return result.facts;
-}
-
-using Checker = std::function<Json(const ExactProblem&, const Json&)>;
-
-const std::map<std::string, Checker>& Checkers() {
-  static const std::map<std::string, Checker> checkers = {
+const std::map<std::string, WitnessCheck*>& Checks() {
+  static const std::map<std::string, WitnessCheck*> checks = {
       {"solution-exists", CheckSolution},
       {"coulomb-solution", CheckCoulomb},
-      {"no-solution", CheckNone},
-      {"safe", CheckSafety<CheckSafe>},
-      {"unsafe", CheckSafety<CheckUnsafe>},
+      {"no-solution", CheckNoSolution},
+      {"safe", CheckSafe},
+      {"unsafe", CheckUnsafe},
       {"symmetric", CheckSymmetric},
       {"not-symmetric", CheckNotSymmetric},
       {"psd", CheckSemidefinite},
@@ -336,12 +259,10 @@ const std::map<std::string, Checker>& Checkers() {
       {"not-in-range", CheckNotInRange},
       {"h", CheckHypothesis},
       {"not-h", CheckNotHypothesis},
-      {"cycle",
-       [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kCycle); }},
-      {"stall",
-       [](const auto& problem, const Json& witness) { return CheckLoop(problem, witness, Outcome::kStall); }},
+      {"cycle", CheckLoop<Outcome::kCycle>},
+      {"stall", CheckLoop<Outcome::kStall>},
   };
-  return checkers;
+  return checks;
 }
 
 }  // namespace
@@ -357,14 +278,14 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source)
       throw Rejected{"version", Shown(certificate["version"]), "1"};
     }
     if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
-    const auto checker = Checkers().find(report.claim);
-    if (checker == Checkers().end()) {
+    const auto check = Checks().find(report.claim);
+    if (check == Checks().end()) {
       std::vector<std::string> claims;
-      for (const auto& [claim, check] : Checkers()) claims.push_back(claim);
+      for (const auto& known : Checks()) claims.push_back(known.first);
       throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
     }
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
-    report.facts = checker->second(problem, certificate["witness"]);
+    report.facts = check->second(problem, certificate["witness"]);
     report.accepted = true;
   } catch (const Rejected& rejected) {
     report.reason = rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;

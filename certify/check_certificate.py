@@ -147,7 +147,7 @@ def matrix(value, place, size):
 
 Contact = namedtuple("Contact", "kind mu slip")
 # A planar variable; contact counts from 0; normal and friction are the rows of the
-# contact's two variables, friction None on a frictionless contact and never row 0.
+# contact's two variables, friction None unless the contact is static and never row 0.
 Variable = namedtuple("Variable", "name contact normal friction mu")
 
 
@@ -157,18 +157,28 @@ class Problem:
 
     @cached_property
     def variables(self):
-        """One per row; planar static and frictionless contacts only."""
-        unsupported = "others are not supported by this checker for this claim"
-        need(self.dimension == 2, "$.problem.dimension", self.dimension, f"2: {unsupported}")
+        """One per row of a planar problem."""
         result = []
-        for i, (kind, mu, _) in enumerate(self.contacts):
-            need(kind in ("static", "frictionless"), f"$.problem.contacts[{i}].kind", kind,
-                 f"static or frictionless: {unsupported}")
-            normal = len(result)
-            friction = normal + 1 if kind == "static" else None
-            result += [Variable(f"{letter}{i + 1}", i, normal, friction, mu)
-                       for letter in ("NF" if kind == "static" else "N")]
+        for i, (kind, mu, _), rows in planar_contacts(self):
+            friction = rows[1] if kind == "static" else None
+            result += [Variable(f"{letter}{i + 1}", i, rows[0], friction, mu)
+                       for letter in "NF"[:len(rows)]]
         return result
+
+    @cached_property
+    def held(self):
+        """The rows of bilateral contacts, which stay in C (4.5)."""
+        return [rows[0] for _, contact, rows in planar_contacts(self) if contact.kind == "bilateral"]
+
+    @cached_property
+    def sliding(self):
+        """For the normal row of each sliding contact the factor of fF = -mu slip fN (24), in the row behind."""
+        return {rows[0]: -limit(contact) for _, contact, rows in planar_contacts(self)
+                if contact.kind == "sliding"}
+
+    def is_passive(self, row):
+        """Whether the algorithm never looks at the conditions of this row."""
+        return row in self.held or row - 1 in self.sliding
 
 
 KEYS = {"bilateral": ("kind",), "frictionless": ("kind",), "static": ("kind", "mu"),
@@ -317,6 +327,8 @@ def check_not_h(problem, witness):
 
 def violated(problem, f, a, row):
     """A normal that fails (15), or a friction variable that fails (16) while (15) holds."""
+    if problem.is_passive(row):
+        return False
     x = problem.variables[row]
     fN, aN = f[x.normal], a[x.normal]
     holds = fN >= 0 and aN >= 0 and fN * aN == 0
@@ -532,8 +544,11 @@ def reduced_determinant(problem, word, stated, place):
 
 def words_of(problem):
     """The number of all words, and the modes of each contact; static and frictionless ones."""
-    choices = [modes_of(problem.contacts[variable.contact]) for variable in problem.variables
-               if variable.name[0] == "N"]
+    choices = []
+    for i, contact, _ in planar_contacts(problem):
+        need(contact.kind in ("static", "frictionless"), f"$.problem.contacts[{i}].kind", contact.kind,
+             "static or frictionless: others are not supported by this checker for this claim")
+        choices.append(modes_of(contact))
     return prod(map(len, choices)), choices
 
 
@@ -633,15 +648,46 @@ def fdirection(problem, sets, driven, rate):
         df[row] = Fraction(change)
         if row == x.normal and x.friction and sets[x.friction] in ("NC+", "NC-"):
             df[x.friction] = change * (x.mu if sets[x.friction] == "NC+" else -x.mu)
+        if row in problem.sliding:
+            df[row + 1] = change * problem.sliding[row]
         return df
 
-    unknown = [row for row, where in enumerate(sets) if where in ("C", "CF")]
+    unknown = problem.held + [row for row, where in enumerate(sets)
+                              if where in ("C", "CF") and row not in problem.held]
     forces = [following(row, 1) for row in unknown] + [following(driven, rate)]
     effects = [times(problem.A, df) for df in forces]
     x = solve([[da[row] for da in effects[:-1]] + [-effects[-1][row]] for row in unknown])
     if x is None:
         return None
     return times(zip(*forces), x + [1]), times(zip(*effects), x + [1])
+
+
+def held_forces(problem):
+    """The forces of bilateral contacts that keep their accelerations at zero while all others rest, as a
+    vector of all rows (readings, section 9); None if the contacts are singular or contradict each other."""
+    held, A = problem.held, problem.A
+    block = [[A[i][j] for j in held] for i in held]
+
+    def against(values):
+        """x with A_BB x + values = 0 in the rows of B."""
+        return solve([row + [-values[i]] for i, row in zip(held, block)])
+
+    others = [row for row in range(len(problem.b)) if not problem.is_passive(row)]
+    for row in others:  # the force of a sliding contact takes its friction along
+        factor = problem.sliding.get(row, 0)
+        if against([line[row] + factor * line[row + 1] if factor else line[row] for line in A]) is None:
+            return None
+    for k, j in enumerate(held):  # a column that depends on those before must have no effect elsewhere
+        x = solve([row[:k] + [Fraction(0)] * (len(held) - k) + [row[k]] for row in block])
+        if x is not None and any(A[row][j] != dot((A[row][i] for i in held), x) for row in others):
+            return None
+    x = against(problem.b)
+    if x is None:
+        return None
+    f = [Fraction(0)] * len(problem.b)
+    for row, force in zip(held, x):
+        f[row] = force
+    return f
 
 
 def zero_at(value, rate):
@@ -655,14 +701,17 @@ class Published:
     def __init__(self, problem, policy, max_steps):
         self.problem, self.variables = problem, problem.variables
         self.policy, self.max_steps = policy, max_steps
-        self.f, self.a = [Fraction(0)] * len(problem.b), problem.b
-        self.sets = ["none"] * len(problem.b)
+        self.f = held_forces(problem)
+        self.a = None if self.f is None else [x + y for x, y in zip(times(problem.A, self.f), problem.b)]
+        self.sets = ["C" if row in problem.held else "none" for row in range(len(problem.b))]
         self.last = None  # the contact driven last
         self.drives, self.pivots = 0, []
 
     # Main loop (readings, section 2).
 
     def compute_forces(self):
+        if self.f is None:
+            return Run("singular", None, None, self.pivots, None)
         seen = {}
         while True:
             start = seen.setdefault((*self.sets, *self.f, self.remembered()), self.drives)
@@ -701,7 +750,7 @@ class Published:
     def sweep(self):
         for row, x in enumerate(self.variables):
             fN = self.f[x.normal]
-            if self.sets[row] != "none":
+            if self.sets[row] != "none" or self.problem.is_passive(row):
                 continue
             if row == x.normal:
                 if self.policy["admit"] == "eager" and fN == 0 and self.a[row] >= 0:
@@ -813,7 +862,7 @@ class Published:
         }
         yield from ((s, (-1, v), v, into) for s, into in driven())
         for row, where in enumerate(self.sets):
-            if where in found:
+            if where in found and row not in self.problem.held:
                 by_set = TIE_ORDER.index(where) if self.policy["ties"] == "sets" else 0
                 yield from ((s, (by_set, row), row, into) for s, into in found[where](row))
 
@@ -957,9 +1006,8 @@ EPILOG = """claims:
                    contact modes, or prefix of words
   safe, unsafe     for planar problems of static and frictionless contacts:
                    whether all determinants of reduced matrices are positive
-  cycle, stall     for planar problems of static and frictionless contacts:
-                   run the published algorithm again, from f = 0, under
-                   every policy that the certificate names
+  cycle, stall     for planar problems: run the published algorithm again,
+                   from f = 0, under every policy that the certificate names
 
 exit status:
   0  every certificate was accepted

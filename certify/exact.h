@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods over rationals; the published algorithm for one policy, or for the whole grid.
+//
+// The published algorithm takes any planar problem here. Bilateral and sliding contacts leave it before a run
+// (solver/reduction.h), and the run is told in the terms of the whole problem: rows and contacts are the
+// problem's, bilateral variables stand in C from the start (4.5), and forces and accelerations are those of all
+// rows. Where they cannot leave it, the run ends in `singular` before its first step, and the reason says why.
 
 #ifndef STICTION_CERTIFY_EXACT_H_
 #define STICTION_CERTIFY_EXACT_H_
@@ -31,12 +36,14 @@ struct ExactState {
 struct ExactRun {
   Policy policy;
   Verdict verdict;
+  ExactProblem::Vector initial_f;  // before the first step: zero but for bilateral contacts
   Trace<Rational> trace;
   ExactState state;
   ExactProblem::Vector a;
   ExactProblem::Vector ray;  // df of a ray, otherwise empty
 };
 
+// Requires dimension 2.
 ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options);
 
 // Policies that take the same steps on a problem. The trace is that of the first of them.

@@ -14,7 +14,7 @@
 #include <optional>
 #include <string_view>
 
-#include "certify/modes.h"
+#include "certify/enumerate.h"
 #include "solver/complete.h"
 
 namespace stiction {

@@ -100,6 +100,8 @@ void ForEachField(S& s, Visit visit) {
 // nowhere, the path beside the executable.
 std::filesystem::path FindIpoptProgram();
 
+class IpoptProcess;
+
 // Owns one process; one per thread.
 class IpoptProposer {
  public:
@@ -119,17 +121,15 @@ class IpoptProposer {
   int process_id() const;
 
  private:
-  class Process;
   struct Point;
 
-  void StartProcess();
   std::optional<ExactVector> Search(const ExactProblem& problem, const ProposalOptions& options,
                                     ProposalStatistics& statistics);
   std::optional<Point> Ask(const std::string& request, double patience, ProposalStatistics& statistics);
   Point ReadPoint(const std::string& text, ProposalStatistics& statistics) const;
 
   std::filesystem::path program_;
-  std::unique_ptr<Process> process_;  // empty after it died
+  std::unique_ptr<IpoptProcess> process_;  // empty after it died
 };
 
 }  // namespace stiction

@@ -5,21 +5,13 @@
 
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
-#include "certify/modes.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
+#include "certify/witness.h"
 #include "solver/check.h"
 
 namespace stiction {
 namespace {
-
-Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witness) {
-  return {{"format", "stiction-certificate"},
-          {"version", 1},
-          {"claim", claim},
-          {"problem", ProblemToJson(problem)},
-          {"witness", std::move(witness)}};
-}
 
 Json MatrixToJson(const ExactMatrix& matrix) {
   Json rows = Json::array();
@@ -73,7 +65,7 @@ Json LoopStateToJson(const ExactRun& run, const std::vector<std::string>& names)
 }
 
 Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
-  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindLawViolation(problem, f);
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate("solution-exists", problem,
                          {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});

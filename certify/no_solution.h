@@ -23,7 +23,7 @@
 #include <optional>
 #include <string>
 
-#include "certify/modes.h"
+#include "certify/enumerate.h"
 
 namespace stiction {
 
@@ -48,18 +48,8 @@ std::optional<std::string> FindRefutationGap(const ExactProblem& problem, const 
 // The certificate. Requires: enumeration.ProvesNoSolution(), of this problem; otherwise InternalError.
 Json NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration);
 
-// What is wrong with a witness, in the words of CheckReport::reason.
-struct WitnessFault {
-  std::string path, found, expected;
-};
-
-struct NoSolutionCheck {
-  std::optional<WitnessFault> fault;  // empty: accepted
-  Json facts;                         // of an accepted witness: words, prefixes
-};
-
-// Checks the witness of a certificate against the problem alone. Never throws for a bad witness.
-NoSolutionCheck CheckNoSolution(const ExactProblem& problem, const Json& witness);
+// A WitnessCheck (witness.h). Facts: words, prefixes.
+Json CheckNoSolution(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
 

@@ -22,7 +22,9 @@ bool IsSurelyZero(const Interval& x) {
 
 }  // namespace stiction
 
+#include "corpus/rounded.h"
 #include "solver/published_space.ipp"
+#include "solver/reduction.ipp"
 
 namespace stiction {
 namespace {
@@ -37,27 +39,136 @@ Interval Around(const Rational& x) {
           side < 0 ? std::nextafter(nearest, kInfinity) : nearest};
 }
 
-template <class Scalar, class Convert>
-ContactProblem<Scalar> Converted(const ExactProblem& problem, Convert convert) {
-  ContactProblem<Scalar> result;
-  result.dimension = problem.dimension;
-  for (const auto& contact : problem.contacts)
-    result.contacts.push_back({contact.kind, convert(contact.mu), {Scalar(0), Scalar(0)}});
-  result.A = problem.A.unaryExpr(convert);
-  result.b = problem.b.unaryExpr(convert);
-  return result;
+// What bilateral and sliding contacts leave of a problem, and the whole from it, over Scalar.
+template <class Scalar>
+class Remainder {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+
+  template <class Convert>
+  Remainder(const ExactProblem& problem, Convert convert)
+      : reduction_(problem),
+        contacts_(problem.contacts.size()),
+        reduced_(Converted<Scalar>(reduction_.problem(), convert)),
+        E_(reduction_.E().unaryExpr(convert)),
+        AE_(ExactProblem::Matrix(problem.A * reduction_.E()).unaryExpr(convert)),
+        e_(reduction_.e().unaryExpr(convert)),
+        a_(ExactProblem::Vector(problem.A * reduction_.e() + problem.b).unaryExpr(convert)) {}
+
+  ReductionEnd end() const { return reduction_.end(); }
+  const Problem& problem() const { return reduced_; }
+  Vector Forces(const Vector& x) const { return Direction(x) + e_; }
+  Vector Direction(const Vector& dx) const { return Product(E_, dx); }
+  // Accelerations, their change with a direction of df, in the rows that remain as given.
+  Vector Accelerations(const Vector& x, const Vector& given) const {
+    return WithGiven(Product(AE_, x) + a_, given);
+  }
+  Vector AccelerationRates(const Vector& dx, const Vector& given) const {
+    return WithGiven(Product(AE_, dx), given);
+  }
+
+  // A pivot in the rows and contacts of the whole problem.
+  SpacePivot<Scalar> Restored(SpacePivot<Scalar> pivot) const {
+    pivot.driven = reduction_.row_of()[pivot.driven];
+    pivot.limiting = reduction_.row_of()[pivot.limiting];
+    pivot.da = AccelerationRates(pivot.df, pivot.da);
+    pivot.df = Direction(pivot.df);
+    pivot.a = Accelerations(pivot.f, pivot.a);
+    pivot.f = Forces(pivot.f);
+    pivot.sets = reduction_.Spread(pivot.sets, IndexSet::kClamped, IndexSet::kNone);
+    std::vector<std::array<Scalar, 2>> recorded(contacts_, {Scalar(0), Scalar(0)});
+    for (std::size_t i = 0; i < pivot.recorded.size(); ++i)
+      recorded[reduction_.contact_of()[i]] = pivot.recorded[i];
+    pivot.recorded = std::move(recorded);
+    return pivot;
+  }
+
+ private:
+  // No entry that is zero is multiplied: nothing is lost where there is nothing to reduce.
+  static Vector Product(const typename Problem::Matrix& M, const Vector& x) {
+    Vector result = Vector::Constant(M.rows(), Scalar(0));
+    for (int i = 0; i < M.rows(); ++i) {
+      for (int j = 0; j < M.cols(); ++j) {
+        if (!IsSurelyZero(M(i, j))) result[i] += M(i, j) * x[j];
+      }
+    }
+    return result;
+  }
+
+  Vector WithGiven(Vector values, const Vector& given) const {
+    for (int i = 0; i < given.size(); ++i) values[reduction_.row_of()[i]] = given[i];
+    return values;
+  }
+
+  Reduction<Rational> reduction_;
+  std::size_t contacts_;
+  Problem reduced_;
+  typename Problem::Matrix E_, AE_;
+  Vector e_, a_;
+};
+
+PublishedSpaceVerdict Unstarted(ReductionEnd end) {
+  PublishedSpaceVerdict verdict;
+  verdict.outcome = Outcome::kSingular;
+  verdict.reason = Reason(end);
+  return verdict;
+}
+
+template <class Vector>
+std::vector<double> Doubles(const Vector& values) {
+  return {values.begin(), values.end()};
 }
 
 template <class Scalar>
-RoundedSpaceRun Run(const ContactProblem<Scalar>& problem, const PublishedOptions& options) {
+SpacePivot<double> InDoubles(const SpacePivot<Scalar>& pivot) {
+  const auto vector = [](const auto& values) { return Eigen::VectorXd(values.template cast<double>()); };
+  SpacePivot<double> result;
+  result.drive = pivot.drive;
+  result.driven = pivot.driven;
+  result.goal = pivot.goal;
+  result.df = vector(pivot.df);
+  result.da = vector(pivot.da);
+  result.s = static_cast<double>(pivot.s);
+  result.limiting = pivot.limiting;
+  result.from = pivot.from;
+  result.to = pivot.to;
+  result.wanted = pivot.wanted;
+  result.gave_up = pivot.gave_up;
+  result.f = vector(pivot.f);
+  result.a = vector(pivot.a);
+  result.sets = pivot.sets;
+  result.turned_away = pivot.turned_away;
+  for (const auto& d : pivot.recorded)
+    result.recorded.push_back({static_cast<double>(d[0]), static_cast<double>(d[1])});
+  return result;
+}
+
+template <class Scalar, class Convert>
+RoundedSpaceRun Run(const ExactProblem& problem, Convert convert, const PublishedOptions& options,
+                    KeepTrace keep) {
+  using Vector = typename ContactProblem<Scalar>::Vector;
+  const ContactProblem<Scalar> whole = Converted<Scalar>(problem, convert);
+  const Remainder<Scalar> remainder(problem, convert);
   PublishedInSpace<Scalar> algorithm(options);
   RoundedSpaceRun run;
-  run.verdict = algorithm.Run(problem);
-  const auto f = algorithm.f();
-  const typename ContactProblem<Scalar>::Vector a = problem.A * f + problem.b;
-  run.f.assign(f.begin(), f.end());
-  run.a.assign(a.begin(), a.end());
-  run.residual = static_cast<double>(WeakResidual(problem, f, a));
+  Vector f = Vector::Constant(problem.rows(), Scalar(0));
+  if (remainder.end() != ReductionEnd::kReduced) {
+    run.verdict = Unstarted(remainder.end());
+  } else {
+    SpaceTrace<Scalar> trace;
+    run.verdict = algorithm.Run(remainder.problem(), keep == KeepTrace::kYes ? &trace : nullptr);
+    f = remainder.Forces(algorithm.f());
+    if (run.verdict.outcome == Outcome::kRay) run.ray = Doubles(remainder.Direction(algorithm.ray()));
+    for (const SpacePivot<Scalar>& pivot : trace) run.trace.push_back(InDoubles(remainder.Restored(pivot)));
+    const Vector rest = Vector::Constant(remainder.problem().rows(), Scalar(0));
+    run.initial_f = Doubles(remainder.Forces(rest));
+    run.initial_a = Doubles(remainder.Accelerations(rest, remainder.problem().b));
+  }
+  const Vector a = whole.A * f + whole.b;
+  run.f = Doubles(f);
+  run.a = Doubles(a);
+  run.residual = static_cast<double>(WeakResidual(whole, f, a));
   return run;
 }
 
@@ -70,9 +181,10 @@ std::vector<Enclosure> Enclosures(const ContactProblem<Interval>::Vector& values
 }  // namespace
 
 template <class Scalar>
-RoundedSpaceRun RunRoundedInSpace(const ExactProblem& problem, const PublishedOptions& options) {
+RoundedSpaceRun RunRoundedInSpace(const ExactProblem& problem, const PublishedOptions& options,
+                                  KeepTrace keep) {
   const auto round = [](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); };
-  return Run(Converted<Scalar>(problem, round), options);
+  return Run<Scalar>(problem, round, options, keep);
 }
 
 template <class Scalar>
@@ -84,28 +196,36 @@ RoundedSpaceRun RunSuspicionInSpace(const ExactProblem& problem, const Published
   Tolerances& t = fine.tolerances;
   for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
   t.loop_grain = std::min(t.loop_grain, 1e-12);
-  return Run(Converted<long double>(problem, round), fine);
+  return Run<long double>(problem, round, fine, KeepTrace::kNo);
 }
 
 IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options) {
-  PublishedInSpace<Interval> algorithm(options);
   IntervalSpaceRun run;
-  const ContactProblem<Interval> data = Converted<Interval>(problem, Around);
+  const Remainder<Interval> remainder(problem, Around);
+  if (remainder.end() != ReductionEnd::kReduced) {
+    run.verdict = Unstarted(remainder.end());
+    run.f.assign(problem.rows(), {});
+    run.a = Enclosures(problem.b.unaryExpr(&Around));
+    return run;
+  }
+  PublishedInSpace<Interval> algorithm(options);
   try {
-    run.verdict = algorithm.Run(data);
+    run.verdict = algorithm.Run(remainder.problem());
   } catch (const CGAL::Uncertain_conversion_exception&) {
     run.verdict = algorithm.verdict();
     run.verdict.outcome = Outcome::kUndecided;
     run.verdict.reason = "a sign is unsure";
   }
-  run.f = Enclosures(algorithm.f());
-  run.a = Enclosures(algorithm.a());
+  run.f = Enclosures(remainder.Forces(algorithm.f()));
+  run.a = Enclosures(remainder.Accelerations(algorithm.f(), algorithm.a()));
+  if (run.verdict.outcome == Outcome::kRay) run.ray = Enclosures(remainder.Direction(algorithm.ray()));
   return run;
 }
 
-template RoundedSpaceRun RunRoundedInSpace<float>(const ExactProblem&, const PublishedOptions&);
-template RoundedSpaceRun RunRoundedInSpace<double>(const ExactProblem&, const PublishedOptions&);
-template RoundedSpaceRun RunRoundedInSpace<long double>(const ExactProblem&, const PublishedOptions&);
+template RoundedSpaceRun RunRoundedInSpace<float>(const ExactProblem&, const PublishedOptions&, KeepTrace);
+template RoundedSpaceRun RunRoundedInSpace<double>(const ExactProblem&, const PublishedOptions&, KeepTrace);
+template RoundedSpaceRun RunRoundedInSpace<long double>(const ExactProblem&, const PublishedOptions&,
+                                                        KeepTrace);
 template RoundedSpaceRun RunSuspicionInSpace<float>(const ExactProblem&, const PublishedOptions&);
 template RoundedSpaceRun RunSuspicionInSpace<double>(const ExactProblem&, const PublishedOptions&);
 template RoundedSpaceRun RunSuspicionInSpace<long double>(const ExactProblem&, const PublishedOptions&);

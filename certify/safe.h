@@ -14,9 +14,9 @@
 //
 //   - a contact that is not there is one in `break`: same rows, same columns;
 //   - a static contact with mu > 0 that is clamped but has no friction yet has the column A_N, the mean of
-//   those
-//     of slip- and slip+, and the same row. A determinant is linear in each column; so with any number of such
-//     contacts it is the mean of the determinants of words, and positive in a safe problem.
+//     those of slip- and slip+, and the same row.
+//     A determinant is linear in each column; so with any number of such contacts it is the mean of the
+//     determinants of words, and positive in a safe problem.
 //
 // What follows (proved; complete_driving.md, 4, and here), whatever else A is, symmetric or not:
 //
@@ -46,7 +46,6 @@
 #include <vector>
 
 #include "certify/modes.h"
-#include "certify/no_solution.h"
 
 namespace stiction {
 
@@ -63,7 +62,10 @@ struct Safety {
   std::optional<ModeWord> unsafe_word;  // that one
 };
 
-// The functions below require a planar problem of frictionless and static contacts; otherwise InputError.
+// What safety is about: a planar problem of frictionless and static contacts; otherwise InputError. The
+// functions below, and FindSafetyThreshold, require it.
+void RequireSafetyDecidable(const ExactProblem& problem);
+
 Safety DecideSafety(const ExactProblem& problem);
 
 // Whether it is safe; empty for more than kMostContactsOfSafety contacts, 4^n determinants.
@@ -73,30 +75,9 @@ std::optional<bool> IsSafeIfSmall(const ExactProblem& problem);
 // `safe` or `unsafe`.
 Json SafetyCertificate(const ExactProblem& problem);
 
-struct SafetyCheck {
-  std::optional<WitnessFault> fault;  // empty: accepted
-  Json facts;                         // of an accepted witness: words, smallest; word, determinant
-};
-
-// Check the witness of a certificate against the problem alone. Never throw for a bad witness.
-SafetyCheck CheckSafe(const ExactProblem& problem, const Json& witness);
-SafetyCheck CheckUnsafe(const ExactProblem& problem, const Json& witness);
-
-// ---- One friction coefficient for all --------------------------------------------------------
-
-// mu*, the least upper bound of all m such that A is safe for 0 < mu < m, mu that of every static contact.
-// It is the smallest positive root of any det R(W), a polynomial in mu, and A is not safe for mu = mu*; or it
-// is zero, where some det R(W) is not positive for small mu > 0.
-struct SafetyThreshold {
-  ModeWord word;                     // the first whose polynomial has the root
-  std::vector<Rational> polynomial;  // det R(word): coefficients of 1, mu, mu^2, ...
-  // low < mu* <= high, at most 2^-20 apart and with no other root there; or low = mu* = high, as for
-  // every rational mu* with a denominator <= 1000.
-  Rational low, high;
-};
-
-// Empty if A is safe for all mu > 0. The problem's own mu, and b, do not matter. At most kMaxSafetyWords words.
-std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem);
+// WitnessChecks (witness.h). Facts: words, smallest; word, determinant.
+Json CheckSafe(const ExactProblem& problem, const Json& witness);
+Json CheckUnsafe(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
 

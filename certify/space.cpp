@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/space.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
+#include "corpus/rounded.h"
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
-#include "solver/elimination.ipp"
 
 namespace stiction {
 
 template class SpatialDriving<Rational>;
 
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits) {
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                  std::vector<SpacePiece<Rational>>* path) {
   CompleteOptions options;
   options.limits = limits;
   SpatialDriving<Rational> driving(options);
   SpaceRun run;
-  run.verdict = driving.Run(problem, polygons);
+  run.verdict = driving.Run(problem, polygons, path);
   run.f = driving.f();
   run.a = driving.a();
   if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
@@ -66,32 +69,11 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
   return system;
 }
 
-// x with M x = right; unknowns without a pivot stay as they are. False if the equations contradict each other.
-bool SolveWith(const ExactMatrix& M, ExactVector right, ExactVector& x) {
-  const int size = static_cast<int>(M.rows());
-  ExactVector guess = x;
-  Elimination<Rational> elimination;
-  elimination.Assign(M);
-  elimination.Run(size, size, size);
-  for (int i = 0; i < elimination.rank(); ++i) guess[elimination.pivot_column(i)] = 0;
-  ExactMatrix augmented(size, size + 1);
-  augmented << M, right - M * guess;
-  elimination.Assign(augmented);
-  elimination.Run(size, size, size + 1);
-  if (!elimination.IsConsistent(size)) return false;
-  elimination.BackSubstitute(size);
-  for (int i = 0; i < elimination.rank(); ++i) {
-    const int column = elimination.pivot_column(i);
-    x[column] = elimination.Solution(column);
-  }
-  return true;
-}
-
 }  // namespace
 
 std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
                                       const ExactVector& guess) {
-  ModeSystem system = MakeSystem(problem, modes, guess);
+  const ModeSystem system = MakeSystem(problem, modes, guess);
   const int size = static_cast<int>(system.columns.size());
   ExactMatrix M(size, size);
   ExactVector right(size);
@@ -100,9 +82,10 @@ std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::ve
     for (int i = 0; i < size; ++i) M(i, j) = system.rows[i].dot(image);
     right[j] = -system.rows[j].dot(problem.b);
   }
-  if (!SolveWith(M, right, system.guess)) return std::nullopt;
+  const auto x = SolveEquations(M, right, system.guess);
+  if (!x) return std::nullopt;
   ExactVector f = ExactVector::Zero(problem.rows());
-  for (int j = 0; j < size; ++j) f += system.guess[j] * system.columns[j];
+  for (int j = 0; j < size; ++j) f += (*x)[j] * system.columns[j];
   return f;
 }
 
@@ -197,18 +180,6 @@ std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector&
   return modes;
 }
 
-ContactProblem<double> InDoubles(const ExactProblem& problem) {
-  ContactProblem<double> rounded;
-  rounded.dimension = problem.dimension;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    rounded.contacts.push_back(
-        {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
-  }
-  rounded.A = problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  rounded.b = problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  return rounded;
-}
-
 // The word of Newton's method from f, solved exactly.
 std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
                                           const ExactVector& f) {
@@ -291,7 +262,7 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
 SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options) {
   RationalPolygons polygons = MakePolygons(problem, options.sides);
   const bool coulomb = options.law == FrictionLaw::kCoulomb;
-  const ContactProblem<double> rounded = coulomb ? InDoubles(problem) : ContactProblem<double>();
+  const ContactProblem<double> rounded = coulomb ? Rounded<double>(problem) : ContactProblem<double>();
   SpaceSolution solution;
   for (;; ++solution.refinements) {
     SpaceRun run = RunSpace(problem, polygons, options.limits);
@@ -335,6 +306,81 @@ std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVec
   Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
   bound.canonicalize();
   return bound < 0 ? Rational(0) : bound;
+}
+
+// ---- The residual of doubles -----------------------------------------------------------------
+
+namespace {
+
+// value <= the number <= value + gap.
+struct Enclosed {
+  Rational value = 0, gap = 0;
+};
+
+// The gap is at most 2^-100 of the root. Requires x >= 0.
+Enclosed SquareRoot(const Rational& x) {
+  if (x == 0) return {};
+  const auto bits = [](const mpz_class& z) { return static_cast<int>(mpz_sizeinbase(z.get_mpz_t(), 2)); };
+  const int places = 110 + std::max(0, bits(x.get_den()) - bits(x.get_num()) + 1) / 2;
+  const mpz_class scaled = (x.get_num() << (2 * places)) / x.get_den();
+  Rational root(sqrt(scaled), mpz_class(1) << places), unit(1, mpz_class(1) << places);
+  root.canonicalize();
+  unit.canonicalize();
+  return {root, unit};
+}
+
+// abs(f - P(f - r (a + mu abs(aF) e_N))), from above. P moves no two points apart; rounding abs(aF) by d
+// moves its argument by r mu d. Rounding abs(xF) by d moves P itself by less than 3 d: there
+// mu abs(xN) <= max(1, mu^2) abs(xF).
+Rational StaticGap(const Rational* f, const Rational* a, const Rational& r, const Rational& mu) {
+  const Enclosed slip = SquareRoot(a[1] * a[1] + a[2] * a[2]);
+  const Rational x[3] = {Rational(f[0] - r * (a[0] + mu * slip.value)), Rational(f[1] - r * a[1]),
+                         Rational(f[2] - r * a[2])};
+  const Rational square = x[1] * x[1] + x[2] * x[2];
+  Rational to[3] = {x[0], x[1], x[2]}, error = r * mu * slip.gap;
+  if (x[0] <= 0 && mu * mu * square <= x[0] * x[0]) {
+    to[0] = to[1] = to[2] = 0;
+  } else if (x[0] < 0 || square > mu * mu * x[0] * x[0]) {
+    const Enclosed length = SquareRoot(square);
+    to[0] = (x[0] + mu * length.value) / (1 + mu * mu);
+    for (int k = 1; k <= 2; ++k) to[k] = mu * to[0] / length.value * x[k];
+    error += 3 * length.gap;
+  }
+  Rational gap = 0;
+  for (int k = 0; k < 3; ++k) gap += (f[k] - to[k]) * (f[k] - to[k]);
+  const Enclosed distance = SquareRoot(gap);
+  return distance.value + distance.gap + error;
+}
+
+Rational GapOf(const Contact<Rational>& contact, const Rational* f, const Rational* a, const Rational& r) {
+  if (contact.kind == ContactKind::kStatic) return StaticGap(f, a, r, contact.mu);
+  if (contact.kind == ContactKind::kBilateral) return abs(Rational(r * a[0]));
+  const Rational normal = f[0] - std::max<Rational>(0, f[0] - r * a[0]);
+  Rational square = normal * normal;
+  for (int k = 1; k <= 2 && contact.kind == ContactKind::kSliding; ++k) {
+    const Rational gap = f[k] + contact.mu * f[0] * contact.slip[k - 1];
+    square += gap * gap;
+  }
+  const Enclosed length = SquareRoot(square);
+  return length.value + length.gap;
+}
+
+}  // namespace
+
+Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f) {
+  const ExactVector a = Accelerations(problem, f);
+  Rational max_A = 0, max_b = 0, worst = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    max_A = std::max<Rational>(max_A, problem.A(i, i));
+    max_b = std::max<Rational>(max_b, abs(problem.b[i]));
+  }
+  const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
+  int row = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    worst = std::max<Rational>(worst, GapOf(contact, &f[row], &a[row], r));
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return max_b > 0 ? Rational(worst / (max_b * r)) : worst;
 }
 
 }  // namespace stiction

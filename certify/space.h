@@ -37,8 +37,9 @@ struct SpaceRun {
   SpaceWord word;
 };
 
-// Complete driving over rationals.
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits);
+// Complete driving over rationals; with `path`, every linear piece is recorded.
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                  std::vector<SpacePiece<Rational>>* path = nullptr);
 
 enum class FrictionLaw { kBaraff, kCoulomb };
 
@@ -67,6 +68,10 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
+
+// An upper bound of CoulombResidual (solver/residual.h) of f with a = A f + b, evaluated over rationals, with
+// square roots to 100 binary digits. Any kinds of contacts.
+Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f);
 
 // What one contact does; a direction where it slips.
 struct SpaceMode {

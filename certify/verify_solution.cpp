@@ -29,6 +29,19 @@ std::optional<std::string> FrictionViolation(int contact, const Rational& bound,
   return std::nullopt;
 }
 
+std::optional<std::string> PlanarViolation(int i, const Contact<Rational>& law, int row,
+                                           const ExactProblem::Vector& f, const ExactProblem::Vector& a) {
+  if (law.kind == ContactKind::kBilateral) {
+    return a[row] == 0 ? std::nullopt : Broken(i, "aN = 0", a[row]);
+  }
+  if (auto violation = NormalViolation(i, f[row], a[row])) return violation;
+  if (!law.HasFrictionRows()) return std::nullopt;
+  const Rational bound = law.mu * f[row];
+  if (law.kind == ContactKind::kStatic) return FrictionViolation(i, bound, f[row + 1], a[row + 1]);
+  const Rational excess = f[row + 1] + bound * law.slip[0];
+  return excess == 0 ? std::nullopt : Broken(i, "fF + mu u fN = 0", excess);
+}
+
 // The rows of one contact in space, their forces and accelerations.
 struct ContactInSpace {
   int number;
@@ -113,15 +126,9 @@ ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProbl
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f) {
   const ExactProblem::Vector a = Accelerations(problem, f);
   int row = 0;
-  for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
-    const Contact<Rational>& law = problem.contacts[contact];
-    if (auto violation = NormalViolation(contact, f[row], a[row])) return violation;
-    if (law.HasFrictionRows()) {
-      const Rational bound = law.mu * f[row];
-      if (auto violation = FrictionViolation(contact, bound, f[row + 1], a[row + 1])) return violation;
-      ++row;
-    }
-    ++row;
+  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+    if (auto violation = PlanarViolation(i, problem.contacts[i], row, f, a)) return violation;
+    row += problem.contacts[i].HasFrictionRows() ? 2 : 1;
   }
   return std::nullopt;
 }

@@ -14,8 +14,8 @@ namespace stiction {
 // a = A f + b. f: rows x 1 in N.
 ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProblem::Vector& f);
 
-// The first condition of (15), (16) that f breaks, with its numbers; empty if f is a solution. Planar
-// problems of frictionless and static contacts.
+// The first condition that f breaks, with its numbers; empty if f is a solution. Planar problems of all kinds
+// of contacts: (15); (16) for static, (24) for sliding ones; aN = 0 for bilateral ones.
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f);
 
 // The same in space, for all kinds of contacts: the conditions (21), (22) for static ones, which leave the

@@ -2,10 +2,10 @@
 // Kinds of findings, the gravest first. A signature begins with its kind.
 //
 //   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized
-//   disagreement-of-methods  exact methods contradict each other or what is proved of them
-//   (certify/agreement.h) cycle, stall, ...        an exact outcome other than solved wrong-answer doubles said
-//   solved, with a natural residual above 1e-6 disagreement             doubles ended in another outcome than
-//   exact numbers, of the same problem
+//   disagreement-of-methods  exact methods contradict each other or what is proved (certify/agreement.h)
+//   cycle, stall, ...        an exact outcome other than solved
+//   wrong-answer             doubles said solved, with a natural residual above 1e-6
+//   disagreement             doubles ended in another outcome than exact numbers, of the same problem
 
 #ifndef STICTION_CORPUS_KINDS_H_
 #define STICTION_CORPUS_KINDS_H_

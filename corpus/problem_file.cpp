@@ -239,7 +239,7 @@ void CheckProblem(const ExactProblem& problem) {
 }
 
 Json ContactToJson(const Contact<Rational>& contact, int dimension) {
-  Json json = {{"kind", kKindNames[static_cast<int>(contact.kind)]}};
+  Json json = {{"kind", Name(contact.kind)}};
   if (contact.HasFrictionRows()) json["mu"] = ToString(contact.mu);
   if (!HasSlip(contact)) return json;
   if (dimension == 2) {
@@ -345,6 +345,8 @@ Json ProblemToJson(const ExactProblem& problem) {
   json["b"] = NumbersToJson(problem.b);
   return json;
 }
+
+std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 Json ToJson(const ProblemFile& file) {
   const Json problem = ProblemToJson(file.problem);

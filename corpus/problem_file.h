@@ -29,6 +29,9 @@ namespace stiction {
 
 using ExactProblem = ContactProblem<Rational>;
 
+// "bilateral", "frictionless", "static", "sliding".
+std::string_view Name(ContactKind kind);
+
 struct ProblemFile {
   std::string name;
   ExactProblem problem;

@@ -8,8 +8,8 @@
 #include "certify/agreement.h"
 #include "certify/certificate.h"
 #include "certify/existence.h"
-#include "certify/modes.h"
 #include "certify/safe.h"
+#include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/minimize.h"
@@ -143,7 +143,7 @@ void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const 
   if (IsLoop(outcome)) {
     finding.certificate =
         Checked(LoopCertificate(found.problem, outcome, {found.run.policy}, limits), finding.signature);
-  } else if (outcome == Outcome::kSolved && !FindLawViolation(found.problem, found.run.state.f)) {
+  } else if (outcome == Outcome::kSolved && !FindViolation(found.problem, found.run.state.f)) {
     finding.certificate = Checked(SolutionCertificate(found.problem, found.run.state.f), finding.signature);
   }
   Decided existence = DecideExistenceOf(found.problem, finding.signature, limits, cancelled);

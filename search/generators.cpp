@@ -43,6 +43,14 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "points and unit normals (Pythagorean), under gravity, applied forces or both; A = J M^-1 J', b = J "
        "M^-1 F. Overlap of shapes is not modelled.",
        false},
+      {kExponential, "exponential",
+       "The normals are the family on which n contacts without friction take 2^n - 1 pivots: J = L', ones on "
+       "the diagonal and 2 above, b = (8^(i-n-1) - 1). Every friction row has a column of its own, or, with "
+       "probability 1/2, a number of them uniform in 0..n have none; b of it is J y, y of multiples of 1/4 in "
+       "[-1, 1]. With probability 1/2 each: the rows of contact i times 4^(n-i); contacts in random order; "
+       "entries of J moved by multiples of 2^-k in [-2^-k, 2^-k], k in 8..20; friction coupled to the "
+       "normals' columns by multiples of 2^-k in [-2^-k, 2^-k], k in 0..8. A = J J'.",
+       true},
   }};
   return kRows;
 }

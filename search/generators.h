@@ -48,8 +48,9 @@ enum class GeneratorId : std::uint8_t {
   kDuplicates,
   kConditioned,
   kBodies,
+  kExponential,
 };
-inline constexpr int kGeneratorCount = 7;
+inline constexpr int kGeneratorCount = 8;
 
 struct GeneratorRow {
   GeneratorId id;

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <tuple>
 
 #include "certify/exact.h"
 #include "certify/properties.h"
+#include "search/rounding.h"
 #include "search/signature.h"
+#include "solver/reduction.ipp"
 
 namespace stiction {
 namespace {
@@ -55,6 +56,22 @@ ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
   return Restrict(problem, std::move(contacts), rows);
 }
 
+// What bilateral contacts leave of the problem (4.5): the same run, without them. Sliding contacts stay.
+std::optional<ExactProblem> WithoutBilateral(const ExactProblem& problem) {
+  ExactProblem unsliding = problem;
+  std::vector<Contact<Rational>> kept;
+  for (auto& contact : unsliding.contacts) {
+    if (contact.kind != ContactKind::kBilateral) kept.push_back(contact);
+    if (contact.kind == ContactKind::kSliding) contact.kind = ContactKind::kStatic;  // of as many rows
+  }
+  if (kept.size() == problem.contacts.size()) return std::nullopt;
+  const Reduction<Rational> reduction(unsliding);
+  if (reduction.end() != ReductionEnd::kReduced) return std::nullopt;
+  ExactProblem remaining = reduction.problem();
+  remaining.contacts = std::move(kept);
+  return remaining;
+}
+
 std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int contact) {
   if (!problem.contacts[contact].HasFrictionRows()) return std::nullopt;
   std::vector<Contact<Rational>> contacts = problem.contacts;
@@ -70,222 +87,12 @@ std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int con
   return Restrict(problem, std::move(contacts), rows);
 }
 
-// The same problem in other units: f_i = s_i f'_i, so A' = S A S, b' = S b and mu' = mu s_N / s_F.
-ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& s) {
-  ExactProblem rescaled = problem;
-  for (int i = 0; i < problem.rows(); ++i) {
-    rescaled.b[i] *= s[i];
-    for (int j = 0; j < problem.rows(); ++j) rescaled.A(i, j) *= s[i] * s[j];
-  }
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
-  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
-    const int row = layout.NormalRowOf(contact);
-    if (layout.HasFriction(row)) rescaled.contacts[contact].mu *= s[row] / s[row + 1];
-  }
-  return rescaled;
-}
-
-// Tangents in units that make mu = 1, of one contact or (contact < 0) of all.
-ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
-  std::vector<Rational> s(problem.rows(), Rational(1));
-  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
-    const int row = layout.NormalRowOf(contact);
-    const Rational& mu = problem.contacts[contact].mu;
-    if (layout.HasFriction(row) && mu > 0 && (only_contact < 0 || only_contact == contact)) s[row + 1] = mu;
-  }
-  return Rescaled(problem, s);
-}
-
-// The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
-Rational InverseRoot(const Rational& x) {
-  if (x <= 0) return 1;
-  const double exponent = std::ilogb(ToDouble(x));
-  const auto half = static_cast<long>(-exponent / 2);
-  const Rational power(mpz_class(1) << std::abs(half));
-  return half < 0 ? Rational(1 / power) : power;
-}
-
-// Each contact in units in which its normal's diagonal entry is near one, tangents stretched.
-ExactProblem Equilibrated(const ExactProblem& problem) {
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
-  std::vector<Rational> s(problem.rows());
-  for (int row = 0; row < problem.rows(); ++row) {
-    s[row] = layout.IsNormal(row) ? InverseRoot(problem.A(row, row)) : s[row - 1];
-  }
-  return Stretched(Rescaled(problem, s), -1);
-}
-
-Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
-  const Rational shifted = x + Rational(1, 2);
-  mpz_class floor;
-  mpz_fdiv_q(floor.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
-  return Rational(floor);
-}
-
-Rational LargestEntry(const ExactProblem& problem, bool of_A) {
-  Rational largest = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    if (!of_A) largest = std::max<Rational>(largest, abs(problem.b[i]));
-    for (int j = 0; of_A && j < problem.rows(); ++j)
-      largest = std::max<Rational>(largest, abs(problem.A(i, j)));
-  }
-  return largest;
-}
-
-// What is added to the diagonal of A: a number, and a share of the entry itself.
-struct Ridge {
-  int number;
-  Rational share;
-};
-
-// A and b scaled to largest entries size_A and size_b, with a ridge, rounded.
-ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
-                       const Ridge& ridge) {
-  ExactProblem rounded = problem;
-  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
-  const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size_A) / largest_A);
-  const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(Rational(size_b) / largest_b);
-  for (int i = 0; i < problem.rows(); ++i) {
-    rounded.b[i] = Rounded(Rational(problem.b[i] * scale_b));
-    for (int j = 0; j < problem.rows(); ++j) {
-      rounded.A(i, j) = Rounded(Rational(problem.A(i, j) * scale_A * (i == j ? 1 + ridge.share : Rational(1))));
-      if (i == j) rounded.A(i, j) += ridge.number;
-    }
-  }
-  return rounded;
-}
-
-// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
-// denominators; 1 if all are zero.
-class CommonFactor {
- public:
-  void Add(const Rational& x) {
-    if (x == 0) return;
-    numerator_ = gcd(numerator_, x.get_num());
-    denominator_ = lcm(denominator_, x.get_den());
-  }
-  Rational Get() const {
-    if (numerator_ == 0) return 1;
-    return Rational(numerator_) / Rational(denominator_);
-  }
-
- private:
-  mpz_class numerator_ = 0;
-  mpz_class denominator_ = 1;
-};
-
-std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& problem) {
-  CommonFactor in_A, in_b;
-  for (int i = 0; i < problem.rows(); ++i) {
-    in_b.Add(problem.b[i]);
-    for (int j = 0; j < problem.rows(); ++j) in_A.Add(problem.A(i, j));
-  }
-  ExactProblem divided_A = problem, divided_b = problem;
-  for (int i = 0; i < problem.rows(); ++i) {
-    divided_b.b[i] /= in_b.Get();
-    for (int j = 0; j < problem.rows(); ++j) divided_A.A(i, j) /= in_A.Get();
-  }
-  return {std::move(divided_A), std::move(divided_b)};
-}
-
-// x to so many significant bits.
-Rational Significant(const Rational& x, int bits) {
-  if (x == 0) return 0;
-  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
-                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
-  const long shift = bits - size;
-  const Rational power(mpz_class(1) << std::abs(shift));
-  const Rational scale = shift < 0 ? Rational(1 / power) : power;
-  return Rounded(Rational(x * scale)) / scale;
-}
-
-// A = L D L' and b = L c with L, D and c to so many significant bits, common factors taken out: semidefinite
-// whatever the rounding, which matters where A is nearly singular. Requires: A positive semidefinite.
-ExactProblem WithRoundedFactors(const ExactProblem& problem, int bits) {
-  auto factors = std::get<LdltFactors>(DecideSemidefinite(problem.A));
-  ExactProblem rounded = problem;
-  const int size = problem.rows();
-  ExactVector c = problem.b;
-  for (int i = 0; i < size; ++i) {
-    for (int k = 0; k < i; ++k) c[i] -= factors.L(i, k) * c[k];
-  }
-  for (int i = 0; i < size; ++i) {
-    factors.D[i] = Significant(factors.D[i], bits);
-    // b stays in range(A): its part along a zero pivot is zero, as that of an exact b is.
-    c[i] = Significant(c[i], bits);
-    for (int k = 0; k < i; ++k) factors.L(i, k) = Significant(factors.L(i, k), bits);
-  }
-  for (int i = 0; i < size; ++i) {
-    rounded.b[i] = 0;
-    for (int k = 0; k <= i; ++k) rounded.b[i] += factors.L(i, k) * c[k];
-    for (int j = 0; j < size; ++j) {
-      rounded.A(i, j) = 0;
-      for (int k = 0; k <= std::min(i, j); ++k) {
-        rounded.A(i, j) += factors.L(i, k) * factors.D[k] * factors.L(j, k);
-      }
-    }
-  }
-  return WithoutCommonFactors(WithoutCommonFactors(rounded).first).second;
-}
-
-// Numbers to try in the place of x, simplest first. Above kSmall only numbers with fewer bits stand here:
-// counting large numbers down by ones would take for ever and make nothing easier to read.
-std::vector<Rational> SimplerNumbers(const Rational& x, bool positive) {
-  constexpr int kSmall = 16;
-  const int sign = x < 0 ? -1 : 1;
-  const mpz_class whole = abs(x.get_num()) / x.get_den();
-  std::vector<Rational> numbers = {0, sign, 2 * sign, sign * Rational(mpz_class(whole / 2))};
-  if (whole > kSmall) {
-    const mpz_class one_bit_less = (mpz_class(1) << (mpz_sizeinbase(whole.get_mpz_t(), 2) - 1)) - 1;
-    numbers.push_back(sign * Rational(one_bit_less));
-    numbers.push_back(Rounded(x));
-  } else {
-    for (const mpz_class& near : {mpz_class(whole - 1), whole, mpz_class(whole + 1)})
-      numbers.push_back(sign * Rational(near));
-    numbers.push_back(-sign);
-    for (int denominator = 2; denominator <= 4; ++denominator) {
-      numbers.push_back(Rounded(Rational(x * denominator)) / denominator);
-    }
-  }
-  std::vector<Rational> distinct;
-  for (const Rational& number : numbers) {
-    const bool known = std::find(distinct.begin(), distinct.end(), number) != distinct.end();
-    if (!known && number != x && !(positive && number < 0)) distinct.push_back(number);
-  }
-  return distinct;
-}
-
 // Largest entries to round to.
-constexpr std::array<std::int64_t, 26> kRoundSizes = {2,
-                                                      3,
-                                                      4,
-                                                      5,
-                                                      6,
-                                                      7,
-                                                      8,
-                                                      9,
-                                                      10,
-                                                      12,
-                                                      14,
-                                                      16,
-                                                      20,
-                                                      24,
-                                                      32,
-                                                      48,
-                                                      64,
-                                                      100,
-                                                      200,
-                                                      500,
-                                                      1000,
-                                                      10000,
-                                                      1000000,
-                                                      1000000000,
-                                                      1000000000000,
-                                                      1000000000000000};
+// clang-format off
+constexpr std::int64_t kRoundSizes[] = {
+    2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 100, 200, 500, 1000, 10000, 1000000, 1000000000,
+    1000000000000, 1000000000000000};
+// clang-format on
 
 class Minimizer {
  public:
@@ -296,7 +103,8 @@ class Minimizer {
     if (const auto lack = Lacks(result_.problem)) throw InputError("minimize: " + *lack);
     bool progress = true;
     while (progress && !Cancelled()) {
-      progress = DropContacts();
+      progress = Try(WithoutBilateral(result_.problem));
+      progress |= DropContacts();
       progress |= DropFriction();
       progress |= StretchTangents();
       progress |= RoundAll();

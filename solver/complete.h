@@ -22,10 +22,10 @@
 // A facet is where one of these inequalities is an equation: a cell of a finished contact ends at the next
 // one, a stage at its end (on to the next variable) or at its start (a descent).
 //
-// Ties       and zero signs are told by a symbolic perturbation of b, evaluated where they occur (part 5):
-// nothing
-//            is assumed of A, b, mu. Over inexact scalars what is within tolerance ties; whatever then
-//            contradicts the theory, or leaves a residual, is undecided.
+// Ties       and zero signs are told by a symbolic perturbation of b, evaluated where they occur (part
+//            5): nothing is assumed of A, b, mu.
+//            Over inexact scalars what is within tolerance ties; whatever then contradicts the theory,
+//            or leaves a residual, is undecided.
 // Exact      A positive semidefinite and b in range(A) end in `solved`, after at most one piece per cell.
 // Shapes     f, a: rows x 1. Units: f in N, a in m/s^2.
 // Step size  as procedure maxstep, but not step_size.h: all facets of the stage limit a step in both

@@ -171,7 +171,6 @@ class SpatialDriving {
   void Down();
   void EnterNormal();
   void EnterFriction(const SpaceCell& cell);
-  void SetDriven(SpaceStage stage);
   void FinishDriven(const SpaceCell& cell);
   Facet DrivenAmount() const;
   Facet StageEnd() const;

@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coulomb's law in space, with the round cone: friction of a slipping contact is opposite to its acceleration.
 //
-// Newton's method on the map of Alart and Curnier (cited from memory), per static contact with r > 0:
+// Three methods take turns, from one start (Improve):
 //
-//   sN = fN - r aN,  sF = fF - r aF,   fN - max(0, sN)  and  fF - P(sF),  P: nearest point of mu max(0, sN)
-//   disc
+//   Sweeps    contact by contact the force that solves its law while the others keep theirs (one_contact.h).
+//   Newton    on the map of Alart and Curnier (cited from memory), per static contact with r > 0:
+//               sN = fN - r aN,  sF = fF - r aF,   fN - max(0, sN)  and  fF - P(sF),
+//             P the nearest point of the disc of radius mu max(0, sN), whose zeros are the solutions. It is
+//             piecewise smooth; with a line search it converges near a solution, quadratically.
+//   Approach  proximal steps (the regularization of Rockafellar, cited from memory): f becomes the solution
+//             of the problem with A + rho / r and b - rho / r f, by Newton's method; rho falls from step to
+//             step, and rises where Newton's method fails. A solution f of the problem is a fixed point.
 //
-// whose zeros are the solutions. It is piecewise smooth; Newton's method with a line search converges near a
-// solution, quadratically. Where its step and a damped one fail, sweeps of projected Gauss-Seidel steps stand
-// in. Starts, in this order: a few sweeps of projected Gauss-Seidel steps (contact by contact a projected step
-// of the map of residual.h), where asked for; then the solutions of complete driving on polygons of more and
-// more sides, which exist wherever A is semidefinite and b in range(A).
+// Sweeps cost least and are many; where A is singular, as with more contacts than bodies can tell apart,
+// Newton's steps are long, and the proximal ones lead. Starts, in this order: f = 0; then the solutions of
+// complete driving on polygons of more and more sides, which exist wherever A is semidefinite and b in
+// range(A). A need not be symmetric.
 //
 // Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
 // CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
-// Singular A: Newton's matrix uses A + d max A_ii, d tiny; the map does not, so its zeros are unchanged.
+// Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
 // Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
-// Cost    O(rows^3) per Newton step, O(rows^2) per sweep.
+// Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep.
 
 #ifndef STICTION_SOLVER_COULOMB_H_
 #define STICTION_SOLVER_COULOMB_H_
@@ -30,7 +35,7 @@
 namespace stiction {
 
 enum class CoulombStart : std::uint8_t {
-  kSweeps,    // quick: Gauss-Seidel, then Newton; complete driving behind it
+  kSweeps,    // from f = 0; complete driving behind it
   kComplete,  // complete driving at once
 };
 
@@ -39,9 +44,9 @@ struct CoulombOptions {
   Limits limits;
   double residual = 1e-8;  // relative; see CoulombResidual
   CoulombStart start = CoulombStart::kSweeps;
-  int sides = 8;  // of the first polygon; 2, 4 and 8 times as many follow; 0: none
-  int sweeps = 20;
-  int newton_steps = 60;  // per start
+  int sides = 8;          // of the first polygon; 2, 4 and 8 times as many follow; 0: none
+  int sweeps = 20;        // the first time; then four times as many each time
+  int newton_steps = 60;  // at a time
 
   bool operator==(const CoulombOptions&) const = default;
 };
@@ -60,7 +65,7 @@ struct CoulombStatistics {
 template <class S, class Visit>
 requires std::is_same_v<std::remove_const_t<S>, CoulombStatistics>
 void ForEachField(S& s, Visit visit) {
-  visit("sweeps", "Gauss-Seidel sweeps", s.sweeps);
+  visit("sweeps", "sweeps over all contacts", s.sweeps);
   visit("newton_steps", "steps of Newton's method", s.newton_steps);
   visit("starts", "points from which it started", s.starts);
   visit("polygons", "runs of complete driving", s.polygons);
@@ -85,7 +90,7 @@ class CoulombSolver {
 
   CoulombOptions& options() { return options_; }
 
-  // With `start` (rows x 1, N), Newton's method begins there instead.
+  // With `start` (rows x 1, N) it begins there, with Newton's method.
   CoulombVerdict Run(const Problem& problem, const Vector* start = nullptr);
 
   // The best point found.
@@ -99,11 +104,14 @@ class CoulombSolver {
   void Start(const Problem& problem);
   bool Reached() const;
   void FromPolygon(int sides);
+  void Improve();
   void Sweep(int count);
-  void Newton();
-  bool LineSearch(const Vector& step);
-  Vector DampedStep(const Matrix& J, const Vector& map) const;
-  Scalar Note();
+  Triple ForceOf(int i) const;
+  bool Newton();
+  void Approach();
+  bool LineSearch(const Vector& map, const Vector& step);
+  void Note();
+  Vector Answer(const Vector& f) const;
   Vector Map(const Vector& f, const Vector& a) const;
   Matrix Slope() const;
   void SlopeOfContact(int i, Matrix& J) const;
@@ -113,7 +121,10 @@ class CoulombSolver {
   const Problem* problem_ = nullptr;
   std::vector<int> first_row_;
   std::vector<Scalar> r_;  // by contact
-  Matrix regular_;         // A + d max A_ii
+  Vector weight_;          // by row, 1 / r
+  Scalar rho_ = Scalar(0);
+  Vector center_;  // of a proximal step
+  Matrix regular_;
   Vector f_, a_;
   Vector best_f_, best_a_;
   Scalar best_ = Scalar(0);

@@ -4,7 +4,6 @@
 #ifndef STICTION_SOLVER_COULOMB_IPP_
 #define STICTION_SOLVER_COULOMB_IPP_
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
+#include "solver/one_contact.h"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -21,10 +21,10 @@ CoulombVerdict CoulombSolver<Scalar>::Run(const Problem& problem, const Vector* 
   Start(problem);
   if (start != nullptr) {
     f_ = *start;
-    Newton();
+    Improve();
   } else if (options_.start == CoulombStart::kSweeps) {
     Sweep(options_.sweeps);
-    Newton();
+    Improve();
   }
   for (int factor = 1; factor <= 8 && options_.sides > 0 && !Reached(); factor *= 2)
     FromPolygon(factor * options_.sides);
@@ -42,18 +42,15 @@ void CoulombSolver<Scalar>::Start(const Problem& problem) {
   statistics_ = {};
   first_row_.assign(1, 0);
   r_.clear();
-  Scalar max_A = 0;
+  weight_.resize(problem.rows());
   for (const auto& contact : problem.contacts) {
     const int row = first_row_.back(), size = contact.HasFrictionRows() ? 3 : 1;
-    Scalar trace = 0;
-    for (int k = row; k < row + size; ++k) trace += problem.A(k, k);
-    max_A = std::max(max_A, trace);
+    const Scalar trace = problem.A.diagonal().segment(row, size).sum();
     r_.push_back(trace > 0 ? 1 / trace : Scalar(1));
+    weight_.segment(row, size).setConstant(1 / r_.back());
     first_row_.push_back(row + size);
   }
-  regular_ = problem.A;
-  const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(0.75)) * (max_A > 0 ? max_A : 1);
-  for (int i = 0; i < problem.rows(); ++i) regular_(i, i) += shift;
+  rho_ = 0;
   f_ = Vector::Zero(problem.rows());
   best_f_ = f_;
   best_a_ = problem.b;
@@ -75,96 +72,149 @@ void CoulombSolver<Scalar>::FromPolygon(int sides) {
   ++statistics_.polygons;
   statistics_.pieces += verdict.statistics.pieces;
   f_ = driving_.f();
-  if (!f_.allFinite()) return;
-  Newton();
+  if (f_.allFinite()) Improve();
 }
 
-// Projected steps contact by contact; a = A f + b is kept up to date.
+// From f_. A proximal stage costs as much as thousands of sweeps, the more the larger the problem.
+template <class Scalar>
+void CoulombSolver<Scalar>::Improve() {
+  constexpr int kRounds = 5;
+  ++statistics_.starts;
+  if (problem_->rows() == 0) return;
+  Newton();
+  int count = options_.sweeps;
+  for (int round = 0; round < kRounds && !Reached(); ++round, count *= 4) {
+    if (count > problem_->rows()) Approach();
+    if (Reached()) return;
+    Sweep(count);
+    Newton();
+  }
+  if (!Reached()) Approach();
+}
+
+// Ends early where only roundings move.
 template <class Scalar>
 void CoulombSolver<Scalar>::Sweep(int count) {
-  using std::hypot;
   a_ = problem_->A * f_ + problem_->b;
   for (; count > 0; --count) {
     ++statistics_.sweeps;
+    bool moved = false;
     for (std::size_t i = 0; i < r_.size(); ++i) {
-      const auto& contact = problem_->contacts[i];
       const int row = first_row_[i], size = first_row_[i + 1] - row;
-      const Scalar r = r_[i];
-      Triple to = {f_[row] - r * a_[row], Scalar(0), Scalar(0)};
-      if (contact.kind != ContactKind::kBilateral && contact.kind != ContactKind::kStatic)
-        to[0] = std::max(Scalar(0), to[0]);
-      if (contact.kind == ContactKind::kSliding)
-        to = {to[0], -contact.mu * to[0] * contact.slip[0], -contact.mu * to[0] * contact.slip[1]};
-      if (contact.kind == ContactKind::kStatic) {
-        const Scalar shifted = to[0] - r * contact.mu * hypot(a_[row + 1], a_[row + 2]);
-        to = ProjectOnCone<Scalar>({shifted, f_[row + 1] - r * a_[row + 1], f_[row + 2] - r * a_[row + 2]},
-                                   contact.mu);
-      }
+      const Triple to = ForceOf(static_cast<int>(i));
       for (int k = 0; k < size; ++k) {
         const Scalar change = to[k] - f_[row + k];
         if (change == 0) continue;
+        moved = moved || Abs(change) > 4 * std::numeric_limits<Scalar>::epsilon() * Abs(to[k]);
         f_[row + k] = to[k];
         a_ += change * problem_->A.col(row + k);
       }
     }
+    if (!moved) return;
   }
 }
 
-// Computes a, and keeps the point if it is the best so far. Returns its residual.
+// The force that solves the law of contact i while the others keep theirs; the present one if there is none.
 template <class Scalar>
-Scalar CoulombSolver<Scalar>::Note() {
-  a_ = problem_->A * f_ + problem_->b;
-  const Scalar residual = CoulombResidual(*problem_, f_, a_);
-  if (residual < best_) {
-    best_ = residual;
-    best_f_ = f_;
-    best_a_ = a_;
+auto CoulombSolver<Scalar>::ForceOf(int i) const -> Triple {
+  const auto& contact = problem_->contacts[i];
+  const int row = first_row_[i];
+  const Matrix& A = problem_->A;
+  if (contact.kind == ContactKind::kStatic) {
+    const Eigen::Matrix<Scalar, 3, 1> f = f_.template segment<3>(row);
+    if (!(A(row, row) > 0)) return {f[0], f[1], f[2]};
+    const Eigen::Matrix<Scalar, 3, 3> W = A.template block<3, 3>(row, row);
+    return SolveOneContact<Scalar>(W, a_.template segment<3>(row) - W * f, contact.mu);
   }
-  return residual;
+  const bool slides = contact.kind == ContactKind::kSliding;
+  Triple force = {Scalar(1), Scalar(0), Scalar(0)};  // per fN
+  Scalar inertia = A(row, row), alone = a_[row] - A(row, row) * f_[row];
+  for (int k = 1; k <= 2 && slides; ++k) {
+    force[k] = -contact.mu * contact.slip[k - 1];
+    inertia += A(row, row + k) * force[k];
+    alone -= A(row, row + k) * f_[row + k];
+  }
+  Scalar fN = inertia > 0 ? Scalar(-alone / inertia) : f_[row];
+  if (contact.kind != ContactKind::kBilateral) fN = std::max(Scalar(0), fN);
+  return {fN, fN * force[1], fN * force[2]};
 }
 
-// From f_, until the residual is that of rounding or does not fall any more.
+// Keeps f_ if it is the best so far.
 template <class Scalar>
-void CoulombSolver<Scalar>::Newton() {
-  ++statistics_.starts;
-  Scalar before = Note();
-  constexpr int kMostSweeps = 1000;
-  int idle = 0, rest = 20;
-  for (int step = 0; step < options_.newton_steps && problem_->rows() > 0; ++step) {
-    if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon() || (Reached() && idle > 4)) return;
+void CoulombSolver<Scalar>::Note() {
+  const Vector a = problem_->A * f_ + problem_->b;
+  const Scalar residual = CoulombResidual(*problem_, f_, a);
+  if (!(residual < best_)) return;
+  best_ = residual;
+  best_f_ = f_;
+  best_a_ = a;
+}
+
+// The accelerations of the map: those of the problem, or of the proximal one.
+template <class Scalar>
+auto CoulombSolver<Scalar>::Answer(const Vector& f) const -> Vector {
+  Vector a = problem_->A * f + problem_->b;
+  if (rho_ > 0) a += rho_ * weight_.cwiseProduct(f - center_);
+  return a;
+}
+
+// From f_, until the map is that of rounding or falls no more; with rho > 0, to a hundredth. Whether it got
+// there.
+template <class Scalar>
+bool CoulombSolver<Scalar>::Newton() {
+  const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
+  regular_ = problem_->A;
+  regular_.diagonal() += std::max(rho_, shift) * weight_;
+  a_ = Answer(f_);
+  Note();
+  Vector map = Map(f_, a_);
+  Scalar before = map.norm();
+  const Scalar enough = rho_ > 0 ? before / 100 : Scalar(0);
+  int idle = 0;
+  for (int step = 0; step < options_.newton_steps && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
+    if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
     ++statistics_.newton_steps;
-    const Matrix J = Slope();
-    const Vector map = Map(f_, a_);
-    if (!LineSearch(J.partialPivLu().solve(-map)) && !LineSearch(DampedStep(J, map))) {
-      if (rest > kMostSweeps) return;
-      Sweep(rest);
-      rest *= 2;
-    }
-    const Scalar residual = Note();
-    idle = residual < before / 2 ? 0 : idle + 1;
-    before = residual;
+    if (!LineSearch(map, Slope().partialPivLu().solve(-map))) return false;
+    Note();
+    map = Map(f_, a_);
+    const Scalar now = map.norm();
+    if (now <= enough) return true;
+    idle = now < Scalar(0.9) * before ? 0 : idle + 1;
+    before = now;
   }
+  return Reached();
 }
 
-// The step of Levenberg and Marquardt: it stays bounded where J is singular.
+// Proximal steps.
 template <class Scalar>
-auto CoulombSolver<Scalar>::DampedStep(const Matrix& J, const Vector& map) const -> Vector {
-  Matrix normal = J.transpose() * J;
-  const Scalar damping = map.squaredNorm() / (map.squaredNorm() + f_.squaredNorm()) * normal.trace();
-  normal.diagonal().array() += damping / static_cast<Scalar>(f_.size());
-  return normal.ldlt().solve(-J.transpose() * map);
+void CoulombSolver<Scalar>::Approach() {
+  constexpr int kMostSteps = 30, kMostFailures = 4;
+  rho_ = Scalar(0.01);
+  for (int step = 0, failures = 0; step < kMostSteps && failures <= kMostFailures && !Reached(); ++step) {
+    center_ = f_;
+    if (Newton()) {
+      rho_ /= 3;
+    } else {
+      ++failures;
+      f_ = center_;
+      rho_ = std::min(10 * rho_, Scalar(1));
+    }
+  }
+  rho_ = 0;
+  if (Reached()) Newton();
 }
 
 // f += t step for the first t = 1, 1/2, 1/4, ... that makes the map smaller; false if there is none.
 template <class Scalar>
-bool CoulombSolver<Scalar>::LineSearch(const Vector& step) {
+bool CoulombSolver<Scalar>::LineSearch(const Vector& map, const Vector& step) {
   if (!step.allFinite()) return false;
-  const Scalar present = Map(f_, a_).squaredNorm();
+  const Scalar present = map.squaredNorm();
   for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
     const Vector f = f_ + t * step;
-    const Vector a = problem_->A * f + problem_->b;
+    const Vector a = Answer(f);
     if (!(Map(f, a).squaredNorm() < (1 - t / 1000) * present)) continue;
     f_ = f;
+    a_ = a;
     return true;
   }
   return false;

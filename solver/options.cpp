@@ -116,7 +116,7 @@ std::array<PolicySwitchRow, kPolicySwitchCount> MakeSwitches() {
        "5.6: \"the friction force maintains the same direction it had when i most recently entered\"",
        {{"literal", "is not watched"},
         {"redirect", "is given up and driven anew"},
-        {"polygon", "follows a polygon"}},
+        {"polygon", "follows a polygon, by complete driving; no other switch is read"}},
        false,
        Get<Slip, &Policy::slip>,
        Set<Slip, &Policy::slip>},

@@ -5,7 +5,7 @@
 //
 //   abs(fF) <= mu fN (22),   fF.aF <= 0 (21),   aF = 0 or abs(fF) = mu fN,
 //
-// which leave the direction of slip free. readings.md, 7, fixes every choice that the text leaves open.
+// which leave the direction of slip free. readings.md, 8, fixes every choice that the text leaves open.
 //
 // Frames      Two axes p, q in the tangent plane of each contact are turned so that whatever is driven or kept
 //             at its limit runs along an axis: p is the recorded direction in NCF. There NCF is what NC+ is in
@@ -15,7 +15,7 @@
 //             class's own: a contact's friction has two components, and square roots leave no exact scalar.
 // Loops       Forces are irrational, so a repetition is never proved: over floating-point scalars `cycle` says
 //             that a state stands again after rounding; over intervals that ends the run `undecided`. A stall
-//             cannot happen (readings.md, 7); a drive that does not end would spend its budget.
+//             cannot happen (readings.md, 8); a drive that does not end would spend its budget.
 // Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C
 //             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
 
@@ -58,6 +58,18 @@ struct PublishedSpaceVerdict : Verdict {
   std::int64_t breaks = 0;     // scans at which every contact is established by its set, yet (21) fails at one
 };
 
+// One step of a drive. Vectors are in the problem's own axes; the driven row and the limiting one stand for the
+// axes that the contact has at the time: df shows along which a friction force is driven. NCF is kAtUpper, on
+// the first tangential row.
+template <class Scalar>
+struct SpacePivot : Pivot<Scalar> {
+  bool turned_away = false;                     // slip=redirect: the limiting contact opposes aF no more
+  std::vector<std::array<Scalar, 2>> recorded;  // by contact: d of those in NCF after the step, otherwise zero
+};
+
+template <class Scalar>
+using SpaceTrace = std::vector<SpacePivot<Scalar>>;
+
 template <class Scalar>
 class PublishedInSpace {
  public:
@@ -70,13 +82,15 @@ class PublishedInSpace {
   PublishedOptions& options() { return options_; }
 
   // Runs from f = 0. Requires PublishedHandlesInSpace(problem), PublishedReadsInSpace(options().policy). With
-  // `trace`, every step is recorded, in the problem's own axes; NCF is kAtUpper, on the first tangential row.
-  PublishedSpaceVerdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
+  // `trace`, every step is recorded.
+  PublishedSpaceVerdict Run(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr);
 
   // Of the last run, also of one that ended in an exception: what it had done. In the problem's own axes.
   const PublishedSpaceVerdict& verdict() const { return verdict_; }
   Vector f() const { return InProblemAxes(state_.f); }
   Vector a() const { return InProblemAxes(state_.a); }
+  // The direction of a ray.
+  Vector ray() const { return InProblemAxes(direction_.df()); }
 
  private:
   static constexpr std::string_view kNotFinite = "a number is not finite";
@@ -94,7 +108,7 @@ class PublishedInSpace {
     std::uint64_t rounded;
   };
 
-  void Start(const Problem& problem, Trace<Scalar>* trace);
+  void Start(const Problem& problem, SpaceTrace<Scalar>* trace);
   bool Ended() const { return ended_; }
   void End(Outcome outcome, std::string_view reason = {});
   void Finish();
@@ -130,7 +144,8 @@ class PublishedInSpace {
   void GiveUpLimiting(int row, int driven_contact);
   bool BudgetSpent();
   void EndUnlessFinite();
-  void Record(int driven, DriveGoal goal, const Step<Scalar>& step, IndexSet from, bool gave_up);
+  void RecordDirection(int driven, DriveGoal goal);
+  void RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up);
 
   // Frames. Friction of a contact is in rows `row`, `row` + 1 of state_, along p and q.
   void Turn(int contact, const Tangent& p);
@@ -147,7 +162,7 @@ class PublishedInSpace {
   PublishedOptions options_;
   const Problem* problem_ = nullptr;
   Problem turned_;  // the problem in the frames
-  Trace<Scalar>* trace_ = nullptr;
+  SpaceTrace<Scalar>* trace_ = nullptr;
   RowLayout<Eigen::Dynamic> layout_;
   Scale<Scalar> scale_;
   double inverse_grain_ = 0;  // 1/N

@@ -19,7 +19,7 @@ namespace stiction {
 // ---- Main loop: 4.3 compute-forces, 5.5 ------------------------------------------------------
 
 template <class Scalar>
-PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, Trace<Scalar>* trace) {
+PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, SpaceTrace<Scalar>* trace) {
   Start(problem, trace);
   while (!Ended() && !OuterStateRecurs()) {
     Sweep();
@@ -34,18 +34,18 @@ PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, Trac
 }
 
 template <class Scalar>
-void PublishedInSpace<Scalar>::Start(const Problem& problem, Trace<Scalar>* trace) {
+void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>* trace) {
   const int rows = problem.rows();
   problem_ = &problem;
   turned_ = problem;
   trace_ = trace;
-  if (trace_ != nullptr) trace_->pivots.clear();
+  if (trace_ != nullptr) trace_->clear();
   layout_.Assign(problem.contacts, 3);
   scale_ = MakeScale(problem, options_.tolerances);
   double b = 0, A = 0;
   for (int i = 0; i < rows; ++i) {
     b = std::max(b, std::abs(Approximation<Scalar>::Of(problem.b[i])));
-    A = std::max(A, Approximation<Scalar>::Of(problem.A(i, i)));
+    A = std::max(A, std::abs(Approximation<Scalar>::Of(problem.A(i, i))));
   }
   inverse_grain_ = b > 0 ? A / (b * options_.tolerances.loop_grain) : 0;
   direction_.Start(turned_);
@@ -224,6 +224,7 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     const Step<Scalar> step = FindStep(driven, goal);
     if (step.limiting < 0) return End(Outcome::kRay);
     const bool zero = Sign(step.s, scale_.force) == 0;
+    RecordDirection(driven, goal);
     Advance(step, zero);
     ++statistics.steps;
     statistics.zero_steps += zero;
@@ -247,7 +248,7 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     }
     statistics.pivots += state_.sets != sets_before;
     last_step_zero_ = zero;
-    Record(driven, goal, step, from, gives_up);
+    RecordStep(step, from, gives_up);
     if (step.limiting == driven) return;
   }
 }
@@ -636,23 +637,40 @@ void PublishedInSpace<Scalar>::EndUnlessFinite() {
   }
 }
 
+// Before the step, which can turn axes.
 template <class Scalar>
-void PublishedInSpace<Scalar>::Record(int driven, DriveGoal goal, const Step<Scalar>& step, IndexSet from,
-                                      bool gave_up) {
-  if (trace_ == nullptr || !trace_->keep_pivots) return;
-  Pivot<Scalar>& pivot = trace_->pivots.emplace_back();
+void PublishedInSpace<Scalar>::RecordDirection(int driven, DriveGoal goal) {
+  if (trace_ == nullptr) return;
+  SpacePivot<Scalar>& pivot = trace_->emplace_back();
   pivot.drive = static_cast<int>(verdict_.statistics.drives);
   pivot.driven = driven;
   pivot.goal = goal;
+  pivot.df = InProblemAxes(direction_.df());
+  pivot.da = InProblemAxes(direction_.da());
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up) {
+  if (trace_ == nullptr) return;
+  SpacePivot<Scalar>& pivot = trace_->back();
+  const int contact = layout_.ContactOf(step.limiting);
+  const bool at_limit = step.wants == IndexSet::kAtUpper && !gave_up;  // NCF stands on the first row
   pivot.s = step.s;
   pivot.limiting = step.limiting;
   pivot.from = from;
-  pivot.to = state_.sets[step.limiting];
+  pivot.to = state_.sets[at_limit ? FrictionOf(step.limiting) : step.limiting];
   pivot.wanted = step.wants;
   pivot.gave_up = gave_up;
+  pivot.turned_away = from == IndexSet::kAtUpper && pivot.to == IndexSet::kNone && !gave_up &&
+                      static_cast<bool>(given_up_by_turning_[contact]);
   pivot.f = f();
   pivot.a = a();
   pivot.sets.assign(state_.sets.begin(), state_.sets.end());
+  pivot.recorded.assign(layout_.ContactCount(), {Scalar(0), Scalar(0)});
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (state_.sets[row] == IndexSet::kAtUpper)
+      pivot.recorded[layout_.ContactOf(row)] = frames_[layout_.ContactOf(row)].p;
+  }
 }
 
 }  // namespace stiction

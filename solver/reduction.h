@@ -14,14 +14,17 @@
 //              which drives, steps and sets of the remaining variables do not notice: A' df is what A df is
 //              while B stays in C.
 //
-// Redundant    bilateral constraints (A_BB singular) rest at zero force. For A symmetric positive semidefinite
-//              they change nothing: A_BB y = 0 implies A y = 0. b outside of range(A) shows as y'b /= 0.
+// Redundant    bilateral constraints (A_BB singular) rest at zero force: over exact scalars those whose columns
+//              depend on the ones before. For A symmetric positive semidefinite they change nothing: A_BB y = 0
+//              implies A y = 0. b outside of range(A) shows as y'b /= 0.
 // Forces       f = E x + e, x the forces of the reduced problem.
 // Cost         rows^2 times the bilateral ones.
 
 #ifndef STICTION_SOLVER_REDUCTION_H_
 #define STICTION_SOLVER_REDUCTION_H_
 
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "solver/options.h"
@@ -35,6 +38,19 @@ enum class ReductionEnd : std::uint8_t {
   kInconsistent,  // no forces at all keep the bilateral constraints: there is no solution
   kSingular,      // A_BB is singular and not decoupled from the rest: A is not symmetric, or not semidefinite
 };
+
+// Why a problem could not be reduced; empty if it could.
+inline constexpr std::string_view Reason(ReductionEnd end) {
+  switch (end) {
+    case ReductionEnd::kInconsistent:
+      return "no forces keep the bilateral constraints";
+    case ReductionEnd::kSingular:
+      return "the bilateral constraints are singular";
+    case ReductionEnd::kReduced:
+      break;
+  }
+  return {};
+}
 
 template <class Scalar>
 class Reduction {
@@ -55,6 +71,15 @@ class Reduction {
   const Problem& problem() const { return reduced_; }
   // Row of the full problem for each row of the reduced one.
   const std::vector<int>& row_of() const { return row_of_; }
+  // Contact of the full problem for each of the reduced one.
+  const std::vector<int>& contact_of() const { return contact_of_; }
+  // Values by row of the full problem from values by row of the reduced one; `other`: of the friction of
+  // sliding contacts.
+  template <class T>
+  std::vector<T> Spread(const std::vector<T>& values, const T& bilateral, const T& other) const;
+  // f = E x + e: full rows x reduced rows, and full rows.
+  const Matrix& E() const { return E_; }
+  const Vector& e() const { return e_; }
   // x: rows of the reduced problem, N. Returns all forces of the full problem, N.
   Vector Forces(const Vector& x) const { return E_ * x + e_; }
   // The same for a direction: of a ray the impulsive direction of section 6.
@@ -70,7 +95,7 @@ class Reduction {
 
   ReductionEnd end_ = ReductionEnd::kReduced;
   Problem reduced_;
-  std::vector<int> row_of_;
+  std::vector<int> row_of_, contact_of_;
   std::vector<int> bilateral_;  // rows
   Matrix M_;                    // rows x (reduced rows, bilateral rows): A with sliding friction replaced
   Vector b_;

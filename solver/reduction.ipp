@@ -28,25 +28,31 @@ Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerance
 template <class Scalar>
 void Reduction<Scalar>::Sort(const Problem& problem) {
   reduced_.dimension = problem.dimension;
-  int row = 0;
+  int row = 0, number = 0;
   for (const Contact<Scalar>& contact : problem.contacts) {
     const int rows = contact.HasFrictionRows() ? problem.dimension : 1;
-    switch (contact.kind) {
-      case ContactKind::kBilateral:
-        bilateral_.push_back(row);
-        break;
-      case ContactKind::kSliding:
-        row_of_.push_back(row);
-        reduced_.contacts.push_back({ContactKind::kFrictionless, Scalar(0), {}});
-        break;
-      case ContactKind::kFrictionless:
-      case ContactKind::kStatic:
-        for (int i = 0; i < rows; ++i) row_of_.push_back(row + i);
-        reduced_.contacts.push_back(contact);
-        break;
+    if (contact.kind == ContactKind::kBilateral) {
+      bilateral_.push_back(row);
+    } else {
+      const bool slides = contact.kind == ContactKind::kSliding;
+      for (int i = 0; i < (slides ? 1 : rows); ++i) row_of_.push_back(row + i);
+      contact_of_.push_back(number);
+      reduced_.contacts.push_back(slides ? Contact<Scalar>{ContactKind::kFrictionless, Scalar(0), {}}
+                                         : contact);
     }
     row += rows;
+    ++number;
   }
+}
+
+template <class Scalar>
+template <class T>
+std::vector<T> Reduction<Scalar>::Spread(const std::vector<T>& values, const T& bilateral,
+                                         const T& other) const {
+  std::vector<T> all(E_.rows(), other);
+  for (const int row : bilateral_) all[row] = bilateral;
+  for (std::size_t i = 0; i < values.size(); ++i) all[row_of_[i]] = values[i];
+  return all;
 }
 
 // (24): E maps the variables, the reduced rows and then the bilateral ones, to all forces; M = A E.
@@ -74,16 +80,17 @@ void Reduction<Scalar>::ReplaceSlidingFriction(const Problem& problem) {
   b_ = problem.b;
 }
 
-// (4.5): Gauss-Jordan elimination on [A_BU A_BB b_B], pivots anywhere in A_BB. Returns the bilateral variable
-// that each row determines, fewer than there are rows if A_BB is singular.
+// (4.5): Gauss-Jordan elimination on [A_BU A_BB b_B], pivots anywhere in A_BB; over exact scalars in its first
+// column that does not depend on those before. Returns the bilateral variable that each row determines, fewer
+// than there are rows if A_BB is singular.
 template <class Scalar>
 std::vector<int> Reduction<Scalar>::SolveBilateral(Matrix& T, const Scalar& zero) const {
   const int count = static_cast<int>(bilateral_.size()), kept = static_cast<int>(row_of_.size());
   std::vector<int> determines;
   for (int rank = 0; rank < count; ++rank) {
     int row = -1, column = -1;
-    for (int i = rank; i < count; ++i) {
-      for (int j = 0; j < count; ++j) {  // columns of earlier pivots are zero here
+    for (int j = 0; j < count; ++j) {  // columns of earlier pivots are zero here
+      for (int i = rank; i < count; ++i) {
         if (Sign(T(i, kept + j), zero) == 0) continue;
         if (row >= 0 && (kIsExact<Scalar> || !(Abs(T(i, kept + j)) > Abs(T(row, kept + column))))) continue;
         row = i;

@@ -33,47 +33,51 @@
 
 namespace stiction {
 
-// The residual is worst / scale; scale is zero only where all forces and b are.
+// The residual is worst / scale; scale is zero only where all forces and b are. worst / b_scale is the residual
+// for methods whose forces can grow without end: beside such forces any violation would be small.
 template <class Scalar>
 struct Residual {
   Scalar worst = Scalar(0), scale = Scalar(0);
+  Scalar b_scale = Scalar(0);  // max abs(b) / max A_ii
 };
 
-template <class Scalar, int Rows, class Vector>
-Residual<Scalar> MeasureResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f,
-                                 const Vector& a) {
+// Problem: a ContactProblem, or one with a sparse A.
+template <class Problem, class Vector>
+auto MeasureResidual(const Problem& problem, const Vector& f, const Vector& a) {
+  using Scalar = typename Problem::Vector::Scalar;
   Scalar max_A(0), max_b(0), max_f(0), worst(0), zero(0);
   for (int i = 0; i < problem.rows(); ++i) {
     zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-    max_A = std::max<Scalar>(max_A, problem.A(i, i));
+    max_A = std::max<Scalar>(max_A, problem.A.coeff(i, i));
     max_b = std::max<Scalar>(max_b, Abs(problem.b[i]));
     max_f = std::max<Scalar>(max_f, Abs(f[i]));
   }
-  if (zero != 0) return {zero, zero};  // maxima pass over what is not a number
+  if (zero != 0) return Residual<Scalar>{zero, zero, zero};  // maxima pass over what is not a number
   const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
   int row = 0;
   for (const auto& contact : problem.contacts) {
+    // f - max(0, f - r a) is the smaller of f and r a, which rounding cannot cancel; likewise for friction.
+    const Scalar shift = r * a[row];
     const bool bilateral = contact.kind == ContactKind::kBilateral;
-    const Scalar normal =
-        bilateral ? Scalar(f[row] - r * a[row]) : std::max<Scalar>(Scalar(0), f[row] - r * a[row]);
-    worst = std::max<Scalar>(worst, Abs(Scalar(f[row] - normal)));
+    worst = std::max<Scalar>(worst, Abs(bilateral ? shift : std::min<Scalar>(f[row], shift)));
     if (contact.kind == ContactKind::kSliding) {
       worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] + contact.mu * contact.slip[0] * f[row])));
       ++row;
     } else if (contact.HasFrictionRows()) {
       const Scalar bound = contact.mu * std::max<Scalar>(Scalar(0), f[row]);
-      const Scalar wanted = f[row + 1] - r * a[row + 1];
-      const Scalar friction = std::min<Scalar>(bound, std::max<Scalar>(Scalar(-bound), wanted));
-      worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] - friction)));
+      const Scalar least = f[row + 1] - bound, most = f[row + 1] + bound;
+      const Scalar gap = std::min<Scalar>(most, std::max<Scalar>(least, r * a[row + 1]));
+      worst = std::max<Scalar>(worst, Abs(gap));
       ++row;
     }
     ++row;
   }
-  return {worst, std::max<Scalar>(max_f, max_b * r)};
+  return Residual<Scalar>{worst, std::max<Scalar>(max_f, max_b * r), max_b * r};
 }
 
-template <class Scalar, int Rows, class Vector>
-Scalar NaturalResidual(const ContactProblem<Scalar, Rows>& problem, const Vector& f, const Vector& a) {
+template <class Problem, class Vector>
+typename Problem::Vector::Scalar NaturalResidual(const Problem& problem, const Vector& f, const Vector& a) {
+  using Scalar = typename Problem::Vector::Scalar;
   const Residual<Scalar> residual = MeasureResidual(problem, f, a);
   return residual.scale > 0 ? Scalar(residual.worst / residual.scale) : residual.worst;
 }

@@ -4,6 +4,7 @@
 #include "solver/complete.ipp"
 #include "solver/fast.ipp"
 #include "solver/lemke.ipp"
+#include "solver/proximal.ipp"
 #include "solver/published.ipp"
 
 namespace stiction {
@@ -23,5 +24,8 @@ template class FastSolver<long double>;
 template class LemkeAlgorithm<float>;
 template class LemkeAlgorithm<double>;
 template class LemkeAlgorithm<long double>;
+
+template class ProximalNewton<double>;
+template class ProximalNewton<long double>;
 
 }  // namespace stiction

@@ -8,8 +8,9 @@
 //          min(r abs(aF), max(0, mu fN - abs(fF)))       aF = 0 or abs(fF) = mu fN
 //
 // r = 1 / max A_ii turns accelerations into forces; the result, the largest of these, is relative to the larger
-// of max abs(f) and max abs(b) / max A_ii. Shapes: f, a rows x 1. Problems in space of frictionless and static
-// contacts, floating-point scalars. Not a number if a force or an acceleration is not finite.
+// of max abs(f) and max abs(b) / max A_ii. Bilateral contacts: abs(r aN) alone. Sliding ones: (15), and
+// abs(fF + mu fN slip) (24). Shapes: f, a rows x 1. Problems in space, floating-point scalars. Not a number if
+// a force or an acceleration is not finite.
 
 #ifndef STICTION_SOLVER_WEAK_RESIDUAL_H_
 #define STICTION_SOLVER_WEAK_RESIDUAL_H_
@@ -37,8 +38,14 @@ Scalar WeakResidual(const ContactProblem<Scalar>& problem, const Vector& f, cons
   int row = 0;
   for (const auto& contact : problem.contacts) {
     const Scalar fN = f[row];
-    worst = std::max(worst, Abs(Scalar(fN - std::max(Scalar(0), Scalar(fN - r * a[row])))));
-    if (contact.HasFrictionRows()) {
+    const bool bilateral = contact.kind == ContactKind::kBilateral;
+    worst = std::max(
+        worst, Abs(bilateral ? Scalar(r * a[row]) : Scalar(fN - std::max(Scalar(0), Scalar(fN - r * a[row])))));
+    if (contact.kind == ContactKind::kSliding) {
+      const Scalar limit = contact.mu * fN;
+      worst =
+          std::max(worst, hypot(f[row + 1] + limit * contact.slip[0], f[row + 2] + limit * contact.slip[1]));
+    } else if (contact.kind == ContactKind::kStatic) {
       const Scalar force = hypot(f[row + 1], f[row + 2]), answer = hypot(a[row + 1], a[row + 2]);
       const Scalar slack = contact.mu * fN - force;
       worst = std::max({worst, -slack, std::min(r * answer, slack)});

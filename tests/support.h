@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certify/exact.h"
+#include "search/exponential.h"
 #include "search/generators.h"
 
 namespace stiction::testing {
@@ -61,22 +62,6 @@ inline ExactProblem ThreeSolutions() { return MakeProblem({1}, {{1, 2}, {2, 5}},
 // A positive semidefinite, b not in its range, no solution.
 inline ExactProblem NoSolution() { return MakeProblem({1}, {{1, -1}, {-1, 1}}, {-1, 0}); }
 
-// The frictionless algorithm takes 2^n - 1 pivots.
-inline ExactProblem ExponentialFamily(int n) {
-  ExactProblem problem;
-  problem.contacts.assign(n, {ContactKind::kFrictionless, 0, {}});
-  problem.A.resize(n, n);
-  problem.b.resize(n);
-  Rational power = 1;
-  for (int i = n; i >= 1; --i) {
-    power /= 8;
-    problem.b[i - 1] = power - 1;
-    for (int j = 1; j <= n; ++j)
-      problem.A(i - 1, j - 1) = i == j ? 1 + 4 * (n - i) : 2 + 4 * (n - std::max(i, j));
-  }
-  return problem;
-}
-
 inline ExactProblem NoContacts() { return MakeProblem({}, {}, {}); }
 
 template <class Scalar, int Rows = Eigen::Dynamic>
@@ -85,6 +70,63 @@ ContactProblem<Scalar, Rows> Random(GeneratorId id, int contacts, std::uint64_t 
   ContactProblem<Scalar, Rows> problem;
   Generate(id, contacts, kDefaultPalette, choices, problem);
   return problem;
+}
+
+// Bodies' worth of degrees of freedom, and contacts of every kind on them: A = J J', b = J c. With repeated
+// bilateral rows, so that A_BB is singular.
+inline ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant = nullptr) {
+  Choices choices(seed);
+  ExactProblem problem;
+  const int contacts = static_cast<int>(choices.Integer(1, 5));
+  for (int i = 0; i < contacts; ++i) {
+    Contact<Rational> contact;
+    const std::int64_t kind = choices.Integer(0, sliding ? 3 : 2);
+    contact.kind = static_cast<ContactKind>(kind);
+    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 4)) / 2;
+    if (contact.kind == ContactKind::kSliding) contact.slip[0] = choices.Integer(0, 1) == 0 ? 1 : -1;
+    problem.contacts.push_back(contact);
+  }
+  const int rows = RowCount(problem.contacts, 2), columns = static_cast<int>(choices.Integer(2, 2 + rows));
+  ExactMatrix J(rows, columns);
+  ExactVector c(columns);
+  for (int j = 0; j < columns; ++j) {
+    c[j] = choices.Integer(-9, 9);
+    for (int i = 0; i < rows; ++i) J(i, j) = choices.Integer(-3, 3);
+  }
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  int first = -1;
+  for (int i = 0; i < contacts; ++i) {
+    if (problem.contacts[i].kind != ContactKind::kBilateral) continue;
+    const int row = layout.NormalRowOf(i);
+    if (first >= 0 && choices.Integer(0, 2) == 0) {
+      J.row(row) = J.row(first) * Rational(-2);
+      if (redundant != nullptr) ++*redundant;
+    }
+    if (first < 0) first = row;
+  }
+  problem.A = J * J.transpose();
+  problem.b = J * c;
+  return problem;
+}
+
+// The problem with a bilateral contact as its first and, in twice its units, as its last: what they leave of it
+// is the problem itself (solver/reduction.h).
+inline ExactProblem Bordered(const ExactProblem& problem) {
+  const int rows = problem.rows();
+  const Rational d = 2, b = -3;
+  ExactVector u(rows);
+  for (int i = 0; i < rows; ++i) u[i] = i % 3 - 1;
+  ExactProblem bordered = problem;
+  const Contact<Rational> bilateral = {ContactKind::kBilateral, 0, {}};
+  bordered.contacts.insert(bordered.contacts.begin(), bilateral);
+  bordered.contacts.push_back(bilateral);
+  bordered.A.resize(rows + 2, rows + 2);
+  bordered.A << d, u.transpose(), 2 * d, u, problem.A + u * u.transpose() / d, 2 * u, 2 * d, 2 * u.transpose(),
+      4 * d;
+  bordered.b.resize(rows + 2);
+  bordered.b << b, problem.b + u * b / d, 2 * b;
+  return bordered;
 }
 
 // Random problems that cycle under `paper`.

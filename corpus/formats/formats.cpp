@@ -33,11 +33,6 @@ const PublishedFormat& FormatNamed(const std::string& name) {
 
 // ---- What a format cannot hold ----------------------------------------------------------------
 
-const char* KindName(ContactKind kind) {
-  static constexpr const char* kNames[] = {"bilateral", "frictionless", "static", "sliding"};
-  return kNames[static_cast<int>(kind)];
-}
-
 void RequireContacts(const SparseProblem& problem, const std::string& format) {
   const bool lcp = format == "siconos-lcp", fclib = format == "fclib";
   const char* expected = lcp     ? "frictionless: an LCP has no others"
@@ -51,7 +46,8 @@ void RequireContacts(const SparseProblem& problem, const std::string& format) {
                       : !fclib    ? kind == ContactKind::kStatic
                       : bilateral ? kind == ContactKind::kBilateral
                                   : kind == ContactKind::kStatic;
-    if (!fits) throw InputError(problem.name, fmt::format("contacts[{}].kind", i), KindName(kind), expected);
+    if (!fits)
+      throw InputError(problem.name, fmt::format("contacts[{}].kind", i), std::string(Name(kind)), expected);
   }
 }
 

@@ -11,6 +11,22 @@ Rational EntryAt(const SparseMatrix& A, int i, int j) {
   return found == A.end() ? Rational(0) : found->second;
 }
 
+template <class Scalar, class Convert>
+SparseContactProblem<Scalar> Converted(const SparseProblem& problem, Convert convert) {
+  SparseContactProblem<Scalar> other;
+  other.dimension = problem.dimension;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    const Scalar slip[] = {convert(contact.slip[0]), convert(contact.slip[1])};
+    other.contacts.push_back({contact.kind, convert(contact.mu), {slip[0], slip[1]}});
+  }
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  for (const auto& [at, value] : problem.A) entries.emplace_back(at.first, at.second, convert(value));
+  other.A.resize(problem.rows(), problem.rows());
+  other.A.setFromTriplets(entries.begin(), entries.end());
+  other.b = problem.b.unaryExpr(convert);
+  return other;
+}
+
 }  // namespace
 
 SparseProblem ToSparse(const ProblemFile& file) {
@@ -40,6 +56,14 @@ ProblemFile ToDense(const SparseProblem& problem, const std::string& source) {
   file.problem.b = problem.b;
   file.origin = problem.origin;
   return file;
+}
+
+SparseContactProblem<Rational> OverRationals(const SparseProblem& problem) {
+  return Converted<Rational>(problem, [](const Rational& x) { return x; });
+}
+
+SparseContactProblem<double> InDoubles(const SparseProblem& problem) {
+  return Converted<double>(problem, &ToDouble);
 }
 
 Asymmetry LargestAsymmetry(const SparseProblem& problem) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
+#include "solver/proximal.h"
 
 namespace stiction {
 
@@ -36,6 +37,10 @@ inline constexpr int kMostDenseRows = 4000;
 SparseProblem ToSparse(const ProblemFile& file);
 // InputError, naming `source`, above kMostDenseRows.
 ProblemFile ToDense(const SparseProblem& problem, const std::string& source);
+
+// The same numbers, or the nearest doubles.
+SparseContactProblem<Rational> OverRationals(const SparseProblem& problem);
+SparseContactProblem<double> InDoubles(const SparseProblem& problem);
 
 // The largest abs(A_ij - A_ji), i < j, and where it is first found; zero at (0, 0) if A is symmetric.
 struct Asymmetry {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "corpus/rounded.h"
+
 namespace stiction {
 namespace {
 
@@ -54,16 +56,6 @@ ExactProblem Generated(GeneratorId generator, int contacts, int friction, Choice
   return problem;
 }
 
-ContactProblem<double> Rounded(const ExactProblem& problem) {
-  ContactProblem<double> rounded;
-  rounded.dimension = problem.dimension;
-  for (const auto& contact : problem.contacts)
-    rounded.contacts.push_back({contact.kind, ToDouble(contact.mu), {}});
-  rounded.A = problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  rounded.b = problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  return rounded;
-}
-
 }  // namespace
 
 std::string FrictionName(int friction) {
@@ -78,7 +70,7 @@ BenchProblem MakeBenchProblem(std::optional<GeneratorId> generator, int contacts
   problem.exact = generator ? Generated(*generator, contacts, problem.friction, choices)
                             : Definite(contacts, problem.friction, choices);
   for (const auto& contact : problem.exact.contacts) problem.rough &= contact.mu > 0;
-  problem.rounded = Rounded(problem.exact);
+  problem.rounded = Rounded<double>(problem.exact);
   return problem;
 }
 
@@ -87,7 +79,7 @@ BenchProblem MakeFrictionless(int contacts, std::uint64_t seed, std::int64_t ind
   BenchProblem problem;
   problem.exact.contacts.assign(contacts, {ContactKind::kFrictionless, 0, {}});
   DrawDefinite(contacts, 1, choices, problem.exact);
-  problem.rounded = Rounded(problem.exact);
+  problem.rounded = Rounded<double>(problem.exact);
   problem.rough = false;
   return problem;
 }

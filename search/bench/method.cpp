@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/bench/method.h"
 
-#include <time.h>
-
-#include <algorithm>
-#include <limits>
 #include <memory>
 
+#include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
+#include "search/bench/stopwatch.h"
 #include "solver/residual.h"
 
 namespace stiction {
@@ -18,29 +16,6 @@ namespace {
 constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
 
 // ---- Time ----------------------------------------------------------------------------------------
-
-// Infinite if the clock cannot be read: that of a process that is gone.
-double ReadSeconds(clockid_t clock) {
-  timespec time;
-  if (clock_gettime(clock, &time) != 0) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// The processor clock is slow to read, and stands outside the other.
-class Stopwatch {
- public:
-  explicit Stopwatch(clockid_t processor = CLOCK_THREAD_CPUTIME_ID)
-      : processor_(processor), processor_start_(ReadSeconds(processor)), start_(ReadSeconds(CLOCK_MONOTONIC)) {}
-
-  double Seconds() const {
-    const double elapsed = ReadSeconds(CLOCK_MONOTONIC) - start_;
-    return std::min(elapsed, ReadSeconds(processor_) - processor_start_);
-  }
-
- private:
-  clockid_t processor_;
-  double processor_start_, start_;
-};
 
 // The processor time of another process; wall-clock time if it is gone.
 clockid_t ClockOf(pid_t process) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Siconos: Lemke's method on the frictionless problem; Gauss-Seidel to 1e-9 and Lemke's method in the plane.
+// Siconos: Lemke's method on the frictionless problem; in the plane Gauss-Seidel to 1e-9 and Lemke's method; in
+// space Gauss-Seidel and Newton's method on the map of Alart and Curnier, both to 1e-9.
 
 #include "search/bench/peers.h"
 
@@ -31,6 +32,10 @@ int SolverId(SiconosMethod method) {
       return SICONOS_FRICTION_2D_NSGS;
     case SiconosMethod::kFriction2dLemke:
       return SICONOS_FRICTION_2D_LEMKE;
+    case SiconosMethod::kFriction3dNsgs:
+      return SICONOS_FRICTION_3D_NSGS;
+    case SiconosMethod::kFriction3dNewton:
+      return SICONOS_FRICTION_3D_NSN_AC;
     default:
       return SICONOS_LCP_LEMKE;
   }
@@ -41,9 +46,9 @@ class SiconosContender : public Contender {
   explicit SiconosContender(SiconosMethod method)
       : method_(method), options_(solver_options_create(SolverId(method)), solver_options_delete) {
     numerics_set_verbose(0);
-    if (method != SiconosMethod::kFriction2dNsgs) return;
+    if (method == SiconosMethod::kLcpLemke || method == SiconosMethod::kFriction2dLemke) return;
     options_->dparam[SICONOS_DPARAM_TOL] = kTolerance;
-    options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
+    if (method != SiconosMethod::kFriction3dNewton) options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
   }
 
   void Load(const std::vector<PeerProblem>& problems) override {
@@ -69,8 +74,13 @@ class SiconosContender : public Contender {
       LinearComplementarityProblem lcp = {rows_, of.matrix.get(), of.b.data()};
       lcp_lexicolemke(&lcp, f_.data(), a_.data(), &info, options_.get());
     } else {
-      FrictionContactProblem problem = {2, rows_ / 2, of.matrix.get(), of.b.data(), of.mu.data()};
-      info = fc2d_driver(&problem, f_.data(), a_.data(), options_.get());
+      const bool plane =
+          method_ == SiconosMethod::kFriction2dNsgs || method_ == SiconosMethod::kFriction2dLemke;
+      const int dimension = plane ? 2 : 3;
+      FrictionContactProblem problem = {dimension, rows_ / dimension, of.matrix.get(), of.b.data(),
+                                        of.mu.data()};
+      const auto driver = plane ? fc2d_driver : fc3d_driver;
+      info = driver(&problem, f_.data(), a_.data(), options_.get());
     }
     return info == 0;
   }

@@ -32,7 +32,7 @@ std::unique_ptr<Contender> MakeOde(bool friction);     // libode-dev
 std::unique_ptr<Contender> MakeDart(bool friction);    // libdart-external-odelcpsolver-dev
 std::unique_ptr<Contender> MakeBullet(bool friction);  // libbullet-dev
 // libsiconos-numerics-dev
-enum class SiconosMethod { kLcpLemke, kFriction2dNsgs, kFriction2dLemke };
+enum class SiconosMethod { kLcpLemke, kFriction2dNsgs, kFriction2dLemke, kFriction3dNsgs, kFriction3dNewton };
 std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
 
 }  // namespace stiction

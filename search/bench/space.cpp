@@ -11,6 +11,13 @@
 // rounded
 //             a million times finer: there it `recurs` (same start, same period), or the run only `approaches`
 //             a loop (a later start, or another period), or it is `refuted`.
+// Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an
+// edge`
+//             counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which the
+//             paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
+//             polygons may need more corners (`refined`).
+
+#include "certify/space.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +26,7 @@
 #include <iostream>
 
 #include "certify/published_space.h"
+#include "certify/verify_solution.h"
 #include "search/bench/measure.h"
 #include "search/bench/suite.h"
 #include "search/bench/table.h"
@@ -32,8 +40,8 @@ constexpr int kEntry = 1000;
 constexpr double kWrongAnswer = 1e-6;  // residual, relative
 constexpr std::array<std::array<int, 2>, 5> kFrictions = {{{1, 5}, {1, 2}, {1, 1}, {2, 1}, {5, 1}}};
 
-// The readings that are compared; `polygon` has a method of its own.
-constexpr std::array kReadings = {Slip::kLiteral, Slip::kRedirect};
+constexpr std::array kReadings = {Slip::kLiteral, Slip::kRedirect, Slip::kPolygon};
+constexpr int kSides = 8;
 
 struct Family {
   const char* name;
@@ -69,14 +77,15 @@ struct Count {
   std::int64_t recurs = 0, approaches = 0, refuted = 0;                    // suspected cycles
   std::int64_t breaks = 0, redirects = 0, give_ups = 0;                    // runs in which there was one
   std::vector<std::int64_t> steps;                                         // of solved runs
-  std::int64_t proved_solved = 0, proved_ray = 0, unsure = 0, differ = 0;  // over intervals
+  std::int64_t proved_solved = 0, proved_ray = 0, unsure = 0, differ = 0;  // over intervals, or exactly
+  std::int64_t on_edge = 0, refined = 0;                                   // slip=polygon
 };
 
 constexpr std::array kCounters = {
     &Count::problems,  &Count::solved,    &Count::wrong,    &Count::ray,           &Count::limit,
     &Count::undecided, &Count::singular,  &Count::recurs,   &Count::approaches,    &Count::refuted,
     &Count::breaks,    &Count::redirects, &Count::give_ups, &Count::proved_solved, &Count::proved_ray,
-    &Count::unsure,    &Count::differ};
+    &Count::unsure,    &Count::differ,    &Count::on_edge,  &Count::refined};
 
 void Add(const Count& count, Count& sum) {
   for (const auto counter : kCounters) sum.*counter += count.*counter;
@@ -135,7 +144,39 @@ void CountIntervals(const PublishedSpaceVerdict& proved, const PublishedSpaceVer
   count.differ += decided && (proved.outcome != rounded.outcome || proved.statistics != rounded.statistics);
 }
 
+// Static contacts alone.
+bool BreaksOpposition(const SpaceRun& run) {
+  bool breaks = false;
+  for (Eigen::Index row = 0; row < run.f.size(); row += 3)
+    breaks |= run.f[row + 1] * run.a[row + 1] + run.f[row + 2] * run.a[row + 2] > 0;
+  return breaks;
+}
+
+Count CountPolygon(const ExactProblem& problem) {
+  const RationalPolygons polygons(problem.contacts.size(), FrictionPolygon<Rational>(kSides));
+  const SpaceRun run = RunSpace(problem, polygons, Limits{});
+  SpaceOptions options;
+  options.sides = kSides;
+  const SpaceSolution solution = SolveInSpace(problem, options);
+  const bool solved = solution.outcome == Outcome::kSolved;
+  Count count;
+  count.problems = 1;
+  count.solved = count.proved_solved = solved;
+  count.ray = count.proved_ray = solution.outcome == Outcome::kRay;
+  count.limit = solution.outcome == Outcome::kLimit;
+  count.undecided = solution.outcome == Outcome::kUndecided;
+  count.breaks = BreaksOpposition(run);
+  count.on_edge = run.verdict.outcome == Outcome::kSolved && FindWeakViolation(problem, run.f).has_value();
+  count.refined = solution.refinements > 0;
+  if (solved) {
+    count.wrong = FindWeakViolation(problem, solution.f).has_value();
+    count.steps.push_back(solution.statistics.pieces);
+  }
+  return count;
+}
+
 Count CountProblem(const ExactProblem& problem, Slip slip) {
+  if (slip == Slip::kPolygon) return CountPolygon(problem);
   PublishedOptions options;
   options.policy.slip = slip;
   const RoundedSpaceRun run = RunRoundedInSpace<double>(problem, options);
@@ -167,7 +208,9 @@ Json RowOf(Json row, const Count& count) {
               {"proved solved", count.proved_solved},
               {"proved ray", count.proved_ray},
               {"unsure", count.unsure},
-              {"differ", count.differ}});
+              {"differ", count.differ},
+              {"on an edge", count.on_edge},
+              {"refined", count.refined}});
   return row;
 }
 
@@ -186,8 +229,10 @@ std::string NameOf(const std::array<int, 2>& mu) {
 int BenchSpace(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(2000);
   const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{1, 2, 3, 4} : options.contacts;
-  BenchTable by_size{"sizes",
-                     "readings of section 5.6: outcomes over doubles, and what intervals prove of them"};
+  BenchTable by_size{
+      "sizes",
+      "readings of section 5.6: outcomes over doubles, and what intervals prove of them; slip=polygon "
+      "exactly"};
   BenchTable by_friction{"friction", "the same by friction coefficient, all sizes"};
   std::array<std::array<Count, kFrictions.size()>, kReadings.size()> of_friction;
   std::int64_t bad = 0;

@@ -39,6 +39,9 @@ int BenchGrowth(const BenchOptions& options);
 int BenchLinearAlgebra(const BenchOptions& options);
 // The readings of section 5.6 side by side, on problems in space (space.cpp).
 int BenchSpace(const BenchOptions& options);
+// The published algorithm where contacts slide (sliding.cpp).
+int BenchSliding(const BenchOptions& options);
+
 // The scenes of a folder, minimal and full models side by side (scenes.cpp). InputError if there are none.
 int BenchScenes(const BenchOptions& options);
 

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <limits>
 
+#include "corpus/input_error.h"
 #include "corpus/json_text.h"
 #include "search/bench/suite.h"
 #include "search/unit.h"
@@ -73,21 +74,33 @@ int BenchSearch(const BenchOptions& o) {
 
 struct Suite {
   std::string_view name, help;
+  int most_contacts;  // that --contacts may ask for
   int (*run)(const BenchOptions&);
 };
 
+constexpr int kMostOfMethods = 30;  // 4^n - 1 pieces are counted in 64 bits
+
 constexpr std::array kSuites = {
-    Suite{"search", "problems a second of the search's hot path", BenchSearch},
-    Suite{"methods", "the methods side by side: counts, outcomes, times", BenchMethods},
-    Suite{"peers", "stiction beside other packages, by the program stiction-peers", BenchPeers},
-    Suite{"growth", "of it, time and memory at up to 2000 contacts", BenchGrowth},
-    Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", BenchLinearAlgebra},
-    Suite{"space", "readings of section 5.6 in space: counts and outcomes", BenchSpace},
-    Suite{"scenes", "frames a second of the scenes of a folder, minimal and full models", BenchScenes},
+    Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
+    Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
+    Suite{"peers", "stiction beside other packages, by the program stiction-peers", 2000, BenchPeers},
+    Suite{"growth", "of it, time and memory at up to 2000 contacts", 2000, BenchGrowth},
+    Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts,
+          BenchLinearAlgebra},
+    Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
+    Suite{"sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts, BenchSliding},
+    Suite{"scenes", "frames a second of the scenes of a folder, minimal and full models", kMaxContacts, BenchScenes},
 };
 
 int RunBench(const BenchOptions& o) {
   const auto suite = std::find_if(kSuites.begin(), kSuites.end(), [&o](auto& s) { return s.name == o.suite; });
+  const int most = o.generator ? kMaxContacts : suite->most_contacts;
+  for (const int contacts : o.contacts) {
+    if (contacts > most) {
+      throw InputError(fmt::format("--contacts: found {}, expected 1 to {} for suite {}{}", contacts, most,
+                                   o.suite, o.generator ? " with a generator" : ""));
+    }
+  }
   return suite->run(o);
 }
 
@@ -104,12 +117,17 @@ void AddBench(CLI::App& program, Action& action) {
   }
   for (const GeneratorRow& row : Generators()) generators.emplace_back(row.name);
   verb.add_option("--suite", o->suite, help)->capture_default_str()->check(CLI::IsMember(suites));
-  verb.add_option("--contacts", o->contacts, "numbers of contacts")->check(CLI::Range(1, kMaxContacts));
+  std::string limits;
+  for (const Suite& suite : kSuites)
+    limits += fmt::format("{}{} {}", limits.empty() ? "" : ", ", suite.name, suite.most_contacts);
+  verb.add_option("--contacts", o->contacts,
+                  fmt::format("numbers of contacts; at most: {}; {} with a generator", limits, kMaxContacts))
+      ->check(CLI::PositiveNumber);
   verb.add_option("--problems", o->problems,
                   "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
                   "methods, peers: problems of each number of contacts (default 800, 400); linear-algebra: "
                   "systems of a row (default 200); space: problems of each family and number of contacts "
-                  "(default 2000)")
+                  "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
                   "search, linear-algebra, scenes: counted runs; peers: 0.06 seconds each for a row and size")
@@ -120,7 +138,7 @@ void AddBench(CLI::App& program, Action& action) {
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   verb.add_option_function<std::string>(
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
-          "search: this one alone; methods: instead of the positive definite family")
+          "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
   verb.add_option("--scenes", o->scenes, "scenes: the folder")->capture_default_str();
   verb.add_flag("--json", o->json, "machine output");

@@ -10,6 +10,7 @@
 #include "certify/certificate.h"
 #include "certify/existence.h"
 #include "certify/safe.h"
+#include "certify/safety_threshold.h"
 #include "certify/space.h"
 #include "corpus/json_text.h"
 #include "search/verbs/verbs.h"
@@ -47,8 +48,7 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   const Enumeration modes = EnumerateModes(file.problem, WithProgress({}));
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
-    Json word = Json::array();
-    for (const Mode mode : solution.word) word.push_back(Name(mode));
+    const Json word = WordToJson(solution.word);
     words.push_back({{"modes", word}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
     if (!o.json) {
       fmt::print("{}{}: f = {}\n", word.dump(), solution.unique ? "" : " (more than one)",
@@ -96,12 +96,11 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
 int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
   Json result = {{"safe", !DecideSafety(file.problem).unsafe_word.has_value()}};
   if (const auto threshold = FindSafetyThreshold(file.problem)) {
-    Json word = Json::array(), polynomial = Json::array();
-    for (const Mode mode : threshold->word) word.push_back(Name(mode));
+    Json polynomial = Json::array();
     for (const Rational& coefficient : threshold->polynomial) polynomial.push_back(ToString(coefficient));
     result["threshold"] = {{"low", ToString(threshold->low)},
                            {"high", ToString(threshold->high)},
-                           {"word", word},
+                           {"word", WordToJson(threshold->word)},
                            {"polynomial", polynomial}};
   }
   if (!o.output.empty()) WriteText(o.output, JsonText(SafetyCertificate(file.problem), 1) + "\n");
@@ -121,17 +120,16 @@ int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
   return kExitDone;
 }
 
-// Loops are claimed of problems that the published algorithm handles, modes listed of planar ones, Coulomb's
-// law of those in space.
+// Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
+// Coulomb's law is that of problems in space.
 ProblemFile ReadFor(const CertifyOptions& o) {
-  if (o.all) return ReadPlanarProblem(o.file);
+  if (o.all || o.claim == "cycle" || o.claim == "stall") return ReadPlanarProblem(o.file);
   if (o.claim == "coulomb-solution") {
     ProblemFile file = ReadProblem(o.file);
     if (file.problem.dimension == 3) return file;
     throw InputError(o.file, "dimension", "2", "3: in the plane the claim is solution-exists");
   }
-  const bool handled = o.safe || o.claim == "safe" || o.claim == "cycle" || o.claim == "stall";
-  return handled ? ReadHandledProblem(o.file) : ReadProblem(o.file);
+  return o.safe || o.claim == "safe" ? ReadHandledProblem(o.file, "safety") : ReadProblem(o.file);
 }
 
 int RunCertify(const CertifyOptions& o) {

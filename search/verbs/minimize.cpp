@@ -41,7 +41,7 @@ std::string CheckKeep(const std::string& text) {
 }
 
 int RunMinimize(const MinimizeVerb& o) {
-  ProblemFile file = ReadHandledProblem(o.file);
+  ProblemFile file = ReadPlanarProblem(o.file);
   const Policy policy = ParsePolicy(o.policy);
   const ExactRun run = RunExact(file.problem, {policy, {}, o.limits});
   const std::string keep = o.keep.empty() ? std::string(Name(run.verdict.outcome)) : o.keep;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction search, status, merge, report: campaigns and their stores.
+// stiction search, status, merge, problem, report: campaigns and their stores.
 
 #include "search/search.h"
 
@@ -16,6 +16,7 @@
 #include "build_id.h"
 #include "corpus/json_text.h"
 #include "reports/report.h"
+#include "search/exponential.h"
 #include "search/summary.h"
 #include "search/unit.h"
 #include "search/verbs/verbs.h"
@@ -188,20 +189,37 @@ int RunStatus(const std::string& file, bool json) {
 
 struct ProblemVerb {
   std::string store, output = "-";
-  std::int64_t unit = 0, index = 0;
+  std::optional<std::int64_t> unit, index;
+  std::optional<int> exponential;  // contacts
+  bool scaled = false;
 };
 
-int RunProblem(const ProblemVerb& o) {
+ProblemFile ExponentialFile(int contacts, bool scaled) {
+  ProblemFile file;
+  file.name = fmt::format("exponential-pivots-{}-frictionless{}", contacts, scaled ? "-scaled" : "");
+  file.problem = ExponentialFamily(contacts, scaled);
+  file.origin = {{"family", "exponential"}, {"contacts", contacts}, {"scaled", scaled}};
+  return file;
+}
+
+ProblemFile StoredFile(const ProblemVerb& o) {
   const Store store = Store::OpenToRead(o.store);
   const Campaign campaign = CampaignOf(store.identity(), o.store);
-  if (!store.Units().Contains(o.unit))
-    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, o.unit));
-  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), o.unit));
-  if (o.index >= problems) {
-    throw InputError(
-        fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, o.index, o.unit, problems - 1));
+  if (!store.Units().Contains(*o.unit))
+    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), *o.unit));
+  if (*o.index >= problems) {
+    throw InputError(fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, *o.unit,
+                                 problems - 1));
   }
-  WriteText(o.output, Print(RegenerateFile(campaign, o.unit, o.index)));
+  return RegenerateFile(campaign, *o.unit, *o.index);
+}
+
+int RunProblem(const ProblemVerb& o) {
+  const bool stored = !o.store.empty();
+  if (stored == o.exponential.has_value() || stored != o.index.has_value() || (o.scaled && stored))
+    throw InputError("problem: expected either STORE UNIT INDEX, or --exponential N and perhaps --scaled");
+  WriteText(o.output, Print(stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled)));
   return kExitDone;
 }
 
@@ -289,12 +307,18 @@ void AddMerge(CLI::App& program, Action& action) {
 void AddProblem(CLI::App& program, Action& action) {
   auto o = std::make_shared<ProblemVerb>();
   CLI::App& verb =
-      *program.add_subcommand("problem", "Write any problem that a search tried, as a problem file");
-  verb.add_option("STORE", o->store, "store of a search")->required();
-  verb.add_option("UNIT", o->unit, "number of the unit")->required()->check(CLI::NonNegativeNumber);
+      *program.add_subcommand("problem",
+                              "Write any problem that a search tried, or the worst case without friction, as a "
+                              "problem file");
+  verb.add_option("STORE", o->store, "store of a search");
+  verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
   verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
-      ->required()
       ->check(CLI::NonNegativeNumber);
+  verb.add_option("--exponential", o->exponential,
+                  "instead: the problem of so many contacts without friction, 1 to 200, on which the published "
+                  "algorithm takes 2^n - 1 pivots")
+      ->check(CLI::Range(1, 200));
+  verb.add_flag("--scaled", o->scaled, "of it the form that does so for scan=most-violated too");
   verb.add_option("-o,--output", o->output, "file to write; - is standard output")->capture_default_str();
   verb.callback([o, &action] { action = [o] { return RunProblem(*o); }; });
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
@@ -16,21 +17,8 @@
 namespace stiction {
 namespace {
 
-constexpr int kExactAssumptionContacts = 50;
-
-const char* KindName(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::kBilateral:
-      return "bilateral";
-    case ContactKind::kFrictionless:
-      return "frictionless";
-    case ContactKind::kStatic:
-      return "static";
-    case ContactKind::kSliding:
-      return "sliding";
-  }
-  return "";
-}
+constexpr int kExactAssumptionRows =
+    60;  // above, exact elimination of numbers as long as doubles takes minutes
 
 template <class Options>
 void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
@@ -66,13 +54,13 @@ ProblemFile ReadPlanarProblem(const std::string& file) {
   return problem;
 }
 
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method, Dimensions dimensions) {
-  ProblemFile problem = dimensions == Dimensions::kAny ? ReadProblem(file) : ReadPlanarProblem(file);
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what) {
+  ProblemFile problem = ReadPlanarProblem(file);
   for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
     const ContactKind kind = problem.problem.contacts[i].kind;
     if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
-    throw InputError(file, fmt::format("contacts[{}].kind", i), KindName(kind),
-                     "frictionless or static: method " + method + " is built for these");
+    throw InputError(file, fmt::format("contacts[{}].kind", i), std::string(Name(kind)),
+                     fmt::format("frictionless or static: {} is a property of problems of these", what));
   }
   return problem;
 }
@@ -121,26 +109,55 @@ void WriteText(const std::string& file, const std::string& text) {
   if (!out) throw InputError(fmt::format("{}: cannot be written", file));
 }
 
-Json StatisticsToJson(const Statistics& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
+Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
 }
+
+namespace {
+
+Json FailedSemidefinite(const NegativeCurvature& negative) {
+  return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
+}
+
+// What bounds decide of problems too large for exact elimination.
+void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
+  ProblemFile file;
+  file.problem = problem;
+  const SparseProblem sparse = ToSparse(file);
+  const CurvatureBounds curvature = BoundCurvature(sparse);
+  if (curvature.negative) {
+    failed.push_back(FailedSemidefinite(*curvature.negative));
+  } else if (!curvature.least || *curvature.least < 0) {
+    failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
+  }
+  if (!IsRegularModuloPrime(sparse)) {
+    failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
+  }
+}
+
+}  // namespace
 
 Json FailedAssumptions(const ExactProblem& problem) {
   Json failed = Json::array();
   if (const auto pair = FindAsymmetry(problem.A)) {
     failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
   }
-  if (problem.contacts.size() > kExactAssumptionContacts) {
-    failed.push_back({{"assumption", "psd"}, {"undecided", "more than 50 contacts"}});
-    failed.push_back({{"assumption", "in-range"}, {"undecided", "more than 50 contacts"}});
+  if (problem.rows() > kExactAssumptionRows) {
+    AddBoundedAssumptions(problem, failed);
     return failed;
   }
   const auto semidefinite = DecideSemidefinite(problem.A);
   if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
-    failed.push_back(
-        {{"assumption", "psd"}, {"x", VectorToJson(negative->x)}, {"value", ToString(negative->value)}});
+    failed.push_back(FailedSemidefinite(*negative));
   }
   const auto range = DecideRange(problem.A, problem.b);
   if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 
 #include "certify/certificate.h"
@@ -11,6 +10,7 @@
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
 #include "search/verbs/solve_published_space.h"
 #include "search/verbs/solve_space.h"
 #include "search/verbs/verbs.h"
@@ -63,13 +63,6 @@ Json RunToJson(const Verdict& verdict) {
   return json;
 }
 
-template <class S>
-Json CountersToJson(const S& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
-
 template <class Scalar>
 Answer<Scalar> AnswerOf(Outcome outcome, std::string_view reason) {
   Answer<Scalar> answer;
@@ -82,7 +75,7 @@ Answer<Scalar> AnswerOf(Outcome outcome, std::string_view reason) {
 
 Answer<Rational> RunPublished(const ExactProblem& problem, const PublishedOptions& options) {
   const ExactRun run = RunExact(problem, options);
-  return {run.verdict, run.state.f, run.ray, CountersToJson(run.verdict.statistics), {}};
+  return {run.verdict, run.state.f, run.ray, StatisticsToJson(run.verdict.statistics), {}};
 }
 
 Answer<Rational> RunComplete(const ExactProblem& problem, const PublishedOptions& options) {
@@ -90,7 +83,7 @@ Answer<Rational> RunComplete(const ExactProblem& problem, const PublishedOptions
   auto answer = AnswerOf<Rational>(run.verdict.outcome, run.verdict.reason);
   answer.f = run.f;
   answer.ray = run.ray;
-  answer.statistics = CountersToJson(run.verdict.statistics);
+  answer.statistics = StatisticsToJson(run.verdict.statistics);
   answer.word = run.word;
   return answer;
 }
@@ -147,7 +140,7 @@ Answer<Scalar> RunMethod(const std::string& method, const ContactProblem<Scalar>
     CompleteDriving<Scalar> driving(complete);
     const CompleteVerdict verdict = driving.Run(problem);
     answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
-    answer.statistics = CountersToJson(verdict.statistics);
+    answer.statistics = StatisticsToJson(verdict.statistics);
     answer.word = driving.Word();
     answer.f = driving.state().f;
   } else if (method == "lemke") {
@@ -166,13 +159,13 @@ Answer<Scalar> RunMethod(const std::string& method, const ContactProblem<Scalar>
     FastSolver<Scalar> solver(fast);
     const FastVerdict verdict = solver.Run(problem);
     answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
-    answer.statistics = CountersToJson(verdict.statistics);
+    answer.statistics = StatisticsToJson(verdict.statistics);
     if (verdict.outcome == Outcome::kSolved) answer.word = solver.Word();
     answer.f = solver.f();
   } else {
     PublishedAlgorithm<Scalar> algorithm(options);
     answer.verdict = algorithm.Run(problem);
-    answer.statistics = CountersToJson(answer.verdict.statistics);
+    answer.statistics = StatisticsToJson(answer.verdict.statistics);
     answer.f = algorithm.state().f;
   }
   return answer;
@@ -196,53 +189,14 @@ Answer<Scalar> RunReduced(const std::string& method, const ContactProblem<Scalar
                           const PublishedOptions& options) {
   if (!Reduction<Scalar>::Concerns(problem)) return RunMethod(method, problem, options);
   const Reduction<Scalar> reduction(problem, options.tolerances);
-  switch (reduction.end()) {
-    case ReductionEnd::kInconsistent:
-      return AnswerOf<Scalar>(Outcome::kSingular, "no forces keep the bilateral constraints");
-    case ReductionEnd::kSingular:
-      return AnswerOf<Scalar>(Outcome::kSingular, "the bilateral constraints are singular");
-    case ReductionEnd::kReduced:
-      break;
-  }
+  if (reduction.end() != ReductionEnd::kReduced)
+    return AnswerOf<Scalar>(Outcome::kSingular, Reason(reduction.end()));
   Answer<Scalar> answer = RunMethod(method, reduction.problem(), options);
   const auto rows = reduction.problem().rows();
   if (answer.f.size() == rows) answer.f = reduction.Forces(answer.f);
   if (rows > 0 && answer.ray.size() == rows) answer.ray = reduction.Direction(answer.ray);
   if (answer.word.is_string()) answer.word = FullWord(problem, answer.word.template get<std::string>());
   return answer;
-}
-
-// The problem in rounded numbers; `rounded` receives the same problem exactly.
-template <class Scalar>
-ContactProblem<Scalar> Round(const ExactProblem& problem, ExactProblem& rounded) {
-  const auto round = [](Rational& x) {
-    const Scalar value = static_cast<Scalar>(ToDouble(x));
-    x = Rational(static_cast<double>(value));
-    return value;
-  };
-  rounded = problem;
-  ContactProblem<Scalar> result;
-  result.dimension = problem.dimension;
-  for (Contact<Rational>& contact : rounded.contacts)
-    result.contacts.push_back(
-        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
-  result.A.resize(problem.rows(), problem.rows());
-  result.b.resize(problem.rows());
-  for (int i = 0; i < problem.rows(); ++i) {
-    result.b[i] = round(rounded.b[i]);
-    for (int j = 0; j < problem.rows(); ++j) result.A(i, j) = round(rounded.A(i, j));
-  }
-  return result;
-}
-
-template <class Vector>
-Json NumbersToJson(const Vector& values) {
-  Json json = Json::array();
-  for (const auto& value : values) {
-    const double number = static_cast<double>(value);
-    json.push_back(std::isfinite(number) ? Json(number) : Json(fmt::format("{}", number)));
-  }
-  return json;
 }
 
 Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
@@ -261,10 +215,12 @@ Solved SolveExactly(const std::string& method, const ExactProblem& problem, cons
   return solved;
 }
 
+// `rounded`: the problem that was solved, exactly.
 template <class Scalar>
 Solved SolveRounded(const std::string& method, const ExactProblem& problem, const PublishedOptions& options,
                     ExactProblem& rounded) {
-  const ContactProblem<Scalar> inexact = Round<Scalar>(problem, rounded);
+  const ContactProblem<Scalar> inexact = Rounded<Scalar>(problem);
+  rounded = Converted<Rational>(inexact, [](Scalar x) { return Rational(static_cast<double>(x)); });
   const Answer<Scalar> answer = RunReduced<Scalar>(method, inexact, options);
   Solved solved;
   solved.verdict = answer.verdict;
@@ -319,9 +275,11 @@ int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) 
   return Show(answer.result, o.json, answer.outcome);
 }
 
-int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
+// `polygon`: asked for as a reading of the published algorithm.
+int SolveIn3D(const SolveOptions& o, bool polygon, const ExactProblem& problem) {
   SolvedInSpace solved =
       SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
+  if (polygon) solved.result["policy"] = "slip=polygon";
   solved.result["assumptions"] = FailedAssumptions(problem);
   return Show(solved.result, o.json, solved.outcome);
 }
@@ -329,8 +287,10 @@ int SolveIn3D(const SolveOptions& o, const ExactProblem& problem) {
 int Solve(const SolveOptions& given) {
   SolveOptions o = given;
   const bool in_space = ReadProblem(o.file).problem.dimension == 3;
+  const bool polygon = in_space && o.method == "baraff" && ParsePolicy(o.policy) == ParsePolicy("slip=polygon");
+  if (polygon) o.method = "complete";  // which that reading is
   if (in_space && o.method == "baraff") {
-    return SolveByPublishedInSpace(o, ReadHandledProblem(o.file, o.method, Dimensions::kAny).problem);
+    return SolveByPublishedInSpace(o, ReadProblem(o.file).problem);
   }
   const bool fast = o.method == "fast";
   if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
@@ -339,7 +299,7 @@ int Solve(const SolveOptions& given) {
         "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
         "of float, double, long-double, exact");
   }
-  if (in_space) return SolveIn3D(o, ReadProblem(o.file).problem);
+  if (in_space) return SolveIn3D(o, polygon, ReadProblem(o.file).problem);
   const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
   if (any_kind && o.arithmetic != "exact") {
     throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "certify/published_space.h"
 #include "corpus/input_error.h"
 #include "search/verbs/verbs.h"
@@ -23,13 +21,7 @@ Json OutcomeToJson(const PublishedSpaceVerdict& verdict) {
   return json;
 }
 
-Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
-Json VectorToJson(const std::vector<double>& values) {
-  Json json = Json::array();
-  for (const double x : values) json.push_back(NumberToJson(x));
-  return json;
-}
+Json VectorToJson(const std::vector<double>& values) { return NumbersToJson(values); }
 
 Json VectorToJson(const std::vector<Enclosure>& values) {
   Json json = Json::array();
@@ -44,6 +36,7 @@ PublishedSpaceAnswer Answer(const Run& run, const PublishedOptions& options) {
   json["policy"] = PolicyName(options.policy);
   json["f"] = VectorToJson(run.f);
   json["a"] = VectorToJson(run.a);
+  if (!run.ray.empty()) json["ray"] = VectorToJson(run.ray);
   json["statistics"] = StatisticsToJson(run.verdict.statistics);
   json["statistics"]["redirects"] = run.verdict.redirects;
   json["statistics"]["breaks"] = run.verdict.breaks;
@@ -81,8 +74,8 @@ PublishedSpaceAnswer SolvePublishedInSpace(const ExactProblem& problem, const st
                                            const PublishedOptions& options) {
   if (!PublishedReadsInSpace(options.policy)) {
     throw InputError(
-        fmt::format("--policy {}: expected file=no, apex=kept and slip=literal or slip=redirect in "
-                    "space, where no other reading of these is built",
+        fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
+                    "slip=polygon alone; no other reading of these is built",
                     PolicyName(options.policy)));
   }
   const std::string chosen = arithmetic.empty() ? "interval" : arithmetic;

@@ -16,7 +16,7 @@ struct PublishedSpaceAnswer {
   Json result;  // without the assumptions
 };
 
-// Requires PublishedHandlesInSpace(problem). An empty arithmetic is `interval`. InputError for an arithmetic or
+// Requires dimension 3. An empty arithmetic is `interval`. InputError for an arithmetic or
 // a policy that is not built for space.
 PublishedSpaceAnswer SolvePublishedInSpace(const ExactProblem& problem, const std::string& arithmetic,
                                            const PublishedOptions& options);

@@ -3,22 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "certify/certificate.h"
 #include "certify/space.h"
 #include "corpus/input_error.h"
+#include "corpus/rounded.h"
+#include "search/verbs/verbs.h"
 #include "solver/coulomb.h"
 
 namespace stiction {
 namespace {
-
-template <class S>
-Json CountersToJson(const S& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
 
 Json Beginning(const SolveSpaceOptions& o, Outcome outcome, std::string_view reason) {
   Json json = {{"outcome", Name(outcome)}};
@@ -44,32 +37,9 @@ SolvedInSpace SolveExactly(const ExactProblem& problem, const SolveSpaceOptions&
     if (options.law == FrictionLaw::kCoulomb) json["bound"] = ToString(solution.bound);
   }
   if (solution.ray.size() > 0) json["ray"] = VectorToJson(solution.ray);
-  json["statistics"] = CountersToJson(solution.statistics);
+  json["statistics"] = StatisticsToJson(solution.statistics);
   json["statistics"]["refinements"] = solution.refinements;
   return {solution.outcome, json};
-}
-
-template <class Scalar>
-ContactProblem<Scalar> Rounded(const ExactProblem& problem) {
-  const auto round = [](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); };
-  ContactProblem<Scalar> result;
-  result.dimension = problem.dimension;
-  for (const Contact<Rational>& contact : problem.contacts)
-    result.contacts.push_back(
-        {contact.kind, round(contact.mu), {round(contact.slip[0]), round(contact.slip[1])}});
-  result.A = problem.A.unaryExpr(round);
-  result.b = problem.b.unaryExpr(round);
-  return result;
-}
-
-template <class Vector>
-Json NumbersToJson(const Vector& values) {
-  Json json = Json::array();
-  for (const auto& value : values) {
-    const double number = static_cast<double>(value);
-    json.push_back(std::isfinite(number) ? Json(number) : Json(fmt::format("{}", number)));
-  }
-  return json;
 }
 
 // Coulomb's law, which implies the conditions (21), (22).
@@ -86,8 +56,8 @@ SolvedInSpace SolveRounded(const ExactProblem& problem, const SolveSpaceOptions&
   Json json = Beginning(o, verdict.outcome, verdict.reason);
   json["f"] = NumbersToJson(solver.f());
   json["a"] = NumbersToJson(solver.a());
-  json["residual"] = NumbersToJson(std::vector<double>{verdict.residual})[0];
-  json["statistics"] = CountersToJson(verdict.statistics);
+  json["residual"] = NumberToJson(verdict.residual);
+  json["statistics"] = StatisticsToJson(verdict.statistics);
   return {verdict.outcome, json};
 }
 

@@ -43,12 +43,9 @@ void AddPolicies(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
-// A problem that the pivoting methods handle: frictionless and static contacts, in the plane (PublishedHandles)
-// or, where any dimension is welcome, in space (PublishedHandlesInSpace). InputError that names the contact
-// otherwise.
-enum class Dimensions { kPlanar, kAny };
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& method = "baraff",
-                               Dimensions dimensions = Dimensions::kPlanar);
+// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
+// the contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
 
 // A planar problem of any kinds; InputError otherwise.
 ProblemFile ReadPlanarProblem(const std::string& file);
@@ -71,7 +68,26 @@ std::string Expected(const ProblemFile& file, const Policy& policy);
 // Writes a text file; "-" is standard output.
 void WriteText(const std::string& file, const std::string& text);
 
-Json StatisticsToJson(const Statistics& statistics);
+// What has a table of counters (ForEachField), by their names.
+template <class S>
+Json StatisticsToJson(const S& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
+
+inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
 
 // The assumptions of the paper that fail, each with its exact witness.
 Json FailedAssumptions(const ExactProblem& problem);

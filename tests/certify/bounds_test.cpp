@@ -84,7 +84,7 @@ TEST_CASE("bounds: what hides below rounding errors is covered by the bound") {
       x = choices.Integer(50000000, 100000000);
       trace += x * x;
     }
-    const Rational d = trace * Rational(choices.Integer(56, 80), 32) / Rational(mpz_class(1) << 53);
+    const Rational d = trace * Rational(choices.Integer(56, 80)) / 32 / Rational(mpz_class(1) << 53);
     ExactMatrix A(size, size);
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j < size; ++j) A(i, j) = J[i] * J[j] - (i == j ? d : Rational(0));
@@ -147,7 +147,7 @@ TEST_CASE("(H): decided either way with a certificate, and b in range(A) implies
     CAPTURE(index);
     Choices choices(index);
     ExactProblem problem = RandomGram(4, 1 + index % 3, 0, choices);
-    problem.contacts = {{ContactKind::kStatic, Rational(choices.Integer(0, 4), 2), {}},
+    problem.contacts = {{ContactKind::kStatic, Rational(choices.Integer(0, 4)) / 2, {}},
                         {ContactKind::kFrictionless, 0, {}},
                         {index % 4 == 0 ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}}};
     const Json certificate = HypothesisCertificate(problem);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of the whole grid: policies share a run only if they take the same steps.
+// Runs of the whole grid: policies share a run only if they take the same steps. Runs with bilateral and
+// sliding contacts: told in the terms of the whole problem.
 
 #include "certify/exact.h"
 
@@ -7,6 +8,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "certify/certificate.h"
+#include "certify/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -95,6 +98,99 @@ TEST_CASE("exact runs: without friction every policy solves within 2^n - 1 drive
 TEST_CASE("variables are named by kind and contact, counted from one") {
   const ExactProblem problem = MakeProblem({-1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0});
   CHECK(VariableNames(problem) == std::vector<std::string>{"N1", "N2", "F2"});
+}
+
+// What every kind of contact keeps at every step of a run: 4.5 and (24).
+void CheckKinds(const ExactProblem& problem, const ExactVector& f, const ExactVector& a,
+                const std::vector<IndexSet>& sets) {
+  REQUIRE(a == problem.A * f + problem.b);
+  const auto layout = LayoutOf(problem);
+  for (int i = 0; i < layout.ContactCount(); ++i) {
+    const Contact<Rational>& contact = problem.contacts[i];
+    const int row = layout.NormalRowOf(i);
+    if (contact.kind == ContactKind::kBilateral) {
+      CHECK(a[row] == 0);
+      CHECK(sets[row] == IndexSet::kClamped);
+    } else if (contact.kind == ContactKind::kSliding) {
+      CHECK(f[row + 1] == -contact.mu * contact.slip[0] * f[row]);
+      CHECK(sets[row + 1] == IndexSet::kNone);
+    }
+    if (sets[row] == IndexSet::kClamped) CHECK(a[row] == 0);
+    if (sets[row] == IndexSet::kSeparating) CHECK(f[row] == 0);
+  }
+}
+
+TEST_CASE("runs with bilateral and sliding contacts: every step in the terms of the whole problem") {
+  int ends[kOutcomeCount] = {}, steps = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    CAPTURE(seed);
+    const ExactProblem problem = RandomMixed(seed, seed % 2 == 0);
+    Choices choices(seed);
+    const ExactRun run = RunExact(problem, {RandomPolicy(choices), {}, {}});
+    ++ends[static_cast<int>(run.verdict.outcome)];
+    ExactVector f = run.initial_f;
+    for (const Pivot<Rational>& pivot : run.trace.pivots) {
+      REQUIRE(pivot.da == problem.A * pivot.df);
+      f += pivot.s * pivot.df;
+      REQUIRE(pivot.f == f);
+      CheckKinds(problem, pivot.f, pivot.a, pivot.sets);
+      CHECK(problem.contacts[LayoutOf(problem).ContactOf(pivot.driven)].kind != ContactKind::kBilateral);
+      ++steps;
+    }
+    CHECK(run.state.f == f);
+    CHECK(run.a == problem.A * f + problem.b);
+    if (run.verdict.outcome == Outcome::kSolved) CHECK_FALSE(FindViolation(problem, f));
+  }
+  CHECK(ends[static_cast<int>(Outcome::kSolved)] > 80);
+  CHECK(ends[static_cast<int>(Outcome::kRay)] > 0);
+  CHECK(steps > 150);
+}
+
+TEST_CASE("runs with bilateral contacts: steps and loops of what they leave, under every policy") {
+  const ExactProblem problem = ReferenceProblem(), bordered = Bordered(problem);
+  const auto classes = RunPolicies(problem, PlanarGrid(), {}), again = RunPolicies(bordered, PlanarGrid(), {});
+  REQUIRE(classes.size() == again.size());
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    CHECK(classes[k].policies == again[k].policies);
+    CHECK(classes[k].verdict.outcome == again[k].verdict.outcome);
+    CHECK(classes[k].verdict.statistics == again[k].verdict.statistics);
+  }
+  const PublishedOptions round = {ParsePolicy("resume=round"), {}, {}};
+  const ExactRun plain = RunExact(problem, round), run = RunExact(bordered, round);
+  CHECK(run.policy == round.policy);
+  CHECK(run.state.last_driven_contact == plain.state.last_driven_contact + 1);
+  CHECK(run.initial_f[0] == Rational(3, 2));
+  CHECK(run.initial_f[5] == 0);  // depends on the first
+  REQUIRE(run.trace.pivots.size() == plain.trace.pivots.size());
+  for (std::size_t k = 0; k < run.trace.pivots.size(); ++k) {
+    CHECK(run.trace.pivots[k].s == plain.trace.pivots[k].s);
+    CHECK(run.trace.pivots[k].driven == plain.trace.pivots[k].driven + 1);
+    CHECK(run.trace.pivots[k].limiting == plain.trace.pivots[k].limiting + 1);
+  }
+}
+
+TEST_CASE("runs with bilateral contacts: a certificate of a cycle speaks of the whole problem") {
+  const ExactProblem bordered = Bordered(ReferenceProblem());
+  Json certificate = LoopCertificate(bordered, Outcome::kCycle, {Policy{}}, {});
+  REQUIRE(certificate.is_object());
+  Json& state = certificate["witness"]["runs"][0]["state"];
+  CHECK(state["sets"]["N1"] == "C");
+  CHECK(state["sets"]["N4"] == "C");
+  CHECK(CheckCertificate(certificate, "test").accepted);
+  state["f"][0] = "1/1000";
+  CHECK_FALSE(CheckCertificate(certificate, "test").accepted);
+}
+
+TEST_CASE("bilateral contacts that no forces hold: singular before the first step") {
+  ExactProblem problem = MakeProblem({-1, -1}, {{1, 2}, {2, 4}}, {1, 3});
+  for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
+  const ExactRun run = RunExact(problem, {});
+  CHECK(run.verdict.outcome == Outcome::kSingular);
+  CHECK(run.verdict.reason == "no forces keep the bilateral constraints");
+  CHECK(run.trace.pivots.empty());
+  CHECK(run.a == problem.b);
+  CHECK(RunPolicies(problem, PlanarGrid(), {}).size() == 1);
+  CHECK(LoopCertificate(problem, Outcome::kCycle, {Policy{}}, {}).is_null());
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST_CASE("ipopt: every kind of contact") {
   problem.contacts[0].mu = Rational(1, 10);
   const auto sliding = Propose(problem);
   REQUIRE(sliding);
-  CHECK(!FindLawViolation(problem, *sliding));
+  CHECK(!FindViolation(problem, *sliding));
 
   // Pulled apart: the bilateral contact needs a negative force.
   ExactProblem held = MakeProblem({-1, 1}, {{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {4, -1, Rational(1, 2)});

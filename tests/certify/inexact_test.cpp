@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/modes.h"
+#include "certify/enumerate.h"
 #include "solver/complete.ipp"
 #include "solver/fast.ipp"
 #include "solver/lemke.ipp"

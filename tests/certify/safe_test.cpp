@@ -9,6 +9,9 @@
 #include <fstream>
 #include <functional>
 
+#include "certify/enumerate.h"
+#include "certify/safety_threshold.h"
+#include "certify/witness.h"
 #include "solver/check.h"
 #include "tests/support.h"
 
@@ -47,7 +50,7 @@ ExactProblem RandomDefinite(int contacts, std::uint64_t index) {
   for (int i = 0; i < problem.rows(); ++i) {
     problem.A(i, i) += Rational(1, 1 + choices.Integer(0, 9));
     problem.b[i] =
-        Rational(choices.Integer(-1000003, 600000), 7919) + Rational(choices.Integer(1, 9999), 1000003);
+        Rational(choices.Integer(-1000003, 600000)) / 7919 + Rational(choices.Integer(1, 9999)) / 1000003;
   }
   return problem;
 }
@@ -86,11 +89,11 @@ Rational UnfoldedDeterminant(const ExactProblem& problem, const ModeWord& word) 
   return Laplace(M);
 }
 
-std::vector<ModeWord> AllWords(const ExactProblem& problem, std::size_t contact = 0) {
+std::vector<ModeWord> WordsBehind(const ExactProblem& problem, std::size_t contact = 0) {
   if (contact == problem.contacts.size()) return {{}};
   std::vector<ModeWord> words;
   for (const Mode mode : ModesOf(problem.contacts[contact])) {
-    for (ModeWord rest : AllWords(problem, contact + 1)) {
+    for (ModeWord rest : WordsBehind(problem, contact + 1)) {
       rest.insert(rest.begin(), mode);
       words.push_back(rest);
     }
@@ -106,7 +109,7 @@ bool Accepts(const Json& certificate) {
   try {
     const ExactProblem problem = ProblemFromJson(certificate["problem"], "c", "problem", true);
     const auto check = certificate["claim"] == "safe" ? CheckSafe : CheckUnsafe;
-    return !check(problem, certificate["witness"]).fault;
+    return !FindFault(*check, problem, certificate["witness"]);
   } catch (const InputError&) {
     return false;
   }
@@ -154,7 +157,7 @@ TEST_CASE("safe: determinants by elimination down the tree are those of the matr
     if (index % 4 == 1) problem.A(0, problem.rows() - 1) += 2;
     if (index % 5 == 2) problem.contacts[0].mu = 0;
     const Safety safety = DecideSafety(problem);
-    const std::vector<ModeWord> words = AllWords(problem);
+    const std::vector<ModeWord> words = WordsBehind(problem);
     std::size_t first = 0;
     while (first < words.size() && UnfoldedDeterminant(problem, words[first]) > 0) ++first;
     REQUIRE(safety.determinants.size() == std::min(first + 1, words.size()));
@@ -191,7 +194,7 @@ TEST_CASE("safe: other kinds, space, and too many words are refused") {
   sliding.contacts[0] = {ContactKind::kSliding, 1, {Rational(1), Rational(0)}};
   CHECK_THROWS_AS(SafetyCertificate(sliding), InputError);
   CHECK_THROWS_AS(FindSafetyThreshold(sliding), InputError);
-  CHECK(CheckSafe(sliding, {{"determinants", {"1"}}}).fault->path == "problem");
+  CHECK(FindFault(CheckSafe, sliding, {{"determinants", {"1"}}})->path == "problem");
   CHECK_THROWS_WITH(DecideSafety(ExponentialFamily(17)), Contains("more than 65536 words"));
   CHECK_THROWS_AS(FindSafetyThreshold(ExponentialFamily(17)), InputError);
 }
@@ -371,7 +374,7 @@ TEST_CASE("safe: below the threshold a problem is safe, at and just above it is 
 
 // The verdicts of check_certificate.py.
 std::vector<bool> PythonAccepts(const std::vector<Json>& certificates) {
-  const auto sources = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const std::filesystem::path sources = STICTION_SOURCES;
   std::string folder = (std::filesystem::temp_directory_path() / "stiction-safe-XXXXXX").string();
   REQUIRE(mkdtemp(folder.data()) != nullptr);
   std::string command = "python3 '" + (sources / "certify/check_certificate.py").string() + "'";
@@ -426,8 +429,7 @@ TEST_CASE("safe: certificates of both claims are accepted, in C++ and in Python"
   CHECK(safe > 5);
   CHECK(safe < 35);
   CHECK(PythonAccepts(certificates) == std::vector<bool>(certificates.size(), true));
-  const SafetyCheck check = CheckSafe(NoContacts(), WitnessOf(NoContacts()));
-  CHECK(check.facts == Json({{"words", 1}, {"smallest", "1"}}));
+  CHECK(CheckSafe(NoContacts(), WitnessOf(NoContacts())) == Json({{"words", 1}, {"smallest", "1"}}));
 }
 
 // Every value below a place of a document, altered in several ways or taken away.
@@ -462,18 +464,13 @@ void Alter(const Json& whole, const Json::json_pointer& at, std::vector<Json>& a
 bool IsTrue(const Json& certificate) {
   const ExactProblem problem = ProblemFromJson(certificate["problem"], "c", "problem", true);
   const Json& witness = certificate["witness"];
-  const auto words = AllWords(problem);
+  const auto words = WordsBehind(problem);
   const auto states = [&](const Json& value, const ModeWord& word) {
     return Number(value.get<std::string>()) == UnfoldedDeterminant(problem, word);
   };
-  const auto spelled = [](const ModeWord& word) {
-    Json modes = Json::array();
-    for (const Mode mode : word) modes.push_back(Name(mode));
-    return modes;
-  };
   for (std::size_t k = 0; k < words.size(); ++k) {
     if (certificate["claim"] == "unsafe") {
-      if (spelled(words[k]) != witness["word"]) continue;
+      if (WordToJson(words[k]) != witness["word"]) continue;
       return states(witness["determinant"], words[k]) && Number(witness["determinant"].get<std::string>()) <= 0;
     }
     const Json& value = witness["determinants"][k];
@@ -521,15 +518,15 @@ TEST_CASE("safe: a rejected witness is told by path, what was found and what was
   const ExactProblem safe = WithMu(ThreeSolutions(), Rational(2, 5));
   Json witness = WitnessOf(safe);
   witness["determinants"][2] = "1/6";
-  const auto wrong = CheckSafe(safe, witness).fault;
+  const auto wrong = FindFault(CheckSafe, safe, witness);
   REQUIRE(wrong);
   CHECK(wrong->path == "witness.determinants[2]");
   CHECK(wrong->found == "\"1/6\"");
   CHECK_THAT(wrong->expected, Contains("1/5") && Contains("slip+"));
   const Json positive = {{"word", {"slip+"}}, {"determinant", "1/5"}};
-  CHECK(CheckUnsafe(safe, positive).fault->expected == "a number <= 0");
+  CHECK(FindFault(CheckUnsafe, safe, positive)->expected == "a number <= 0");
   const Json negative = {{"determinants", {"1", "1", "-1", "3"}}};
-  CHECK(CheckSafe(ThreeSolutions(), negative).fault->expected == "a number > 0");
+  CHECK(FindFault(CheckSafe, ThreeSolutions(), negative)->expected == "a number > 0");
 }
 
 }  // namespace

@@ -129,12 +129,16 @@ class Peers(cli.TestCase):
         done = cli.run("bench", "--suite", "peers", "--json", "--contacts", 2, 5, "--problems", 30, "--repeat", 1)
         self.assertEqual(done.code, 0, done.err)
         tables = {table["name"]: table for table in done.json()["tables"]}
-        self.assertEqual(set(tables), {"full", "half", "planar", "planar-half", "growth-frictionless", "growth-planar"})
-        for name in ["full", "half", "planar", "planar-half"]:
+        self.assertEqual(set(tables), {"full", "half", "planar", "planar-half", "space", "space-half",
+                                       "growth-frictionless", "growth-planar"})
+        for name in ["full", "half", "planar", "planar-half", "space", "space-half"]:
             rows = {row["name"]: row for row in tables[name]["rows"]}
             self.assertEqual([cell["ratio"] for cell in rows["Eigen LU"]["cells"]], [1, 1])
-            for cell in rows["fast"]["cells"]:
-                self.assertEqual((cell["tried"], cell["wrong"], cell["silent"]), (30, 0, 0))
+            self.assertIn("Siconos NSN-AC 1e-9" if "space" in name else "published", rows)
+            for method in ["fast", "complete"]:
+                for cell in rows[method]["cells"]:
+                    self.assertEqual((cell["tried"], cell["wrong"], cell["silent"]), (30, 0, 0), (name, method))
+                    self.assertLessEqual(cell["residual"], 1e-8)
             for row in rows.values():
                 self.assertEqual([cell["contacts"] for cell in row["cells"]], [2, 5])
                 for cell in row["cells"]:
@@ -156,6 +160,30 @@ class Peers(cli.TestCase):
 
     def test_bad_options_exit_with_2(self):
         self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
+        self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])
+        self.refuses("bench", "--suite", "methods", "--generator", "psd", "--contacts", 9,
+                     says=["found 9", "1 to 8", "generator"])
+        self.refuses("bench", "--suite", "space", "--contacts", 13, says=["found 13", "1 to 12"])
+        self.refuses("bench", "--suite", "growth", "--contacts", 0, says=["--contacts"])
+
+
+class Sliding(cli.TestCase):
+    def test_every_problem_has_one_outcome_and_every_cycle_is_decided(self):
+        arguments = ["bench", "--suite", "sliding", "--contacts", "1", "2", "--problems", "20000", "--json"]
+        done = self.succeeds(*arguments)
+        rows = done.json()["rows"]
+        self.assertEqual([(row["generator"], row["contacts"], row["sliding"]) for row in rows],
+                         [(generator, *size) for generator in ["integers", "small"]
+                          for size in [(1, 1), (2, 1), (2, 2)]])
+        outcomes = ["solved", "cycle", "stall", "ray", "singular", "limit", "undecided"]
+        for row in rows:
+            self.assertEqual(sum(row[outcome] for outcome in outcomes), 20000)
+            self.assertEqual(row["stall"], 0)
+            self.assertEqual(row["refuted"] + row["with a solution"] + row["without"], row["cycle"])
+            self.assertLessEqual(row["every policy"], row["cycle"])
+            self.assertGreater(row["ray"], 0)
+        self.assertGreater(rows[1]["with a solution"], 0)
+        self.assertEqual(self.succeeds(*arguments).out, done.out)
 
 
 if __name__ == "__main__":

@@ -147,7 +147,8 @@ class Formats(cli.TestCase):
         # The smallest eigenvalue is 2 - 2 cos(pi / 61) = 0.00265; bounds are relative to 2.
         self.assertLess(entry["curvature"]["least"], 0.00133)
         self.assertIs(entry["range"]["in-range"], True)
-        self.assertEqual([run["outcome"] for run in entry["runs"]], ["solved"])
+        self.assertEqual([(run["method"], run["outcome"]) for run in entry["runs"]],
+                         [("proximal", "solved"), ("complete", "solved")])
         rows[0][0] = rows[-1][-1] = "1"  # a chain without ends: singular, with the kernel (1, ..., 1)
         entry, = self.survey(self.file("loose.json", problem))
         self.assertIsNone(entry["range"]["in-range"])

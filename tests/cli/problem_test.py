@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction solve and replay on files: outputs and exit codes."""
 
+import json
 from fractions import Fraction
 
 import cli
@@ -12,6 +13,43 @@ def changed(problem, **members):
 
 def product(A, x):
     return [sum(Fraction(a) * Fraction(v) for a, v in zip(row, x)) for row in A]
+
+
+class Exponential(cli.TestCase):
+    def member(self, n, *more):
+        return self.succeeds("problem", "--exponential", n, *more).json()
+
+    def pivots(self, problem, *more):
+        result = self.succeeds("solve", self.file("e.json", problem), "--json", *more).json()
+        self.assertEqual((result["outcome"], result["assumptions"]), ("solved", []))
+        return result["statistics"]
+
+    def test_the_member_of_five_contacts_is_the_one_in_the_corpus(self):
+        with open(cli.ROOT / "corpus/exponential-pivots-5-frictionless.json") as stored:
+            stored = json.load(stored)
+        for key in ["name", "contacts", "A", "b"]:
+            self.assertEqual(self.member(5)[key], stored[key])
+
+    def test_two_to_the_n_less_one_pivots(self):
+        for n in [1, 2, 7, 10]:
+            self.assertEqual(self.pivots(self.member(n))["pivots"], 2 ** n - 1)
+            self.assertEqual(self.pivots(self.member(n), "--method", "complete")["pieces"], 2 ** n - 1)
+            scaled = self.member(n, "--scaled")
+            for scan in ["paper", "scan=most-violated"]:
+                self.assertEqual(self.pivots(scaled, "--policy", scan)["pivots"], 2 ** n - 1)
+        self.assertLess(self.pivots(self.member(10), "--policy", "scan=most-violated")["pivots"], 20)
+
+    def test_large_members_are_exact_and_bad_usage_is_refused(self):
+        large = self.member(200)
+        self.assertEqual((len(large["contacts"]), large["A"][0][0]), (200, str(1 + 4 * 199)))
+        self.assertEqual(Fraction(large["b"][0]), Fraction(1, 8 ** 200) - 1)
+        scaled = self.member(200, "--scaled")
+        self.assertEqual(Fraction(scaled["b"][0]), 4 ** 199 * Fraction(large["b"][0]))
+        for arguments in [[], ["--scaled"], ["some.store"], ["some.store", 1], ["some.store", 1, 1, "--exponential", 3],
+                          ["some.store", 1, 1, "--scaled"]]:
+            self.refuses("problem", *arguments, says=["STORE UNIT INDEX", "--exponential"])
+        self.refuses("problem", "--exponential", 0, says=["--exponential"])
+        self.refuses("problem", "--exponential", 201, says=["--exponential"])
 
 
 class Solve(cli.TestCase):
@@ -135,18 +173,9 @@ class Solve(cli.TestCase):
     def test_what_the_method_does_not_handle_is_refused_by_place(self):
         space = changed(cli.SOLVED, dimension=3, A=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
                         b=["-1", "0", "0"])
-        bilateral = changed(cli.SOLVED, contacts=[{"kind": "bilateral"}], A=[["1"]], b=["-1"])
-        sliding = changed(cli.SOLVED, contacts=[{"kind": "sliding", "mu": "1", "slip": "1"}])
-        for problem, says in [(space, "dimension: found 3"), (bilateral, "contacts[0].kind: found bilateral"),
-                              (sliding, "contacts[0].kind: found sliding")]:
-            file = self.file("p.json", problem)
-            certify = ("certify", "-o", "-", "--claim", "cycle")
-            solve = ("solve", "--method", "lemke")  # in space the published algorithm is built
-            verbs = [("replay",), ("minimize", "-o", "-"), certify]
-            if problem is space:  # kinds are reduced before any method runs
-                verbs.append(solve)
-            for verb in verbs:
-                self.refuses(*verb, file, says=[file, says])
+        file = self.file("p.json", space)
+        for verb in [("minimize", "-o", "-"), ("certify", "-o", "-", "--claim", "cycle"), ("solve", "--method", "lemke")]:
+            self.refuses(*verb, file, says=[file, "dimension: found 3"])
         frictionless = changed(cli.SOLVED, contacts=[{"kind": "frictionless"}], A=[["2"]], b=["-1"])
         self.assertEqual(self.succeeds("solve", self.file("p.json", frictionless), "--json").json()["f"], ["1/2"])
 

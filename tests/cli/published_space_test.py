@@ -61,13 +61,32 @@ class Solve(cli.TestCase):
         self.assertIn("no proof", suspected["evidence"])
         self.assertEqual(suspected["suspected"]["period"], 6)
 
+    def test_the_polygon_is_complete_driving_and_exact(self):
+        for file in [RAY, CYCLE]:  # which the other readings do not solve
+            read = self.solve(file, "--policy", "slip=polygon")
+            self.assertEqual((read["outcome"], read["method"], read["policy"], read["arithmetic"]),
+                             ("solved", "complete", "slip=polygon", "exact"))
+            self.assertEqual(read["f"], self.solve(file, "--method", "complete")["f"])
+
     def test_what_is_not_built_is_refused(self):
         file = self.file("p.json", CIRCLE)
         self.refuses("solve", file, "--arithmetic", "exact", says=["exact", "interval"])
-        for policy in ["slip=polygon", "file=yes", "apex=suspended"]:
+        for policy in ["scan=highest,slip=polygon", "file=yes", "apex=suspended"]:
             self.refuses("solve", file, "--policy", policy, says=[policy, "slip=redirect"])
-        bilateral = dict(CIRCLE, contacts=[{"kind": "bilateral"}], A=[["1"]], b=["1"])
-        self.refuses("solve", self.file("b.json", bilateral), says=["contacts[0].kind", "bilateral", "static"])
+
+    def test_bilateral_and_sliding_contacts(self):
+        contacts = [{"kind": "bilateral"}, {"kind": "sliding", "mu": "1", "slip": ["3/5", "4/5"]}]
+        problem = dict(CIRCLE, contacts=contacts, b=["-3", "-3", "1", "2"],
+                       A=[["1", "0", "0", "0"], ["0", "4", "2", "0"], ["0", "2", "4", "1"], ["0", "0", "1", "3"]])
+        file = self.file("p.json", problem)
+        for arithmetic in ["interval", "double"]:  # aN2 = (4 - 6/5) fN2 - 3
+            result = self.solve(file, "--arithmetic", arithmetic)
+            f = [sum(x) / 2 for x in result["f"]] if arithmetic == "interval" else result["f"]
+            self.assertTrue(all(math.isclose(x, y) for x, y in zip(f, [3, 15 / 14, -9 / 14, -12 / 14])), f)
+        problem["contacts"][1]["mu"] = "4"
+        ray = self.solve(self.file("p.json", problem), "--arithmetic", "double", code=1)
+        self.assertEqual(ray["outcome"], "ray")
+        self.assertTrue(all(math.isclose(x, y, abs_tol=1e-15) for x, y in zip(ray["ray"], [0, 1, -12 / 5, -16 / 5])))
 
 
 class Bench(cli.TestCase):
@@ -77,13 +96,19 @@ class Bench(cli.TestCase):
         tables = done.json()
         self.assertEqual([(row["family"], row["contacts"], row["policy"]) for row in tables["sizes"]],
                          [(family, contacts, policy) for family, contacts in
-                          [("definite", 2), ("definite", 3), ("one body", 3)] for policy in ["paper", "slip=redirect"]])
+                          [("definite", 2), ("definite", 3), ("one body", 3)]
+                          for policy in ["paper", "slip=redirect", "slip=polygon"]])
         for row in tables["sizes"] + tables["friction"]:
             ends = ["solved", "recurs", "approaches", "refuted", "ray", "limit", "singular", "undecided"]
             self.assertEqual(sum(row[end] for end in ends), row["problems"])
             self.assertEqual((row["wrong"], row["differ"]), (0, 0))
             self.assertLessEqual(row["proved solved"], row["solved"])
             self.assertEqual(row["breaks (21)" if row["policy"] != "paper" else "redirects"], 0)
+            if row["policy"] == "slip=polygon":
+                self.assertEqual((row["solved"], row["proved solved"]), (row["problems"], row["problems"]))
+                self.assertLess(row["refined"], row["on an edge"])
+            else:
+                self.assertEqual(row["on an edge"], 0)
         for key in ["problems", "solved", "ray", "unsure"]:
             self.assertEqual(sum(row[key] for row in tables["sizes"]), sum(row[key] for row in tables["friction"]))
         self.assertEqual(self.succeeds(*arguments).out, done.out)

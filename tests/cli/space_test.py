@@ -135,7 +135,6 @@ class Space(cli.TestCase):
             self.refuses("solve", problem, "--method", method, says=["dimension", "3", "not built for space"])
         self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says="--arithmetic")
         self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
-        self.refuses("replay", problem, says=["dimension", "3"])
         self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
         self.refuses("certify", problem, "--all", says=["dimension", "3"])
         self.refuses("certify", cli.ROOT / "corpus/two-contact-cycle.json", "-o", out, "--claim", "coulomb-solution",

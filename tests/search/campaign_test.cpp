@@ -80,7 +80,8 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
   struct Wrong {
     std::string text, place, expected;
   };
-  const std::string generators = "integers, psd, small, near-degenerate, duplicates, conditioned, bodies";
+  const std::string generators =
+      "integers, psd, small, near-degenerate, duplicates, conditioned, bodies, exponential";
   const std::vector<Wrong> wrongs = {
       {"", "line 1, column 1", "expected JSON text"},
       {"{", "line 1, column 2", "expected JSON text"},

@@ -134,5 +134,25 @@ TEST_CASE("simplicity: contacts count before rows, then nonzeros, bits and magni
   CHECK(SimplicityOf(smooth) < SimplicityOf(fraction));
 }
 
+TEST_CASE("minimize: bilateral contacts are taken out, a sliding one with no part in the loop is dropped") {
+  ExactProblem problem = Bordered(ReferenceProblem());
+  const int rows = problem.rows();
+  ExactProblem larger = problem;
+  larger.contacts.push_back({ContactKind::kSliding, Rational(1, 3), {Rational(-1), Rational(0)}});
+  larger.A = ExactMatrix::Zero(rows + 2, rows + 2);
+  larger.A.topLeftCorner(rows, rows) = problem.A;
+  larger.A(rows, rows) = larger.A(rows + 1, rows + 1) = 1;
+  larger.b = ExactVector::Zero(rows + 2);
+  larger.b.head(rows) = problem.b;
+  larger.b[rows] = -1;
+  REQUIRE(RunExact(larger, {}).verdict.outcome == Outcome::kCycle);
+  MinimizeOptions options;
+  options.signature = Signature(larger, RunExact(larger, {}));
+  const ExactProblem small = Minimize(larger, options).problem;
+  CHECK(small.contacts.size() == 2);
+  CHECK(RunExact(small, {}).verdict.outcome == Outcome::kCycle);
+  CHECK(Signature(small, RunExact(small, {})) == *options.signature);
+}
+
 }  // namespace
 }  // namespace stiction

@@ -77,7 +77,7 @@ ExactMatrix RandomAugmented(int rows, int columns, Choices& choices) {
     }
   }
   for (int j = 1; j + 1 < columns; ++j) {
-    if (choices.Integer(0, 5) == 0) M.col(j) = M.col(j - 1) * Rational(choices.Integer(-2, 2), 3);
+    if (choices.Integer(0, 5) == 0) M.col(j) = M.col(j - 1) * Rational(Rational(choices.Integer(-2, 2)) / 3);
   }
   for (int i = 1; i < rows; ++i) {
     if (choices.Integer(0, 5) == 0) M.row(i) = M.row(i - 1) * Rational(2, 3);

@@ -93,5 +93,37 @@ TEMPLATE_TEST_CASE("frictionless: the family E_n takes 2^n - 1 pivots, 2^(k-1) o
   }
 }
 
+TEST_CASE("frictionless: 2^n - 1 pivots for E_n up to n = 12, exactly") {
+  for (int n = 9; n <= 12; ++n) {
+    const ExactRun run = RunExact(ExponentialFamily(n), {});
+    CHECK(run.verdict.outcome == Outcome::kSolved);
+    CHECK(run.verdict.statistics.pivots == (1 << n) - 1);
+  }
+}
+
+// readings.md, part 10: the order of the scan decides, and no other switch.
+TEST_CASE("frictionless: E_n takes 2^n - 1 pivots under every scan that takes the lowest violated normal") {
+  constexpr int n = 5, kMost = (1 << n) - 1;
+  int lowest = 0;
+  for (const Policy& policy : PlanarGrid()) {
+    CAPTURE(PolicyName(policy));
+    PublishedOptions options;
+    options.policy = policy;
+    const auto pivots = [&](bool scaled) {
+      const ExactRun run = RunExact(ExponentialFamily(n, scaled), options);
+      CHECK(run.verdict.outcome == Outcome::kSolved);
+      return run.verdict.statistics.pivots;
+    };
+    if (policy.scan == Scan::kHighest) {
+      CHECK(pivots(false) < kMost);
+    } else {
+      CHECK(pivots(true) == kMost);
+      CHECK((pivots(false) == kMost) == (policy.scan != Scan::kMostViolated));
+      ++lowest;
+    }
+  }
+  CHECK(lowest == 1536 * 3 / 4);
+}
+
 }  // namespace
 }  // namespace stiction

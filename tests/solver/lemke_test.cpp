@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <type_traits>
 
-#include "certify/modes.h"
+#include "certify/enumerate.h"
 #include "certify/verify_solution.h"
 #include "solver/residual.h"
 #include "tests/support.h"

@@ -37,7 +37,7 @@ ExactProblem OneContact(const Rational& mu, const std::vector<Rational>& b) {
 
 struct Ended {
   PublishedSpaceVerdict verdict;
-  Trace<double> trace;
+  SpaceTrace<double> trace;
   Eigen::VectorXd f, a;
 };
 
@@ -68,9 +68,9 @@ TEST_CASE("space: a contact pushed less than its limit sticks, x established bef
   for (const Slip slip : kSlips) {
     const Ended ended = Run(OneContact(2, {-2, -1, 1}), Reading(slip));
     CheckForces(ended, {1, 1, -1});
-    REQUIRE(ended.trace.pivots.size() == 3);
-    CheckNear(ended.trace.pivots[1].f, {1, 1, 0});
-    CHECK(ended.trace.pivots[2].sets ==
+    REQUIRE(ended.trace.size() == 3);
+    CheckNear(ended.trace[1].f, {1, 1, 0});
+    CHECK(ended.trace[2].sets ==
           std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kSticking, IndexSet::kSticking});
     CHECK(ended.verdict.statistics.drives == 3);
   }
@@ -79,7 +79,7 @@ TEST_CASE("space: a contact pushed less than its limit sticks, x established bef
 TEST_CASE("space: at its limit in x a contact is done, and y is not driven") {
   const Ended ended = Run(OneContact(Rational(1, 2), {-2, 1, -1}), {});
   CheckForces(ended, {1, -0.5, 0});  // fF.aF = -1/4, though aF = (1/2, -1) is not opposite to it
-  CHECK(ended.trace.pivots.back().sets ==
+  CHECK(ended.trace.back().sets ==
         std::vector<IndexSet>{IndexSet::kClamped, IndexSet::kAtUpper, IndexSet::kNone});
   CHECK(ended.verdict.statistics.drives == 2);
 }
@@ -87,8 +87,8 @@ TEST_CASE("space: at its limit in x a contact is done, and y is not driven") {
 TEST_CASE("space: the circle (23) ends the drive of y") {
   const Ended ended = Run(OneContact(Rational(5, 4), {-2, -1, -1}), {});
   CheckForces(ended, {1, 1, 0.75});
-  CHECK(ended.trace.pivots.back().s == Approx(0.75));
-  CHECK(ended.trace.pivots.back().sets[1] == IndexSet::kAtUpper);
+  CHECK(ended.trace.back().s == Approx(0.75));
+  CHECK(ended.trace.back().sets[1] == IndexSet::kAtUpper);
 }
 
 TEST_CASE("space: with ax = 0 from the start only y is driven, with aF = 0 nothing is") {
@@ -108,8 +108,8 @@ TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps
                                        {Rational(-5, 4), Rational(-3, 5), 0, -10});
   for (const Slip slip : kSlips) {
     const Ended ended = Run(problem, Reading(slip));
-    REQUIRE(ended.trace.pivots.size() >= 4);
-    const Pivot<double>& leaves = ended.trace.pivots[ended.trace.pivots.size() - 2];
+    REQUIRE(ended.trace.size() >= 4);
+    const SpacePivot<double>& leaves = ended.trace[ended.trace.size() - 2];
     CHECK(leaves.limiting == 1);
     CHECK(leaves.from == IndexSet::kSticking);
     CHECK(leaves.to == IndexSet::kAtUpper);
@@ -129,9 +129,9 @@ TEST_CASE("space: ties follow the switch") {
   for (const Ties ties : {Ties::kSets, Ties::kContacts}) {
     options.policy.ties = ties;
     const Ended ended = Run(problem, options);
-    REQUIRE(ended.trace.pivots.size() > 2);
-    CHECK(ended.trace.pivots[1].s == Approx(1));
-    CHECK(ended.trace.pivots[1].limiting == (ties == Ties::kSets ? 1 : 0));
+    REQUIRE(ended.trace.size() > 2);
+    CHECK(ended.trace[1].s == Approx(1));
+    CHECK(ended.trace[1].limiting == (ties == Ties::kSets ? 1 : 0));
   }
 }
 
@@ -152,7 +152,7 @@ ExactProblem Turning() {
 
 TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once the sets are full") {
   const Ended ended = Run(Turning(), Reading(Slip::kLiteral));
-  CHECK(ended.trace.pivots[2].s == Approx(10.0 / 11));
+  CHECK(ended.trace[2].s == Approx(10.0 / 11));
   CHECK(ended.verdict.breaks == 1);
   CHECK(ended.verdict.redirects == 0);
   // To zero, then x until ax = 0, then y until the circle.
@@ -161,9 +161,9 @@ TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once
 
 TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it against its acceleration") {
   const Ended ended = Run(Turning(), Reading(Slip::kRedirect));
-  CHECK(ended.trace.pivots[2].s == Approx(2.0 / 3));
-  CHECK(ended.trace.pivots[2].limiting == 1);
-  CHECK(ended.trace.pivots[2].to == IndexSet::kNone);
+  CHECK(ended.trace[2].s == Approx(2.0 / 3));
+  CHECK(ended.trace[2].limiting == 1);
+  CHECK(ended.trace[2].to == IndexSet::kNone);
   CHECK(ended.verdict.redirects == 1);
   CHECK(ended.verdict.breaks == 0);
   CHECK(ended.verdict.statistics.give_ups == 0);
@@ -450,6 +450,114 @@ TEST_CASE("space: no contacts, budgets, and what is no number") {
   ContactProblem<double> broken = As<double>(Turning());
   broken.A(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK(PublishedInSpace<double>().Run(broken).outcome == Outcome::kUndecided);
+}
+
+// ---- Bilateral and sliding contacts: 4.5, 6 ----------------------------------------------------
+
+TEST_CASE("space: bilateral contacts leave the steps of the rest as they are") {
+  for (const char* slip : {"slip=literal", "slip=redirect"}) {
+    const PublishedOptions options{ParsePolicy(slip), {}, {}};
+    const ExactProblem problem = Turning(), bordered = Bordered(problem);
+    const RoundedSpaceRun plain = RunRoundedInSpace<double>(problem, options, KeepTrace::kYes);
+    const RoundedSpaceRun run = RunRoundedInSpace<double>(bordered, options, KeepTrace::kYes);
+    CHECK(run.verdict.outcome == plain.verdict.outcome);
+    CHECK(run.verdict.statistics == plain.verdict.statistics);
+    CHECK(run.residual < 1e-12);
+    CHECK(run.initial_f[0] == 1.5);
+    REQUIRE(run.trace.size() == plain.trace.size());
+    const Eigen::MatrixXd A = As<double>(bordered).A;
+    const Eigen::VectorXd b = As<double>(bordered).b;
+    for (std::size_t k = 0; k < run.trace.size(); ++k) {
+      const SpacePivot<double>& pivot = run.trace[k];
+      CHECK(pivot.s == plain.trace[k].s);
+      CHECK(pivot.driven == plain.trace[k].driven + 1);
+      CHECK((pivot.a - A * pivot.f - b).norm() < 1e-9);
+      CHECK((pivot.da - A * pivot.df).norm() < 1e-9);
+      CHECK(std::abs(pivot.a[0]) < 1e-12);
+      CHECK(pivot.sets.front() == IndexSet::kClamped);
+      CHECK(pivot.sets.back() == IndexSet::kClamped);
+      REQUIRE(pivot.recorded.size() == bordered.contacts.size());
+      for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+        CHECK(pivot.recorded[i + 1] == plain.trace[k].recorded[i]);
+    }
+  }
+}
+
+TEST_CASE("space: the recorded direction is that of the friction force in NCF") {
+  int recorded = 0;
+  const RoundedSpaceRun run = RunRoundedInSpace<double>(Turning(), {}, KeepTrace::kYes);
+  const auto layout = [] {
+    RowLayout<Eigen::Dynamic> result;
+    result.Assign(Turning().contacts, 3);
+    return result;
+  }();
+  Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(run.initial_f.data(), run.initial_f.size());
+  for (const SpacePivot<double>& pivot : run.trace) {
+    f += pivot.s * pivot.df;
+    CHECK((pivot.f - f).norm() < 1e-9);
+    for (int i = 0; i < layout.ContactCount(); ++i) {
+      const int row = layout.NormalRowOf(i) + 1;
+      const auto& d = pivot.recorded[i];
+      if (pivot.sets[row] != IndexSet::kAtUpper) continue;
+      ++recorded;
+      CHECK(std::hypot(d[0], d[1]) == Approx(1));
+      CHECK(d[0] * f[row + 1] - d[1] * f[row] == Approx(0).margin(1e-9));
+      CHECK(d[0] * f[row] + d[1] * f[row + 1] >= -1e-12);
+    }
+  }
+  CHECK(recorded > 0);
+}
+
+TEST_CASE("space: a sliding contact has friction against its slip, and can have an infinite step") {
+  ExactProblem problem = InSpace({1}, {{4, 2, 0}, {2, 4, 1}, {0, 1, 3}}, {-3, 1, 2});
+  problem.contacts[0] = {ContactKind::kSliding, 1, {Rational(3, 5), Rational(4, 5)}};
+  const RoundedSpaceRun run = RunRoundedInSpace<double>(problem, {});
+  CHECK(run.verdict.outcome == Outcome::kSolved);  // aN = (4 - 6/5) fN - 3
+  CHECK(run.f[0] == Approx(15.0 / 14));
+  CHECK(run.f[1] == Approx(-9.0 / 14));
+  CHECK(run.f[2] == Approx(-12.0 / 14));
+  CHECK(run.residual < 1e-12);
+  const IntervalSpaceRun proved = RunIntervalsInSpace(problem, {});
+  CHECK(proved.verdict.outcome == Outcome::kSolved);
+  for (int row = 0; row < 3; ++row) {
+    CHECK(proved.f[row].low <= run.f[row] + 1e-12);
+    CHECK(proved.f[row].high >= run.f[row] - 1e-12);
+  }
+  problem.contacts[0].mu = 4;  // aN = (4 - 24/5) fN - 3
+  const IntervalSpaceRun ray = RunIntervalsInSpace(problem, {});
+  CHECK(ray.verdict.outcome == Outcome::kRay);
+  REQUIRE(ray.ray.size() == 3);
+  CHECK(ray.ray[1].low == Approx(-12.0 / 5));
+  CHECK(ray.ray[2].high == Approx(-16.0 / 5));
+}
+
+TEST_CASE("space: bilateral contacts that no forces hold are singular") {
+  ExactProblem problem = MakeProblem({-1, -1}, {{1, 2}, {2, 4}}, {1, 3});
+  for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
+  problem.dimension = 3;
+  CHECK(RunRoundedInSpace<double>(problem, {}).verdict.outcome == Outcome::kSingular);
+  const IntervalSpaceRun run = RunIntervalsInSpace(problem, {});
+  CHECK(run.verdict.outcome == Outcome::kSingular);
+  CHECK(run.a[1].low == 3);
+}
+
+TEST_CASE("weak residual: bilateral and sliding contacts") {
+  ExactProblem exact = InSpace({1}, {{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {-2, 0, 0});
+  exact.contacts[0] = {ContactKind::kSliding, Rational(1, 2), {Rational(0), Rational(1)}};
+  auto problem = As<double>(exact);
+  problem.contacts[0].slip = {0, 1};
+  const auto residual = [&problem](const std::vector<double>& f) {
+    const Eigen::VectorXd forces = Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<int>(f.size()));
+    return WeakResidual(problem, forces, Eigen::VectorXd(problem.A * forces + problem.b));
+  };
+  CHECK(residual({1, 0, -0.5}) == 0);
+  CHECK(residual({1, 0, 0.5}) == Approx(1));
+  CHECK(residual({1, 0.25, -0.5}) == Approx(0.25));
+  problem.contacts.assign(1, {ContactKind::kBilateral, 0, {}});
+  problem.A = Eigen::MatrixXd::Constant(1, 1, 2);
+  problem.b = Eigen::VectorXd::Constant(1, 2);
+  CHECK(residual({-1}) == 0);
+  CHECK(residual({0}) == Approx(1));
 }
 
 TEST_CASE("space: the readings that are built") {

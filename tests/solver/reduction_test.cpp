@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "certify/existence.h"
-#include "certify/modes.h"
+#include "certify/verify_solution.h"
 #include "solver/direction.ipp"
 #include "solver/published.ipp"
 #include "solver/reduction.ipp"
@@ -13,43 +13,6 @@
 
 namespace stiction::testing {
 namespace {
-
-// Bodies' worth of degrees of freedom, and contacts of every kind on them: A = J J', b = J c. With repeated
-// bilateral rows, so that A_BB is singular.
-ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant = nullptr) {
-  Choices choices(seed);
-  ExactProblem problem;
-  const int contacts = static_cast<int>(choices.Integer(1, 5));
-  for (int i = 0; i < contacts; ++i) {
-    Contact<Rational> contact;
-    const std::int64_t kind = choices.Integer(0, sliding ? 3 : 2);
-    contact.kind = static_cast<ContactKind>(kind);
-    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 4)) / 2;
-    if (contact.kind == ContactKind::kSliding) contact.slip[0] = choices.Integer(0, 1) == 0 ? 1 : -1;
-    problem.contacts.push_back(contact);
-  }
-  const int rows = RowCount(problem.contacts, 2), columns = static_cast<int>(choices.Integer(2, 2 + rows));
-  Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic> J(rows, columns);
-  ExactVector c(columns);
-  for (int j = 0; j < columns; ++j) {
-    c[j] = choices.Integer(-9, 9);
-    for (int i = 0; i < rows; ++i) J(i, j) = choices.Integer(-3, 3);
-  }
-  const auto layout = LayoutOf(problem);
-  int first = -1;
-  for (int i = 0; i < contacts; ++i) {
-    if (problem.contacts[i].kind != ContactKind::kBilateral) continue;
-    const int row = layout.NormalRowOf(i);
-    if (first >= 0 && choices.Integer(0, 2) == 0) {
-      J.row(row) = J.row(first) * Rational(-2);
-      if (redundant != nullptr) ++*redundant;
-    }
-    if (first < 0) first = row;
-  }
-  problem.A = J * J.transpose();
-  problem.b = J * c;
-  return problem;
-}
 
 ContactProblem<double> Rounded(const ExactProblem& problem) {
   ContactProblem<double> rounded = As<double>(problem);
@@ -78,7 +41,7 @@ TEST_CASE("4.5: complete driving on the reduction solves problems with bilateral
     const CompleteRun run = RunComplete(reduction.problem(), {});
     REQUIRE(run.verdict.outcome == Outcome::kSolved);
     const ExactVector f = reduction.Forces(run.f);
-    const auto violation = FindLawViolation(problem, f);
+    const auto violation = FindViolation(problem, f);
     INFO(violation.value_or(""));
     REQUIRE_FALSE(violation);
     for (int row = 0; row < reduction.problem().rows(); ++row) CHECK(f[reduction.row_of()[row]] == run.f[row]);
@@ -132,7 +95,7 @@ TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where 
     const CompleteRun run = RunComplete(reduction.problem(), {});
     if (run.verdict.outcome == Outcome::kSolved) {
       ++solved;
-      REQUIRE_FALSE(FindLawViolation(problem, reduction.Forces(run.f)));
+      REQUIRE_FALSE(FindViolation(problem, reduction.Forces(run.f)));
       continue;
     }
     REQUIRE(run.verdict.outcome == Outcome::kRay);

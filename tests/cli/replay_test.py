@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction replay: what is printed of a run, in the plane and in space, is what the run did."""
+
+import json
+from fractions import Fraction
+
+import cli
+
+SPACE = cli.ROOT / "corpus" / "space"
+
+# x to 1, where ax = 0; y until 1 + fy^2 = (5/4)^2.
+CIRCLE = {
+    "format": "stiction-problem", "version": 1, "name": "circle", "dimension": 3,
+    "contacts": [{"kind": "static", "mu": "5/4"}],
+    "A": [["2", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "b": ["-2", "-1", "-1"],
+}
+
+
+def numbers(values):
+    return [Fraction(x) for x in values]
+
+
+def accelerations(problem, f):
+    return [sum(Fraction(x) * y for x, y in zip(row, f)) + Fraction(b) for row, b in zip(problem["A"], problem["b"])]
+
+
+class Plane(cli.TestCase):
+    def test_steps_add_up_from_the_forces_before_the_first_drive(self):
+        replay = self.succeeds("replay", self.file("p.json", cli.REFERENCE), "--step", "--json", code=1).json()
+        f = numbers(replay["initial"]["f"])
+        self.assertEqual(f, [0] * 4)
+        for pivot in replay["pivots"]:
+            f = [x + Fraction(pivot["step"]) * y for x, y in zip(f, numbers(pivot["df"]))]
+            self.assertEqual(numbers(pivot["f"]), f)
+            self.assertEqual(numbers(pivot["a"]), accelerations(cli.REFERENCE, f))
+        self.assertEqual(numbers(replay["f"]), f)
+
+    def test_a_ray_shows_its_direction(self):
+        problem = dict(cli.SOLVED, A=[["1", "-1"], ["-1", "1"]], b=["-1", "0"])
+        file = self.file("p.json", problem)
+        self.assertEqual(self.succeeds("replay", file, "--json", code=1).json()["ray"], ["1", "1"])
+        self.assertIn("no limit to the step along df = (1, 1)", self.succeeds("replay", file, code=1).out)
+
+    def test_what_is_for_space_is_refused(self):
+        file = self.file("p.json", cli.SOLVED)
+        self.refuses("replay", file, "--method", "complete", says=[file, "dimension: found 2"])
+        self.refuses("replay", file, "--arithmetic", "double", says=["double", "exact"])
+
+
+class Space(cli.TestCase):
+    def replay(self, file, *more, code=0):
+        return self.succeeds("replay", file, "--step", "--json", *more, code=code).json()
+
+    def near(self, found, expected):
+        self.assertEqual(len(found), len(expected))
+        for x, y in zip(found, expected):
+            self.assertAlmostEqual(x, y, places=9)
+
+    def test_sets_and_recorded_directions_of_every_step(self):
+        for arithmetic in ["double", "long-double"]:
+            replay = self.replay(self.file("p.json", CIRCLE), "--arithmetic", arithmetic)
+            normal, x, y = replay["pivots"]
+            self.assertEqual([p["driven"] for p in replay["pivots"]], ["N1", "F1x", "F1y"])
+            self.assertEqual([p["to"] for p in replay["pivots"]], ["C", "CF", "NCF"])
+            self.assertEqual([p["sets"]["F1"] for p in replay["pivots"]], ["none", "half", "NCF"])
+            self.near(x["df"], [0, 1, 0])
+            self.near(y["f"], [1, 1, 0.75])
+            self.near(y["a"], [0, 0, -0.25])
+            self.assertEqual(x["recorded"], {})
+            self.near(y["recorded"]["F1"], [0.8, 0.6])
+            self.assertEqual((replay["outcome"], replay["arithmetic"]), ("solved", arithmetic))
+
+    def test_the_text_of_a_run(self):
+        out = self.succeeds("replay", self.file("p.json", CIRCLE), "--step").out
+        for line in ["Before the first drive f = (0, 0, 0), a = (-2, -1, -1).",
+                     "Drive 1: N1. a_N1 = -2 < 0: increase f_N1 until it is 0 (4.1).",
+                     "Drive 2: F1x. Until a_F1x = 0 or abs(f_F1) = mu f_N1 (5.6); f_F1 changes along (1, 0).",
+                     "  s = 1: a_F1x = 0, which is kept; y follows",
+                     "abs(f_F1) = mu f_N1; the drive ends, F1 joins NCF along (0.8, 0.6)",
+                     "    C = {N1}  NC = {}  CF = {}  NCF = {F1 along (0.8, 0.6)}"]:
+            self.assertIn(line, out)
+        table = self.succeeds("replay", self.file("p.json", CIRCLE)).out
+        self.assertEqual(len([line for line in table.splitlines() if "establish" in line]), 3)
+
+    def test_a_loop_is_said_to_be_no_proof_and_a_ray_shows_its_direction(self):
+        cycle = SPACE / "cycle-under-both-slips.json"
+        replay = self.replay(cycle)  # as the file expects
+        self.assertEqual((replay["outcome"], replay["start"], replay["period"]), ("cycle", 7, 6))
+        drives = {pivot["drive"]: pivot["f"] for pivot in replay["pivots"]}
+        self.near(drives[7], drives[13])
+        self.assertIn("this is no proof", self.succeeds("replay", cycle).out)
+        ray = SPACE / "ray-under-slip-literal.json"
+        replay = self.replay(ray)
+        self.assertEqual((replay["outcome"], len(replay["ray"])), ("ray", 6))
+        self.assertIn("no limit to the step along df = (", self.succeeds("replay", ray).out)
+        redirected = self.replay(ray, "--policy", "slip=redirect")
+        self.assertEqual(redirected["outcome"], "solved")
+        self.assertTrue(any(pivot.get("turned_away") for pivot in redirected["pivots"]))
+
+    def test_hinges_are_held_and_sliding_friction_follows(self):
+        contacts = [{"kind": "bilateral"}, {"kind": "sliding", "mu": "1", "slip": ["3/5", "4/5"]}]
+        problem = dict(CIRCLE, contacts=contacts, b=["-3", "-3", "1", "2"],
+                       A=[["1", "0", "0", "0"], ["0", "4", "2", "0"], ["0", "2", "4", "1"], ["0", "0", "1", "3"]])
+        file = self.file("p.json", problem)
+        replay = self.replay(file)
+        self.near(replay["initial"]["f"], [3, 0, 0, 0])
+        self.assertEqual([(p["driven"], p["limiting"]) for p in replay["pivots"]], [("N2", "N2")])
+        self.near(replay["pivots"][0]["df"], [0, 1, -0.6, -0.8])
+        self.assertEqual(replay["pivots"][0]["sets"], {"N1": "C", "N2": "C", "F2": "none"})
+        out = self.succeeds("replay", file).out
+        self.assertIn("Contact 1 is bilateral: a_N1 = 0 is kept (4.5).", out)
+        self.assertIn("Contact 2 slides: f_F2 = -1 (3/5, 4/5) f_N2 (24).", out)
+
+    def test_every_policy_that_is_built(self):
+        replay = self.succeeds("replay", SPACE / "cycle-under-both-slips.json", "--all-policies", "--json",
+                               code=1).json()
+        self.assertEqual(sum(replay["counts"].values()), 768)
+        self.assertEqual(len(replay["policies"]), 768)
+        for policy in ["paper", "slip=redirect"]:
+            self.assertEqual(replay["policies"][policy], {"outcome": "cycle", "start": 7, "period": 6})
+        self.assertNotIn("file=yes", replay["policies"])
+
+    def test_complete_driving_exactly(self):
+        file = SPACE / "fold-and-descent-two-contacts.json"
+        problem = json.loads(file.read_text())
+        replay = self.succeeds("replay", file, "--method", "complete", "--json").json()
+        f = numbers(replay["initial"]["f"])
+        for piece in replay["pieces"]:
+            f = [x + Fraction(piece["step"]) * y for x, y in zip(f, numbers(piece["df"]))]
+            self.assertEqual(numbers(piece["f"]), f)
+        self.assertEqual(numbers(replay["f"]), f)
+        self.assertEqual(replay["word"], "I I")
+        self.assertEqual(accelerations(problem, f), [0] * 6)
+        events = " ".join(piece["event"] for piece in replay["pieces"])
+        self.assertEqual((events.count("a fold"), events.count("a descent")), (2, 1))
+        out = self.succeeds("replay", file, "--method", "complete", "--step").out
+        self.assertIn("Piece 1: N2 is driven, cells B ?, determinant > 0", out)
+        self.assertIn("solved, cells I I", out)
+
+    def test_what_is_not_built_is_refused(self):
+        file = self.file("p.json", CIRCLE)
+        self.refuses("replay", file, "--arithmetic", "exact", says=["exact", "double"])
+        self.refuses("replay", file, "--policy", "file=yes", says=["file=yes", "slip=redirect"])
+        self.refuses("replay", file, "--method", "complete", "--all-policies", says="--method baraff")
+        self.refuses("replay", file, "--method", "complete", "--sides", "6", says="multiple of 4")
+
+
+if __name__ == "__main__":
+    cli.main()
