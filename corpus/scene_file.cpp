@@ -300,7 +300,8 @@ std::string Print(const SceneFile& file) { return PrintScene(ToJson(file)); }
 std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
   const std::string text = ReadText(file);
   const Json json = ParseJson(text, file.string());
-  if (ReadSceneHeader(JsonPlace(json, file.string(), ""), 2, 3) == 3) return ParseSceneInSpace(text, file.string());
+  if (ReadSceneHeader(JsonPlace(json, file.string(), ""), 2, 3) == 3)
+    return ParseSceneInSpace(text, file.string());
   return ParseScene(text, file.string());
 }
 

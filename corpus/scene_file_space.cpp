@@ -71,7 +71,8 @@ ShapeInSpace<Rational> ReadShape(const JsonPlace& place) {
 
 // Principal moments [x, y, z], or a symmetric matrix.
 Matrix3<Rational> ReadInertia(const JsonPlace& place) {
-  const std::string expected = "principal moments [x, y, z], or a symmetric positive definite matrix of three rows";
+  const std::string expected =
+      "principal moments [x, y, z], or a symmetric positive definite matrix of three rows";
   if (place.Size(expected) != 3) place.Refuse(expected);
   Matrix3<Rational> I = Matrix3<Rational>::Constant(Rational(0));
   const bool full = place[0].json().is_array();
@@ -118,7 +119,8 @@ void ReadMass(const JsonPlace& place, BodyInSpace<Rational>& body) {
 
 // "rotation": a quaternion [w, x, y, z]; or "axis" and "angle" in radians.
 Quaternion<Rational> ReadRotation(const JsonPlace& place) {
-  const auto rotation = place.Optional("rotation"), axis = place.Optional("axis"), angle = place.Optional("angle");
+  const auto rotation = place.Optional("rotation"), axis = place.Optional("axis"),
+             angle = place.Optional("angle");
   if (rotation && (axis || angle)) rotation->Refuse("a rotation, or an axis and an angle, not both");
   if (rotation) {
     const std::string expected = "a quaternion [w, x, y, z], not zero";
@@ -136,8 +138,8 @@ Quaternion<Rational> ReadRotation(const JsonPlace& place) {
 
 BodyInSpace<Rational> ReadBody(const JsonPlace& place) {
   place.RequireObject();
-  place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "axis", "angle", "velocity", "spin",
-                   "force", "torque", "shapes", "level"});
+  place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "axis", "angle", "velocity",
+                   "spin", "force", "torque", "shapes", "level"});
   BodyInSpace<Rational> body;
   body.name = place.Required("name", "a name").Text("a name");
   if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
@@ -252,7 +254,8 @@ SceneFileInSpace ParseSceneInSpace(std::string_view text, const std::string& sou
   place.Required("bodies", "an array of bodies");
   ForEachOf(place, "bodies", [&scene](const JsonPlace& at) { AddBody(scene, at, ReadBody(at)); });
   ForEachOf(place, "joints", [&scene](const JsonPlace& at) { scene.joints.push_back(ReadJoint(scene, at)); });
-  ForEachOf(place, "contacts", [&scene](const JsonPlace& at) { scene.contacts.push_back(ReadContact(scene, at)); });
+  ForEachOf(place, "contacts",
+            [&scene](const JsonPlace& at) { scene.contacts.push_back(ReadContact(scene, at)); });
   ForEachOf(place, "pairs", [&scene](const JsonPlace& at) { scene.pairs.push_back(ReadRule(scene, at)); });
   return file;
 }

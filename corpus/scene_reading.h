@@ -40,8 +40,8 @@ inline int ReadSceneHeader(const JsonPlace& place, int least, int most) {
   const JsonPlace found = place.Required("format", format);
   if (found.Text(format) != kSceneFormat) found.Refuse(format);
   place.Required("version", version).Integer(kSceneVersion, kSceneVersion, version);
-  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step", "seconds",
-                   "bodies", "joints", "contacts", "pairs"});
+  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
+                   "seconds", "bodies", "joints", "contacts", "pairs"});
   const std::string dimension = least == most ? std::to_string(least) : "2 or 3";
   return static_cast<int>(place.Required("dimension", dimension).Integer(least, most, dimension));
 }
@@ -113,7 +113,8 @@ Json PairJson(const SceneType& scene, const Item& item) {
 template <class File>
 Json SceneJson(const File& file, int dimension, Json gravity) {
   const auto& scene = file.scene;
-  Json json = {{"format", kSceneFormat}, {"version", kSceneVersion}, {"name", scene.name}, {"dimension", dimension}};
+  Json json = {
+      {"format", kSceneFormat}, {"version", kSceneVersion}, {"name", scene.name}, {"dimension", dimension}};
   if (!file.note.empty()) json["note"] = file.note;
   json["gravity"] = std::move(gravity);
   json["mu"] = ToString(scene.mu);

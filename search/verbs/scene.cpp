@@ -115,13 +115,14 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
 }
 
 double SumOfNumbers(const RigidBody<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() + body.velocity.sum() +
-         body.spin + body.force.sum() + body.torque;
+  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
+         body.velocity.sum() + body.spin + body.force.sum() + body.torque;
 }
 
 double SumOfNumbers(const BodyInSpace<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() + body.position.sum() +
-         body.rotation.sum() + body.velocity.sum() + body.spin.sum() + body.force.sum() + body.torque.sum();
+  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
+         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() + body.force.sum() +
+         body.torque.sum();
 }
 
 // The finite scene of a file.
@@ -282,9 +283,11 @@ void AddAssemble(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"forces", "impulses"}));
   verb.add_flag("--explain", o->explain, "what was modelled, what was left out, and why that is exact");
   verb.add_flag("--full", o->full, "one problem, with all rows for every contact, redundant ones too");
-  verb.callback([o, &action] { action = [o] {
+  verb.callback([o, &action] {
+    action = [o] {
       return std::visit([&o](const auto& file) { return RunAssemble(*o, file); }, ReadAnyScene(o->scene));
-    }; });
+    };
+  });
 }
 
 void AddSimulate(CLI::App& program, Action& action) {
@@ -307,9 +310,11 @@ void AddSimulate(CLI::App& program, Action& action) {
   verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
   verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
   verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
-  verb.callback([o, &action] { action = [o] {
+  verb.callback([o, &action] {
+    action = [o] {
       return std::visit([&o](const auto& file) { return RunSimulate(*o, file); }, ReadAnyScene(o->scene));
-    }; });
+    };
+  });
 }
 
 void AddDraw(CLI::App& program, Action& action) {
@@ -317,9 +322,11 @@ void AddDraw(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
   verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
   verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
-  verb.callback([o, &action] { action = [o] {
+  verb.callback([o, &action] {
+    action = [o] {
       return std::visit([&o](const auto& file) { return RunDraw(*o, file); }, ReadAnyScene(o->scene));
-    }; });
+    };
+  });
 }
 
 }  // namespace stiction

@@ -81,8 +81,8 @@ struct SceneModel {
       colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
 };
 
-// What assembling and stepping ask of a scene, in the plane or in space (assemble_space.h). Both have the functions
-// DynamicsOf, JointConstraints and ContactConstraint.
+// What assembling and stepping ask of a scene, in the plane or in space (assemble_space.h). Both have the
+// functions DynamicsOf, JointConstraints and ContactConstraint.
 template <class SceneType>
 struct SceneTypes;
 
@@ -109,8 +109,8 @@ template <class SceneType, class Types = SceneTypes<SceneType>>
 typename Types::Model Assemble(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
                                const AssembleOptions<typename Types::Scalar>& options = {});
 
-// Accelerations of all bodies (x, y, spin; x, y, z, three spins) under gravity, applied forces and f, a vector of
-// forces per island.
+// Accelerations of all bodies (x, y, spin; x, y, z, three spins) under gravity, applied forces and f, a vector
+// of forces per island.
 template <class Scalar, int Dof>
 std::vector<Eigen::Matrix<Scalar, Dof, 1>> BodyAccelerations(
     const SceneModel<Scalar, Dof>& model, const std::vector<typename ContactProblem<Scalar>::Vector>& f);

@@ -167,8 +167,7 @@ class Assembler {
   using Model = typename Types::Model;
   static constexpr int kDof = Types::kDof;
 
-  Assembler(const SceneType& scene, const AssembleOptions<Scalar>& options)
-      : scene_(scene), options_(options) {
+  Assembler(const SceneType& scene, const AssembleOptions<Scalar>& options) : scene_(scene), options_(options) {
     model_.bodies = DynamicsOf(scene);
     for (const auto& body : model_.bodies) free_.push_back(body.FreeAcceleration());
   }
@@ -181,7 +180,8 @@ class Assembler {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddContact(contacts[i], static_cast<int>(i));
     if (options_.minimal) DropRedundant();
     model_.islands = FindIslands(model_.bodies, model_.constraints, !options_.minimal);
-    for (auto& island : model_.islands) FormProblem(model_.bodies, model_.constraints, Types::kDimension, island);
+    for (auto& island : model_.islands)
+      FormProblem(model_.bodies, model_.constraints, Types::kDimension, island);
     return std::move(model_);
   }
 

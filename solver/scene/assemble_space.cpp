@@ -20,7 +20,8 @@ std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>& scen
       const Vector3<Scalar> momentum = inertia * body.spin;
       for (int i = 0; i < 3; ++i) d.W(i, i) = Scalar(1) / body.mass;
       d.W.template bottomRightCorner<3, 3>() = Inverse3<Scalar>(inertia);
-      d.force << body.mass * scene.gravity + body.force, body.torque - CrossProduct<Scalar>(body.spin, momentum);
+      d.force << body.mass * scene.gravity + body.force,
+          body.torque - CrossProduct<Scalar>(body.spin, momentum);
     }
     bodies.push_back(std::move(d));
   }
@@ -67,8 +68,8 @@ struct SeenFromB {
 };
 
 template <class Scalar>
-Scalar EdgesBias(const TouchPointInSpace<Scalar>& contact, const Vector3<Scalar>& w_a, const Vector3<Scalar>& w_b,
-                 const SeenFromB<Scalar>& y) {
+Scalar EdgesBias(const TouchPointInSpace<Scalar>& contact, const Vector3<Scalar>& w_a,
+                 const Vector3<Scalar>& w_b, const SeenFromB<Scalar>& y) {
   const Vector3<Scalar>&n = contact.normal, &e = contact.edge_a;
   const SeenFromB<Scalar> edge(w_b, e, CrossProduct<Scalar>(w_a, e), Twice<Scalar>(w_a, e));
   // The sign that makes m point along n.
@@ -173,21 +174,21 @@ const char* KindName(const BallJoint<Scalar>&) {
   return "ball";
 }
 
-#define STICTION_INSTANTIATE(Scalar)                                                                           \
-  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);                       \
-  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);                   \
-  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                                \
-                                                   const TouchPointInSpace<Scalar>&);                          \
-  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                                         \
-                                          const std::vector<TouchPointInSpace<Scalar>>&,                       \
-                                          const AssembleOptions<Scalar>&);                                     \
-  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                                         \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);              \
-  template typename ContactProblem<Scalar>::Vector ExtendForces(                                               \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,               \
-      const SceneModel<Scalar, 6>&);                                                                           \
-  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                                       \
-                                            const std::vector<TouchPointInSpace<Scalar>>&,                     \
+#define STICTION_INSTANTIATE(Scalar)                                                              \
+  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);          \
+  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);      \
+  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                   \
+                                                   const TouchPointInSpace<Scalar>&);             \
+  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                            \
+                                          const std::vector<TouchPointInSpace<Scalar>>&,          \
+                                          const AssembleOptions<Scalar>&);                        \
+  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                            \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&); \
+  template typename ContactProblem<Scalar>::Vector ExtendForces(                                  \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,  \
+      const SceneModel<Scalar, 6>&);                                                              \
+  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                          \
+                                            const std::vector<TouchPointInSpace<Scalar>>&,        \
                                             const SceneModel<Scalar, 6>&, const AssembleOptions<Scalar>&)
 
 STICTION_INSTANTIATE(double);

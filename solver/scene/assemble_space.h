@@ -16,19 +16,21 @@
 // and with c the corner or centre of a, q or d a point of b:
 //
 //   against a face of b               g = n.(c - q) - radius                  g'' = n.y''
-//   against a corner or ball at d     g = abs(c - d) - radii                  g'' = n.y'' + abs(T y')^2 / abs(y)
-//   a ball against an edge of b       the same with d the nearest point of the edge; T y' less its part along the edge
-//   edge e_a across edge e_b          g = m.y / abs(m), m = e_a x e_b, y between any points of the two
+//   against a corner or ball at d     g = abs(c - d) - radii                  g'' = n.y'' + abs(T y')^2 /
+//   abs(y) a ball against an edge of b       the same with d the nearest point of the edge; T y' less its part
+//   along the edge edge e_a across edge e_b          g = m.y / abs(m), m = e_a x e_b, y between any points of
+//   the two
 //
-// T takes the part orthogonal to n. For edges m' and m'' follow from those of e_a; at the nearest points, y = g n,
+// T takes the part orthogonal to n. For edges m' and m'' follow from those of e_a; at the nearest points, y = g
+// n,
 //
 //   L' = n.m',   L'' = (m'.m' + n.m'' L - L'^2) / L,   L = abs(m)
 //   g' = n.y',   g'' = (g n.m'' + 2 m'.y' + L n.y'' - 2 g' L' - g L'') / L
 //
 // Tangential rows measure the velocity of a's material relative to b's at the contact point, which wanders over
-// both where balls roll. With u the relative spin and 1 / R = 1 / radius_a + 1 / radius_b (faces: no curvature), the
-// point runs ahead of the material by R (u x n), along an edge by its part along the edge, so that where the
-// tangential velocity is zero its derivative is
+// both where balls roll. With u the relative spin and 1 / R = 1 / radius_a + 1 / radius_b (faces: no
+// curvature), the point runs ahead of the material by R (u x n), along an edge by its part along the edge, so
+// that where the tangential velocity is zero its derivative is
 //
 //   bias = t.(w_a x (w_a x r_a) - w_b x (w_b x r_b) + u x (R (u x n)))
 //

@@ -85,8 +85,8 @@ bool CanCross(const PlacedShape<Scalar>& P, const PolyhedronEdge& p, const Place
   if (Sign(left_q) * Sign(right_q) >= 0) return false;
   const Scalar left_p = along_q.dot(P.normals[p.left]), right_p = along_q.dot(P.normals[p.right]);
   if (Sign(left_p) * Sign(right_p) >= 0) return false;
-  // Each arc has one of +-(along_p x along_q), the sign of which is that of `left`, as left x right is along the
-  // edge: it must be the same.
+  // Each arc has one of +-(along_p x along_q), the sign of which is that of `left`, as left x right is along
+  // the edge: it must be the same.
   return Sign(left_q) == Sign(left_p);
 }
 
@@ -100,7 +100,8 @@ std::optional<CrossingEdges<Scalar>> FarthestEdges(const PlacedShape<Scalar>& P,
       if (!CanCross<Scalar>(P, p, Q, q, along_p, along_q)) continue;
       const Vector3<Scalar> across = CrossProduct<Scalar>(along_p, along_q);
       // Edges that are nearly parallel leave their normal to rounding; faces stand in for them.
-      const Scalar least = kIsExact<Scalar> ? Scalar(0) : Scalar(1e-8 * along_p.squaredNorm() * along_q.squaredNorm());
+      const Scalar least =
+          kIsExact<Scalar> ? Scalar(0) : Scalar(1e-8 * along_p.squaredNorm() * along_q.squaredNorm());
       if (across.squaredNorm() <= least) continue;
       const Scalar outward = across.dot(P.normals[p.left]) + across.dot(P.normals[p.right]);
       Vector3<Scalar> normal = UnitVector3<Scalar>(across);
@@ -172,8 +173,8 @@ class PairFinder {
     if (contact.gap <= reach_) found_.push_back(contact);
   }
 
-  // The nearest point may be on any face, edge or corner: outside, the centre need not be over the face that it is
-  // highest above.
+  // The nearest point may be on any face, edge or corner: outside, the centre need not be over the face that it
+  // is highest above.
   void BallPolyhedron(const Touch& contact, const Shape& ball, const Shape& polyhedron) {
     int highest = 0;
     const int faces = static_cast<int>(polyhedron.normals.size());
@@ -202,7 +203,8 @@ class PairFinder {
   static bool IsOver(const Shape& polyhedron, int face, const Vector3<Scalar>& p) {
     const auto& loop = polyhedron.shape->faces[face];
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vector3<Scalar>&from = polyhedron.corners[loop[i]], &to = polyhedron.corners[loop[(i + 1) % loop.size()]];
+      const Vector3<Scalar>&from = polyhedron.corners[loop[i]],
+            &to = polyhedron.corners[loop[(i + 1) % loop.size()]];
       if (CrossProduct<Scalar>(polyhedron.normals[face], to - from).dot(p - from) < 0) return false;
     }
     return true;
@@ -251,7 +253,7 @@ class PairFinder {
     contact.gap = edges.distance;
     // q + s edge_b is in the plane through p that edge_a and the normal span.
     const Vector3<Scalar> side = CrossProduct<Scalar>(contact.edge_a, edges.normal);
-    const Vector3<Scalar> &p = P.corners[edges.second.from], &q = Q.corners[edges.first.from];
+    const Vector3<Scalar>&p = P.corners[edges.second.from], &q = Q.corners[edges.first.from];
     contact.point = q + Scalar(side.dot(p - q) / side.dot(contact.edge_b)) * contact.edge_b;
     found_.push_back(contact);
   }
@@ -315,7 +317,8 @@ std::vector<TouchPointInSpace<Scalar>> FindContacts(const SceneInSpace<Scalar>& 
   std::vector<std::vector<PlacedShape<Scalar>>> placed(bodies);
   for (int a = 0; a < bodies; ++a) {
     const Matrix3<Scalar> R = RotationMatrix<Scalar>(scene.bodies[a].rotation);
-    for (const auto& shape : scene.bodies[a].shapes) placed[a].push_back(Place<Scalar>(scene.bodies[a], R, shape));
+    for (const auto& shape : scene.bodies[a].shapes)
+      placed[a].push_back(Place<Scalar>(scene.bodies[a], R, shape));
   }
   for (int a = 0; a < bodies; ++a) {
     for (int b = a + 1; b < bodies; ++b) {
@@ -337,6 +340,7 @@ std::vector<TouchPointInSpace<Scalar>> FindContacts(const SceneInSpace<Scalar>& 
 }
 
 template std::vector<TouchPointInSpace<double>> FindContacts(const SceneInSpace<double>&, const double&);
-template std::vector<TouchPointInSpace<mpq_class>> FindContacts(const SceneInSpace<mpq_class>&, const mpq_class&);
+template std::vector<TouchPointInSpace<mpq_class>> FindContacts(const SceneInSpace<mpq_class>&,
+                                                                const mpq_class&);
 
 }  // namespace stiction

@@ -79,8 +79,8 @@ requestAnimationFrame(tick);
 )js";
   return "<p><button id=\"play\">Pause</button> <input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> "
          "<span id=\"time\"></span></p>\n" +
-         fmt::format("<script>\nconst rate = {:.6g};\nconst frames = [\n", rate) + data + "];" + kControls + show +
-         kPlayer + "</script></body></html>\n";
+         fmt::format("<script>\nconst rate = {:.6g};\nconst frames = [\n", rate) + data + "];" + kControls +
+         show + kPlayer + "</script></body></html>\n";
 }
 
 }  // namespace stiction

@@ -55,8 +55,8 @@ ConvexPiece PieceOf(const BodyInSpace<double>& body, const ShapeInSpace<double>&
   return piece;
 }
 
-// 1 if a face of P has Q wholly outside and looks at the eye, so that Q is in front of P; -1 if it looks away; 0 if
-// there is none.
+// 1 if a face of P has Q wholly outside and looks at the eye, so that Q is in front of P; -1 if it looks away;
+// 0 if there is none.
 int InFront(const ConvexPiece& P, const ConvexPiece& Q) {
   constexpr double kOverlap = 1e-3;  // m
   for (std::size_t f = 0; f < P.normals.size(); ++f) {
@@ -109,9 +109,9 @@ std::string Shade(const ConvexPiece& piece, const Point& normal) {
   constexpr std::array<std::array<int, 3>, 4> kColours = {
       {{232, 154, 60}, {154, 111, 176}, {106, 168, 79}, {79, 129, 189}}};
   const int count = static_cast<int>(kColours.size());
-  const std::array<int, 3> colour = piece.fixed
-                                        ? std::array<int, 3>{190, 190, 190}
-                                        : kColours[static_cast<std::size_t>(((piece.level % count) + count) % count)];
+  const std::array<int, 3> colour =
+      piece.fixed ? std::array<int, 3>{190, 190, 190}
+                  : kColours[static_cast<std::size_t>(((piece.level % count) + count) % count)];
   const double light = 0.55 + 0.45 * std::max(0.0, normal.dot(kLight));
   std::string text = "#";
   for (const int part : colour) text += fmt::format("{:02x}", static_cast<int>(light * part));
@@ -138,7 +138,8 @@ std::string Equator(const Screen& screen, const ConvexPiece& ball, int axis) {
   std::vector<Point> points;
   for (int i = 0; i <= 16; ++i) {
     const double angle = std::numbers::pi * i / 16;
-    points.push_back(ball.center + ball.shape->radius * (std::cos(angle) * side + sign * std::sin(angle) * front));
+    points.push_back(ball.center +
+                     ball.shape->radius * (std::cos(angle) * side + sign * std::sin(angle) * front));
   }
   return fmt::format("<path d=\"{}\" fill=\"none\"/>", Path(screen, points));
 }
@@ -163,8 +164,8 @@ std::string Drawn(const Screen& screen, const ConvexPiece& piece) {
 
 std::string Dot(const Screen& screen, const Point& p, const char* fill, int radius) {
   const Vector2<double> at = Seen(p);
-  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>", screen.X(at[0]),
-                     screen.Y(at[1]), radius, fill);
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>",
+                     screen.X(at[0]), screen.Y(at[1]), radius, fill);
 }
 
 // A newton in metres: a quarter of the view for the weight of all bodies that move.
@@ -182,16 +183,19 @@ std::string Picture(const SceneInSpace<double>& scene, const ViewInSpace& view, 
   text += "</g>";
   for (const auto& joint : scene.joints) {
     const Point at = scene.bodies[joint.a].At(joint.at_a), to = scene.bodies[joint.a].position;
-    text += fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {to, at})) + Dot(screen, at, "white", 4);
+    text +=
+        fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {to, at})) + Dot(screen, at, "white", 4);
   }
   for (const auto& point : marks.contacts) text += Dot(screen, point, "#30c030", 3);
   const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {
     if (force.force.norm() == 0 || force.from_joint) continue;
-    const Vector2<double> from = Seen(force.point), to = Seen(force.point + scale * force.force);
-    text += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d00000\" "
-                        "stroke-width=\"1.5\" marker-end=\"url(#tip)\"/>",
-                        screen.X(from[0]), screen.Y(from[1]), screen.X(to[0]), screen.Y(to[1]));
+    const double sign = force.bodies[0] < force.bodies[1] ? -1 : 1;
+    const Vector2<double> from = Seen(force.point), to = Seen(force.point + sign * scale * force.force);
+    text += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d00000\" "
+        "stroke-width=\"1.5\" marker-end=\"url(#tip)\"/>",
+        screen.X(from[0]), screen.Y(from[1]), screen.X(to[0]), screen.Y(to[1]));
   }
   std::replace(text.begin(), text.end(), '"', '\'');
   return text;

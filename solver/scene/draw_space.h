@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draw in space: draw.h seen from one direction, without perspective.
 //
-// Faces that look away are left out; convex pieces are drawn from the back to the front. Of two pieces that a face's plane
-// parts, the one on the viewer's side is in front.
+// Forces are drawn as they act on the later body of a contact. Faces that look away are left out; convex pieces
+// are drawn from the back to the front. Of two pieces that a face's plane parts, the one on the viewer's side
+// is in front.
 
 #ifndef STICTION_SOLVER_SCENE_DRAW_SPACE_H_
 #define STICTION_SOLVER_SCENE_DRAW_SPACE_H_

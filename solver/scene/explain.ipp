@@ -21,8 +21,8 @@ std::string PointText(const Eigen::Matrix<Scalar, Dimension, 1>& point) {
 }
 
 template <class SceneType>
-std::string ContactName(const SceneType& scene, const std::vector<typename SceneTypes<SceneType>::Touch>& contacts,
-                        int i) {
+std::string ContactName(const SceneType& scene,
+                        const std::vector<typename SceneTypes<SceneType>::Touch>& contacts, int i) {
   const auto& c = contacts[i];
   return fmt::format("contact {} ({} on {}, at ({}))", i + 1, scene.bodies[c.a].name, scene.bodies[c.b].name,
                      PointText(c.point));
@@ -54,10 +54,9 @@ const char* KindName(const Joint<Scalar>& joint) {
 }
 
 template <class SceneType>
-std::string ConstraintName(const SceneType& scene,
-                           const std::vector<typename SceneTypes<SceneType>::Touch>& contacts,
-                           const Constraint<typename SceneTypes<SceneType>::Scalar, SceneTypes<SceneType>::kDof>&
-                               constraint) {
+std::string ConstraintName(
+    const SceneType& scene, const std::vector<typename SceneTypes<SceneType>::Touch>& contacts,
+    const Constraint<typename SceneTypes<SceneType>::Scalar, SceneTypes<SceneType>::kDof>& constraint) {
   if (!constraint.from_joint) return ContactName(scene, contacts, constraint.source);
   const auto& joint = scene.joints[constraint.source];
   return fmt::format("joint {}, row {} ({} of {} and {})", constraint.source + 1, constraint.part + 1,
@@ -94,7 +93,8 @@ std::vector<std::string> Explain(const SceneType& scene, const std::vector<typen
                         : ""));
     for (const int k : island.constraints) {
       const auto& constraint = model.constraints[k];
-      std::string line = "  " + ConstraintName(scene, contacts, constraint) + ": " + LawOf(constraint.law, Types::kDimension);
+      std::string line =
+          "  " + ConstraintName(scene, contacts, constraint) + ": " + LawOf(constraint.law, Types::kDimension);
       if (constraint.law.kind == ContactKind::kFrictionless)
         line += options.level == Level::kPositions
                     ? ""

@@ -166,9 +166,11 @@ bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& 
   return true;
 }
 
-// Whether the frictionless constraint i is a combination of three others, as the inner points of a face are in space.
+// Whether the frictionless constraint i is a combination of three others, as the inner points of a face are in
+// space.
 template <class Scalar, int Dof>
-bool IsInTriangle(const Constraint<Scalar, Dof>& i, const std::array<const Constraint<Scalar, Dof>*, 3>& corners) {
+bool IsInTriangle(const Constraint<Scalar, Dof>& i,
+                  const std::array<const Constraint<Scalar, Dof>*, 3>& corners) {
   const RowView<Scalar, Dof> inner(i), first(*corners[0]), second(*corners[1]), third(*corners[2]);
   const auto x = [&](int at) { return Scalar(first.J(0, at) - third.J(0, at)); };
   const auto y = [&](int at) { return Scalar(second.J(0, at) - third.J(0, at)); };
@@ -203,7 +205,8 @@ bool IsInHull(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, co
   for (std::size_t j = 0; j < others.size(); ++j) {
     for (std::size_t k = j + 1; k < others.size(); ++k) {
       for (std::size_t l = k + 1; l < others.size(); ++l) {
-        if (IsInTriangle<Scalar, Dof>(constraints[i], {&constraints[others[j]], &constraints[others[k]], &constraints[others[l]]}))
+        if (IsInTriangle<Scalar, Dof>(
+                constraints[i], {&constraints[others[j]], &constraints[others[k]], &constraints[others[l]]}))
           return true;
       }
     }

@@ -73,8 +73,8 @@ Scalar Length(const Vector2<Scalar>& v) {
 template <>
 mpq_class Length(const Vector2<mpq_class>& v);
 
-// The direction of v, v /= 0: over rationals of length 1 exactly and near it, (1 - t^2, 2 t) / (1 + t^2) with the
-// tangent t of half the rounded angle.
+// The direction of v, v /= 0: over rationals of length 1 exactly and near it, (1 - t^2, 2 t) / (1 + t^2) with
+// the tangent t of half the rounded angle.
 template <class Scalar>
 std::array<Scalar, 2> ExactDirection(const Vector2<Scalar>& v) {
   const Vector2<Scalar> unit = UnitVector<Scalar>(v);

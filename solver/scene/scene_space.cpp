@@ -29,7 +29,8 @@ Vector3<double> NearestVector(const Vector& v) { return {Nearest(v[0]), Nearest(
 // ---- Polyhedra -------------------------------------------------------------------------------
 
 // Anticlockwise around `normal`, those between others on a line left out.
-std::vector<int> Loop(const std::vector<Vector>& corners, const std::vector<int>& members, const Vector& normal) {
+std::vector<int> Loop(const std::vector<Vector>& corners, const std::vector<int>& members,
+                      const Vector& normal) {
   const auto turn = [&](int at, int to, int other) {
     return sgn(normal.dot(CrossProduct<Exact>(corners[to] - corners[at], corners[other] - corners[at])));
   };
@@ -60,7 +61,8 @@ void AddFaces(ShapeInSpace<Exact>& shape) {
   std::set<std::vector<int>> known;
   for (const auto facet : hull.faces()) {
     std::vector<Point> triangle;
-    for (const auto v : CGAL::vertices_around_face(hull.halfedge(facet), hull)) triangle.push_back(hull.point(v));
+    for (const auto v : CGAL::vertices_around_face(hull.halfedge(facet), hull))
+      triangle.push_back(hull.point(v));
     std::vector<int> members;  // the hull's facets are triangles, a face may be several of them
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (CGAL::orientation(triangle[0], triangle[1], triangle[2], points[i]) == CGAL::COPLANAR)
@@ -243,8 +245,8 @@ SceneInSpace<double> Round(const SceneInSpace<Exact>& scene) {
   for (const auto& joint : scene.joints)
     rounded.joints.push_back({joint.a, joint.b, NearestVector(joint.at_a), NearestVector(joint.at_b)});
   for (const auto& given : scene.contacts) {
-    rounded.contacts.push_back({given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b),
-                                NearestVector(given.normal)});
+    rounded.contacts.push_back(
+        {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});
   }
   for (const auto& pair : scene.pairs) rounded.pairs.push_back(Round(pair));
   return rounded;

@@ -39,7 +39,7 @@ template <class Scalar>
 struct BodyInSpace {
   std::string name;
   bool fixed = false;
-  Scalar mass = Scalar(1);                          // > 0; of no meaning if fixed
+  Scalar mass = Scalar(1);                                // > 0; of no meaning if fixed
   Matrix3<Scalar> inertia = Matrix3<Scalar>::Identity();  // positive definite, likewise
   Vector3<Scalar> position = Zero3<Scalar>();
   Quaternion<Scalar> rotation = MakeQuaternion<Scalar>(Scalar(1), Zero3<Scalar>());
@@ -48,7 +48,9 @@ struct BodyInSpace {
   std::vector<ShapeInSpace<Scalar>> shapes;
   int level = 0;  // bodies of different levels do not touch
 
-  Vector3<Scalar> At(const Vector3<Scalar>& local) const { return position + RotationMatrix<Scalar>(rotation) * local; }
+  Vector3<Scalar> At(const Vector3<Scalar>& local) const {
+    return position + RotationMatrix<Scalar>(rotation) * local;
+  }
   Vector3<Scalar> Local(const Vector3<Scalar>& point) const {
     return RotationMatrix<Scalar>(rotation).transpose() * (point - position);
   }
@@ -70,8 +72,8 @@ struct BallJoint {
   Vector3<Scalar> at_a, at_b;
 };
 
-// The point at_a of body a stays outside of the plane through at_b of body b with the outer normal `normal`, both
-// in the coordinates of b.
+// The point at_a of body a stays outside of the plane through at_b of body b with the outer normal `normal`,
+// both in the coordinates of b.
 template <class Scalar>
 struct GivenContactInSpace {
   int a = 0, b = 0;
@@ -99,8 +101,8 @@ struct Polyhedron {
 };
 Polyhedron MakePolyhedron(std::vector<Vector3<mpq_class>> corners);
 
-// Volume (times a density of 1), centre and inertia about the origin of the pieces together; pieces that overlap
-// count twice. Balls: pi as a double.
+// Volume (times a density of 1), centre and inertia about the origin of the pieces together; pieces that
+// overlap count twice. Balls: pi as a double.
 struct MassPropertiesInSpace {
   mpq_class volume = 0;
   Vector3<mpq_class> center = Zero3<mpq_class>();

@@ -46,13 +46,20 @@ namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
 
+// A frame need not be solved as far as rounding allows, and cannot always.
+inline CoulombOptions WithResidual(double residual) {
+  CoulombOptions options;
+  options.residual = residual;
+  return options;
+}
+
 struct SimulationOptions {
   double step = 1.0 / 60;  // s
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
-  FastOptions fast;        // in the plane, and without friction
-  CoulombOptions coulomb;  // in space
+  FastOptions fast;                             // in the plane, and without friction
+  CoulombOptions coulomb = WithResidual(1e-7);  // in space
 };
 
 // Counters since the start.
@@ -102,6 +109,7 @@ class SimulationError : public std::runtime_error {
 // A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
 template <int Dimension>
 struct AppliedForceIn {
+  std::array<int, 2> bodies = {0, 0};
   Eigen::Matrix<double, Dimension, 1> point, force;
   bool from_joint = false;
 };
@@ -184,8 +192,8 @@ extern template class SimulationOf<Scene<double>>;
 Energy EnergyOf(const Scene<double>& scene);
 Drift DriftOf(const Scene<double>& scene);
 
-// f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole problem.
-// False if there is none to `options.residual`.
+// f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole
+// problem. False if there is none to `options.residual`.
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
 

@@ -187,7 +187,8 @@ auto SimulationOf<SceneType>::Accelerations() -> Changes {
 
 // Marks the sliding contacts whose tangential velocity would turn round within the step.
 template <class SceneType>
-int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const {
+int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& accelerations,
+                                           std::vector<bool>& held) const {
   int count = 0;
   for (const auto& constraint : model.constraints) {
     if (constraint.law.kind != ContactKind::kSliding) continue;
@@ -213,9 +214,11 @@ void SimulationOf<SceneType>::KeepForces(const Model& model, const Forces& f) {
     for (const int k : model.islands[i].constraints) {
       const auto& constraint = model.constraints[k];
       Applied force;
+      force.bodies = constraint.bodies;
       force.from_joint = constraint.from_joint;
       force.force.setZero();
-      for (const auto& row : constraint.rows) force.force += row.J[0].template head<Types::kDimension>() * f[i][at++];
+      for (const auto& row : constraint.rows)
+        force.force += row.J[0].template head<Types::kDimension>() * f[i][at++];
       if (constraint.from_joint) {
         const auto& joint = scene_.joints[constraint.source];
         force.point = scene_.bodies[joint.a].At(joint.at_a);

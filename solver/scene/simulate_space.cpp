@@ -8,7 +8,7 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
+constexpr double kWholeResidual = 1e-6;  // of a problem with the bilateral rows that reduction took out
 
 // By the rotation vector `turn`, rad.
 void Turn(Quaternion<double>& rotation, const Vector3<double>& turn) {

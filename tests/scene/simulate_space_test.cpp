@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes in space, stepped through time.
 
+#include "solver/scene/simulate_space.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 
 #include "corpus/scene_file.h"
-#include "solver/scene/simulate_space.h"
 
 namespace stiction {
 namespace {
@@ -21,7 +22,8 @@ SimulationInSpace Started(const std::string& name) {
   return SimulationInSpace(Round(file.scene), options);
 }
 
-TEST_CASE("simulate in space: a box on a slope does not creep above mu = tan, and slides by the closed form below") {
+TEST_CASE(
+    "simulate in space: a box on a slope does not creep above mu = tan, and slides by the closed form below") {
   SimulationInSpace rests = Started("box-on-slope-rests");
   const Vector start = rests.scene().bodies[1].position;
   for (int i = 0; i < 1000; ++i) rests.Step();
@@ -77,8 +79,10 @@ TEST_CASE("simulate in space: dominoes fall one after the other") {
 }
 
 TEST_CASE("simulate in space: momentum and angular momentum are kept in a collision and in free flight") {
-  SceneInSpace<Rational> exact = std::get<SceneFileInSpace>(ReadAnyScene(
-      std::filesystem::path(STICTION_SCENES) / "space" / "dominoes.json")).scene;
+  SceneInSpace<Rational> exact =
+      std::get<SceneFileInSpace>(
+          ReadAnyScene(std::filesystem::path(STICTION_SCENES) / "space" / "dominoes.json"))
+          .scene;
   exact.bodies.resize(3);
   SceneInSpace<double> scene = Round(exact);
   scene.gravity.setZero();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes in space: contacts, rows, assembly; closed forms exactly, and minimal models against full ones.
 
+#include "certify/space.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <random>
 
 #include "certify/properties.h"
-#include "certify/space.h"
 #include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
 #include "solver/scene/assemble_space.h"
@@ -110,7 +111,9 @@ TEST_CASE("contacts in space: a face on a face has the corners of what they shar
   }
   CHECK(FindContacts(SceneOf({Box({10, 10, 2}, {0, 0, -1}), Box({2, 2, 1}, {0, 0, 0.502})})).empty());
   // A square across a square leaves an octagon.
-  CHECK(FindContacts(SceneOf({Box({2, 2, 2}, {0, 0, -1}), Box({2, 2, 1}, {0, 0, 0.5}, {0, 0, 1}, 0.7)})).size() == 8);
+  CHECK(
+      FindContacts(SceneOf({Box({2, 2, 2}, {0, 0, -1}), Box({2, 2, 1}, {0, 0, 0.5}, {0, 0, 1}, 0.7)})).size() ==
+      8);
 }
 
 TEST_CASE("contacts in space: an edge across an edge touches in one point") {
@@ -177,12 +180,17 @@ struct Touching {
 };
 
 std::vector<Touching> AllMeetings() {
-  return {{"corner on face", Meeting::kFace, {Box({6, 6, 2}, {0, 0, -1}), Box({1, 1, 1}, {0, 0, 0.9}, {1, 2, 0.3}, 0.8)}},
-          {"ball on face", Meeting::kFace, {Box({6, 6, 2}, {0, 0, -1}, {1, 1, 0}, 0.1), Ball(1, {0.1, 0.2, 1})}},
-          {"ball on edge", Meeting::kEdge, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.6, 0.3, 1.9})}},
-          {"ball on corner", Meeting::kPoint, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.7, 1.6, 1.4})}},
-          {"ball on ball", Meeting::kPoint, {Ball(2, {0, 0, 0}), Ball(1, {1.8, 0.3, 2.4})}},
-          {"edges", Meeting::kEdges, {Box({4, 1, 1}, {0, 0, 0}, {1, 0, 0}, 0.7), Box({1, 4, 1}, {0.2, 0.1, 1.5}, {0.2, 1, 0.1}, 0.8)}}};
+  return {
+      {"corner on face",
+       Meeting::kFace,
+       {Box({6, 6, 2}, {0, 0, -1}), Box({1, 1, 1}, {0, 0, 0.9}, {1, 2, 0.3}, 0.8)}},
+      {"ball on face", Meeting::kFace, {Box({6, 6, 2}, {0, 0, -1}, {1, 1, 0}, 0.1), Ball(1, {0.1, 0.2, 1})}},
+      {"ball on edge", Meeting::kEdge, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.6, 0.3, 1.9})}},
+      {"ball on corner", Meeting::kPoint, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.7, 1.6, 1.4})}},
+      {"ball on ball", Meeting::kPoint, {Ball(2, {0, 0, 0}), Ball(1, {1.8, 0.3, 2.4})}},
+      {"edges",
+       Meeting::kEdges,
+       {Box({4, 1, 1}, {0, 0, 0}, {1, 0, 0}, 0.7), Box({1, 4, 1}, {0.2, 0.1, 1.5}, {0.2, 1, 0.1}, 0.8)}}};
 }
 
 TEST_CASE("rows in space: velocity and bias of a contact are the derivatives of its gap") {
@@ -208,7 +216,8 @@ TEST_CASE("rows in space: velocity and bias of a contact are the derivatives of 
   }
 }
 
-TEST_CASE("rows in space: where nothing slips the tangential bias is the derivative of the tangential velocity") {
+TEST_CASE(
+    "rows in space: where nothing slips the tangential bias is the derivative of the tangential velocity") {
   std::mt19937 random(2);
   for (const auto& [name, meeting, bodies] : AllMeetings()) {
     for (int repeat = 0; repeat < 5; ++repeat) {
@@ -239,7 +248,8 @@ TEST_CASE("rows in space: where nothing slips the tangential bias is the derivat
   }
 }
 
-TEST_CASE("rows in space: velocity and bias of joints and given contacts are the derivatives of what they measure") {
+TEST_CASE(
+    "rows in space: velocity and bias of joints and given contacts are the derivatives of what they measure") {
   std::mt19937 random(3);
   SceneInSpace<double> scene = SceneOf({Box({1, 1, 1}, {0, 0, 0}, {1, 2, 3}, 0.5), Box({1, 1, 1}, {2, 1, 1})});
   for (auto& body : scene.bodies) body.velocity = RandomVector(random), body.spin = RandomVector(random);
@@ -338,9 +348,11 @@ TEST_CASE("scene in space: the gyroscopic moment is -w x (I w)") {
 
 // ---- Minimal models --------------------------------------------------------------------------
 
-TEST_CASE("assemble in space: A is symmetric and semidefinite with b in its range, and minimal forces solve the full problem") {
-  for (const char* name : {"box-on-slope-rests", "box-on-slope-slides", "ball-slides-then-rolls", "tripod", "table",
-                           "conical-pendulum"}) {
+TEST_CASE(
+    "assemble in space: A is symmetric and semidefinite with b in its range, and minimal forces solve the full "
+    "problem") {
+  for (const char* name : {"box-on-slope-rests", "box-on-slope-slides", "ball-slides-then-rolls", "tripod",
+                           "table", "conical-pendulum"}) {
     INFO(name);
     const auto scene = NamedScene(name);
     const auto solved = SolveScene(scene);
@@ -359,7 +371,9 @@ TEST_CASE("assemble in space: A is symmetric and semidefinite with b in its rang
   }
 }
 
-TEST_CASE("assemble in space: a smooth inner contact of a face is dropped, exactly; a rough one and an outer one are not") {
+TEST_CASE(
+    "assemble in space: a smooth inner contact of a face is dropped, exactly; a rough one and an outer one are "
+    "not") {
   SceneInSpace<Rational> scene;
   scene.bodies.resize(2);
   scene.bodies[0].name = "plate", scene.bodies[1].name = "ground";
@@ -368,7 +382,8 @@ TEST_CASE("assemble in space: a smooth inner contact of a face is dropped, exact
   scene.gravity = Exact(1, 2, -10);
   scene.bodies[0].torque = Exact(3, -2, 1);
   const std::vector<std::pair<double, double>> feet = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {0.5, 0.25}};
-  for (const auto& [x, y] : feet) scene.contacts.push_back({0, 1, Exact(x, y, -1), Exact(0, 0, 0), Exact(0, 0, 1)});
+  for (const auto& [x, y] : feet)
+    scene.contacts.push_back({0, 1, Exact(x, y, -1), Exact(0, 0, 0), Exact(0, 0, 1)});
   const auto smooth = Assemble(scene, FindContacts(scene));
   REQUIRE(smooth.omitted.size() == 1);
   CHECK(smooth.omitted[0].contact == 4);
