@@ -42,10 +42,10 @@ static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration
 }
 
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
   const auto run = [&](const ContactProblem<double>& p, ContactProblem<double>::Vector& x) {
     const FastVerdict verdict = solver.fast.Run(p);
-    fallbacks += verdict.statistics.fallbacks;
+    statistics.fallbacks += verdict.statistics.fallbacks;
     x = solver.fast.f();
     return verdict.outcome == Outcome::kSolved;
   };

@@ -46,7 +46,10 @@ namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
 
-// A frame need not be solved as far as rounding allows, and cannot always.
+// In space a problem need not be solved as far as rounding allows, and cannot always: contacts lie close to
+// each other in a heap. What is not solved to the residual of the options is accepted to this one, and counted.
+inline constexpr double kLooseResidual = 1e-5;
+
 inline CoulombOptions WithResidual(double residual) {
   CoulombOptions options;
   options.residual = residual;
@@ -73,6 +76,7 @@ struct SimulationStatistics {
   std::int64_t stopped = 0;      // contacts that came to rest within a step
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
+  std::int64_t loose = 0;        // problems solved to kLooseResidual only
 };
 
 // visit(name, help, counter)
@@ -88,6 +92,7 @@ void ForEachField(S& s, Visit visit) {
   visit("stopped", "sliding contacts that came to rest within a step", s.stopped);
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
+  visit("loose", "problems solved to 1e-5 only", s.loose);
 }
 
 // A problem that a frame met, and where.
@@ -195,7 +200,7 @@ Drift DriftOf(const Scene<double>& scene);
 // f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole
 // problem. False if there is none to `options.residual`.
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
 }  // namespace stiction
 

@@ -94,7 +94,7 @@ bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) 
     ++statistics_.problems;
     statistics_.rows += problem.rows();
     if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), problem});
-    if (!SolveScene(solver_, problem, f[i], statistics_.fallbacks)) {
+    if (!SolveScene(solver_, problem, f[i], statistics_)) {
       failed_ = i;
       return false;
     }

@@ -8,7 +8,7 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kWholeResidual = 1e-6;  // of a problem with the bilateral rows that reduction took out
+constexpr double kWholeResidual = 10 * kLooseResidual;  // of a problem with the rows that reduction took out
 
 // By the rotation vector `turn`, rad.
 void Turn(Quaternion<double>& rotation, const Vector3<double>& turn) {
@@ -57,20 +57,22 @@ static void Advance(BodyInSpace<double>& body, const Vector6& acceleration, doub
 }
 
 bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
   const auto run = [&](const ContactProblem<double>& p, ContactProblem<double>::Vector& x) {
     if (IsFrictionless(p)) {
       ContactProblem<double> planar = p;  // one row each, as in the plane
       planar.dimension = 2;
       const FastVerdict verdict = solver.fast.Run(planar);
-      fallbacks += verdict.statistics.fallbacks;
+      statistics.fallbacks += verdict.statistics.fallbacks;
       x = solver.fast.f();
       return verdict.outcome == Outcome::kSolved;
     }
     const CoulombVerdict verdict = solver.coulomb.Run(p);
-    fallbacks += verdict.statistics.polygons > 0;
+    statistics.fallbacks += verdict.statistics.polygons > 0;
     x = solver.coulomb.f();
-    return verdict.outcome == Outcome::kSolved;
+    if (verdict.outcome == Outcome::kSolved) return true;
+    ++statistics.loose;
+    return verdict.residual <= kLooseResidual;
   };
   const auto accept = [&](const auto& whole, const auto& a) {
     return CoulombResidual(problem, whole, a) <= kWholeResidual;

@@ -31,7 +31,7 @@ Energy EnergyOf(const SceneInSpace<double>& scene);
 Drift DriftOf(const SceneInSpace<double>& scene);
 
 bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
 }  // namespace stiction
 
