@@ -10,7 +10,7 @@
 
 #include "corpus/scene_file.h"
 #include "search/bench/suite.h"
-#include "solver/scene/simulate.h"
+#include "solver/scene/simulate_space.h"
 
 namespace stiction {
 namespace {
@@ -23,16 +23,17 @@ struct Measured {
   std::string failure;
 };
 
-Measured Measure(const SceneFile& file, bool minimal, int repeat) {
+template <class ExactScene>
+Measured Measure(const SceneFileOf<ExactScene>& file, bool minimal, int repeat) {
   SimulationOptions options;
   options.step = ToDouble(file.step);
   options.minimal = minimal;
   const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / options.step), 1, kFrames);
-  const Scene<double> scene = Round(file.scene);
+  const auto scene = Round(file.scene);
   Measured measured;
   std::vector<double> rates;
   for (int run = 0; run < repeat; ++run) {
-    Simulation simulation(scene, options);
+    SimulationOf<std::remove_const_t<decltype(scene)>> simulation(scene, options);
     const auto start = std::chrono::steady_clock::now();
     try {
       for (std::int64_t k = 0; k < frames; ++k) simulation.Step();
@@ -78,16 +79,20 @@ int BenchScenes(const BenchOptions& o) {
         "scene", "minimal", "(least - most)", "rows", "prob.", "full", "rows", "prob.");
   }
   for (const auto& path : files) {
-    const SceneFile file = ReadScene(path);
-    const Measured minimal = Measure(file, true, o.repeat), full = Measure(file, false, o.repeat);
-    rows.push_back({{"scene", file.scene.name}, {"minimal", ToJson(minimal)}, {"full", ToJson(full)}});
+    const auto file = ReadAnyScene(path);
+    const auto name = std::visit([](const auto& of) { return of.scene.name; }, file);
+    const auto measure = [&](bool minimal) {
+      return std::visit([&](const auto& of) { return Measure(of, minimal, o.repeat); }, file);
+    };
+    const Measured minimal = measure(true), full = measure(false);
+    rows.push_back({{"scene", name}, {"minimal", ToJson(minimal)}, {"full", ToJson(full)}});
     if (o.json) continue;
     for (const Measured* m : {&minimal, &full}) {
-      if (!m->failure.empty()) fmt::print("{}: {}\n", file.scene.name, m->failure);
+      if (!m->failure.empty()) fmt::print("{}: {}\n", name, m->failure);
     }
-    fmt::print("{:24} {:>10.0f} {:>24} {:>6.1f} {:>6.2f} | {:>10.0f} {:>6.1f} {:>6.2f}\n", file.scene.name,
-               minimal.median, fmt::format("({:.0f} - {:.0f})", minimal.least, minimal.most), minimal.rows,
-               minimal.problems, full.median, full.rows, full.problems);
+    fmt::print("{:24} {:>10.0f} {:>24} {:>6.1f} {:>6.2f} | {:>10.0f} {:>6.1f} {:>6.2f}\n", name, minimal.median,
+               fmt::format("({:.0f} - {:.0f})", minimal.least, minimal.most), minimal.rows, minimal.problems,
+               full.median, full.rows, full.problems);
     std::fflush(stdout);
   }
   if (o.json) std::cout << JsonText(rows) << "\n";

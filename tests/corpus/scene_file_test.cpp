@@ -59,6 +59,30 @@ TEST_CASE("scene file: what is written reads back the same") {
   CHECK(Print(ParseScene(text, "again")) == text);
 }
 
+TEST_CASE("scene file: of dimension 3, read exactly and written so that it reads back the same") {
+  const SceneFileInSpace file = ParseSceneInSpace(R"({"format": "stiction-scene", "version": 1, "name": "s",
+    "dimension": 3, "note": "n", "gravity": ["0", "0", "-981/100"], "mu": 0.5, "bodies": [
+      {"name": "slope", "fixed": true, "rotation": [3, 0, -1, 0], "shapes": [{"box": [2, 4, 6], "center": [0, 0, -1]}]},
+      {"name": "tip", "mass": "2", "inertia": [[2, "1/3", 0], ["1/3", 2, 0], [0, 0, 1]], "angle": 0.1, "axis": [0, 3, 4],
+       "shapes": [{"polyhedron": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, "1/7"]]}]},
+      {"name": "ball", "mass": "3", "position": ["1", "0", "1"], "spin": [1, 2, 3], "shapes": [{"ball": "1/2"}]}],
+    "joints": [{"kind": "ball", "bodies": ["ball", "slope"], "at": ["1", "0", "0"]}],
+    "contacts": [{"bodies": ["tip", "slope"], "anchors": [[0, 0, 0], [0, 0, 0]], "normal": ["-3", "0", "4"]}],
+    "pairs": [{"bodies": ["tip", "ball"], "collide": false}]})",
+                                                  "file");
+  const auto& scene = file.scene;
+  CHECK(scene.bodies[0].shapes[0].faces.size() == 6);
+  CHECK(scene.bodies[2].inertia(1, 1) == Rational(3, 10));  // 2/5 m r^2
+  CHECK(scene.bodies[2].inertia(0, 1) == 0);
+  CHECK(scene.joints[0].at_a[2] == -1);
+  CHECK(scene.joints[0].at_b[0] == Rational(4, 5));
+  CHECK(scene.joints[0].at_b[2] == Rational(-3, 5));
+  CHECK(scene.contacts[0].normal[0] == 0);  // the slope's own axis
+  CHECK(scene.contacts[0].normal[2] == 1);
+  const std::string text = Print(file);
+  CHECK(Print(ParseSceneInSpace(text, "again")) == text);
+}
+
 TEST_CASE("scene file: errors name the place, what was found and what was expected") {
   CheckRefused(Text("{}"), "bodies", "an array of bodies");
   CheckRefused(Body(R"("mass": "0", "inertia": "1")"), "bodies[0].mass", "a number > 0");
