@@ -68,12 +68,13 @@ CarryingFace<Scalar> FarthestFace(const PlacedShape<Scalar>& P, const PlacedShap
   return *farthest;
 }
 
-// Two edges that cross, and their distance along the normal, which points out of the first's polyhedron.
+// Two edges, and their distance along the normal, which points out of the first's polyhedron.
 template <class Scalar>
 struct CrossingEdges {
   PolyhedronEdge first, second;
   Vector3<Scalar> normal;
   Scalar distance = Scalar(0);
+  Scalar at = Scalar(0);  // where they are nearest: at this part of the first
 };
 
 // Whether the edges can touch: the arc between the normals of one's faces, and the opposite of that between the
@@ -91,23 +92,36 @@ bool CanCross(const PlacedShape<Scalar>& P, const PolyhedronEdge& p, const Place
 }
 
 template <class Scalar>
-std::optional<CrossingEdges<Scalar>> FarthestEdges(const PlacedShape<Scalar>& P, const PlacedShape<Scalar>& Q) {
-  std::optional<CrossingEdges<Scalar>> farthest;
+struct FarthestEdges {
+  std::optional<CrossingEdges<Scalar>> crossing;  // of those that are nearest between their ends
+  std::optional<Scalar> apart;                    // the distance of all
+};
+
+template <class Scalar>
+FarthestEdges<Scalar> FindFarthestEdges(const PlacedShape<Scalar>& P, const PlacedShape<Scalar>& Q) {
+  FarthestEdges<Scalar> farthest;
   for (const auto& p : P.shape->edges) {
     const Vector3<Scalar> along_p = P.Along(p);
     for (const auto& q : Q.shape->edges) {
       const Vector3<Scalar> along_q = Q.Along(q);
       if (!CanCross<Scalar>(P, p, Q, q, along_p, along_q)) continue;
       const Vector3<Scalar> across = CrossProduct<Scalar>(along_p, along_q);
+      const Scalar square = across.squaredNorm();
       // Edges that are nearly parallel leave their normal to rounding; faces stand in for them.
       const Scalar least =
           kIsExact<Scalar> ? Scalar(0) : Scalar(1e-8 * along_p.squaredNorm() * along_q.squaredNorm());
-      if (across.squaredNorm() <= least) continue;
+      if (square <= least) continue;
       const Scalar outward = across.dot(P.normals[p.left]) + across.dot(P.normals[p.right]);
       Vector3<Scalar> normal = UnitVector3<Scalar>(across);
       if (outward < 0) normal = -normal;
-      const Scalar distance = normal.dot(Q.corners[q.from] - P.corners[p.from]);
-      if (!farthest || distance > farthest->distance) farthest = CrossingEdges<Scalar>{p, q, normal, distance};
+      const Vector3<Scalar> between = Q.corners[q.from] - P.corners[p.from];
+      const Scalar distance = normal.dot(between);
+      if (!farthest.apart || distance > *farthest.apart) farthest.apart = distance;
+      if (farthest.crossing && distance <= farthest.crossing->distance) continue;
+      const Scalar at_p = CrossProduct<Scalar>(between, along_q).dot(across) / square;
+      const Scalar at_q = CrossProduct<Scalar>(between, along_p).dot(across) / square;
+      if (at_p < 0 || at_p > 1 || at_q < 0 || at_q > 1) continue;
+      farthest.crossing = CrossingEdges<Scalar>{p, q, normal, distance, at_p};
     }
   }
   return farthest;
@@ -232,9 +246,13 @@ class PairFinder {
     if (on_p.distance > reach_ || on_q.distance > reach_) return;
     // Over doubles rounding must not choose from frame to frame.
     const Scalar preference = kIsExact<Scalar> ? Scalar(0) : Scalar(gap_ / 16);
-    const auto edges = FarthestEdges<Scalar>(Q, P);
+    const FarthestEdges<Scalar> edges = FindFarthestEdges<Scalar>(Q, P);
     const Scalar face_distance = std::max<Scalar>(on_p.distance, on_q.distance);
-    if (edges && edges->distance > face_distance + preference) return Edges(*edges, P, Q);
+    if (edges.apart && *edges.apart > reach_) return;
+    if (edges.crossing && edges.crossing->distance > face_distance + preference)
+      return Edges(*edges.crossing, P, Q);
+    // Edges part them that do not cross: corners pass each other, and what faces say of an overlap is not so.
+    if (edges.apart && *edges.apart > preference && face_distance < -preference) return;
     if (on_q.distance + preference >= on_p.distance) {
       Clip(pattern_, Q, on_q.face, P);
     } else {
@@ -242,19 +260,14 @@ class PairFinder {
     }
   }
 
-  // Where the lines of an edge of Q and one of P are nearest.
   void Edges(const CrossingEdges<Scalar>& edges, const Shape& P, const Shape& Q) {
-    if (edges.distance > reach_) return;
     Touch contact = pattern_;
     contact.meeting = Meeting::kEdges;
     contact.edge_a = P.Along(edges.second);
     contact.edge_b = Q.Along(edges.first);
     contact.normal = edges.normal;
     contact.gap = edges.distance;
-    // q + s edge_b is in the plane through p that edge_a and the normal span.
-    const Vector3<Scalar> side = CrossProduct<Scalar>(contact.edge_a, edges.normal);
-    const Vector3<Scalar>&p = P.corners[edges.second.from], &q = Q.corners[edges.first.from];
-    contact.point = q + Scalar(side.dot(p - q) / side.dot(contact.edge_b)) * contact.edge_b;
+    contact.point = Q.corners[edges.first.from] + edges.at * contact.edge_b;
     found_.push_back(contact);
   }
 
