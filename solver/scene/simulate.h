@@ -5,7 +5,8 @@
 //
 //   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities
 //   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
-//                 assemble.h, one linear correction; contacts are found again
+//                 assemble.h, one linear correction; contacts are found again. Collisions of the contacts
+//                 found first are resolved before, as by 3: moved bodies may show others
 //   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
 //   `impulses`, an inelastic collision with
 //                 restitution 0 and Coulomb's law, v += W J' p

@@ -56,7 +56,10 @@ SimulationOf<SceneType>::SimulationOf(SceneType scene, const SimulationOptions& 
 template <class SceneType>
 void SimulationOf<SceneType>::Step() {
   FindStepContacts();
-  if (HasDrifted()) CorrectPositions();
+  if (HasDrifted()) {
+    if (Collides()) ApplyImpulses();
+    CorrectPositions();
+  }
   if (Collides()) ApplyImpulses();
   Move(Accelerations());
   ++statistics_.frames;

@@ -78,6 +78,20 @@ TEST_CASE("simulate in space: dominoes fall one after the other") {
   CHECK(DriftOf(simulation.scene()).overlap < 0.01);
 }
 
+TEST_CASE("simulate in space: falling bodies lose energy, never overlap for long, and come to rest") {
+  SimulationInSpace simulation = Started("falling-bodies");
+  const double start = EnergyOf(simulation.scene()).total();
+  int deep = 0;
+  while (simulation.time() < 4) {
+    simulation.Step();
+    deep += DriftOf(simulation.scene()).overlap > 1e-3;
+    CHECK(EnergyOf(simulation.scene()).total() < 1.001 * start);
+  }
+  CHECK(deep < 20);
+  CHECK(EnergyOf(simulation.scene()).kinetic < 0.01 * start);
+  CHECK(simulation.statistics().collisions > 0);
+}
+
 TEST_CASE("simulate in space: momentum and angular momentum are kept in a collision and in free flight") {
   SceneInSpace<Rational> exact =
       std::get<SceneFileInSpace>(
