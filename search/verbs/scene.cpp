@@ -120,7 +120,8 @@ Scene<double> RoundedScene(const SceneFile& file, const std::string& source) {
   Scene<double> scene = Round(file.scene);
   for (const auto& body : scene.bodies) {
     const double sum = body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
-                       body.velocity.sum() + body.spin + body.force.sum() + body.torque;
+                       body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() +
+                       body.torque;
     if (!std::isfinite(sum))
       throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none",
                                    source, body.name));

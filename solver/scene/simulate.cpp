@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "solver/reduction.ipp"
 #include "solver/residual.h"
@@ -15,6 +17,9 @@ namespace {
 constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
 constexpr int kHoldRounds = 8;
+constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
+constexpr int kProximalPoints = 3;
+constexpr double kProximalResidual = 1e-13;  // at which more points gain nothing
 
 // The derivative of the gap: negative where the contact closes.
 double ApproachOf(const Scene<double>& scene, const TouchPoint<double>& contact) {
@@ -30,25 +35,58 @@ void Turn(Vector2<double>& rotation, double angle) {
 
 }  // namespace
 
+namespace {
+
+// Without complete driving.
+bool SolveQuickly(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                  std::span<const Cell> guess = {}) {
+  const Limits limits = std::exchange(solver.options().limits, {.drives = 0});
+  const bool solved = solver.Run(problem, guess).outcome == Outcome::kSolved;
+  solver.options().limits = limits;
+  return solved;
+}
+
+bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                     ContactProblem<double>::Vector& f) {
+  const double eps = kProximal * problem.A.diagonal().maxCoeff();
+  ContactProblem<double> near = problem;
+  near.A.diagonal().array() += eps;
+  double residual = std::numeric_limits<double>::infinity();
+  std::vector<Cell> cells;
+  f.setZero(problem.rows());
+  for (int point = 0; point < kProximalPoints && residual > kProximalResidual; ++point) {
+    near.b = problem.b - eps * f;
+    if (!SolveQuickly(solver, near, cells)) return false;
+    f = solver.f();
+    cells = solver.cells();
+    const ContactProblem<double>::Vector a = problem.A * f + problem.b;
+    residual = NaturalResidual(problem, f, a);
+  }
+  return residual <= solver.options().residual;
+}
+
+bool SolveReduced(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                  ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
+  if (SolveQuickly(solver, problem)) {
+    f = solver.f();
+    return true;
+  }
+  if (SolveProximally(solver, problem, f)) return true;
+  const FastVerdict verdict = solver.Run(problem);
+  fallbacks += verdict.statistics.fallbacks;
+  f = solver.f();
+  return verdict.outcome == Outcome::kSolved;
+}
+
+}  // namespace
+
 bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
-  const auto run = [&](const ContactProblem<double>& p) {
-    const FastVerdict verdict = solver.Run(p);
-    fallbacks += verdict.statistics.fallbacks;
-    return verdict.outcome == Outcome::kSolved;
-  };
-  if (!Reduction<double>::Concerns(problem)) {
-    const bool solved = run(problem);
-    f = solver.f();
-    return solved;
-  }
+  if (!Reduction<double>::Concerns(problem)) return SolveReduced(solver, problem, f, fallbacks);
   const Reduction<double> reduction(problem, solver.options().tolerances);
   if (reduction.end() != ReductionEnd::kReduced) return false;
   ContactProblem<double>::Vector x(0);
-  if (reduction.problem().rows() > 0) {
-    if (!run(reduction.problem())) return false;
-    x = solver.f();
-  }
+  if (reduction.problem().rows() > 0 && !SolveReduced(solver, reduction.problem(), x, fallbacks)) return false;
   f = reduction.Forces(x);
   const ContactProblem<double>::Vector a = problem.A * f + problem.b;
   return NaturalResidual(problem, f, a) <= kWholeResidual;
@@ -64,8 +102,14 @@ Simulation::Simulation(Scene<double> scene, const SimulationOptions& options,
 void Simulation::Step() {
   FindStepContacts();
   if (HasDrifted()) CorrectPositions();
-  if (Collides()) ApplyImpulses();
-  Move(Accelerations());
+  Changes accelerations(scene_.bodies.size(), Eigen::Matrix<double, 3, 1>::Zero());
+  do {
+    if (Collides()) ApplyImpulses();
+  } while (AddClosing(accelerations));
+  do {
+    accelerations = Accelerations();
+  } while (AddClosing(accelerations));
+  Move(accelerations);
   ++statistics_.frames;
   statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
 }
@@ -90,9 +134,29 @@ void Simulation::FindStepContacts() {
     fastest = std::max(fastest, Length<double>(body.velocity) + std::abs(body.spin) * radius);
   }
   contacts_ = FindContacts<double>(scene_, 2 * options_.step * fastest);
-  std::erase_if(contacts_, [this](const TouchPoint<double>& contact) {
-    return contact.gap + options_.step * ApproachOf(scene_, contact) > scene_.gap;
+  const auto beyond = std::stable_partition(contacts_.begin(), contacts_.end(), [this](const auto& contact) {
+    return contact.gap + options_.step * ApproachOf(scene_, contact) <= scene_.gap;
   });
+  beyond_.assign(beyond, contacts_.end());
+  contacts_.erase(beyond, contacts_.end());
+}
+
+// Moves from beyond_ to contacts_ what would overlap at the end of the step; whether there was anything.
+bool Simulation::AddClosing(const Changes& accelerations) {
+  const double h = options_.step;
+  const auto approach = [&](const TouchPoint<double>& contact) {
+    double speed = ApproachOf(scene_, contact);
+    const ConstraintRow<double, 3> normal = ContactConstraint(scene_, contact).rows[0];
+    speed += h * (normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]));
+    return speed;
+  };
+  const auto closing = std::stable_partition(beyond_.begin(), beyond_.end(), [&](const auto& contact) {
+    return contact.gap + h * approach(contact) >= -kDrift;
+  });
+  const bool found = closing != beyond_.end();
+  contacts_.insert(contacts_.end(), closing, beyond_.end());
+  beyond_.erase(closing, beyond_.end());
+  return found;
 }
 
 // ---- Solving ---------------------------------------------------------------------------------
