@@ -368,7 +368,7 @@ TEST_CASE(
   CHECK_FALSE(IsInRange(problem));
   const Reduction<Rational> reduction(problem);
   ExactMatrix A(2, 2);
-  A << 16, -12, -12, 9;
+  A << 16, 12, 12, 9;
   CHECK(reduction.problem().A.topLeftCorner(2, 2) == A);
   CHECK(reduction.problem().b[0] == -1);
   CHECK(reduction.problem().b[1] == 0);
