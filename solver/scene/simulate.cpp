@@ -37,10 +37,10 @@ void Turn(Vector2<double>& rotation, double angle) {
 
 namespace {
 
-// Without complete driving.
+// Without complete driving: limits.pivots bounds it. (Without friction it would bound the active set as well.)
 bool SolveQuickly(FastSolver<double>& solver, const ContactProblem<double>& problem,
                   std::span<const Cell> guess = {}) {
-  const Limits limits = std::exchange(solver.options().limits, {.drives = 0});
+  const Limits limits = std::exchange(solver.options().limits, {.pivots = 0});
   const bool solved = solver.Run(problem, guess).outcome == Outcome::kSolved;
   solver.options().limits = limits;
   return solved;
@@ -70,11 +70,12 @@ bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& p
 
 bool SolveReduced(FastSolver<double>& solver, const ContactProblem<double>& problem,
                   ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
-  if (SolveQuickly(solver, problem)) {
+  const bool friction = problem.rows() > static_cast<int>(problem.contacts.size());
+  if (friction && SolveQuickly(solver, problem)) {
     f = solver.f();
     return true;
   }
-  if (SolveProximally(solver, problem, f)) return true;
+  if (friction && SolveProximally(solver, problem, f)) return true;
   const FastVerdict verdict = solver.Run(problem);
   fallbacks += verdict.statistics.fallbacks;
   f = solver.f();
