@@ -21,7 +21,7 @@ global.document = {querySelectorAll: () => bodies, getElementById: id => named[i
 global.requestAnimationFrame = step => { next = step; };
 new Function(text.match(/<script>([^]*)<\/script>/)[1])();
 const frames = named.frame.max + 1, shown = new Set();
-for (let k = 0; k < frames; ++k) { next(k * 1000 / 30 + 0.01); shown.add(named.frame.value); }
+for (let k = 0; k < frames; ++k) { next(k * 1000 / 30 + (k > 0)); shown.add(named.frame.value); }
 named.play.onclick();
 const before = named.frame.value;
 next(1e6);
