@@ -297,6 +297,11 @@ TEST_CASE("scene: the rod of tangent 2, at rest, sliding, and with three solutio
     CHECK(problem(name).A == A);
   CHECK(problem("three-solutions").b[0] == 1);
   CHECK(problem("three-solutions").b[1] == 8);
+  for (const auto& [normal, friction] : {std::pair("0", "0"), {"31/20", "-29/10"}, {"5/4", "-5/2"}}) {
+    ExactVector f(2);
+    f << Q(normal), Q(friction);
+    CHECK_FALSE(FindViolation(problem("three-solutions"), f));
+  }
   const auto rest = SolveScene(NamedScene("rod-at-rest").scene);
   CHECK(rest.f[0][0] == Q("17/2"));
   CHECK(rest.f[0][1] == -3);
