@@ -125,8 +125,8 @@ TEST_CASE(
 TEST_CASE("simulate: f = 0 is taken where it is a solution") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1, 1);
-  FastSolver<double> solver;
-  std::int64_t fallbacks = 0;
+  SolverOf<Scene<double>> solver{SimulationOptions()};
+  SimulationStatistics statistics;
   for (int repeat = 0; repeat < 200; ++repeat) {
     ContactProblem<double> problem;
     problem.contacts.assign(3, {ContactKind::kStatic, 1.0, {0, 0}});
@@ -136,7 +136,7 @@ TEST_CASE("simulate: f = 0 is taken where it is a solution") {
     for (const int normal : {0, 2, 4}) problem.b[normal] = std::abs(problem.b[normal]);
     if (repeat % 2 == 0) problem.b[2] = 0;
     ContactProblem<double>::Vector f;
-    REQUIRE(SolveScene(solver, problem, f, fallbacks));
+    REQUIRE(SolveScene(solver, problem, f, statistics));
     CHECK(f.isZero(0));
   }
 }
