@@ -21,9 +21,9 @@
 // counted.
 //
 // Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
-// in each frame from f = 0. So it depends on the state alone, not on how the state was reached. Nothing else is
-// promised: it is not the solution nearest to f = 0. What can be said is that f = 0 is taken where it is a
-// solution: no sweep leaves it, and no contact violates its cell.
+// in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
+// f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
+// promised: the answer need not be the solution nearest to f = 0.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
 // Cost. For each island one problem of forces, another for every time that contacts come to rest within the
