@@ -370,7 +370,13 @@ SceneFile ParseScene(std::string_view text, const std::string& source) {
   return SceneReader().Read(JsonPlace(json, source, ""));
 }
 
-SceneFile ReadScene(const std::filesystem::path& file) { return ParseScene(ReadText(file), file.string()); }
+SceneFile ReadScene(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const Json json = ParseJson(ReadText(file), source);
+  const JsonPlace root(json, source, "");
+  const bool problem = json.is_object() && json.value("format", Json()) == "stiction-problem";
+  return SceneReader().Read(problem ? root.Required("scene", "the scene of the problem") : root);
+}
 
 Json ToJson(const SceneFile& file) {
   const Scene<Rational>& scene = file.scene;

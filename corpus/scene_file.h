@@ -24,6 +24,7 @@ struct SceneFile {
 };
 
 SceneFile ParseScene(std::string_view text, const std::string& source);
+// A stiction-scene file, or the key "scene" of a stiction-problem file.
 SceneFile ReadScene(const std::filesystem::path& file);
 
 // What the reader reads back to the same scene: anchors of joints and contacts in the bodies' coordinates.
