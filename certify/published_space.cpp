@@ -22,6 +22,7 @@ bool IsSurelyZero(const Interval& x) {
 
 }  // namespace stiction
 
+#include "corpus/rounded.h"
 #include "solver/published_space.ipp"
 #include "solver/reduction.ipp"
 
@@ -36,18 +37,6 @@ Interval Around(const Rational& x) {
   const int side = cmp(Rational(nearest), x);
   return {side > 0 ? std::nextafter(nearest, -kInfinity) : nearest,
           side < 0 ? std::nextafter(nearest, kInfinity) : nearest};
-}
-
-template <class Scalar, class Convert>
-ContactProblem<Scalar> Converted(const ExactProblem& problem, Convert convert) {
-  ContactProblem<Scalar> result;
-  result.dimension = problem.dimension;
-  for (const auto& contact : problem.contacts)
-    result.contacts.push_back(
-        {contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
-  result.A = problem.A.unaryExpr(convert);
-  result.b = problem.b.unaryExpr(convert);
-  return result;
 }
 
 // What bilateral and sliding contacts leave of a problem, and the whole from it, over Scalar.

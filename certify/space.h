@@ -69,6 +69,10 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
 // condition whatever c.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
 
+// An upper bound of CoulombResidual (solver/residual.h) of f with a = A f + b, evaluated over rationals, with
+// square roots to 100 binary digits. Any kinds of contacts.
+Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f);
+
 // What one contact does; a direction where it slips.
 struct SpaceMode {
   Law law = Law::kNone;  // kHold, kBreak, kFree, kInside (sticks) or kCorner (slips, fF = mu fN direction)

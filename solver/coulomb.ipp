@@ -92,21 +92,25 @@ void CoulombSolver<Scalar>::Improve() {
   if (!Reached()) Approach();
 }
 
+// Ends early where only roundings move.
 template <class Scalar>
 void CoulombSolver<Scalar>::Sweep(int count) {
   a_ = problem_->A * f_ + problem_->b;
   for (; count > 0; --count) {
     ++statistics_.sweeps;
+    bool moved = false;
     for (std::size_t i = 0; i < r_.size(); ++i) {
       const int row = first_row_[i], size = first_row_[i + 1] - row;
       const Triple to = ForceOf(static_cast<int>(i));
       for (int k = 0; k < size; ++k) {
         const Scalar change = to[k] - f_[row + k];
         if (change == 0) continue;
+        moved = moved || Abs(change) > 4 * std::numeric_limits<Scalar>::epsilon() * Abs(to[k]);
         f_[row + k] = to[k];
         a_ += change * problem_->A.col(row + k);
       }
     }
+    if (!moved) return;
   }
 }
 
@@ -158,9 +162,9 @@ auto CoulombSolver<Scalar>::Answer(const Vector& f) const -> Vector {
 // there.
 template <class Scalar>
 bool CoulombSolver<Scalar>::Newton() {
-  constexpr Scalar kShift = 1e-10;
+  const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
   regular_ = problem_->A;
-  regular_.diagonal() += std::max(rho_, kShift) * weight_;
+  regular_.diagonal() += std::max(rho_, shift) * weight_;
   a_ = Answer(f_);
   Note();
   Vector map = Map(f_, a_);

@@ -32,7 +32,8 @@ class SlippingContact {
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
 
   // Requires W_NN > 0.
-  SlippingContact(const Matrix& W, const Vector& q, const Scalar& mu) : mu_(mu), n_(-q[0] / W(0, 0)) {
+  SlippingContact(const Matrix& W, const Vector& q, const Scalar& mu)
+      : mu_(mu), n_(-q[0] / W(0, 0)), size_(W(0, 0)) {
     for (int i = 0; i < 2; ++i) {
       p_[i] = W(0, i + 1) / W(0, 0);
       c_[i] = q[i + 1] + W(i + 1, 0) * n_;
@@ -63,7 +64,7 @@ class SlippingContact {
   Scalar Root() const {
     constexpr int kMost = 60;
     const Scalar tiny = 4 * std::numeric_limits<Scalar>::epsilon();
-    Scalar low = 0, high = Abs(S_[0][0]) + Abs(S_[1][1]), at_low = Slack(low), at_high = Slack(high);
+    Scalar low = 0, high = size_ + Abs(S_[0][0]) + Abs(S_[1][1]), at_low = Slack(low), at_high = Slack(high);
     for (int k = 0; k < kMost && at_high < 0; ++k) {
       low = high;
       at_low = at_high;
@@ -88,7 +89,7 @@ class SlippingContact {
  private:
   Scalar Determinant(const Scalar& x) const { return (S_[0][0] + x) * (S_[1][1] + x) - S_[0][1] * S_[1][0]; }
 
-  Scalar mu_, n_;
+  Scalar mu_, n_, size_;  // size: W_NN, not zero where S is
   Scalar p_[2], c_[2], S_[2][2];
 };
 

@@ -30,15 +30,6 @@ RoundedSpaceRun RunAgain(const std::string& arithmetic, const ExactProblem& prob
   return RunSuspicionInSpace<long double>(problem, options);
 }
 
-Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
-template <class Vector>
-Json NumbersToJson(const Vector& values) {
-  Json json = Json::array();
-  for (const double x : values) json.push_back(NumberToJson(x));
-  return json;
-}
-
 template <class Vector>
 std::string List(const Vector& values) {
   std::vector<std::string> numbers;
@@ -305,7 +296,7 @@ std::string StageName(const SpacePiece<Rational>& piece) {
 }
 
 // What ends piece k: an end of the stage, or a contact that enters another cell.
-std::string EventAfter(const std::vector<SpacePiece<Rational>>& path, std::size_t k) {
+std::string EventAfter(const std::vector<SpacePiece<Rational>>& path, std::size_t k, Outcome outcome) {
   const SpacePiece<Rational>& piece = path[k];
   const std::string name = StageName(piece);
   if (piece.ends)
@@ -313,7 +304,7 @@ std::string EventAfter(const std::vector<SpacePiece<Rational>>& path, std::size_
                ? fmt::format("a_{} = 0: the stage ends", name)
                : fmt::format("the polygon has its full size mu f_N{}: the stage ends", piece.driven + 1);
   if (piece.descends) return fmt::format("{} is back at its start: a descent", name);
-  if (k + 1 == path.size()) return "no facet ahead";
+  if (k + 1 == path.size()) return outcome == Outcome::kRay ? "no facet ahead" : "the run ends here";
   std::string text;
   for (std::size_t i = 0; i < piece.word.size(); ++i) {
     const std::string from = Name(piece.word[i]), to = Name(path[k + 1].word[i]);
@@ -325,9 +316,10 @@ std::string EventAfter(const std::vector<SpacePiece<Rational>>& path, std::size_
 }
 
 Json PieceToJson(const SpacePiece<Rational>& piece, const ExactVector& f, const std::string& event) {
-  return {{"driven", StageName(piece)}, {"word", Name(piece.word)}, {"determinant", piece.determinant},
-          {"step", ToString(piece.s)},  {"event", event},           {"df", VectorToJson(piece.df)},
-          {"f", VectorToJson(f)}};
+  return {{"driven", StageName(piece)},       {"word", Name(piece.word)},
+          {"determinant", piece.determinant}, {"rate", ToString(piece.driven_rate)},
+          {"step", ToString(piece.s)},        {"event", event},
+          {"df", VectorToJson(piece.df)},     {"f", VectorToJson(f)}};
 }
 
 }  // namespace
@@ -357,7 +349,7 @@ SpaceReplay ReplayComplete(const ProblemFile& file, int sides, const Limits& lim
                  {"pieces", Json::array()}};
   for (std::size_t k = 0; k < path.size(); ++k) {
     const SpacePiece<Rational>& piece = path[k];
-    const std::string event = EventAfter(path, k), word = Name(piece.word);
+    const std::string event = EventAfter(path, k, run.verdict.outcome), word = Name(piece.word);
     f += piece.s * piece.df;
     replay.json["pieces"].push_back(PieceToJson(piece, f, event));
     replay.table += fmt::format("{:>5} {:>6} {:>4} {:>14}  {:20} {}\n", k + 1, StageName(piece),

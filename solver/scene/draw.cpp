@@ -131,7 +131,7 @@ double ForceScale(const Scene<double>& scene, const View& view) {
   double mass = 0;
   for (const auto& body : scene.bodies) mass += body.fixed ? 0 : body.mass;
   const double weight = mass * Length<double>(scene.gravity);
-  return (view.top - view.bottom) / 2 / (weight > 0 ? weight : 1);
+  return (view.top - view.bottom) / 4 / (weight > 0 ? weight : 1);
 }
 
 std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks) {

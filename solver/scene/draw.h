@@ -38,7 +38,7 @@ struct RecordedFrame {
 };
 RecordedFrame Record(const Scene<double>& scene, double time, Marks marks);
 
-// A newton in metres: half the view for the weight of all bodies that move, or 1 without gravity.
+// A newton in metres: a quarter of the view for the weight of all bodies that move, or 1 without gravity.
 double ForceScale(const Scene<double>& scene, const View& view);
 
 std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks);

@@ -5,10 +5,7 @@
 #define STICTION_SOLVER_SCENE_MECHANICS_IPP_
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <optional>
-#include <tuple>
 
 #include "solver/scalar.h"
 #include "solver/scene/mechanics.h"
@@ -170,27 +167,25 @@ bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& 
 }
 
 template <class Scalar, int Dof>
+bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j) {
+  const bool same_bodies = i.bodies == j.bodies || i.bodies == std::array<int, 2>{j.bodies[1], j.bodies[0]};
+  return same_bodies && i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
+}
+
+template <class Scalar, int Dof>
 std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
-  std::map<std::tuple<int, int, int>, std::vector<int>> groups;  // by bodies and kind
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    const auto& [bodies, law, rows, from_joint, source, part] = constraints[i];
-    if (law.kind == ContactKind::kBilateral) continue;
-    groups[{std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1]), static_cast<int>(law.kind)}]
-        .push_back(static_cast<int>(i));
-  }
+  const int count = static_cast<int>(constraints.size());
   std::vector<bool> redundant(constraints.size(), false);
-  for (const auto& [key, group] : groups) {
-    for (const int i : group) {
-      const auto serves = [&](int j) {
-        return j != i && !redundant[j] && constraints[j].law.mu == constraints[i].law.mu &&
-               constraints[j].law.slip == constraints[i].law.slip;
-      };
-      for (std::size_t j = 0; j < group.size() && !redundant[i]; ++j) {
-        for (std::size_t k = j; serves(group[j]) && k < group.size() && !redundant[i]; ++k) {
-          if (!serves(group[k])) continue;
-          redundant[i] = IsBetween(constraints[i], constraints[group[j]], constraints[group[k]]);
-        }
-      }
+  std::vector<int> others;
+  for (int i = 0; i < count; ++i) {
+    if (constraints[i].law.kind == ContactKind::kBilateral) continue;
+    others.clear();
+    for (int j = 0; j < count; ++j) {
+      if (j != i && !redundant[j] && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
+    }
+    for (std::size_t j = 0; j < others.size() && !redundant[i]; ++j) {
+      for (std::size_t k = j; k < others.size() && !redundant[i]; ++k)
+        redundant[i] = IsBetween(constraints[i], constraints[others[j]], constraints[others[k]]);
     }
   }
   return redundant;

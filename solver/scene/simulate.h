@@ -16,7 +16,8 @@
 // round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are
 // computed again. Sliding contacts can leave no solution at all (section 6 of [Baraff94] asks for an impulsive
 // force then): the frame is solved with every contact static, that is, by one inelastic step at the level of
-// velocities, which always has a solution; it is counted.
+// velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
+// counted.
 //
 // Which solution. Forces and accelerations need not be unique. The answer is that of FastSolver started afresh
 // in each frame: projected Gauss-Seidel sweeps from f = 0, then exchanges; complete driving from f = 0 where
@@ -25,7 +26,9 @@
 // sight does.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
-// Cost. Three problems for each island at most, mostly one; dense in the rows of an island.
+// Cost. For each island one problem of forces, another for every time that contacts come to rest within the
+// step, one of positions where there are joints, one of impulses in a collision; dense in the rows of an
+// island.
 
 #ifndef STICTION_SOLVER_SCENE_SIMULATE_H_
 #define STICTION_SOLVER_SCENE_SIMULATE_H_

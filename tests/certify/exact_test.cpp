@@ -139,7 +139,7 @@ TEST_CASE("runs with bilateral and sliding contacts: every step in the terms of 
     }
     CHECK(run.state.f == f);
     CHECK(run.a == problem.A * f + problem.b);
-    if (run.verdict.outcome == Outcome::kSolved) CHECK_FALSE(FindLawViolation(problem, f));
+    if (run.verdict.outcome == Outcome::kSolved) CHECK_FALSE(FindViolation(problem, f));
   }
   CHECK(ends[static_cast<int>(Outcome::kSolved)] > 80);
   CHECK(ends[static_cast<int>(Outcome::kRay)] > 0);

@@ -8,6 +8,7 @@
 #include "certify/certificate.h"
 #include "certify/existence.h"
 #include "certify/verify_solution.h"
+#include "solver/residual.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -91,6 +92,40 @@ TEST_CASE("coulomb bound: rounded down, to eight digits of its distance from one
   CHECK(*bound * *bound * 89 <= 25);  // cosine 5 / sqrt(89)
   CHECK((*bound + Rational(1, 128)) * (*bound + Rational(1, 128)) * 89 > 25);
   CHECK(!CoulombBound(problem, Vector({0, 0, 0})));
+}
+
+TEST_CASE("coulomb residual bound: above the residual of doubles by rounding only") {
+  for (int index = 0; index < 100; ++index) {
+    CAPTURE(index);
+    Choices choices(100 + index);
+    const ExactProblem problem = RandomInSpace(1 + index % 4, index);
+    ContactProblem<double> rounded;
+    rounded.dimension = 3;
+    for (const auto& contact : problem.contacts)
+      rounded.contacts.push_back({contact.kind, ToDouble(contact.mu), {}});
+    rounded.A = problem.A.unaryExpr(&ToDouble);
+    rounded.b = problem.b.unaryExpr(&ToDouble);
+    ExactVector f(problem.rows());
+    for (Rational& x : f) x = Rational(choices.Integer(-50, 50), 64);
+    const Eigen::VectorXd near = f.unaryExpr(&ToDouble);
+    const double residual = CoulombResidual(rounded, near, Eigen::VectorXd(rounded.A * near + rounded.b));
+    CHECK(ToDouble(CoulombResidualBound(problem, f)) == Approx(residual).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("coulomb residual bound: proves what is below the rounding of doubles") {
+  // fF = -mu fN aF / abs(aF) with a rational direction: a solution, exactly.
+  const ExactProblem slips = OneContact(Rational(1, 2), {-1, 3, 4});
+  const Rational zero = CoulombResidualBound(slips, Vector({1, Rational(-3, 10), Rational(-2, 5)}));
+  CHECK(zero >= 0);
+  CHECK(zero < Rational(1, 1) / Rational("1000000000000000000000000000"));
+  const Rational tiny("1/100000000000000000000");
+  const Rational bound = CoulombResidualBound(slips, Vector({1, Rational(-3, 10) + tiny, Rational(-2, 5)}));
+  CHECK(bound > tiny / 8);
+  CHECK(bound < tiny);
+  // A solution without a rational length: slip along (1, 1).
+  const ExactProblem diagonal = OneContact(1, {-1, 5, 5});
+  CHECK(CoulombResidualBound(diagonal, Vector({1, Rational(-7, 10), Rational(-7, 10)})) > Rational(1, 1000));
 }
 
 TEST_CASE("space: every problem in range is certified, under either law") {

@@ -111,9 +111,9 @@ class Formats(cli.TestCase):
         self.assertIs(outside["meets assumptions"], False)
 
     def test_survey_counts_how_the_methods_end(self):
-        shutil.copy(self.root / "corpus" / "cycle-every-policy-mu-1.json", self.folder)
+        self.file("reference.json", cli.REFERENCE)
         self.file("fc.dat", FRICTION.replace("1.0001", "1"))
-        counts = self.succeeds("survey", self.folder).stdout.split("2 problems\n")[1]
+        counts = self.succeeds("survey", self.folder).out.split("2 problems\n")[1]
         self.assertRegex(counts, r"(?m)^baraff, exact +cycle 1, solved 1$")
         self.assertRegex(counts, r"(?m)^complete, double +solved 2$")
 

@@ -47,7 +47,8 @@ def mixed(draw):
     if draw.random() < 0.5:  # with two hinges, the same one twice
         J[-1] = [2 * x for x in J[0]]
     A = [[sum(x * y for x, y in zip(row, other)) for other in J] for row in J]
-    b = [sum(x * y for x, y in zip(row, J[0])) - sum(row) for row in J]
+    c = [draw.randint(-3, 3) for _ in range(columns)]
+    b = [sum(x * y for x, y in zip(row, c)) for row in J]
     if draw.random() < 0.3:
         A = [[draw.randint(-1, 1) for _ in row] for row in A]
     return problem_of(contacts, A, b)
@@ -157,8 +158,14 @@ class Kinds(cli.TestCase):
         sys.path.insert(0, str(cli.ROOT / "certify"))
         import check_certificate as checker
         draw, outcomes = random.Random(45), {}
-        for index in range(60):
-            problem = mixed(draw)
+        hinge = [{"kind": "bilateral"}, {"kind": "frictionless"}]  # whose force, or whose row, another one spoils
+        problems = [problem_of(hinge, [[0, 0], [1, 1]], [0, -1]), problem_of(hinge, [[0, 1], [0, 1]], [0, -1])]
+        # The hinge without a force is the one whose column depends on those before.
+        problems += [problem_of(2 * hinge[:1], [[0, 0], [1, 2]], [0, -1]), problem_of(2 * hinge[:1], [[1, 2], [2, 4]], [1, 3])]
+        # Friction along the acceleration of its contact, as only sliding friction can be.
+        problems += [problem_of([{"kind": "sliding", "mu": "1", "slip": "1"}], [["2", "0"], ["0", "1"]], ["-1", "-1"])]
+        problems += [mixed(draw) for _ in range(60)]
+        for index, problem in enumerate(problems):
             policy = draw.choice(["paper", "resume=round", "scan=highest,resume=round,file=yes",
                                   "admit=eager,file=yes,apex=suspended", "scan=most-violated,ties=contacts"])
             with self.subTest(index=index, policy=policy, problem=problem):

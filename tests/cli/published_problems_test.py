@@ -23,12 +23,19 @@ FILES = {
     "friction/Rover1039.dat": (4, 3, 1e-6), "friction/Confeti-ex13-4contact-Fc3D-SBM.dat": (4, 3, 0),
     "fclib/CubeH8.hdf5": (1, 3, 2e-14),
 }
+# In space, more contacts.
+LARGER = {
+    "friction/OneObject-i100000-316.hdf5.dat": 25, "friction/Confeti-ex03-Fc3D-SBM.dat": 54,
+    "fclib/fclib_local_problem_test.hdf5": 48, "fclib/Spheres-i099-356-679.hdf5": 356,
+    "friction/Capsules-i100-889.dat": 276, "fclib/Capsules-i125-1213.hdf5": 286,
+}
+RESIDUAL = 1e-8
 
 
 class PublishedProblems(cli.TestCase):
     def survey(self, names):
         folder = pathlib.Path(os.environ["STICTION_DATA"])
-        entries = self.succeeds("survey", *(folder / name for name in names), "--json", timeout=600).json()
+        entries = self.succeeds("survey", *(folder / name for name in names), "--json", timeout=900).json()
         return dict(zip(names, entries, strict=True))
 
     def test_every_file_is_read_as_what_it_is(self):
@@ -60,6 +67,20 @@ class PublishedProblems(cli.TestCase):
                 [run] = entry["runs"]
                 self.assertEqual((run["method"], run["outcome"]), ("proximal", "solved"))
                 self.assertLess(run["residual"], 1e-9)
+
+    def test_all_in_space_obey_coulombs_law(self):
+        spatial = [name for name in FILES if FILES[name][1] == 3] + list(LARGER)
+        for name, entry in self.survey(spatial).items():
+            if name in LARGER:
+                self.assertEqual(entry["contacts"], LARGER[name])
+            for variant in (entry, entry.get("symmetrized", entry)):
+                with self.subTest(file=name):
+                    doubles, *exact = variant["runs"]
+                    self.assertEqual(doubles["outcome"], "solved")
+                    self.assertLessEqual(doubles["residual"], RESIDUAL)
+                    if name in FILES:
+                        self.assertEqual([run["certificate"] for run in exact], ["coulomb-solution"])
+                        self.assertLess(exact[0]["cosine gap"], RESIDUAL)
 
     def test_two_storages_of_one_problem_are_the_same_problem(self):
         folder = pathlib.Path(os.environ["STICTION_DATA"]) / "friction"

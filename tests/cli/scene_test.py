@@ -63,6 +63,21 @@ class Scenes(cli.TestCase):
         self.assertGreater(len(written), 100)
         self.assertEqual(cli.run("solve", written[50], "--method", "fast", "--arithmetic", "double").code, 0)
 
+    def test_a_frame_without_an_answer_is_exit_3_and_its_problem_is_written(self):
+        jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}
+        scene = {"format": "stiction-scene", "version": 1, "name": "vice", "dimension": 2, "bodies": [
+            {"name": "left", "position": [-1.25, 0], "velocity": [1, 0], **jaw},
+            {"name": "right", "position": [1.25, 0], "velocity": [-1, 0], **jaw},
+            {"name": "block", "mass": "1", "shapes": [{"box": [1, 1]}]}]}
+        folder = self.folder / "vice"
+        done = cli.run("simulate", self.file("vice.json", scene), "-o", folder, "--no-svg")
+        self.assertEqual(done.code, 3)
+        self.assertIn("frame ", done.err)
+        self.assertTrue((folder / "animation.html").exists())
+        self.assertFalse((folder / "frames").exists())
+        problem = json.loads((folder / "undecided.json").read_text())
+        self.assertEqual(problem["format"], "stiction-problem")
+
     def test_every_scene_is_drawn(self):
         for scene in sorted(FOLDER.glob("*.json")):
             with self.subTest(scene=scene.name):

@@ -62,7 +62,7 @@ TEST_CASE("scene file: what is written reads back the same") {
 TEST_CASE("scene file: errors name the place, what was found and what was expected") {
   CheckRefused(Text("{}"), "bodies", "an array of bodies");
   CheckRefused(Body(R"("mass": "0", "inertia": "1")"), "bodies[0].mass", "a number > 0");
-  CheckRefused(Body(R"("mass": "1")"), "bodies[0]", "inertia");
+  CheckRefused(Body(R"("mass": "1")"), "bodies[0].inertia", "no shapes to compute it from");
   CheckRefused(Body(R"("mass": "1", "shapes": [{"disc": "1", "center": ["1", "0"]}])"), "bodies[0]",
                "centre of mass");
   CheckRefused(Body(R"("mass": "1", "shapes": [{"disc": "-1"}])"), "bodies[0].shapes[0].disc", "a number > 0");

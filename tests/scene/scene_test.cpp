@@ -43,7 +43,7 @@ std::optional<ExactVector> SolveExactly(const ExactProblem& problem) {
     x = run.f;
   }
   const ExactVector f = reduction.Forces(x);
-  CHECK(FindLawViolation(problem, f).value_or("") == "");
+  CHECK(FindViolation(problem, f).value_or("") == "");
   return f;
 }
 
@@ -308,9 +308,9 @@ TEST_CASE("scene: the rod of tangent 2, at rest, sliding, and with three solutio
   CHECK(two.b[0] == 10);
   ExactVector f(2);
   f << 0, 0;
-  CHECK_FALSE(FindLawViolation(two, f));
+  CHECK_FALSE(FindViolation(two, f));
   f << Q("25/2"), -25;
-  CHECK_FALSE(FindLawViolation(two, f));
+  CHECK_FALSE(FindViolation(two, f));
 }
 
 TEST_CASE("scene: the tension of a pendulum at the bottom is m (g + w^2 l)") {
@@ -371,7 +371,7 @@ TEST_CASE("assemble: minimal forces, extended by zeros, solve the full problem o
     const auto f = SolveExactly(minimal);
     if (!f) continue;  // the sliding rod
     const ExactVector all = ExtendForces(minimal, *f, full);
-    CHECK(FindLawViolation(full.islands[0].problem, all).value_or("") == "");
+    CHECK(FindViolation(full.islands[0].problem, all).value_or("") == "");
     CHECK(BodyAccelerations(full, {all}) == BodyAccelerations(minimal, *f));
     ++extended;
   }

@@ -142,6 +142,31 @@ TEST_CASE("simulate: minimal and full models move alike where accelerations are 
   }
 }
 
+TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error names frame and problem") {
+  Scene<double> scene;
+  scene.gap = 1e-3;
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    RigidBody<double> body;
+    body.fixed = x != 0;
+    body.position = {x, 0};
+    body.velocity = {-x, 0};
+    body.shapes.push_back({{{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}}, {0, 0}, 0});
+    scene.bodies.push_back(body);
+  }
+  Simulation simulation(scene);
+  try {
+    for (int i = 0; i < 60; ++i) simulation.Step();
+    FAIL("the vice closed");
+  } catch (const SimulationError& error) {
+    const std::string message = error.what();
+    INFO(message);
+    CHECK(simulation.statistics().frames == 5);  // closed by 1/10 m at 1 m/s
+    CHECK(message.find("frame 5, ") != message.npos);
+    CHECK(message.find("is undecided") != message.npos);
+    CHECK(error.problem.rows() > 0);
+  }
+}
+
 TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes") {
   SimulationOptions options;
   options.step = 1.0 / 120;

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "solver/one_contact.h"
 #include "solver/residual.h"
 #include "tests/support.h"
 
@@ -99,6 +100,29 @@ TEST_CASE("coulomb residual: bilateral and sliding contacts") {
   CHECK(ResidualOf(slides, {1, 0, 0.5}) > 0.1);
 }
 
+// ---- One contact -------------------------------------------------------------------------------
+
+TEST_CASE("one contact: its force obeys the law, also where W is not symmetric") {
+  Choices choices(11);
+  const auto draw = [&] { return static_cast<double>(choices.Integer(-100, 100)) / 50; };
+  std::array<int, 3> counts = {0, 0, 0};  // parts, sticks, slips
+  for (int index = 0; index < 2000; ++index) {
+    CAPTURE(index);
+    Problem problem = OneContact(index % 10 == 0 ? 0 : std::abs(draw()), {draw(), draw(), draw()});
+    Problem::Matrix J(3, 3);
+    for (double& x : J.reshaped()) x = draw();
+    problem.A = J * J.transpose() + 0.1 * Problem::Matrix::Identity(3, 3);
+    if (index % 2 == 0) problem.A(1, 0) += 0.01;
+    const auto f = SolveOneContact<double>(problem.A, problem.b, problem.contacts[0].mu);
+    CHECK(ResidualOf(problem, {f[0], f[1], f[2]}) < 1e-11);
+    const double slack = problem.contacts[0].mu * f[0] - std::hypot(f[1], f[2]);
+    ++counts[f[0] == 0 ? 0 : slack > 1e-9 ? 1 : 2];
+  }
+  for (const int count : counts) CHECK(count > 200);
+  const auto immovable = SolveOneContact<double>(Eigen::Vector3d(1, 0, 0).asDiagonal(), {-1, 3, 4}, 0.5);
+  CHECK(std::hypot(immovable[1] + 0.3, immovable[2] + 0.4) < 1e-14);
+}
+
 // ---- The solver --------------------------------------------------------------------------------
 
 TEST_CASE("coulomb: one contact slips, sticks, parts") {
@@ -136,6 +160,66 @@ TEST_CASE("coulomb: random problems are solved to rounding, from either start") 
     }
     CHECK((start == CoulombStart::kComplete ? polygons > 200 : polygons < 50));  // f = 0 asks for none
   }
+}
+
+// Every contact `copies` times: forces are far from unique. `skew` makes A asymmetric, and leaves b in its
+// range.
+Problem Repeated(int n, int copies, double skew, Choices& choices) {
+  const auto draw = [&] { return static_cast<double>(choices.Integer(-1000, 1000)) / 1000; };
+  Problem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(n * copies, {ContactKind::kStatic, 0.7, {}});
+  Problem::Matrix J(3 * n * copies, 3 * n), left;
+  for (int i = 0; i < 3 * n; ++i) {
+    for (int j = 0; j < 3 * n; ++j) J(i, j) = draw();
+  }
+  for (int k = 1; k < copies; ++k) J.middleRows(3 * n * k, 3 * n) = J.topRows(3 * n);
+  left = J;
+  for (double& x : left.reshaped()) x += skew * draw();
+  Problem::Vector y(3 * n);
+  for (double& x : y) x = draw();
+  problem.A = left * J.transpose();
+  problem.b = left * y;
+  return problem;
+}
+
+TEST_CASE("coulomb: repeated contacts are solved without polygons") {
+  CoulombOptions options;
+  options.sides = 0;
+  CoulombSolver<double> solver(options);
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    Choices choices(7000 + index);
+    const Problem problem = Repeated(2 + index % 3, 2 + index % 4, 0, choices);
+    const CoulombVerdict verdict = solver.Run(problem);
+    CHECK(verdict.outcome == Outcome::kSolved);
+    CHECK(CoulombResidual(problem, solver.f(), solver.a()) <= 1e-8);
+  }
+}
+
+TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
+  CoulombSolver<double> solver;
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    Choices choices(8000 + index);
+    Problem problem = Repeated(2 + index % 5, 1, 1e-3, choices);
+    CHECK((problem.A - problem.A.transpose()).norm() > 1e-4);
+    CHECK(solver.Run(problem).outcome == Outcome::kSolved);
+    const Problem::Vector f = solver.f();
+    CHECK(CoulombResidual(problem, f, Problem::Vector(problem.A * f + problem.b)) <= 1e-8);
+  }
+}
+
+TEST_CASE("coulomb: proximal steps solve most asymmetric problems with repeated contacts") {
+  CoulombOptions options;
+  options.sides = 0;
+  CoulombSolver<double> solver(options);
+  int solved = 0;
+  for (int index = 0; index < 60; ++index) {
+    Choices choices(9000 + index);
+    solved += solver.Run(Repeated(6, 4, 1e-3, choices)).outcome == Outcome::kSolved;
+  }
+  CHECK(solved >= 53);  // 47 without them
 }
 
 TEST_CASE("coulomb: other kinds of contacts stand beside") {
