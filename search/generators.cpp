@@ -56,9 +56,8 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "rational coordinates and Pythagorean normals, on a floor, between walls (all up to 37 degrees off), "
        "on, "
        "beside and wedged between each other, under gravity and, with probability 1/2, applied forces and "
-       "moments; A = J M^-1 J', b = J M^-1 F. The contacts of two bodies have one friction coefficient. "
-       "Problem "
-       "files carry the scene.",
+       "moments; every body has a contact, and one at least is on the floor. A = J M^-1 J', b = J M^-1 F. Two "
+       "bodies have one friction coefficient. Problem files carry the scene.",
        false},
   }};
   return kRows;

@@ -9,7 +9,7 @@
 namespace stiction {
 namespace {
 
-constexpr int kCeiling = 3, kFirstCut = 4, kSecondCut = 5;
+constexpr int kFloor = 0, kCeiling = 3, kFirstCut = 4, kSecondCut = 5;
 constexpr int kAttempts = 8;  // then a design without chance, whose interfaces hold eight contacts
 
 bool Less(const Ratio& p, const Ratio& q) {
@@ -160,7 +160,7 @@ bool PlaceContacts(int contacts, SceneDesign& design, Choices& choices) {
     if (!PlaceContact(design, choices, [c](const auto& i) { return i.upper == c && i.lower != kTheWorld; }))
       return false;
   }
-  if (!PlaceContact(design, choices, [](const auto& i) { return i.lower == kTheWorld; })) return false;
+  if (!PlaceContact(design, choices, [](const auto& i) { return i.line == kFloor; })) return false;
   for (int rest = contacts - design.cells; rest > 0; --rest) {
     if (!PlaceContact(design, choices, [](const auto&) { return true; })) return false;
   }

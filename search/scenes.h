@@ -78,7 +78,8 @@ struct SceneDesign {
   std::array<SceneInterface, kSceneWalls * kMostSceneBodies + 3> interface;
 };
 
-// A design of exactly so many contacts, 1 to 8. Every body touches a body before it, and one the world.
+// A design of exactly so many contacts, 1 to 8. Every body but the first touches one before it, and one touches
+// the floor.
 SceneDesign DrawSceneDesign(int contacts, Choices& choices);
 
 // The edge of the cell on this line, empty if it has none.

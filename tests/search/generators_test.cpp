@@ -433,8 +433,8 @@ TEST_CASE("generators: outside 1 to 8 contacts, or without a palette, is an inte
 // generators themselves.
 TEST_CASE("generators: the bits of the double problems are the same on every machine") {
   const std::array<std::uint64_t, kGeneratorCount> expected = {
-      0xe9843a6c5c02462a, 0x9b7decbea7385274, 0x1f58d55260819c5d, 0x61552515ac86d439,
-      0x0087249eeaa2bc61, 0xa9098b9430b81db6, 0x47c17bf2f082462f, 0x0bc20b168cbd5e1a,
+      0xe9843a6c5c02462a, 0x9b7decbea7385274, 0x1f58d55260819c5d, 0x61552515ac86d439, 0x0087249eeaa2bc61,
+      0xa9098b9430b81db6, 0x47c17bf2f082462f, 0x0bc20b168cbd5e1a, 0x5c5b6d4ae415d167,
   };
   for (const GeneratorRow& row : Generators()) {
     std::uint64_t hash = 0;
