@@ -33,7 +33,7 @@ namespace {
 
 constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
 constexpr int kExactSpatialContacts = 10;
-constexpr int kPublishedContacts = 24;     // up to here the published algorithm runs over rationals
+constexpr int kPublishedContacts = 32;     // up to here the published algorithm runs over rationals
 constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
 constexpr double kRounding = 1e-2;         // A - A' up to this part of A may be rounding, and is mended
 constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
