@@ -6,18 +6,15 @@
 #include <cmath>
 #include <utility>
 
-#include "corpus/exact_number.h"
+#include "corpus/scene_reading.h"
 
 namespace stiction {
 namespace {
 
 using Vector = Vector2<Rational>;
 
-constexpr std::string_view kFormat = "stiction-scene";
-constexpr int kVersion = 1;
 constexpr std::array<std::string_view, 3> kJointNames = {"pin", "rail", "slider"};
 const std::string kPair = "a pair of numbers [x, y]";
-const std::string kNumber = "a number";
 
 // Up to the rounding of doubles.
 bool IsUnit(const Vector& v) {
@@ -26,18 +23,6 @@ bool IsUnit(const Vector& v) {
 }
 
 // ---- Reading ---------------------------------------------------------------------------------
-
-Rational Positive(const JsonPlace& place) {
-  Rational x = ExactNumber(place);
-  if (x <= 0) place.Refuse("a number > 0");
-  return x;
-}
-
-Rational NotNegative(const JsonPlace& place) {
-  Rational x = ExactNumber(place);
-  if (x < 0) place.Refuse("a number >= 0");
-  return x;
-}
 
 Vector ReadVector(const JsonPlace& place) {
   if (place.Size(kPair) != 2) place.Refuse(kPair);
@@ -55,11 +40,6 @@ Vector ReadRotation(const JsonPlace& place) {
   const Vector v = ReadVector(place);
   if (!IsUnit(v)) place.Refuse("[cos, sin], cos^2 + sin^2 = 1 up to the rounding of doubles");
   return v;
-}
-
-bool ReadFlag(const JsonPlace& place) {
-  if (!place.json().is_boolean()) place.Refuse("true or false");
-  return place.json().get<bool>();
 }
 
 BodyShape<Rational> ReadBox(const JsonPlace& place, const Vector& center) {
@@ -156,11 +136,8 @@ class SceneReader {
 
  private:
   void Bodies(const JsonPlace& place);
-  std::pair<int, int> Pair(const JsonPlace& place) const;
-  int Body(const JsonPlace& place) const;
   Joint<Rational> OneJoint(const JsonPlace& place) const;
   GivenContact<Rational> OneContact(const JsonPlace& place) const;
-  PairRule<Rational> OneRule(const JsonPlace& place) const;
   template <class Item>
   void Anchors(const JsonPlace& place, Item& item) const;
   Vector Direction(const JsonPlace& place, const std::string& world, const std::string& local, int b) const;
@@ -168,67 +145,22 @@ class SceneReader {
   Scene<Rational> scene_;
 };
 
-void ReadHeader(const JsonPlace& place) {
-  const std::string format = '"' + std::string(kFormat) + '"', version = std::to_string(kVersion);
-  const JsonPlace found = place.Required("format", format);
-  if (found.Text(format) != kFormat) found.Refuse(format);
-  place.Required("version", version).Integer(kVersion, kVersion, version);
-  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
-                   "seconds", "bodies", "joints", "contacts", "pairs"});
-  place.Required("dimension", "2").Integer(2, 2, "2");
-}
-
 SceneFile SceneReader::Read(const JsonPlace& place) {
-  ReadHeader(place);
+  ReadSceneHeader(place, 2, 2);
   SceneFile file;
-  scene_.name = place.Required("name", "a string").Text("a string");
-  scene_.gap = Rational(1, 1000);
-  if (const auto note = place.Optional("note")) file.note = note->Text("a string");
+  ReadSceneNumbers(place, file, scene_);
   if (const auto gravity = place.Optional("gravity")) scene_.gravity = ReadVector(*gravity);
-  if (const auto mu = place.Optional("mu")) scene_.mu = NotNegative(*mu);
-  if (const auto gap = place.Optional("gap")) scene_.gap = NotNegative(*gap);
-  if (const auto rest = place.Optional("rest")) scene_.rest = NotNegative(*rest);
-  if (const auto step = place.Optional("step")) file.step = Positive(*step);
-  if (const auto seconds = place.Optional("seconds")) file.seconds = Positive(*seconds);
   Bodies(place.Required("bodies", "an array of bodies"));
-  const auto each = [&place](const std::string& key, auto add) {
-    const auto list = place.Optional(key);
-    const std::size_t count = list ? list->Size("an array") : 0;
-    for (std::size_t i = 0; i < count; ++i) add((*list)[i]);
-  };
-  each("joints", [this](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at)); });
-  each("contacts", [this](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at)); });
-  each("pairs", [this](const JsonPlace& at) { scene_.pairs.push_back(OneRule(at)); });
+  ForEachOf(place, "joints", [this](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at)); });
+  ForEachOf(place, "contacts", [this](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at)); });
+  ForEachOf(place, "pairs", [this](const JsonPlace& at) { scene_.pairs.push_back(ReadRule(scene_, at)); });
   file.scene = std::move(scene_);
   return file;
 }
 
 void SceneReader::Bodies(const JsonPlace& place) {
   const std::size_t count = place.Size("an array of bodies");
-  for (std::size_t i = 0; i < count; ++i) {
-    RigidBody<Rational> body = ReadBody(place[i]);
-    for (const auto& other : scene_.bodies) {
-      if (other.name == body.name) place[i].Required("name", "").Refuse("a name of its own");
-    }
-    scene_.bodies.push_back(std::move(body));
-  }
-}
-
-int SceneReader::Body(const JsonPlace& place) const {
-  const std::string& name = place.Text("the name of a body");
-  for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-    if (scene_.bodies[i].name == name) return static_cast<int>(i);
-  }
-  place.Refuse("the name of a body of the scene");
-}
-
-std::pair<int, int> SceneReader::Pair(const JsonPlace& place) const {
-  const std::string expected = "the names of two bodies";
-  const JsonPlace bodies = place.Required("bodies", expected);
-  if (bodies.Size(expected) != 2) bodies.Refuse(expected);
-  const std::pair pair(Body(bodies[0]), Body(bodies[1]));
-  if (pair.first == pair.second) bodies.Refuse("two different bodies");
-  return pair;
+  for (std::size_t i = 0; i < count; ++i) AddBody(scene_, place[i], ReadBody(place[i]));
 }
 
 // "at": one point of the world; or "anchors": a point in the coordinates of each body.
@@ -268,7 +200,7 @@ Joint<Rational> SceneReader::OneJoint(const JsonPlace& place) const {
   if (kind == kJointNames.end()) named.Refuse(kinds);
   Joint<Rational> joint;
   joint.kind = static_cast<JointKind>(kind - kJointNames.begin());
-  std::tie(joint.a, joint.b) = Pair(place);
+  std::tie(joint.a, joint.b) = ReadPair(scene_, place);
   Anchors(place, joint);
   joint.direction = joint.relative_rotation = MakeVector2<Rational>(Rational(1), Rational(0));
   if (joint.kind == JointKind::kPin) {
@@ -290,20 +222,10 @@ GivenContact<Rational> SceneReader::OneContact(const JsonPlace& place) const {
   place.RequireObject();
   place.AllowKeys({"bodies", "at", "anchors", "normal", "axis"});
   GivenContact<Rational> contact;
-  std::tie(contact.a, contact.b) = Pair(place);
+  std::tie(contact.a, contact.b) = ReadPair(scene_, place);
   Anchors(place, contact);
   contact.normal = Direction(place, "normal", "axis", contact.b);
   return contact;
-}
-
-PairRule<Rational> SceneReader::OneRule(const JsonPlace& place) const {
-  place.RequireObject();
-  place.AllowKeys({"bodies", "mu", "collide"});
-  PairRule<Rational> rule;
-  std::tie(rule.a, rule.b) = Pair(place);
-  if (const auto mu = place.Optional("mu")) rule.mu = NotNegative(*mu);
-  if (const auto collide = place.Optional("collide")) rule.collide = ReadFlag(*collide);
-  return rule;
 }
 
 // ---- Writing ---------------------------------------------------------------------------------
@@ -338,11 +260,6 @@ Json BodyJson(const RigidBody<Rational>& body) {
 }
 
 template <class Item>
-Json PairJson(const Scene<Rational>& scene, const Item& item) {
-  return Json::array({scene.bodies[item.a].name, scene.bodies[item.b].name});
-}
-
-template <class Item>
 Json AnchorsJson(const Item& item) {
   return Json::array({VectorJson(item.at_a), VectorJson(item.at_b)});
 }
@@ -356,13 +273,6 @@ Json JointJson(const Scene<Rational>& scene, const Joint<Rational>& joint) {
   return json;
 }
 
-Json RuleJson(const Scene<Rational>& scene, const PairRule<Rational>& rule) {
-  Json json = {{"bodies", PairJson(scene, rule)}};
-  if (rule.mu) json["mu"] = ToString(*rule.mu);
-  if (rule.collide) json["collide"] = *rule.collide;
-  return json;
-}
-
 }  // namespace
 
 SceneFile ParseScene(std::string_view text, const std::string& source) {
@@ -370,25 +280,11 @@ SceneFile ParseScene(std::string_view text, const std::string& source) {
   return SceneReader().Read(JsonPlace(json, source, ""));
 }
 
-SceneFile ReadScene(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  const Json json = ParseJson(ReadText(file), source);
-  const JsonPlace root(json, source, "");
-  const bool problem = json.is_object() && json.value("format", Json()) == "stiction-problem";
-  return SceneReader().Read(problem ? root.Required("scene", "the scene of the problem") : root);
-}
+SceneFile ReadScene(const std::filesystem::path& file) { return ParseScene(ReadText(file), file.string()); }
 
 Json ToJson(const SceneFile& file) {
   const Scene<Rational>& scene = file.scene;
-  Json json = {{"format", kFormat}, {"version", kVersion}, {"name", scene.name}, {"dimension", 2}};
-  if (!file.note.empty()) json["note"] = file.note;
-  json["gravity"] = VectorJson(scene.gravity);
-  json["mu"] = ToString(scene.mu);
-  json["gap"] = ToString(scene.gap);
-  json["rest"] = ToString(scene.rest);
-  json["step"] = ToString(file.step);
-  json["seconds"] = ToString(file.seconds);
-  for (const char* key : {"bodies", "joints", "contacts", "pairs"}) json[key] = Json::array();
+  Json json = SceneJson(file, 2, VectorJson(scene.gravity));
   for (const auto& body : scene.bodies) json["bodies"].push_back(BodyJson(body));
   for (const auto& joint : scene.joints) json["joints"].push_back(JointJson(scene, joint));
   for (const auto& contact : scene.contacts) {
@@ -396,24 +292,22 @@ Json ToJson(const SceneFile& file) {
                                 {"anchors", AnchorsJson(contact)},
                                 {"axis", VectorJson(contact.normal)}});
   }
-  for (const auto& rule : scene.pairs) json["pairs"].push_back(RuleJson(scene, rule));
   return json;
 }
 
-std::string Print(const SceneFile& file) {
-  const Json json = ToJson(file);
-  std::string text = "{";
-  for (const auto& [key, value] : json.items()) {
-    text += (text == "{" ? "\n  " : ",\n  ") + JsonText(key) + ": ";
-    if (!value.is_array() || value.empty() || !value[0].is_object()) {
-      text += JsonText(value);
-      continue;
-    }
-    for (std::size_t i = 0; i < value.size(); ++i)
-      text += (i == 0 ? "[\n    " : ",\n    ") + JsonText(value[i]);
-    text += "\n  ]";
+std::string Print(const SceneFile& file) { return PrintScene(ToJson(file)); }
+
+std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
+  std::string text = ReadText(file), source = file.string();
+  Json json = ParseJson(text, source);
+  if (json.is_object() && json.value("format", Json()) == "stiction-problem") {
+    const Json scene = JsonPlace(json, source, "").Required("scene", "the scene of the problem").json();
+    json = scene;
+    text = JsonText(json);
+    source += ": scene";
   }
-  return text + "\n}\n";
+  if (ReadSceneHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseSceneInSpace(text, source);
+  return ParseScene(text, source);
 }
 
 }  // namespace stiction

@@ -10,26 +10,36 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "corpus/json_text.h"
-#include "solver/scene/scene.h"
+#include "solver/scene/scene_space.h"
 
 namespace stiction {
 
-struct SceneFile {
-  Scene<Rational> scene;
+template <class SceneType>
+struct SceneFileOf {
+  SceneType scene;
   Rational step = Rational(1, 60);  // s, of a simulation
   Rational seconds = Rational(2);   // how long it runs by default
   std::string note;
 };
 
+using SceneFile = SceneFileOf<Scene<Rational>>;
+using SceneFileInSpace = SceneFileOf<SceneInSpace<Rational>>;
+
+// Scenes of dimension 2, of dimension 3, and whichever it is; the last from the key "scene" of a
+// stiction-problem file too.
 SceneFile ParseScene(std::string_view text, const std::string& source);
-// A stiction-scene file, or the key "scene" of a stiction-problem file.
 SceneFile ReadScene(const std::filesystem::path& file);
+SceneFileInSpace ParseSceneInSpace(std::string_view text, const std::string& source);
+std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file);
 
 // What the reader reads back to the same scene: anchors of joints and contacts in the bodies' coordinates.
 Json ToJson(const SceneFile& file);
+Json ToJson(const SceneFileInSpace& file);
 std::string Print(const SceneFile& file);
+std::string Print(const SceneFileInSpace& file);
 
 }  // namespace stiction
 

@@ -10,9 +10,7 @@
 
 #include "corpus/scene_file.h"
 #include "search/verbs/verbs.h"
-#include "solver/scene/assemble.h"
-#include "solver/scene/draw.h"
-#include "solver/scene/simulate.h"
+#include "solver/scene/draw_space.h"
 
 namespace stiction {
 namespace {
@@ -38,13 +36,13 @@ std::string NumberedFile(const std::string& file, std::size_t number, std::size_
   return numbered.string();
 }
 
-int RunAssemble(const AssembleCommand& o) {
-  const SceneFile file = ReadScene(o.scene);
+template <class SceneType>
+int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
   const auto contacts = FindContacts(file.scene);
   AssembleOptions<Rational> options;
   options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
   options.minimal = !o.full;
-  const SceneModel<Rational> model = Assemble(file.scene, contacts, options);
+  const auto model = Assemble(file.scene, contacts, options);
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
   for (const int i : model.colliding) {
     if (options.level == Level::kForces) {
@@ -95,7 +93,8 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
     Contact<Rational> exact;
     exact.kind = contact.kind;
     exact.mu = Rational(contact.mu);
-    for (int i = 0; i < 2; ++i) exact.slip[i] = Rational(contact.slip[i]);
+    if (contact.kind == ContactKind::kSliding)
+      exact.slip = ExactDirection<Rational>(MakeVector2<Rational>(contact.slip[0], contact.slip[1]));
     file.problem.contacts.push_back(exact);
   }
   const int rows = problem.rows();
@@ -115,13 +114,23 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
 
+double SumOfNumbers(const RigidBody<double>& body) {
+  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
+         body.velocity.sum() + body.spin + body.force.sum() + body.torque;
+}
+
+double SumOfNumbers(const BodyInSpace<double>& body) {
+  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
+         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() + body.force.sum() +
+         body.torque.sum();
+}
+
 // The finite scene of a file.
-Scene<double> RoundedScene(const SceneFile& file, const std::string& source) {
-  Scene<double> scene = Round(file.scene);
+template <class SceneType>
+auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source) {
+  auto scene = Round(file.scene);
   for (const auto& body : scene.bodies) {
-    const double sum = body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
-                       body.velocity.sum() + body.spin + body.force.sum() + body.torque;
-    if (!std::isfinite(sum))
+    if (!std::isfinite(SumOfNumbers(body)))
       throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none",
                                    source, body.name));
   }
@@ -129,6 +138,7 @@ Scene<double> RoundedScene(const SceneFile& file, const std::string& source) {
 }
 
 // The folder with what a run writes.
+template <class SceneType>
 class SimulationWriter {
  public:
   explicit SimulationWriter(const SimulateCommand& o) : o_(o) {
@@ -137,7 +147,7 @@ class SimulationWriter {
     if (!o.problems.empty()) MakeFolder(o.problems);
   }
 
-  void Add(const Simulation& simulation, bool shown) {
+  void Add(const SimulationOf<SceneType>& simulation, bool shown) {
     const Energy energy = EnergyOf(simulation.scene());
     const Drift drift = DriftOf(simulation.scene());
     energy_ += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
@@ -150,20 +160,16 @@ class SimulationWriter {
     frames_.push_back(Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
   }
 
-  void Write(const Scene<double>& scene) {
+  void Write(const SceneType& scene) {
     const fs::path folder(o_.output);
     view_.AddMargin();
     WriteText((folder / "energy.csv").string(), energy_);
     WriteText((folder / "drift.csv").string(), drift_);
     WriteText((folder / "animation.html").string(),
               DrawAnimation(scene, view_, frames_, static_cast<double>(o_.frames_a_second)));
-    Scene<double> moved = scene;
+    SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < frames_.size(); ++k) {
-      for (std::size_t i = 0; i < moved.bodies.size(); ++i) {
-        const auto& [x, y, c, s] = frames_[k].bodies[i];
-        moved.bodies[i].position = {x, y};
-        moved.bodies[i].rotation = {c, s};
-      }
+      SetPoses(moved, frames_[k]);
       WriteText((folder / "frames" / fmt::format("{:05}.svg", k)).string(),
                 DrawSvg(moved, view_, frames_[k].marks));
     }
@@ -183,19 +189,20 @@ class SimulationWriter {
   std::string energy_ = "time_s,kinetic_J,potential_J,total_J\n";
   std::string drift_ = "time_s,joints_m,overlap_m\n";
   Drift worst_;
-  View view_;
-  std::vector<RecordedFrame> frames_;
+  typename DrawingOf<SceneType>::ViewType view_;
+  std::vector<typename DrawingOf<SceneType>::FrameType> frames_;
 };
 
-int RunSimulate(const SimulateCommand& o) {
-  const SceneFile file = ReadScene(o.scene);
+template <class ExactScene>
+int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   SimulationOptions options;
   options.step = o.step.value_or(ToDouble(file.step));
   options.rest = o.rest;
   options.minimal = !o.full;
   const double seconds = o.seconds.value_or(ToDouble(file.seconds));
-  const Scene<double> scene = RoundedScene(file, o.scene);
-  SimulationWriter writer(o);
+  const auto scene = RoundedScene(file, o.scene);
+  using SceneType = std::remove_const_t<decltype(scene)>;
+  SimulationWriter<SceneType> writer(o);
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
     observe = [&o, &file](const FrameProblem& met) {
@@ -205,7 +212,7 @@ int RunSimulate(const SimulateCommand& o) {
       WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
     };
   }
-  Simulation simulation(scene, options, observe);
+  SimulationOf<SceneType> simulation(scene, options, observe);
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
   double next = 0;
   try {
@@ -238,13 +245,14 @@ struct DrawCommand {
   std::string scene, output;
 };
 
-int RunDraw(const DrawCommand& o) {
-  const SceneFile file = ReadScene(o.scene);
-  const Scene<double> scene = RoundedScene(file, o.scene);
+template <class ExactScene>
+int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
+  const auto scene = RoundedScene(file, o.scene);
+  using SceneType = std::remove_const_t<decltype(scene)>;
   SimulationOptions options;
   options.step = ToDouble(file.step);
-  Simulation simulation(scene, options);
-  Marks marks;
+  SimulationOf<SceneType> simulation(scene, options);
+  decltype(MarksOf(simulation)) marks;
   try {
     simulation.Step();
     marks = MarksOf(simulation);
@@ -252,7 +260,7 @@ int RunDraw(const DrawCommand& o) {
     std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
     for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
   }
-  View view;
+  typename DrawingOf<SceneType>::ViewType view;
   view.Include(scene);
   view.AddMargin();
   WriteText(o.output, DrawSvg(scene, view, marks));
@@ -274,8 +282,12 @@ void AddAssemble(CLI::App& program, Action& action) {
       ->capture_default_str()
       ->check(CLI::IsMember({"forces", "impulses"}));
   verb.add_flag("--explain", o->explain, "what was modelled, what was left out, and why that is exact");
-  verb.add_flag("--full", o->full, "one problem, with two rows for every contact, redundant ones too");
-  verb.callback([o, &action] { action = [o] { return RunAssemble(*o); }; });
+  verb.add_flag("--full", o->full, "one problem, with all rows for every contact, redundant ones too");
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunAssemble(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
 }
 
 void AddSimulate(CLI::App& program, Action& action) {
@@ -298,7 +310,11 @@ void AddSimulate(CLI::App& program, Action& action) {
   verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
   verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
   verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
-  verb.callback([o, &action] { action = [o] { return RunSimulate(*o); }; });
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunSimulate(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
 }
 
 void AddDraw(CLI::App& program, Action& action) {
@@ -306,7 +322,11 @@ void AddDraw(CLI::App& program, Action& action) {
   CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
   verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
   verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
-  verb.callback([o, &action] { action = [o] { return RunDraw(*o); }; });
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunDraw(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
 }
 
 }  // namespace stiction

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
@@ -16,7 +17,8 @@
 namespace stiction {
 namespace {
 
-constexpr int kExactAssumptionContacts = 50;
+constexpr int kExactAssumptionRows =
+    60;  // above, exact elimination of numbers as long as doubles takes minutes
 
 template <class Options>
 void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
@@ -120,20 +122,42 @@ std::string Describe(const Verdict& verdict) {
   return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
 }
 
+namespace {
+
+Json FailedSemidefinite(const NegativeCurvature& negative) {
+  return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
+}
+
+// What bounds decide of problems too large for exact elimination.
+void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
+  ProblemFile file;
+  file.problem = problem;
+  const SparseProblem sparse = ToSparse(file);
+  const CurvatureBounds curvature = BoundCurvature(sparse);
+  if (curvature.negative) {
+    failed.push_back(FailedSemidefinite(*curvature.negative));
+  } else if (!curvature.least || *curvature.least < 0) {
+    failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
+  }
+  if (!IsRegularModuloPrime(sparse)) {
+    failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
+  }
+}
+
+}  // namespace
+
 Json FailedAssumptions(const ExactProblem& problem) {
   Json failed = Json::array();
   if (const auto pair = FindAsymmetry(problem.A)) {
     failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
   }
-  if (problem.contacts.size() > kExactAssumptionContacts) {
-    failed.push_back({{"assumption", "psd"}, {"undecided", "more than 50 contacts"}});
-    failed.push_back({{"assumption", "in-range"}, {"undecided", "more than 50 contacts"}});
+  if (problem.rows() > kExactAssumptionRows) {
+    AddBoundedAssumptions(problem, failed);
     return failed;
   }
   const auto semidefinite = DecideSemidefinite(problem.A);
   if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
-    failed.push_back(
-        {{"assumption", "psd"}, {"x", VectorToJson(negative->x)}, {"value", ToString(negative->value)}});
+    failed.push_back(FailedSemidefinite(*negative));
   }
   const auto range = DecideRange(problem.A, problem.b);
   if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {

@@ -71,14 +71,27 @@ struct Omission {
   OmissionReason reason = OmissionReason::kSeparating;
 };
 
-template <class Scalar>
+template <class Scalar, int Dof = 3>
 struct SceneModel {
-  std::vector<BodyDynamics<Scalar, 3>> bodies;
-  std::vector<Constraint<Scalar, 3>> constraints;  // that the problems hold
+  std::vector<BodyDynamics<Scalar, Dof>> bodies;
+  std::vector<Constraint<Scalar, Dof>> constraints;  // that the problems hold
   std::vector<Island<Scalar>> islands;
   std::vector<Omission> omitted;
   std::vector<int>
       colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
+};
+
+// What assembling and stepping ask of a scene, in the plane or in space (assemble_space.h). Both have the
+// functions DynamicsOf, JointConstraints and ContactConstraint.
+template <class SceneType>
+struct SceneTypes;
+
+template <class Number>
+struct SceneTypes<Scene<Number>> {
+  using Scalar = Number;
+  using Touch = TouchPoint<Number>;
+  static constexpr int kDimension = 2, kDof = 3;
+  using Model = SceneModel<Number, kDof>;
 };
 
 template <class Scalar>
@@ -92,26 +105,28 @@ std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene);
 template <class Scalar>
 Constraint<Scalar, 3> ContactConstraint(const Scene<Scalar>& scene, const TouchPoint<Scalar>& contact);
 
-template <class Scalar>
-SceneModel<Scalar> Assemble(const Scene<Scalar>& scene, const std::vector<TouchPoint<Scalar>>& contacts,
-                            const AssembleOptions<Scalar>& options = {});
+template <class SceneType, class Types = SceneTypes<SceneType>>
+typename Types::Model Assemble(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
+                               const AssembleOptions<typename Types::Scalar>& options = {});
 
-// Accelerations of all bodies (x, y, spin) under gravity, applied forces and f, a vector of forces per island.
-template <class Scalar>
-std::vector<Eigen::Matrix<Scalar, 3, 1>> BodyAccelerations(
-    const SceneModel<Scalar>& model, const std::vector<typename ContactProblem<Scalar>::Vector>& f);
+// Accelerations of all bodies (x, y, spin; x, y, z, three spins) under gravity, applied forces and f, a vector
+// of forces per island.
+template <class Scalar, int Dof>
+std::vector<Eigen::Matrix<Scalar, Dof, 1>> BodyAccelerations(
+    const SceneModel<Scalar, Dof>& model, const std::vector<typename ContactProblem<Scalar>::Vector>& f);
 
 // The forces of `minimal` as forces of the one problem of `full`, a model of the same scene and contacts with
 // minimal = false: zero where a contact or row was left out.
-template <class Scalar>
+template <class Scalar, int Dof>
 typename ContactProblem<Scalar>::Vector ExtendForces(
-    const SceneModel<Scalar>& minimal, const std::vector<typename ContactProblem<Scalar>::Vector>& f,
-    const SceneModel<Scalar>& full);
+    const SceneModel<Scalar, Dof>& minimal, const std::vector<typename ContactProblem<Scalar>::Vector>& f,
+    const SceneModel<Scalar, Dof>& full);
 
 // Line by line what was modelled, what was left out, and why that is exact.
-template <class Scalar>
-std::vector<std::string> Explain(const Scene<Scalar>& scene, const std::vector<TouchPoint<Scalar>>& contacts,
-                                 const SceneModel<Scalar>& model, const AssembleOptions<Scalar>& options);
+template <class SceneType, class Types = SceneTypes<SceneType>>
+std::vector<std::string> Explain(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
+                                 const typename Types::Model& model,
+                                 const AssembleOptions<typename Types::Scalar>& options);
 
 }  // namespace stiction
 

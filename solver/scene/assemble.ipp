@@ -4,6 +4,7 @@
 #ifndef STICTION_SOLVER_SCENE_ASSEMBLE_IPP_
 #define STICTION_SOLVER_SCENE_ASSEMBLE_IPP_
 
+#include <array>
 #include <map>
 
 #include "solver/scene/assemble.h"
@@ -157,16 +158,21 @@ std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene) 
 
 // ---- Laws and b ------------------------------------------------------------------------------
 
-template <class Scalar>
+template <class SceneType>
 class Assembler {
  public:
-  Assembler(const Scene<Scalar>& scene, const AssembleOptions<Scalar>& options)
-      : scene_(scene), options_(options) {
+  using Types = SceneTypes<SceneType>;
+  using Scalar = typename Types::Scalar;
+  using Touch = typename Types::Touch;
+  using Model = typename Types::Model;
+  static constexpr int kDof = Types::kDof;
+
+  Assembler(const SceneType& scene, const AssembleOptions<Scalar>& options) : scene_(scene), options_(options) {
     model_.bodies = DynamicsOf(scene);
     for (const auto& body : model_.bodies) free_.push_back(body.FreeAcceleration());
   }
 
-  SceneModel<Scalar> Run(const std::vector<TouchPoint<Scalar>>& contacts) {
+  Model Run(const std::vector<Touch>& contacts) {
     for (auto& constraint : JointConstraints(scene_)) {
       SetB(constraint);
       model_.constraints.push_back(std::move(constraint));
@@ -174,13 +180,14 @@ class Assembler {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddContact(contacts[i], static_cast<int>(i));
     if (options_.minimal) DropRedundant();
     model_.islands = FindIslands(model_.bodies, model_.constraints, !options_.minimal);
-    for (auto& island : model_.islands) FormProblem(model_.bodies, model_.constraints, 2, island);
+    for (auto& island : model_.islands)
+      FormProblem(model_.bodies, model_.constraints, Types::kDimension, island);
     return std::move(model_);
   }
 
  private:
-  void AddContact(const TouchPoint<Scalar>& contact, int number) {
-    Constraint<Scalar, 3> constraint = ContactConstraint(scene_, contact);
+  void AddContact(const Touch& contact, int number) {
+    Constraint<Scalar, kDof> constraint = ContactConstraint(scene_, contact);
     constraint.source = number;
     const Scalar speed = Velocity(constraint, 0, model_.bodies);
     if (options_.level == Level::kForces && speed > scene_.rest) {
@@ -197,28 +204,34 @@ class Assembler {
     return contact < static_cast<int>(options_.held.size()) && options_.held[contact];
   }
 
-  void SetLaw(Constraint<Scalar, 3>& constraint) {
+  void SetLaw(Constraint<Scalar, kDof>& constraint) {
     Contact<Scalar>& law = constraint.law;
     const bool smooth = options_.level == Level::kPositions || (options_.minimal && Sign(law.mu) == 0);
     if (smooth) {
       law = {ContactKind::kFrictionless, Scalar(0), {Scalar(0), Scalar(0)}};
-      constraint.rows.pop_back();
+      constraint.rows.resize(1);
       return;
     }
     law.kind = ContactKind::kStatic;
     if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsHeld(constraint.source)) return;
     const Scalar speed = Velocity(constraint, 1, model_.bodies);
-    if (Abs<Scalar>(speed) <= scene_.rest) return;
+    if constexpr (Types::kDimension == 2) {
+      if (Abs<Scalar>(speed) <= scene_.rest) return;
+      law.slip = {Scalar(Sign(speed)), Scalar(0)};
+    } else {
+      const auto velocity = MakeVector2<Scalar>(speed, Velocity(constraint, 2, model_.bodies));
+      if (Dot<Scalar>(velocity, velocity) <= scene_.rest * scene_.rest) return;
+      law.slip = ExactDirection<Scalar>(velocity);
+    }
     law.kind = ContactKind::kSliding;
-    law.slip[0] = Scalar(Sign(speed));
   }
 
-  void SetB(Constraint<Scalar, 3>& constraint) {
+  void SetB(Constraint<Scalar, kDof>& constraint) {
     for (int i = 0; i < static_cast<int>(constraint.rows.size()); ++i) SetB(constraint, i);
   }
 
-  void SetB(Constraint<Scalar, 3>& constraint, int i) {
-    ConstraintRow<Scalar, 3>& row = constraint.rows[i];
+  void SetB(Constraint<Scalar, kDof>& constraint, int i) {
+    ConstraintRow<Scalar, kDof>& row = constraint.rows[i];
     const bool one_sided = constraint.law.kind != ContactKind::kBilateral && i == 0;
     const Scalar gap = one_sided ? std::max<Scalar>(row.error, Scalar(0)) : Scalar(0);
     const bool step = Sign(options_.step) != 0;
@@ -241,7 +254,7 @@ class Assembler {
 
   void DropRedundant() {
     const std::vector<bool> redundant = FindRedundant(model_.constraints);
-    std::vector<Constraint<Scalar, 3>> kept;
+    std::vector<Constraint<Scalar, kDof>> kept;
     for (std::size_t i = 0; i < redundant.size(); ++i) {
       if (redundant[i]) {
         model_.omitted.push_back({model_.constraints[i].source, OmissionReason::kRedundant});
@@ -252,36 +265,36 @@ class Assembler {
     model_.constraints = std::move(kept);
   }
 
-  const Scene<Scalar>& scene_;
+  const SceneType& scene_;
   const AssembleOptions<Scalar>& options_;
-  SceneModel<Scalar> model_;
-  std::vector<Eigen::Matrix<Scalar, 3, 1>> free_;
+  Model model_;
+  std::vector<Eigen::Matrix<Scalar, kDof, 1>> free_;
 };
 
-template <class Scalar>
-SceneModel<Scalar> Assemble(const Scene<Scalar>& scene, const std::vector<TouchPoint<Scalar>>& contacts,
-                            const AssembleOptions<Scalar>& options) {
-  return Assembler<Scalar>(scene, options).Run(contacts);
+template <class SceneType, class Types>
+typename Types::Model Assemble(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
+                               const AssembleOptions<typename Types::Scalar>& options) {
+  return Assembler<SceneType>(scene, options).Run(contacts);
 }
 
 // ---- What follows from forces ----------------------------------------------------------------
 
-template <class Scalar>
-std::vector<Eigen::Matrix<Scalar, 3, 1>> BodyAccelerations(
-    const SceneModel<Scalar>& model, const std::vector<typename ContactProblem<Scalar>::Vector>& f) {
-  std::vector<Eigen::Matrix<Scalar, 3, 1>> accelerations;
+template <class Scalar, int Dof>
+std::vector<Eigen::Matrix<Scalar, Dof, 1>> BodyAccelerations(
+    const SceneModel<Scalar, Dof>& model, const std::vector<typename ContactProblem<Scalar>::Vector>& f) {
+  std::vector<Eigen::Matrix<Scalar, Dof, 1>> accelerations;
   for (const auto& body : model.bodies) accelerations.push_back(body.FreeAcceleration());
   for (std::size_t i = 0; i < model.islands.size(); ++i)
     AddResponse(model.bodies, model.constraints, model.islands[i], f[i], accelerations);
   return accelerations;
 }
 
-template <class Scalar>
+template <class Scalar, int Dof>
 typename ContactProblem<Scalar>::Vector ExtendForces(
-    const SceneModel<Scalar>& minimal, const std::vector<typename ContactProblem<Scalar>::Vector>& f,
-    const SceneModel<Scalar>& full) {
+    const SceneModel<Scalar, Dof>& minimal, const std::vector<typename ContactProblem<Scalar>::Vector>& f,
+    const SceneModel<Scalar, Dof>& full) {
   std::map<std::array<int, 4>, Scalar> forces;  // by source and row
-  const auto key = [](const Constraint<Scalar, 3>& c, int row) {
+  const auto key = [](const Constraint<Scalar, Dof>& c, int row) {
     return std::array<int, 4>{c.from_joint, c.source, c.part, row};
   };
   for (std::size_t i = 0; i < minimal.islands.size(); ++i) {

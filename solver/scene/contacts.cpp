@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 
+#include "solver/scene/pair_facts.h"
+
 namespace stiction {
 namespace {
 
@@ -186,28 +188,6 @@ class PairFinder {
   TouchPoint<Scalar> pattern_;
   std::vector<TouchPoint<Scalar>>& found_;
 };
-
-template <class Scalar>
-struct PairFacts {
-  bool collide = true;
-  Scalar mu = Scalar(0);
-};
-
-template <class Scalar>
-PairFacts<Scalar> FactsOf(const Scene<Scalar>& scene, int a, int b) {
-  const auto is_pair = [a, b](const auto& of) { return (of.a == a && of.b == b) || (of.a == b && of.b == a); };
-  PairFacts<Scalar> facts;
-  facts.mu = scene.mu;
-  facts.collide = scene.bodies[a].level == scene.bodies[b].level &&
-                  std::none_of(scene.joints.begin(), scene.joints.end(), is_pair);
-  for (const auto& rule : scene.pairs) {
-    if (!is_pair(rule)) continue;
-    if (rule.mu) facts.mu = *rule.mu;
-    if (rule.collide) facts.collide = *rule.collide;
-  }
-  facts.collide = facts.collide && !(scene.bodies[a].fixed && scene.bodies[b].fixed);
-  return facts;
-}
 
 template <class Scalar>
 TouchPoint<Scalar> Given(const Scene<Scalar>& scene, const GivenContact<Scalar>& given) {

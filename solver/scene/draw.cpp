@@ -7,40 +7,17 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/scene/draw_page.h"
+
 namespace stiction {
 namespace {
 
-constexpr double kWidth = 800;  // pixels
 constexpr std::array kLevelColours = {"#e89a3c", "#9a6fb0", "#6aa84f", "#4f81bd", "#c0504d"};
 
 const char* ColourOf(const RigidBody<double>& body) {
   if (body.fixed) return "#333333";
   const int count = static_cast<int>(kLevelColours.size());
   return kLevelColours[static_cast<std::size_t>(((body.level % count) + count) % count)];
-}
-
-// From the world to pixels; y points up in the world.
-struct Screen {
-  double scale, left, top, width, height;
-
-  explicit Screen(const View& view)
-      : scale(kWidth / (view.right - view.left)),
-        left(view.left),
-        top(view.top),
-        width(kWidth),
-        height(std::ceil(scale * (view.top - view.bottom))) {}
-  double X(double x) const { return scale * (x - left); }
-  double Y(double y) const { return scale * (top - y); }
-};
-
-std::string Head(const Screen& screen) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-      "{1:.0f}\">\n"
-      "<defs><marker id=\"tip\" markerWidth=\"6\" markerHeight=\"6\" refX=\"5\" refY=\"3\" orient=\"auto\">"
-      "<path d=\"M0,0 L6,3 L0,6 z\" fill=\"#d00000\"/></marker></defs>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      screen.width, screen.height);
 }
 
 // The pieces of a body in its own coordinates, y up.
@@ -127,6 +104,14 @@ RecordedFrame Record(const Scene<double>& scene, double time, Marks marks) {
   return frame;
 }
 
+void SetPoses(Scene<double>& scene, const RecordedFrame& frame) {
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const auto& [x, y, c, s] = frame.bodies[i];
+    scene.bodies[i].position = {x, y};
+    scene.bodies[i].rotation = {c, s};
+  }
+}
+
 double ForceScale(const Scene<double>& scene, const View& view) {
   double mass = 0;
   for (const auto& body : scene.bodies) mass += body.fixed ? 0 : body.mass;
@@ -163,12 +148,8 @@ std::string FrameData(const Scene<double>& scene, const Screen& screen, const Re
                       double force_scale) {
   std::string poses, joints, contacts, forces;
   Scene<double> moved = scene;
-  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
-    const auto& [x, y, c, s] = frame.bodies[i];
-    moved.bodies[i].position = {x, y};
-    moved.bodies[i].rotation = {c, s};
-    if (!scene.bodies[i].fixed || i < frame.bodies.size()) poses += '"' + Matrix(screen, x, y, c, s) + "\",";
-  }
+  SetPoses(moved, frame);
+  for (const auto& [x, y, c, s] : frame.bodies) poses += '"' + Matrix(screen, x, y, c, s) + "\",";
   for (const auto& joint : scene.joints) {
     const Vector2<double> p = moved.bodies[joint.a].At(joint.at_a);
     joints += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
@@ -184,20 +165,8 @@ std::string FrameData(const Scene<double>& scene, const Screen& screen, const Re
   return fmt::format("[{:.4g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
 }
 
-// Names come from files.
-std::string Escaped(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return text;
-}
-
-constexpr const char* kScript = R"js(
+constexpr const char* kShow = R"js(
 const bodies = [...document.querySelectorAll('#bodies > g')], marks = document.getElementById('marks');
-const slider = document.getElementById('frame'), play = document.getElementById('play');
-const label = document.getElementById('time');
-slider.max = frames.length - 1;
 function circle(p, fill, r) { return `<circle cx="${p[0]}" cy="${p[1]}" r="${r}" fill="${fill}" stroke="black"/>`; }
 function show(k) {
   const [time, poses, joints, contacts, forces] = frames[k];
@@ -209,18 +178,6 @@ function show(k) {
   slider.value = k;
   label.textContent = `t = ${time.toFixed(3)} s`;
 }
-let playing = true, began = null, first = 0;
-function tick(now) {
-  if (playing) {
-    if (began === null) { began = now; first = +slider.value; }
-    show((first + Math.floor((now - began) / 1000 * rate)) % frames.length);
-  }
-  requestAnimationFrame(tick);
-}
-play.onclick = () => { playing = !playing; began = null; play.textContent = playing ? 'Pause' : 'Play'; };
-slider.oninput = () => { playing = false; began = null; play.textContent = 'Play'; show(+slider.value); };
-show(0);
-requestAnimationFrame(tick);
 )js";
 
 }  // namespace
@@ -228,20 +185,14 @@ requestAnimationFrame(tick);
 std::string DrawAnimation(const Scene<double>& scene, const View& view,
                           const std::vector<RecordedFrame>& frames, double rate) {
   const Screen screen(view);
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
-      "<style>body{{font-family:sans-serif;margin:1em}} svg{{border:1px solid #ccc;max-width:100%}} "
-      "input{{width:60%;vertical-align:middle}}</style></head><body><h1>{0}</h1>\n",
-      Escaped(scene.name));
+  std::string text = PageHead(scene.name);
   text += Head(screen) + "<g id=\"bodies\">\n";
   for (const auto& body : scene.bodies) text += "<g>" + Pieces(body, screen.scale) + "</g>\n";
-  text +=
-      "</g>\n<g id=\"marks\"></g>\n</svg>\n<p><button id=\"play\">Pause</button> "
-      "<input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> <span id=\"time\"></span></p>\n";
-  text += fmt::format("<script>\nconst rate = {:.6g};\nconst frames = [\n", rate);
+  text += "</g>\n<g id=\"marks\"></g>\n</svg>\n";
+  std::string data;
   const double force_scale = ForceScale(scene, view);
-  for (const auto& frame : frames) text += FrameData(scene, screen, frame, force_scale);
-  return text + "];" + kScript + "</script></body></html>\n";
+  for (const auto& frame : frames) data += FrameData(scene, screen, frame, force_scale);
+  return text + PageTail(data, rate, kShow);
 }
 
 }  // namespace stiction

@@ -37,6 +37,7 @@ struct RecordedFrame {
   Marks marks;
 };
 RecordedFrame Record(const Scene<double>& scene, double time, Marks marks);
+void SetPoses(Scene<double>& scene, const RecordedFrame& frame);
 
 // A newton in metres: a quarter of the view for the weight of all bodies that move, or 1 without gravity.
 double ForceScale(const Scene<double>& scene, const View& view);
@@ -45,6 +46,16 @@ std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& m
 // `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
 std::string DrawAnimation(const Scene<double>& scene, const View& view,
                           const std::vector<RecordedFrame>& frames, double rate);
+
+// The types of a scene's drawing.
+template <class SceneType>
+struct DrawingOf;
+
+template <>
+struct DrawingOf<Scene<double>> {
+  using FrameType = RecordedFrame;
+  using ViewType = View;
+};
 
 }  // namespace stiction
 

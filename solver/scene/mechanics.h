@@ -102,6 +102,9 @@ void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
 //   stays as it is. Where fN > 0, aN = 0, so aN[j] = 0 if w > 0, and aN[k] = 0 if w < 1: (15) holds for those
 //   that get some. abs(fF) <= mu fN adds up, as mu is the same; aF > 0 had all of them at -mu fN, aF < 0 at mu
 //   fN, and for aF = 0 nothing else is asked: (16) holds. Sliding: fF = -mu slip fN adds up.    QED
+// In space a frictionless constraint is dropped likewise where it is such a mean of three others: the points of
+// a face inside the hull of the rest. The proof is the same with three shares. With friction it would be wrong:
+// forces at the corners also turn about the normal, so J_F differs, and only constraints at one point agree.
 // Different mu break it: the wrenches that the two can give need not contain that of a rough contact between.
 // Over doubles equality is to 1e-12 of the numbers compared.
 template <class Scalar, int Dof>

@@ -166,6 +166,54 @@ bool IsBetween(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& 
   return true;
 }
 
+// Whether the frictionless constraint i is a combination of three others, as the inner points of a face are in
+// space.
+template <class Scalar, int Dof>
+bool IsInTriangle(const Constraint<Scalar, Dof>& i,
+                  const std::array<const Constraint<Scalar, Dof>*, 3>& corners) {
+  const RowView<Scalar, Dof> inner(i), first(*corners[0]), second(*corners[1]), third(*corners[2]);
+  const auto x = [&](int at) { return Scalar(first.J(0, at) - third.J(0, at)); };
+  const auto y = [&](int at) { return Scalar(second.J(0, at) - third.J(0, at)); };
+  const auto z = [&](int at) { return Scalar(inner.J(0, at) - third.J(0, at)); };
+  // u x + v y = z, by the widest columns.
+  int p = 0, q = 0;
+  for (int at = 1; at < 2 * Dof; ++at) {
+    if (Abs<Scalar>(x(at)) > Abs<Scalar>(x(p))) p = at;
+  }
+  const auto determinant = [&](int at) { return Scalar(x(p) * y(at) - x(at) * y(p)); };
+  for (int at = 1; at < 2 * Dof; ++at) {
+    if (Abs<Scalar>(determinant(at)) > Abs<Scalar>(determinant(q))) q = at;
+  }
+  const Scalar d = determinant(q);
+  if (Sign(d) == 0) return false;
+  const Scalar u = (z(p) * y(q) - z(q) * y(p)) / d, v = (x(p) * z(q) - x(q) * z(p)) / d;
+  if (u < 0 || v < 0 || u + v > 1) return false;
+  const auto mean = [&](const Scalar& a, const Scalar& b, const Scalar& c) {
+    return Scalar(u * a + v * b + (1 - u - v) * c);
+  };
+  for (int at = 0; at < 2 * Dof; ++at) {
+    const Scalar expected = mean(first.J(0, at), second.J(0, at), third.J(0, at));
+    if (SignOfExcess<Scalar>(inner.J(0, at), Scalar(1), expected, Scalar(0)) != 0) return false;
+  }
+  return SignOfExcess<Scalar>(inner.b(0), Scalar(1), mean(first.b(0), second.b(0), third.b(0)), Scalar(0)) >= 0;
+}
+
+// Whether i is in a triangle of any of the others.
+template <class Scalar, int Dof>
+bool IsInHull(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, const std::vector<int>& others) {
+  if (constraints[i].law.kind != ContactKind::kFrictionless) return false;
+  for (std::size_t j = 0; j < others.size(); ++j) {
+    for (std::size_t k = j + 1; k < others.size(); ++k) {
+      for (std::size_t l = k + 1; l < others.size(); ++l) {
+        if (IsInTriangle<Scalar, Dof>(
+                constraints[i], {&constraints[others[j]], &constraints[others[k]], &constraints[others[l]]}))
+          return true;
+      }
+    }
+  }
+  return false;
+}
+
 template <class Scalar, int Dof>
 bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j) {
   const bool same_bodies = i.bodies == j.bodies || i.bodies == std::array<int, 2>{j.bodies[1], j.bodies[0]};
@@ -187,6 +235,7 @@ std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& cons
       for (std::size_t k = j; k < others.size() && !redundant[i]; ++k)
         redundant[i] = IsBetween(constraints[i], constraints[others[j]], constraints[others[k]]);
     }
+    if (Dof == 6 && !redundant[i]) redundant[i] = IsInHull(constraints, i, others);
   }
   return redundant;
 }

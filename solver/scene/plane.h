@@ -7,6 +7,7 @@
 #include <gmpxx.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "solver/scalar.h"
@@ -71,6 +72,18 @@ Scalar Length(const Vector2<Scalar>& v) {
 }
 template <>
 mpq_class Length(const Vector2<mpq_class>& v);
+
+// The direction of v, v /= 0: over rationals of length 1 exactly and near it, (1 - t^2, 2 t) / (1 + t^2) with
+// the tangent t of half the rounded angle.
+template <class Scalar>
+std::array<Scalar, 2> ExactDirection(const Vector2<Scalar>& v) {
+  const Vector2<Scalar> unit = UnitVector<Scalar>(v);
+  if constexpr (!kIsExact<Scalar>) return {unit[0], unit[1]};
+  const bool right = unit[0] >= 0;  // else of the opposite, so that nothing cancels
+  const Scalar t = unit[1] / (1 + Abs<Scalar>(unit[0]));
+  const Scalar scale = 1 + t * t, cosine = (1 - t * t) / scale, sine = 2 * t / scale;
+  return {right ? cosine : Scalar(-cosine), sine};
+}
 
 }  // namespace stiction
 

@@ -9,25 +9,13 @@
 #include <iterator>
 #include <numbers>
 
+#include "solver/scene/rounding.h"
+
 namespace stiction {
 namespace {
 
 using Exact = mpq_class;
 using Kernel = CGAL::Cartesian<Exact>;
-
-// The double nearest to x, up to one unit of its last place.
-double Nearest(const Exact& x) {
-  const double below = x.get_d();  // toward zero
-  const double above = std::nextafter(below, sgn(x) < 0 ? -HUGE_VAL : HUGE_VAL);
-  const Exact from_below = abs(x - Exact(below)), from_above = abs(Exact(above) - x);
-  return from_above < from_below ? above : below;
-}
-
-// The root of x if it is rational.
-std::optional<Exact> RationalRoot(const Exact& x) {
-  if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0 || mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return {};
-  return Exact(sqrt(x.get_num()), sqrt(x.get_den()));
-}
 
 Exact SquaredLength(const Vector2<Exact>& v) { return Dot<Exact>(v, v); }
 
@@ -97,6 +85,12 @@ MassProperties<Exact> MassPropertiesOf(const std::vector<BodyShape<Exact>>& shap
   return sum;
 }
 
+PairRule<double> Round(const PairRule<Exact>& rule) {
+  PairRule<double> rounded = {rule.a, rule.b, {}, rule.collide};
+  if (rule.mu) rounded.mu = Nearest(*rule.mu);
+  return rounded;
+}
+
 Scene<double> Round(const Scene<Exact>& scene) {
   Scene<double> rounded;
   rounded.name = scene.name;
@@ -135,11 +129,7 @@ Scene<double> Round(const Scene<Exact>& scene) {
     rounded.contacts.push_back(
         {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});
   }
-  for (const auto& pair : scene.pairs) {
-    PairRule<double> rule = {pair.a, pair.b, {}, pair.collide};
-    if (pair.mu) rule.mu = Nearest(*pair.mu);
-    rounded.pairs.push_back(rule);
-  }
+  for (const auto& pair : scene.pairs) rounded.pairs.push_back(Round(pair));
   return rounded;
 }
 

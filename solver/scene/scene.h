@@ -109,6 +109,7 @@ struct MassProperties {
 };
 MassProperties<mpq_class> MassPropertiesOf(const std::vector<BodyShape<mpq_class>>& shapes);
 
+PairRule<double> Round(const PairRule<mpq_class>& rule);
 // The scene over doubles, each number rounded to the nearest.
 Scene<double> Round(const Scene<mpq_class>& scene);
 

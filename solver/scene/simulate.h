@@ -38,6 +38,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/coulomb.h"
 #include "solver/fast.h"
 #include "solver/scene/assemble.h"
 
@@ -45,12 +46,23 @@ namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
 
+// In space a problem need not be solved as far as rounding allows, and cannot always: contacts lie close to
+// each other in a heap. What is not solved to the residual of the options is accepted to this one, and counted.
+inline constexpr double kLooseResidual = 1e-5;
+
+inline CoulombOptions WithResidual(double residual) {
+  CoulombOptions options;
+  options.residual = residual;
+  return options;
+}
+
 struct SimulationOptions {
   double step = 1.0 / 60;  // s
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
-  FastOptions fast;
+  FastOptions fast;                             // in the plane, and without friction
+  CoulombOptions coulomb = WithResidual(1e-7);  // in space
 };
 
 // Counters since the start.
@@ -64,6 +76,7 @@ struct SimulationStatistics {
   std::int64_t stopped = 0;      // contacts that came to rest within a step
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
+  std::int64_t loose = 0;        // problems solved to kLooseResidual only
 };
 
 // visit(name, help, counter)
@@ -79,6 +92,7 @@ void ForEachField(S& s, Visit visit) {
   visit("stopped", "sliding contacts that came to rest within a step", s.stopped);
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
+  visit("loose", "problems solved to 1e-5 only", s.loose);
 }
 
 // A problem that a frame met, and where.
@@ -98,10 +112,13 @@ class SimulationError : public std::runtime_error {
 };
 
 // A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
-struct AppliedForce {
-  Vector2<double> point, force;
+template <int Dimension>
+struct AppliedForceIn {
+  std::array<int, 2> bodies = {0, 0};
+  Eigen::Matrix<double, Dimension, 1> point, force;
   bool from_joint = false;
 };
+using AppliedForce = AppliedForceIn<2>;
 
 struct Energy {
   double kinetic = 0, potential = 0;  // J; potential of gravity, zero at the origin
@@ -114,27 +131,42 @@ struct Drift {
   double overlap = 0;  // m
 };
 
-class Simulation {
+// What solves the problems of a scene: SolveScene(solver, problem, f, fallbacks).
+template <class SceneType>
+struct SolverOf;
+
+template <>
+struct SolverOf<Scene<double>> {
+  explicit SolverOf(const SimulationOptions& options) : fast(options.fast) {}
+  FastSolver<double> fast;
+};
+
+template <class SceneType>
+class SimulationOf {
  public:
+  using Types = SceneTypes<SceneType>;
+  using Touch = typename Types::Touch;
+  using Applied = AppliedForceIn<Types::kDimension>;
+
   // Requires a finite scene. `observe` sees every problem before it is solved.
-  explicit Simulation(Scene<double> scene, const SimulationOptions& options = {},
-                      std::function<void(const FrameProblem&)> observe = {});
+  explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
+                        std::function<void(const FrameProblem&)> observe = {});
 
   // One step. SimulationError if a problem is not solved; the state is then that of the frame's start, but for
   // corrected positions and impulses.
   void Step();
 
-  const Scene<double>& scene() const { return scene_; }
+  const SceneType& scene() const { return scene_; }
   double time() const { return static_cast<double>(statistics_.frames) * options_.step; }
   const SimulationStatistics& statistics() const { return statistics_; }
   // Of the last step.
-  const std::vector<AppliedForce>& forces() const { return forces_; }
-  const std::vector<TouchPoint<double>>& contacts() const { return contacts_; }
+  const std::vector<Applied>& forces() const { return forces_; }
+  const std::vector<Touch>& contacts() const { return contacts_; }
 
  private:
-  using Model = SceneModel<double>;
+  using Model = typename Types::Model;
   using Forces = std::vector<ContactProblem<double>::Vector>;
-  using Changes = std::vector<Eigen::Matrix<double, 3, 1>>;
+  using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
 
   Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
@@ -150,23 +182,25 @@ class Simulation {
   void KeepForces(const Model& model, const Forces& f);
   void Move(const Changes& accelerations);
 
-  Scene<double> scene_;
+  SceneType scene_;
   SimulationOptions options_;
   std::function<void(const FrameProblem&)> observe_;
-  FastSolver<double> solver_;
+  SolverOf<SceneType> solver_;
   SimulationStatistics statistics_;
-  std::vector<TouchPoint<double>> contacts_;
-  std::vector<AppliedForce> forces_;
+  std::vector<Touch> contacts_;
+  std::vector<Applied> forces_;
   std::size_t failed_ = 0;  // island
 };
+using Simulation = SimulationOf<Scene<double>>;
+extern template class SimulationOf<Scene<double>>;
 
 Energy EnergyOf(const Scene<double>& scene);
 Drift DriftOf(const Scene<double>& scene);
 
-// f of a problem of any kinds: FastSolver after reduction.h, checked by the natural residual of the whole
+// f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole
 // problem. False if there is none to `options.residual`.
-bool SolveScene(FastSolver<double>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, std::int64_t& fallbacks);
+bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
 }  // namespace stiction
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "certify/certificate.h"
-#include "certify/modes.h"
+#include "certify/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -12,7 +12,7 @@ FOLDER = cli.ROOT / "corpus" / "scenes"
 
 class Scenes(cli.TestCase):
     def assemble(self, name, *options):
-        output = self.folder / f"{name}.json"
+        output = self.folder / f"{name.split('/')[-1]}.json"
         done = cli.run("assemble", FOLDER / f"{name}.json", "-o", output, *options)
         self.assertEqual(done.code, 0, done.err)
         return done.out, output
@@ -79,7 +79,7 @@ class Scenes(cli.TestCase):
         self.assertEqual(problem["format"], "stiction-problem")
 
     def test_every_scene_is_drawn(self):
-        for scene in sorted(FOLDER.glob("*.json")):
+        for scene in sorted(FOLDER.glob("**/*.json")):
             with self.subTest(scene=scene.name):
                 done = cli.run("draw", scene, "-o", "-")
                 self.assertEqual(done.code, 0, done.err)
@@ -112,6 +112,40 @@ class Scenes(cli.TestCase):
             stored = json.load(file)
         for key in ("contacts", "A", "b"):
             self.assertEqual(json.loads(output.read_text())[key], stored[key])
+
+    def test_scenes_in_space(self):
+        out, output = self.assemble("space/ball-slides-then-rolls", "--explain")
+        self.assertIn("sliding, slip (-1, 0)", out)
+        self.assertEqual(cli.run("solve", output, "--method", "complete").code, 0)
+        out, output = self.assemble("space/tripod")
+        self.assertEqual(cli.run("solve", output, "--method", "complete", "--json").json()["f"], ["20", "20/3", "40/3"])
+        folder, problems = self.folder / "run", self.folder / "problems"
+        done = cli.run("simulate", FOLDER / "space" / "ball-slides-then-rolls.json", "-o", folder, "--seconds", "0.5",
+                       "--problems", problems)
+        self.assertEqual(done.code, 0, done.err)
+        for frame in (folder / "frames").iterdir():
+            ElementTree.parse(frame)
+        self.assertIn("const frames", (folder / "animation.html").read_text())
+        for problem in sorted(problems.iterdir())[::10]:
+            self.assertEqual(cli.run("solve", problem, "--method", "fast", "--arithmetic", "double").code, 0)
+
+    def test_bad_scenes_in_space_are_refused_with_their_place(self):
+        good = (FOLDER / "space" / "tripod.json").read_text()
+        for change, expected in (
+                (lambda s: s["bodies"][1]["shapes"][1]["polyhedron"].append(["1", "0", "-1/2"]),
+                 "bodies[1].shapes[1].polyhedron: found corner 5 in the hull of the others"),
+                (lambda s: s["bodies"][1].update(inertia=["1", "0", "1"]), 'bodies[1].inertia[1]: found "0"'),
+                (lambda s: s["bodies"][1].update(inertia=[[1, 2, 0], [2, 1, 0], [0, 0, 1]]), "positive definite"),
+                (lambda s: s["bodies"][1].update(rotation=[0, 0, 0, 0]), "bodies[1].rotation"),
+                (lambda s: s["bodies"][1].update(position=[0, 0]), "bodies[1].position"),
+                (lambda s: s.update(joints=[{"kind": "pin", "bodies": ["floor", "tripod"]}]),
+                 'joints[0].kind: found "pin", expected ball'),
+                (lambda s: s.update(dimension=4), "dimension: found 4, expected 2 or 3")):
+            scene = json.loads(good)
+            change(scene)
+            done = cli.run("assemble", self.file("bad.json", scene), "-o", self.folder / "out")
+            self.assertEqual(done.code, 2)
+            self.assertIn(expected, done.err)
 
     def test_bad_scenes_are_refused_with_their_place(self):
         scene = json.loads((FOLDER / "rod-at-rest.json").read_text())

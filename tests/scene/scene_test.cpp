@@ -8,8 +8,8 @@
 #include <random>
 
 #include "certify/existence.h"
-#include "certify/modes.h"
 #include "certify/properties.h"
+#include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
 #include "solver/reduction.ipp"
 #include "solver/scene/assemble.h"

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definitions for simulate.h, in its order, in the plane and in space. A body brings, found by argument:
+//
+//   FastestPoint(body)          bound of the speed of its points, m/s
+//   AddVelocity(body, change)   velocity and spin
+//   Displace(body, change)      position and turn
+//   Advance(body, acceleration, h)   a step of the symplectic Euler method
+
+#ifndef STICTION_SOLVER_SCENE_SIMULATE_IPP_
+#define STICTION_SOLVER_SCENE_SIMULATE_IPP_
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/reduction.ipp"
+#include "solver/residual.h"
+#include "solver/scene/simulate.h"
+
+namespace stiction {
+
+inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
+inline constexpr int kHoldRounds = 8;
+
+// The derivative of the gap: negative where the contact closes.
+template <class SceneType, class Touch>
+double ApproachOf(const SceneType& scene, const Touch& contact) {
+  const auto &a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
+  return contact.normal.dot(a.VelocityAt(contact.point) - b.VelocityAt(contact.point));
+}
+
+// f of a problem of any kinds by `run`, which solves a problem without bilateral or sliding contacts into its
+// second argument. False if there is none, or if it fails `accept` with the forces of the whole problem.
+template <class Run, class Accept>
+bool SolveReduced(const ContactProblem<double>& problem, const Tolerances& tolerances, const Run& run,
+                  const Accept& accept, ContactProblem<double>::Vector& f) {
+  if (!Reduction<double>::Concerns(problem)) return run(problem, f);
+  const Reduction<double> reduction(problem, tolerances);
+  if (reduction.end() != ReductionEnd::kReduced) return false;
+  ContactProblem<double>::Vector x(0);
+  if (reduction.problem().rows() > 0 && !run(reduction.problem(), x)) return false;
+  f = reduction.Forces(x);
+  const ContactProblem<double>::Vector a = problem.A * f + problem.b;
+  return accept(f, a);
+}
+
+template <class SceneType>
+SimulationOf<SceneType>::SimulationOf(SceneType scene, const SimulationOptions& options,
+                                      std::function<void(const FrameProblem&)> observe)
+    : scene_(std::move(scene)), options_(options), observe_(std::move(observe)), solver_(options) {
+  const double gravity = scene_.gravity.norm();
+  scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : 1e-3;
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::Step() {
+  FindStepContacts();
+  if (HasDrifted()) CorrectPositions();
+  if (Collides()) ApplyImpulses();
+  Move(Accelerations());
+  ++statistics_.frames;
+  statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
+}
+
+template <class SceneType>
+auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& held) const -> Model {
+  AssembleOptions<double> options;
+  options.level = level;
+  options.step = options_.step;
+  options.minimal = options_.minimal;
+  options.held = held;
+  return Assemble(scene_, contacts_, options);
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::FindStepContacts() {
+  double fastest = scene_.gravity.norm() * options_.step;
+  for (const auto& body : scene_.bodies) fastest = std::max(fastest, FastestPoint(body));
+  contacts_ = FindContacts(scene_, 2 * options_.step * fastest);
+  std::erase_if(contacts_, [this](const Touch& contact) {
+    return contact.gap + options_.step * ApproachOf(scene_, contact) > scene_.gap;
+  });
+}
+
+// ---- Solving ---------------------------------------------------------------------------------
+
+// False with failed_ set if an island has no answer.
+template <class SceneType>
+bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) {
+  f.resize(model.islands.size());
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    const auto& problem = model.islands[i].problem;
+    ++statistics_.problems;
+    statistics_.rows += problem.rows();
+    if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), problem});
+    if (!SolveScene(solver_, problem, f[i], statistics_)) {
+      failed_ = i;
+      return false;
+    }
+  }
+  return true;
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::Fail(const Model& model, Level level, std::size_t island) const {
+  throw SimulationError(
+      fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided",
+                  statistics_.frames, time(), kLevelNames[static_cast<int>(level)], island + 1,
+                  model.islands[island].problem.rows()),
+      model.islands[island].problem);
+}
+
+template <class SceneType>
+auto SimulationOf<SceneType>::Response(const Model& model, const Forces& f) const -> Changes {
+  Changes change(model.bodies.size(), Eigen::Matrix<double, Types::kDof, 1>::Zero());
+  for (std::size_t i = 0; i < model.islands.size(); ++i)
+    AddResponse(model.bodies, model.constraints, model.islands[i], f[i], change);
+  return change;
+}
+
+// ---- Positions and impulses ------------------------------------------------------------------
+
+template <class SceneType>
+bool SimulationOf<SceneType>::HasDrifted() const {
+  const auto overlaps = [](const Touch& contact) { return contact.gap < -kDrift; };
+  if (std::any_of(contacts_.begin(), contacts_.end(), overlaps)) return true;
+  if (scene_.joints.empty()) return false;
+  const auto joints = JointConstraints(scene_);
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const auto& joint) { return std::abs(joint.rows[0].error) > kDrift; });
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::CorrectPositions() {
+  ++statistics_.corrections;
+  const Model model = AssembleAt(Level::kPositions);
+  Forces f;
+  if (!Solve(model, Level::kPositions, f)) Fail(model, Level::kPositions, failed_);
+  const Changes change = Response(model, f);
+  for (std::size_t i = 0; i < change.size(); ++i) Displace(scene_.bodies[i], change[i]);
+  FindStepContacts();
+}
+
+template <class SceneType>
+bool SimulationOf<SceneType>::Collides() const {
+  return std::any_of(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
+    const double speed = ApproachOf(scene_, contact);
+    return speed < -scene_.rest && std::max(contact.gap, 0.0) + options_.step * speed < 0;
+  });
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::ApplyImpulses() {
+  ++statistics_.collisions;
+  const Model model = AssembleAt(Level::kImpulses);
+  Forces p;
+  if (!Solve(model, Level::kImpulses, p)) Fail(model, Level::kImpulses, failed_);
+  const Changes change = Response(model, p);
+  for (std::size_t i = 0; i < change.size(); ++i) AddVelocity(scene_.bodies[i], change[i]);
+}
+
+// ---- Forces ----------------------------------------------------------------------------------
+
+template <class SceneType>
+auto SimulationOf<SceneType>::Accelerations() -> Changes {
+  std::vector<bool> held(contacts_.size(), false);
+  for (int round = 0;; ++round) {
+    const Model model = AssembleAt(Level::kForces, held);
+    const bool all_held = std::find(held.begin(), held.end(), false) == held.end();
+    Forces f;
+    if (!Solve(model, Level::kForces, f)) {
+      if (all_held) Fail(model, Level::kForces, failed_);
+      ++statistics_.impulsive;
+      held.assign(contacts_.size(), true);
+      continue;
+    }
+    Changes accelerations = BodyAccelerations(model, f);
+    const int reversing = all_held ? 0 : HoldReversing(model, accelerations, held);
+    statistics_.stopped += reversing;
+    if (reversing == 0 || round >= kHoldRounds) {
+      KeepForces(model, f);
+      return accelerations;
+    }
+  }
+}
+
+// Marks the sliding contacts whose tangential velocity would turn round within the step.
+template <class SceneType>
+int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& accelerations,
+                                           std::vector<bool>& held) const {
+  int count = 0;
+  for (const auto& constraint : model.constraints) {
+    if (constraint.law.kind != ContactKind::kSliding) continue;
+    double along = 0;  // the slip
+    for (int row = 1; row < Types::kDimension; ++row) {
+      double speed = Velocity(constraint, row, model.bodies);
+      for (int side = 0; side < 2; ++side)
+        speed += options_.step * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
+      along += speed * constraint.law.slip[row - 1];
+    }
+    if (along >= 0) continue;
+    held[constraint.source] = true;
+    ++count;
+  }
+  return count;
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::KeepForces(const Model& model, const Forces& f) {
+  forces_.clear();
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    int at = 0;
+    for (const int k : model.islands[i].constraints) {
+      const auto& constraint = model.constraints[k];
+      Applied force;
+      force.bodies = constraint.bodies;
+      force.from_joint = constraint.from_joint;
+      force.force.setZero();
+      for (const auto& row : constraint.rows)
+        force.force += row.J[0].template head<Types::kDimension>() * f[i][at++];
+      if (constraint.from_joint) {
+        const auto& joint = scene_.joints[constraint.source];
+        force.point = scene_.bodies[joint.a].At(joint.at_a);
+      } else {
+        force.point = contacts_[constraint.source].point;
+      }
+      forces_.push_back(force);
+    }
+  }
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::Move(const Changes& accelerations) {
+  const double h = options_.step;
+  for (std::size_t i = 0; i < accelerations.size(); ++i) Advance(scene_.bodies[i], accelerations[i], h);
+}
+template <class SceneType>
+Drift MeasureDrift(const SceneType& scene) {
+  Drift drift;
+  for (const auto& joint : JointConstraints(scene))
+    drift.joints = std::max(drift.joints, std::abs(joint.rows[0].error));
+  for (const auto& contact : FindContacts(scene)) drift.overlap = std::max(drift.overlap, -contact.gap);
+  return drift;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SCENE_SIMULATE_IPP_

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes in space: contacts, rows, assembly; closed forms exactly, and minimal models against full ones.
+
+#include "certify/space.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "certify/properties.h"
+#include "certify/verify_solution.h"
+#include "corpus/scene_file.h"
+#include "solver/scene/assemble_space.h"
+
+namespace stiction {
+namespace {
+
+using Vector = Vector3<double>;
+
+SceneInSpace<Rational> NamedScene(const std::string& name) {
+  const auto path = std::filesystem::path(STICTION_SCENES) / "space" / (name + ".json");
+  return std::get<SceneFileInSpace>(ReadAnyScene(path)).scene;
+}
+
+Rational Q(const std::string& text) { return *ParseRational(text); }
+
+Vector3<Rational> Exact(double x, double y, double z) { return MakeVector3<Rational>(x, y, z); }
+
+// ---- Polyhedra -------------------------------------------------------------------------------
+
+std::vector<Vector3<Rational>> BoxCorners(double x, double y, double z) {
+  std::vector<Vector3<Rational>> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(Exact((i & 1 ? x : -x) / 2, (i & 2 ? y : -y) / 2, (i & 4 ? z : -z) / 2));
+  return corners;
+}
+
+TEST_CASE("polyhedron: a box has six faces of four corners, twelve edges, and its closed mass properties") {
+  const Polyhedron box = MakePolyhedron(BoxCorners(2, 4, 6));
+  REQUIRE(box.fault.empty());
+  REQUIRE(box.shape.faces.size() == 6);
+  REQUIRE(box.shape.edges.size() == 12);
+  for (std::size_t f = 0; f < 6; ++f) {
+    CHECK(box.shape.faces[f].size() == 4);
+    const auto& face = box.shape.faces[f];
+    const auto& c = box.shape.corners;
+    const Vector3<Rational> turn = CrossProduct<Rational>(c[face[1]] - c[face[0]], c[face[2]] - c[face[1]]);
+    CHECK(turn.dot(box.shape.normals[f]) > 0);
+    CHECK(c[face[0]].dot(box.shape.normals[f]) > 0);
+  }
+  const auto mass = MassPropertiesOf({box.shape});
+  CHECK(mass.volume == 48);
+  CHECK(mass.inertia(0, 0) == 48 * (16 + 36) / 12);
+  CHECK(mass.inertia(1, 1) == 48 * (4 + 36) / 12);
+  CHECK(mass.inertia(2, 2) == 48 * (4 + 16) / 12);
+  CHECK(mass.inertia(0, 1) == 0);
+}
+
+TEST_CASE("polyhedron: corners that are no polyhedron's are refused") {
+  auto corners = BoxCorners(2, 2, 2);
+  corners.push_back(Exact(0.5, 0.5, 1));  // in a face
+  CHECK(MakePolyhedron(corners).fault == "corner 8 in the hull of the others");
+  CHECK(MakePolyhedron({Exact(0, 0, 0), Exact(1, 0, 0), Exact(0, 1, 0), Exact(1, 1, 0)}).fault ==
+        "corners that are all in one plane");
+  CHECK(MakePolyhedron({Exact(0, 0, 0), Exact(1, 0, 0), Exact(0, 1, 0)}).fault == "fewer than four corners");
+}
+
+// ---- Contact finding -------------------------------------------------------------------------
+
+BodyInSpace<double> Box(const Vector& size, const Vector& at, const Vector& axis = Vector(0, 0, 1),
+                        double angle = 0) {
+  SceneInSpace<Rational> scene;
+  scene.bodies.emplace_back();
+  scene.bodies[0].shapes.push_back(MakePolyhedron(BoxCorners(size[0], size[1], size[2])).shape);
+  BodyInSpace<double> body = Round(scene).bodies[0];
+  body.position = at;
+  body.rotation = MakeQuaternion<double>(std::cos(angle / 2), std::sin(angle / 2) * axis.normalized());
+  return body;
+}
+
+BodyInSpace<double> Ball(double radius, const Vector& at) {
+  BodyInSpace<double> body;
+  body.shapes.emplace_back();
+  body.shapes[0].radius = radius;
+  body.position = at;
+  return body;
+}
+
+SceneInSpace<double> SceneOf(std::vector<BodyInSpace<double>> bodies, double gap = 1e-3) {
+  SceneInSpace<double> scene;
+  scene.bodies = std::move(bodies);
+  scene.gap = gap;
+  return scene;
+}
+
+TEST_CASE("contacts in space: a face on a face has the corners of what they share") {
+  for (const bool swap : {false, true}) {
+    std::vector bodies = {Box({10, 10, 2}, {0, 0, -1}), Box({2, 2, 1}, {4.5, 0, 0.5})};
+    if (swap) std::swap(bodies[0], bodies[1]);
+    const auto contacts = FindContacts(SceneOf(bodies));
+    REQUIRE(contacts.size() == 4);
+    Vector sum = Vector::Zero();
+    for (const auto& c : contacts) {
+      CHECK(c.gap == 0);
+      const double up = c.a == (swap ? 0 : 1) ? 1 : -1;  // from b to a
+      CHECK(c.normal[2] == up);
+      sum += c.point;
+    }
+    CHECK(sum[0] == Approx(4 * 4.25));  // from 3.5 to the floor's end
+  }
+  CHECK(FindContacts(SceneOf({Box({10, 10, 2}, {0, 0, -1}), Box({2, 2, 1}, {0, 0, 0.502})})).empty());
+  // A square across a square leaves an octagon.
+  CHECK(
+      FindContacts(SceneOf({Box({2, 2, 2}, {0, 0, -1}), Box({2, 2, 1}, {0, 0, 0.5}, {0, 0, 1}, 0.7)})).size() ==
+      8);
+}
+
+TEST_CASE("contacts in space: an edge across an edge touches in one point") {
+  const double up = std::sqrt(2.0);
+  const auto contacts = FindContacts(SceneOf({Box({4, 1, 1}, {0, 0, 0}, {1, 0, 0}, M_PI / 4),
+                                              Box({1, 4, 1}, {0.25, 0.125, up}, {0, 1, 0}, M_PI / 4)}));
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].meeting == Meeting::kEdges);
+  CHECK(contacts[0].gap == Approx(0).margin(1e-12));
+  CHECK(contacts[0].point[0] == Approx(0.25));
+  CHECK(contacts[0].point[1] == Approx(0).margin(1e-12));
+  CHECK(contacts[0].point[2] == Approx(up / 2));
+  CHECK(std::abs(contacts[0].normal[2]) == Approx(1));
+}
+
+TEST_CASE("contacts in space: balls against faces, edges, corners and balls") {
+  const auto box = Box({2, 2, 2}, {0, 0, 0});
+  const auto at = [&box](const Vector& center) { return FindContacts(SceneOf({box, Ball(1, center)})); };
+  REQUIRE(at({0.5, 0.2, 2}).size() == 1);
+  CHECK(at({0.5, 0.2, 2})[0].meeting == Meeting::kFace);
+  CHECK(at({1.6, 0.3, 1.8})[0].meeting == Meeting::kEdge);
+  CHECK(at({1.6, 0.3, 1.8})[0].normal[0] == Approx(0.6));
+  const auto corner = at({1 + 2.0 / 3, 1 + 2.0 / 3, 1 + 1.0 / 3});
+  REQUIRE(corner.size() == 1);
+  CHECK(corner[0].meeting == Meeting::kPoint);
+  CHECK(corner[0].gap == Approx(0).margin(1e-12));
+  CHECK(at({1.6, 0.3, 1.81}).empty());
+  const auto two = FindContacts(SceneOf({Ball(1, {0, 0, 0}), Ball(2, {1.8, 0, 2.4})}));
+  REQUIRE(two.size() == 1);
+  CHECK(two[0].point[0] == Approx(0.6));
+  CHECK(two[0].normal[2] == Approx(-0.8));
+}
+
+// ---- Rows ------------------------------------------------------------------------------------
+
+SceneInSpace<double> Coasted(SceneInSpace<double> scene, double t) {
+  for (auto& body : scene.bodies) {
+    body.position += t * body.velocity;
+    const double angle = t * body.spin.norm();
+    if (angle == 0) continue;
+    const Vector axis = std::sin(angle / 2) / angle * t * body.spin;
+    body.rotation = Product<double>(MakeQuaternion<double>(std::cos(angle / 2), axis), body.rotation);
+  }
+  return scene;
+}
+
+template <class Measure>
+std::pair<double, double> Derivatives(const SceneInSpace<double>& scene, const Measure& measure) {
+  const double h = 1e-4;
+  const double minus = measure(Coasted(scene, -h)), zero = measure(scene), plus = measure(Coasted(scene, h));
+  return {(plus - minus) / (2 * h), (plus - 2 * zero + minus) / (h * h)};
+}
+
+Vector RandomVector(std::mt19937& random) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  const double x = number(random), y = number(random), z = number(random);
+  return {x, y, z};
+}
+
+struct Touching {
+  const char* name;
+  Meeting meeting;
+  std::vector<BodyInSpace<double>> bodies;
+};
+
+std::vector<Touching> AllMeetings() {
+  return {
+      {"corner on face",
+       Meeting::kFace,
+       {Box({6, 6, 2}, {0, 0, -1}), Box({1, 1, 1}, {0, 0, 0.9}, {1, 2, 0.3}, 0.8)}},
+      {"ball on face", Meeting::kFace, {Box({6, 6, 2}, {0, 0, -1}, {1, 1, 0}, 0.1), Ball(1, {0.1, 0.2, 1})}},
+      {"ball on edge", Meeting::kEdge, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.6, 0.3, 1.9})}},
+      {"ball on corner", Meeting::kPoint, {Box({2, 2, 2}, {0, 0, 0}), Ball(1, {1.7, 1.6, 1.4})}},
+      {"ball on ball", Meeting::kPoint, {Ball(2, {0, 0, 0}), Ball(1, {1.8, 0.3, 2.4})}},
+      {"edges",
+       Meeting::kEdges,
+       {Box({4, 1, 1}, {0, 0, 0}, {1, 0, 0}, 0.7), Box({1, 4, 1}, {0.2, 0.1, 1.5}, {0.2, 1, 0.1}, 0.8)}}};
+}
+
+TEST_CASE("rows in space: velocity and bias of a contact are the derivatives of its gap") {
+  std::mt19937 random(1);
+  for (const auto& [name, meeting, bodies] : AllMeetings()) {
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      INFO(name);
+      SceneInSpace<double> scene = SceneOf(bodies, 0.5);
+      for (auto& body : scene.bodies) body.velocity = RandomVector(random), body.spin = RandomVector(random);
+      const auto contacts = FindContacts(scene);
+      REQUIRE(!contacts.empty());
+      std::size_t nearest = 0;  // of a manifold: a corner, no clipped end
+      for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (contacts[i].gap < contacts[nearest].gap) nearest = i;
+      }
+      REQUIRE(contacts[nearest].meeting == meeting);
+      const auto gap = [nearest](const SceneInSpace<double>& at) { return FindContacts(at).at(nearest).gap; };
+      const auto [first, second] = Derivatives(scene, gap);
+      const auto constraint = ContactConstraint(scene, contacts[nearest]);
+      CHECK(Velocity(constraint, 0, DynamicsOf(scene)) == Approx(first).margin(1e-6));
+      CHECK(constraint.rows[0].bias == Approx(second).margin(1e-5));
+    }
+  }
+}
+
+TEST_CASE(
+    "rows in space: where nothing slips the tangential bias is the derivative of the tangential velocity") {
+  std::mt19937 random(2);
+  for (const auto& [name, meeting, bodies] : AllMeetings()) {
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      INFO(name);
+      SceneInSpace<double> scene = SceneOf(bodies, 0.5);
+      for (auto& body : scene.bodies) body.velocity = RandomVector(random), body.spin = RandomVector(random);
+      std::size_t nearest = 0;
+      const auto find = [&nearest](const SceneInSpace<double>& at) { return FindContacts(at).at(nearest); };
+      for (std::size_t i = 0; i < FindContacts(scene).size(); ++i) {
+        if (FindContacts(scene)[i].gap < find(scene).gap) nearest = i;
+      }
+      // Together, and at rest relative to each other.
+      const auto apart = find(scene);
+      scene.bodies[apart.a].position -= apart.gap * apart.normal;
+      const auto contact = find(scene);
+      const auto slip = [&find](const SceneInSpace<double>& at) -> Vector {
+        const auto c = find(at);
+        return at.bodies[c.a].VelocityAt(c.point) - at.bodies[c.b].VelocityAt(c.point);
+      };
+      scene.bodies[contact.a].velocity -= slip(scene);
+      const auto constraint = ContactConstraint(scene, contact);
+      for (int row = 1; row < 3; ++row) {
+        const Vector t = constraint.rows[row].J[0].head<3>();
+        const auto along = [&](const SceneInSpace<double>& at) { return t.dot(slip(at)); };
+        CHECK(constraint.rows[row].bias == Approx(Derivatives(scene, along).first).margin(1e-6));
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "rows in space: velocity and bias of joints and given contacts are the derivatives of what they measure") {
+  std::mt19937 random(3);
+  SceneInSpace<double> scene = SceneOf({Box({1, 1, 1}, {0, 0, 0}, {1, 2, 3}, 0.5), Box({1, 1, 1}, {2, 1, 1})});
+  for (auto& body : scene.bodies) body.velocity = RandomVector(random), body.spin = RandomVector(random);
+  scene.joints.push_back({0, 1, {0.5, 0.2, 0.3}, {-1, 0.3, 0.1}});
+  scene.contacts.push_back({0, 1, {0.5, 0.2, 0.1}, {-1, 0.3, 0.2}, {0.6, 0, 0.8}});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto error = [i](const SceneInSpace<double>& at) { return JointConstraints(at)[i].rows[0].error; };
+    const auto [first, second] = Derivatives(scene, error);
+    CHECK(Velocity(JointConstraints(scene)[i], 0, DynamicsOf(scene)) == Approx(first).margin(1e-6));
+    CHECK(JointConstraints(scene)[i].rows[0].bias == Approx(second).margin(1e-5));
+  }
+  const auto gap = [](const SceneInSpace<double>& at) { return FindContacts(at).at(0).gap; };
+  const auto [first, second] = Derivatives(scene, gap);
+  const auto given = ContactConstraint(scene, FindContacts(scene).at(0));
+  CHECK(Velocity(given, 0, DynamicsOf(scene)) == Approx(first).margin(1e-6));
+  CHECK(given.rows[0].bias == Approx(second).margin(1e-5));
+}
+
+// ---- Closed forms ----------------------------------------------------------------------------
+
+struct Solved {
+  SceneModel<Rational, 6> model;
+  std::vector<ExactVector> f;
+  std::vector<Eigen::Matrix<Rational, 6, 1>> accelerations;
+  Rational bound = 1;  // of FindCoulombViolation, the least of all problems
+};
+
+Solved SolveScene(const SceneInSpace<Rational>& scene) {
+  Solved solved;
+  solved.model = Assemble(scene, FindContacts(scene));
+  for (const auto& island : solved.model.islands) {
+    SpaceOptions options;
+    options.law = FrictionLaw::kCoulomb;
+    const SpaceSolution solution = SolveInSpace(island.problem, options);
+    REQUIRE(solution.outcome == Outcome::kSolved);
+    solved.f.push_back(solution.f);
+    solved.bound = std::min(solved.bound, solution.bound);
+  }
+  solved.accelerations = BodyAccelerations(solved.model, solved.f);
+  return solved;
+}
+
+TEST_CASE("scene in space: a box on a slope rests above mu = tan and slides below") {
+  const auto rests = SolveScene(NamedScene("box-on-slope-rests"));
+  REQUIRE(rests.model.constraints.size() == 4);
+  for (int i = 0; i < 6; ++i) CHECK(rests.accelerations[1][i] == 0);
+  const auto slides = SolveScene(NamedScene("box-on-slope-slides"));
+  const double down = 10 * (0.6 - 2999.0 / 4000 * 0.8);
+  CHECK(slides.accelerations[1][0].get_d() == Approx(-0.8 * down).epsilon(1e-12));
+  CHECK(slides.accelerations[1][2].get_d() == Approx(-0.6 * down).epsilon(1e-12));
+  for (const int i : {1, 3, 4, 5}) CHECK(slides.accelerations[1][i].get_d() == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("scene in space: a thrown ball slides at mu g and gains spin") {
+  const auto ball = SolveScene(NamedScene("ball-slides-then-rolls"));
+  REQUIRE(ball.model.constraints.size() == 1);
+  CHECK(ball.model.constraints[0].law.kind == ContactKind::kSliding);
+  CHECK(ball.accelerations[1][0] == -2);
+  CHECK(ball.accelerations[1][2] == 0);
+  CHECK(ball.accelerations[1][4] == 10);  // mu m g r / (2/5 m r^2)
+}
+
+TEST_CASE("scene in space: three legs bear what statics asks, four stand too") {
+  const auto tripod = SolveScene(NamedScene("tripod"));
+  REQUIRE(tripod.f.size() == 1);
+  REQUIRE(tripod.f[0].size() == 3);
+  CHECK(tripod.f[0][0] == 20);
+  CHECK(tripod.f[0][1] == Q("20/3"));
+  CHECK(tripod.f[0][2] == Q("40/3"));
+  const auto table = SolveScene(NamedScene("table"));
+  REQUIRE(table.f[0].size() == 4);
+  CHECK(Rational(table.f[0].sum()) == 40);
+  for (int i = 0; i < 6; ++i) CHECK(table.accelerations[1][i] == 0);
+}
+
+TEST_CASE("scene in space: the joint of a conical pendulum bears weight and centripetal force") {
+  const auto pendulum = SolveScene(NamedScene("conical-pendulum"));
+  REQUIRE(pendulum.f[0].size() == 3);
+  CHECK(pendulum.f[0][0] == Q("-15/2"));
+  CHECK(pendulum.f[0][1] == 0);
+  CHECK(pendulum.f[0][2] == 10);
+}
+
+TEST_CASE("scene in space: the gyroscopic moment is -w x (I w)") {
+  SceneInSpace<Rational> scene;
+  scene.bodies.emplace_back();
+  scene.bodies[0].inertia = Vector3<Rational>(1, 2, 3).asDiagonal();
+  scene.bodies[0].spin = Exact(1, 1, 1);
+  const auto model = Assemble(scene, FindContacts(scene));
+  const auto accelerations = BodyAccelerations(model, {});
+  // Euler's equations: I1 w1' = (I2 - I3) w2 w3, ...
+  CHECK(accelerations[0][3] == -1);
+  CHECK(accelerations[0][4] == 1);
+  CHECK(accelerations[0][5] == Q("-1/3"));
+}
+
+// ---- Minimal models --------------------------------------------------------------------------
+
+TEST_CASE(
+    "assemble in space: A is symmetric and semidefinite with b in its range, and minimal forces solve the full "
+    "problem") {
+  for (const char* name : {"box-on-slope-rests", "box-on-slope-slides", "ball-slides-then-rolls", "tripod",
+                           "table", "conical-pendulum"}) {
+    INFO(name);
+    const auto scene = NamedScene(name);
+    const auto solved = SolveScene(scene);
+    for (const auto& island : solved.model.islands) {
+      CHECK(IsSymmetric(island.problem));
+      CHECK(IsPositiveSemidefinite(island.problem));
+      CHECK(IsInRange(island.problem));
+    }
+    AssembleOptions<Rational> options;
+    options.minimal = false;
+    const auto full = Assemble(scene, FindContacts(scene), options);
+    REQUIRE(full.islands.size() == 1);
+    const ExactVector all = ExtendForces(solved.model, solved.f, full);
+    CHECK(FindCoulombViolation(full.islands[0].problem, all, solved.bound).value_or("") == "");
+    CHECK(BodyAccelerations(full, {all}) == solved.accelerations);
+  }
+}
+
+TEST_CASE(
+    "assemble in space: a smooth inner contact of a face is dropped, exactly; a rough one and an outer one are "
+    "not") {
+  SceneInSpace<Rational> scene;
+  scene.bodies.resize(2);
+  scene.bodies[0].name = "plate", scene.bodies[1].name = "ground";
+  scene.bodies[1].fixed = true;
+  scene.bodies[0].position = Exact(0, 0, 1);
+  scene.gravity = Exact(1, 2, -10);
+  scene.bodies[0].torque = Exact(3, -2, 1);
+  const std::vector<std::pair<double, double>> feet = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {0.5, 0.25}};
+  for (const auto& [x, y] : feet)
+    scene.contacts.push_back({0, 1, Exact(x, y, -1), Exact(0, 0, 0), Exact(0, 0, 1)});
+  const auto smooth = Assemble(scene, FindContacts(scene));
+  REQUIRE(smooth.omitted.size() == 1);
+  CHECK(smooth.omitted[0].contact == 4);
+  const auto solved = SolveScene(scene);
+  AssembleOptions<Rational> options;
+  options.minimal = false;
+  const auto full = Assemble(scene, FindContacts(scene), options);
+  const ExactVector all = ExtendForces(solved.model, solved.f, full);
+  CHECK(FindCoulombViolation(full.islands[0].problem, all, 1).value_or("") == "");
+  scene.mu = 1;
+  CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
+  scene.mu = 0;
+  scene.contacts[4].at_a = Exact(1.5, 0, -1);
+  CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
+}
+
+TEST_CASE("assemble in space: the direction of slip is a unit vector exactly") {
+  SceneInSpace<Rational> scene = NamedScene("ball-slides-then-rolls");
+  scene.bodies[1].velocity = Exact(0.3, -0.7, 0);
+  const auto model = Assemble(scene, FindContacts(scene));
+  const auto& slip = model.constraints.at(0).law.slip;
+  CHECK(Rational(slip[0] * slip[0] + slip[1] * slip[1]) == 1);
+  const auto& rows = model.constraints[0].rows;
+  const double x = Rational(slip[0] * rows[1].J[0][0] + slip[1] * rows[2].J[0][0]).get_d();
+  const double y = Rational(slip[0] * rows[1].J[0][1] + slip[1] * rows[2].J[0][1]).get_d();
+  CHECK(x == Approx(0.3 / std::hypot(0.3, 0.7)));
+  CHECK(y == Approx(-0.7 / std::hypot(0.3, 0.7)));
+}
+
+}  // namespace
+}  // namespace stiction
