@@ -96,6 +96,8 @@ void ReadMass(const JsonPlace& place, RigidBody<Rational>& body) {
     }
     return;
   }
+  if (const auto given = place.Optional("acceleration"))
+    given->Refuse("no acceleration of a body that is not fixed");
   body.mass = Positive(place.Required("mass", "the mass, a number > 0"));
   body.inertia = inertia ? Positive(*inertia) : UniformInertia(place, body);
 }
@@ -103,7 +105,7 @@ void ReadMass(const JsonPlace& place, RigidBody<Rational>& body) {
 RigidBody<Rational> ReadBody(const JsonPlace& place) {
   place.RequireObject();
   place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "angle", "velocity", "spin",
-                   "force", "torque", "shapes", "level"});
+                   "acceleration", "force", "torque", "shapes", "level"});
   RigidBody<Rational> body;
   body.name = place.Required("name", "a name").Text("a name");
   if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
@@ -121,6 +123,7 @@ RigidBody<Rational> ReadBody(const JsonPlace& place) {
   }
   if (const auto position = place.Optional("position")) body.position = ReadVector(*position);
   if (const auto velocity = place.Optional("velocity")) body.velocity = ReadVector(*velocity);
+  if (const auto acceleration = place.Optional("acceleration")) body.acceleration = ReadVector(*acceleration);
   if (const auto force = place.Optional("force")) body.force = ReadVector(*force);
   if (const auto spin = place.Optional("spin")) body.spin = ExactNumber(*spin);
   if (const auto torque = place.Optional("torque")) body.torque = ExactNumber(*torque);
@@ -243,6 +246,7 @@ Json BodyJson(const RigidBody<Rational>& body) {
   Json json = {{"name", body.name}};
   if (body.fixed) {
     json["fixed"] = true;
+    json["acceleration"] = VectorJson(body.acceleration);
   } else {
     json["mass"] = ToString(body.mass);
     json["inertia"] = ToString(body.inertia);

@@ -116,7 +116,7 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
 
 double SumOfNumbers(const RigidBody<double>& body) {
   return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
-         body.velocity.sum() + body.spin + body.force.sum() + body.torque;
+         body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() + body.torque;
 }
 
 double SumOfNumbers(const BodyInSpace<double>& body) {

@@ -13,13 +13,12 @@
 //                  b_N += vN / h + max(gap, 0) / h^2,   b_F += vF / h,   joints: b += v / h,
 //                so that aN >= 0 says that the gap stays open until the end of the step (to first order), and
 //                what rest there is of velocities that should be zero is taken away.
-//   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision,
-//   restitution 0,
-//                Coulomb's law between impulse and velocity after; friction is static throughout, and whatever
-//                slips is at its limit by the law itself. Unless driven bodies close on each other, every
-//                problem of this kind has a solution: gaps are >= 0, so b is in range(A) + K*
-//                (complete_driving.md, 5). (Restitution 0 and laws at this level: D. E. Stewart, J. C. Trinkle,
-//                IJNME 39, 1996, 2673-2691, cited from memory.)
+//   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision with
+//                restitution 0, Coulomb's law between impulse and velocity after; friction is static
+//                throughout, and whatever slips is at its limit by the law itself. Unless driven bodies close
+//                on each other, every problem of this kind has a solution: gaps are >= 0, so b is in range(A) +
+//                K* (complete_driving.md, 5). (Restitution 0 and laws at this level: D. E. Stewart, J. C.
+//                Trinkle, IJNME 39, 1996, 2673-2691, cited from memory.)
 //   positions    displacements after = A l + b, b the gaps and the displacements of joints: the least
 //                correction, in the metric of the masses, that mends overlap and joints to first order. No
 //                friction.

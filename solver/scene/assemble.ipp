@@ -22,6 +22,7 @@ std::vector<BodyDynamics<Scalar, 3>> DynamicsOf(const Scene<Scalar>& scene) {
     d.force = Eigen::Matrix<Scalar, 3, 1>::Constant(Scalar(0));
     for (int i = 0; i < 2; ++i) d.velocity[i] = body.velocity[i];
     d.velocity[2] = body.spin;
+    for (int i = 0; i < 2; ++i) d.imposed[i] = body.acceleration[i];
     if (!body.fixed) {
       for (int i = 0; i < 2; ++i) {
         d.W(i, i) = Scalar(1) / body.mass;

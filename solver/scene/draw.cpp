@@ -56,10 +56,11 @@ void View::Include(const Scene<double>& scene) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (!(right > left)) left = bottom = kInfinite, right = top = -kInfinite;
   for (const bool fixed : {false, true}) {
-    // Fixed bodies may be as large as a ground: they count where no moving body has set the view.
+    // Fixed bodies may be as large as a ground: they count where no moving body has set the view. Cranks and
+    // wheels that are driven move.
     if (fixed && right > left) break;
     for (const auto& body : scene.bodies) {
-      if (body.fixed != fixed) continue;
+      if ((body.fixed && body.spin == 0) != fixed) continue;
       const auto include = [this](const Vector2<double>& p, double r) {
         left = std::min(left, p[0] - r);
         right = std::max(right, p[0] + r);

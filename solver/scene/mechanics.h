@@ -30,8 +30,9 @@ struct BodyDynamics {
   Matrix W;         // inverse mass matrix, zero if fixed
   Vector velocity;  // and spin
   Vector force;     // gravity, applied and gyroscopic forces and moments; zero if fixed
+  Vector imposed = Vector::Constant(Scalar(0));  // acceleration of a fixed body, whatever acts on it
 
-  Vector FreeAcceleration() const { return W * force; }
+  Vector FreeAcceleration() const { return fixed ? imposed : Vector(W * force); }
 };
 
 // One row: the velocity of the constraint is J[0] v_first + J[1] v_second.

@@ -5,7 +5,9 @@
 #define STICTION_SOLVER_SCENE_MECHANICS_IPP_
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "solver/scalar.h"
 #include "solver/scene/mechanics.h"
@@ -216,19 +218,24 @@ bool IsInHull(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, co
 
 template <class Scalar, int Dof>
 bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>& j) {
-  const bool same_bodies = i.bodies == j.bodies || i.bodies == std::array<int, 2>{j.bodies[1], j.bodies[0]};
-  return same_bodies && i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
+  return i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
 }
 
 template <class Scalar, int Dof>
 std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
   const int count = static_cast<int>(constraints.size());
   std::vector<bool> redundant(constraints.size(), false);
+  const auto bodies_of = [&constraints](int i) {
+    const auto [first, second] = constraints[i].bodies;
+    return std::minmax({first, second});
+  };
+  std::map<std::pair<int, int>, std::vector<int>> of_pair;
+  for (int i = 0; i < count; ++i) of_pair[bodies_of(i)].push_back(i);
   std::vector<int> others;
   for (int i = 0; i < count; ++i) {
     if (constraints[i].law.kind == ContactKind::kBilateral) continue;
     others.clear();
-    for (int j = 0; j < count; ++j) {
+    for (const int j : of_pair[bodies_of(i)]) {
       if (j != i && !redundant[j] && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
     }
     for (std::size_t j = 0; j < others.size() && !redundant[i]; ++j) {

@@ -108,6 +108,7 @@ Scene<double> Round(const Scene<Exact>& scene) {
     copy.rotation = NearestVector(body.rotation);
     copy.velocity = NearestVector(body.velocity);
     copy.spin = Nearest(body.spin);
+    copy.acceleration = NearestVector(body.acceleration);
     copy.force = NearestVector(body.force);
     copy.torque = Nearest(body.torque);
     copy.level = body.level;

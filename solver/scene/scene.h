@@ -4,8 +4,8 @@
 // A body's own coordinates have their origin at its centre of mass. A point p of them is at
 // position + R(rotation) p. Units: m, s, kg, N; moments and spins anticlockwise.
 //
-// A fixed body is moved by nothing; it may have a velocity and a spin of its own, which stay as they are (a
-// driven crank, a conveyor).
+// A fixed body is moved by nothing; it may have a velocity, an acceleration and a spin of its own (a driven
+// crank, a conveyor, a floor that is pushed up). Spin and acceleration stay as they are.
 
 #ifndef STICTION_SOLVER_SCENE_SCENE_H_
 #define STICTION_SOLVER_SCENE_SCENE_H_
@@ -38,6 +38,7 @@ struct RigidBody {
   Vector2<Scalar> rotation = MakeVector2<Scalar>(Scalar(1), Scalar(0));  // (cos, sin)
   Vector2<Scalar> velocity = MakeVector2<Scalar>(Scalar(0), Scalar(0));
   Scalar spin = Scalar(0);
+  Vector2<Scalar> acceleration = MakeVector2<Scalar>(Scalar(0), Scalar(0));  // of a fixed body; m/s^2
   Vector2<Scalar> force = MakeVector2<Scalar>(Scalar(0), Scalar(0));  // beside gravity, at the centre of mass
   Scalar torque = Scalar(0);
   std::vector<BodyShape<Scalar>> shapes;

@@ -3,15 +3,66 @@
 
 #include "solver/scene/simulate.ipp"
 
+#include <limits>
+#include <utility>
+
 namespace stiction {
 namespace {
 
-constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
+constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
+constexpr int kProximalPoints = 3;
+constexpr double kProximalResidual = 1e-13;  // at which more points gain nothing
+constexpr double kWholeResidual = 1e-7;      // of a problem with the bilateral rows that reduction took out
 
 void Turn(Vector2<double>& rotation, double angle) {
   if (angle == 0) return;
   rotation =
       UnitVector<double>(Rotate<double>(MakeVector2<double>(std::cos(angle), std::sin(angle)), rotation));
+}
+
+// Without complete driving: limits.pivots bounds it. (Without friction it would bound the active set as well.)
+bool SolveQuickly(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                  std::span<const Cell> guess = {}) {
+  const Limits limits = std::exchange(solver.options().limits, {.pivots = 0});
+  const bool solved = solver.Run(problem, guess).outcome == Outcome::kSolved;
+  solver.options().limits = limits;
+  return solved;
+}
+
+bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                     ContactProblem<double>::Vector& f) {
+  const double eps = kProximal * problem.A.diagonal().maxCoeff();
+  ContactProblem<double> near = problem;
+  near.A.diagonal().array() += eps;
+  double residual = std::numeric_limits<double>::infinity();
+  std::vector<Cell> cells;
+  f.setZero(problem.rows());
+  for (int point = 0; point < kProximalPoints && residual > kProximalResidual; ++point) {
+    near.b = problem.b - eps * f;
+    if (!SolveQuickly(solver, near, cells)) return false;
+    f = solver.f();
+    cells = solver.cells();
+    const ContactProblem<double>::Vector a = problem.A * f + problem.b;
+    const Residual<double> measured = MeasureResidual(problem, f, a);
+    // Relative to b: where there is no solution forces grow like 1 / eps, and any violation is small beside
+    // them.
+    residual = measured.worst / measured.b_scale;
+  }
+  return residual <= solver.options().residual;
+}
+
+bool SolveInTurn(FastSolver<double>& solver, const ContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
+  const bool friction = problem.rows() > static_cast<int>(problem.contacts.size());
+  if (friction && SolveQuickly(solver, problem)) {
+    f = solver.f();
+    return true;
+  }
+  if (friction && SolveProximally(solver, problem, f)) return true;
+  const FastVerdict verdict = solver.Run(problem);
+  fallbacks += verdict.statistics.fallbacks;
+  f = solver.f();
+  return verdict.outcome == Outcome::kSolved;
 }
 
 }  // namespace
@@ -44,10 +95,7 @@ static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
   const auto run = [&](const ContactProblem<double>& p, ContactProblem<double>::Vector& x) {
-    const FastVerdict verdict = solver.fast.Run(p);
-    statistics.fallbacks += verdict.statistics.fallbacks;
-    x = solver.fast.f();
-    return verdict.outcome == Outcome::kSolved;
+    return SolveInTurn(solver.fast, p, x, statistics.fallbacks);
   };
   const auto accept = [&](const auto& whole, const auto& a) {
     return NaturalResidual(problem, whole, a) <= kWholeResidual;

@@ -3,12 +3,13 @@
 //
 // A step of length h, from a state (x, v):
 //
-//   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities
+//   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities;
+//                 after 3 and 4 also those that the new velocities would close within the step, such as a block
+//                 on another that has just been stopped: then 3, or 4, once more
 //   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
 //                 assemble.h, one linear correction; contacts are found again
 //   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
-//   `impulses`, an inelastic collision with
-//                 restitution 0 and Coulomb's law, v += W J' p
+//                 `impulses`, an inelastic collision with restitution 0 and Coulomb's law, v += W J' p
 //   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f)
 //   5 motion      x += h v, with the new v (the symplectic Euler method)
 //
@@ -19,11 +20,10 @@
 // velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
 // counted.
 //
-// Which solution. Forces and accelerations need not be unique. The answer is that of FastSolver started afresh
-// in each frame: projected Gauss-Seidel sweeps from f = 0, then exchanges; complete driving from f = 0 where
-// these end in nothing. So it depends on the state alone, not on how the state was reached. Of solutions that
-// differ in their accelerations this prefers those near f = 0: a contact that can do without a force at first
-// sight does.
+// Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
+// in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
+// f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
+// promised: the answer need not be the solution nearest to f = 0.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
 // Cost. For each island one problem of forces, another for every time that contacts come to rest within the
@@ -172,6 +172,7 @@ class SimulationOf {
   bool Solve(const Model& model, Level level, Forces& f);
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
   void FindStepContacts();
+  bool AddClosing(const Changes& accelerations);
   Changes Response(const Model& model, const Forces& f) const;
   bool HasDrifted() const;
   bool Collides() const;
@@ -188,6 +189,7 @@ class SimulationOf {
   SolverOf<SceneType> solver_;
   SimulationStatistics statistics_;
   std::vector<Touch> contacts_;
+  std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
   std::vector<Applied> forces_;
   std::size_t failed_ = 0;  // island
 };
@@ -197,8 +199,14 @@ extern template class SimulationOf<Scene<double>>;
 Energy EnergyOf(const Scene<double>& scene);
 Drift DriftOf(const Scene<double>& scene);
 
-// f of a problem of any kinds: after reduction.h FastSolver, checked by the natural residual of the whole
-// problem. False if there is none to `options.residual`.
+// f of a problem of any kinds after reduction.h, checked by the natural residual of the whole problem. False if
+// there is none to `options.residual`. In order, until one ends in a solution:
+//
+//   FastSolver without complete driving
+//   the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from f = 0: two
+//   contacts of one face give A dependent rows of friction, so that a choice of cells need not determine its
+//   forces; these it does determine, and their accelerations agree with the problem's to rounding
+//   FastSolver with complete driving: counted
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 

@@ -57,8 +57,14 @@ template <class SceneType>
 void SimulationOf<SceneType>::Step() {
   FindStepContacts();
   if (HasDrifted()) CorrectPositions();
-  if (Collides()) ApplyImpulses();
-  Move(Accelerations());
+  Changes accelerations(scene_.bodies.size(), Eigen::Matrix<double, Types::kDof, 1>::Zero());
+  do {
+    if (Collides()) ApplyImpulses();
+  } while (AddClosing(accelerations));
+  do {
+    accelerations = Accelerations();
+  } while (AddClosing(accelerations));
+  Move(accelerations);
   ++statistics_.frames;
   statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
 }
@@ -78,9 +84,26 @@ void SimulationOf<SceneType>::FindStepContacts() {
   double fastest = scene_.gravity.norm() * options_.step;
   for (const auto& body : scene_.bodies) fastest = std::max(fastest, FastestPoint(body));
   contacts_ = FindContacts(scene_, 2 * options_.step * fastest);
-  std::erase_if(contacts_, [this](const Touch& contact) {
-    return contact.gap + options_.step * ApproachOf(scene_, contact) > scene_.gap;
+  const auto beyond = std::stable_partition(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
+    return contact.gap + options_.step * ApproachOf(scene_, contact) <= scene_.gap;
   });
+  beyond_.assign(beyond, contacts_.end());
+  contacts_.erase(beyond, contacts_.end());
+}
+
+// Moves from beyond_ to contacts_ what would overlap at the end of the step; whether there was anything.
+template <class SceneType>
+bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
+  const double h = options_.step;
+  const auto closing = std::stable_partition(beyond_.begin(), beyond_.end(), [&](const Touch& contact) {
+    const auto normal = ContactConstraint(scene_, contact).rows[0];
+    const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
+    return contact.gap + h * (ApproachOf(scene_, contact) + h * change) >= -kDrift;
+  });
+  const bool found = closing != beyond_.end();
+  contacts_.insert(contacts_.end(), closing, beyond_.end());
+  beyond_.erase(closing, beyond_.end());
+  return found;
 }
 
 // ---- Solving ---------------------------------------------------------------------------------

@@ -3,9 +3,37 @@
 
 import csv
 import json
+import shutil
+import subprocess
+import unittest
 import xml.etree.ElementTree as ElementTree
 
 import cli
+
+# Runs the script of a page with a document of its own: plays it through, pauses, moves the slider.
+PAGE = r"""
+const text = require('fs').readFileSync(process.argv[1], 'utf8');
+const element = () => ({attributes: {}, setAttribute(name, value) { this.attributes[name] = value; }, value: 0});
+const groups = text.match(/<g id="bodies">[^]*?<g id="marks">/)[0].match(/^<g><g/mg);
+const bodies = groups.map(element), named = {marks: element(), frame: element(), play: element(), time: element()};
+let next = null;
+global.document = {querySelectorAll: () => bodies, getElementById: id => named[id]};
+global.requestAnimationFrame = step => { next = step; };
+new Function(text.match(/<script>([^]*)<\/script>/)[1])();
+const frames = named.frame.max + 1, shown = new Set();
+for (let k = 0; k < frames; ++k) { next(k * 1000 / 30 + (k > 0)); shown.add(named.frame.value); }
+named.play.onclick();
+const before = named.frame.value;
+next(1e6);
+const paused = named.frame.value === before;
+named.frame.value = 3;
+named.frame.oninput();
+for (const body of bodies) {
+  if (!/^matrix\(([-\d.e+]+ ){5}[-\d.e+]+\)$/.test(body.attributes.transform)) throw body.attributes.transform;
+}
+if (named.time.textContent !== 't = 0.071 s') throw named.time.textContent;
+console.log(JSON.stringify({bodies: bodies.length, frames, shown: shown.size, paused, at: named.frame.value}));
+"""
 
 FOLDER = cli.ROOT / "corpus" / "scenes"
 
@@ -62,6 +90,14 @@ class Scenes(cli.TestCase):
         written = sorted(problems.iterdir())
         self.assertGreater(len(written), 100)
         self.assertEqual(cli.run("solve", written[50], "--method", "fast", "--arithmetic", "double").code, 0)
+
+    @unittest.skipUnless(shutil.which("node"), "needs node")
+    def test_the_page_of_an_animation_runs(self):
+        self.succeeds("simulate", FOLDER / "gears.json", "-o", self.folder / "gears", "--seconds", "0.5", "--no-svg")
+        done = subprocess.run(["node", "-e", PAGE, self.folder / "gears" / "animation.html"], text=True,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(json.loads(done.stdout), {"bodies": 3, "frames": 16, "shown": 16, "paused": True, "at": 3})
 
     def test_a_frame_without_an_answer_is_exit_3_and_its_problem_is_written(self):
         jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}

@@ -7,7 +7,7 @@ namespace stiction {
 namespace {
 
 const std::string kBodies =
-    R"([{"name": "floor", "fixed": true, "shapes": [{"box": ["4", "1"]}]},
+    R"([{"name": "floor", "fixed": true, "acceleration": ["0", "1/3"], "shapes": [{"box": ["4", "1"]}]},
         {"name": "block", "mass": "2", "position": ["0", "1"], "shapes": [{"box": ["1", "1"]}]}])";
 
 std::string Text(const std::string& bodies = kBodies, const std::string& more = "") {
@@ -39,6 +39,7 @@ TEST_CASE("scene file: mass properties of shapes, exact numbers and world points
                                     "file");
   const auto& scene = file.scene;
   CHECK(scene.bodies[1].inertia == Rational(1, 3));  // m (w^2 + h^2) / 12
+  CHECK(scene.bodies[0].acceleration[1] == Rational(1, 3));
   CHECK(scene.gravity[1] == Rational(-981, 100));
   CHECK(scene.mu == Rational(1, 2));
   CHECK(file.step == Rational(1, 240));
@@ -74,6 +75,8 @@ TEST_CASE("scene file: errors name the place, what was found and what was expect
                "bodies[0].shapes[0].polygon", "strictly convex");
   CheckRefused(Body(R"("mass": "1", "inertia": "1", "rotation": ["1", "1"])"), "bodies[0].rotation", "cos");
   CheckRefused(Body(R"("fixed": true, "mass": "1")"), "bodies[0].mass", "no mass of a fixed body");
+  CheckRefused(Body(R"("mass": "1", "inertia": "1", "acceleration": [0, 1])"), "bodies[0].acceleration",
+               "fixed");
   CheckRefused(Body(R"("mass": "1", "inertia": "1", "colour": "red")"), "bodies[0].colour", "");
   CheckRefused(Text(R"([{"name": "a", "fixed": true}, {"name": "a", "fixed": true}])"), "bodies[1].name",
                "a name of its own");

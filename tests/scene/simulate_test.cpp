@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <random>
 
 #include "corpus/scene_file.h"
 #include "solver/residual.h"
@@ -121,6 +122,109 @@ TEST_CASE(
   CHECK(foot[1] > -0.05);
 }
 
+TEST_CASE("simulate: f = 0 is taken where it is a solution") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  SolverOf<Scene<double>> solver{SimulationOptions()};
+  SimulationStatistics statistics;
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    ContactProblem<double> problem;
+    problem.contacts.assign(3, {ContactKind::kStatic, 1.0, {0, 0}});
+    const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(6, 4, [&] { return number(random); });
+    problem.A = J * J.transpose();
+    problem.b = Eigen::VectorXd::NullaryExpr(6, [&] { return number(random); });
+    for (const int normal : {0, 2, 4}) problem.b[normal] = std::abs(problem.b[normal]);
+    if (repeat % 2 == 0) problem.b[2] = 0;
+    ContactProblem<double>::Vector f;
+    REQUIRE(SolveScene(solver, problem, f, statistics));
+    CHECK(f.isZero(0));
+  }
+}
+
+TEST_CASE("simulate: the wedge that jams has no answer, neither near nor far") {
+  Simulation simulation(NamedScene("scripted-wedge-jams"));
+  CHECK_THROWS_AS(simulation.Step(), SimulationError);
+}
+
+TEST_CASE("simulate: what a stopped body stops in the same step does not sink into it") {
+  // Both fall at 6 m/s; the lower one reaches the floor within the step, the upper one is 2 mm above it.
+  Scene<double> scene = NamedScene("stack");
+  scene.bodies.erase(scene.bodies.begin() + 3, scene.bodies.end());
+  scene.bodies[1].position[1] += 0.05;
+  scene.bodies[2].position[1] += 0.052;
+  for (const int block : {1, 2}) scene.bodies[block].velocity[1] = -6;
+  Simulation simulation(scene);
+  for (int i = 0; i < 5; ++i) {
+    simulation.Step();
+    CHECK(DriftOf(simulation.scene()).overlap < 1e-9);
+  }
+  CHECK(simulation.scene().bodies[2].velocity.norm() < 1e-9);
+}
+
+// A semicircular arch of `count` voussoirs, mean radius 1, on a floor.
+Scene<double> Arch(double thickness, int count) {
+  Scene<double> scene;
+  scene.gravity = {0, -10};
+  scene.mu = 1;
+  scene.gap = 1e-3;
+  RigidBody<double> floor;
+  floor.fixed = true;
+  floor.shapes.push_back({{{-3, -1}, {3, -1}, {3, 0}, {-3, 0}}, {0, 0}, 0});
+  scene.bodies.push_back(floor);
+  const double angle = std::acos(-1.0) / count, inner = 1 - thickness / 2, outer = 1 + thickness / 2;
+  for (int i = 0; i < count; ++i) {
+    const Vector2<double> from(std::cos(i * angle), std::sin(i * angle));
+    const Vector2<double> to(std::cos((i + 1) * angle), std::sin((i + 1) * angle));
+    // Of a trapezoid between two radii: two triangles with the corner at the centre, one less the other.
+    const double thirds =
+        2 * (outer * outer * outer - inner * inner * inner) / (3 * (outer * outer - inner * inner));
+    RigidBody<double> stone;
+    stone.mass = (outer * outer - inner * inner) * std::sin(angle) / 2;
+    stone.inertia = stone.mass * (thickness * thickness + angle * angle) / 12;
+    stone.position = thirds * (from + to) / 2;
+    BodyShape<double> shape;
+    for (const Vector2<double>& corner : {Vector2<double>(inner * from), Vector2<double>(outer * from),
+                                          Vector2<double>(outer * to), Vector2<double>(inner * to)})
+      shape.polygon.push_back(corner - stone.position);
+    stone.shapes.push_back(shape);
+    scene.bodies.push_back(stone);
+  }
+  return scene;
+}
+
+TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls below") {
+  for (const double thickness : {0.1065, 0.1085}) {
+    const Scene<double> scene = Arch(thickness, 30);
+    Simulation simulation(scene);
+    for (int i = 0; i < 20; ++i) simulation.Step();
+    const double move = LargestMove(scene, simulation.scene());
+    INFO(move);
+    CHECK((thickness > 0.1075 ? move < 1e-10 : move > 1e-5));
+  }
+  CHECK(LargestMove(NamedScene("arch-stands"), Run("arch-stands", 600).scene()) < 1e-10);
+  SimulationOptions options;
+  options.step = 1.0 / 120;
+  const Simulation falls = Run("arch-falls", 120, options);
+  CHECK(falls.scene().bodies[7].position[1] < 0.2);  // the crown
+}
+
+TEST_CASE("simulate: a house of cards stands") {
+  CHECK(LargestMove(NamedScene("card-house"), Run("card-house", 600).scene()) < 1e-9);
+}
+
+TEST_CASE("simulate: gears keep the ratio of their teeth, but for play") {
+  SimulationOptions options;
+  options.step = 1.0 / 240;
+  Simulation simulation(NamedScene("gears"), options);
+  double turned = 0;
+  for (int i = 0; i < 1440; ++i) {
+    simulation.Step();
+    turned += options.step * simulation.scene().bodies[2].spin;
+  }
+  CHECK(turned == Approx(-2 * 6.0 * 12 / 18).margin(0.05));
+  CHECK(DriftOf(simulation.scene()).overlap < 1e-4);
+}
+
 TEST_CASE("simulate: a sliding block stops and stays") {
   Scene<double> scene = NamedScene("incline-rests");
   scene.mu = 1;
@@ -170,7 +274,14 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
 TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes") {
   SimulationOptions options;
   options.step = 1.0 / 120;
-  const Simulation feeder = Run("block-feeder", 1200, options);
+  Simulation feeder(NamedScene("block-feeder"), options);
+  double overlap = 0;
+  for (int i = 0; i < 1200; ++i) {
+    feeder.Step();
+    overlap = std::max(overlap, DriftOf(feeder.scene()).overlap);
+  }
+  CHECK(overlap < 1e-4);
+  CHECK(100 * feeder.statistics().fallbacks < feeder.statistics().problems);
   int out = 0;
   for (const auto& body : feeder.scene().bodies)
     out += body.name.starts_with("block") && body.position[0] > 0.9;
