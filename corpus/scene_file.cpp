@@ -302,11 +302,16 @@ Json ToJson(const SceneFile& file) {
 std::string Print(const SceneFile& file) { return PrintScene(ToJson(file)); }
 
 std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
-  const std::string text = ReadText(file);
-  const Json json = ParseJson(text, file.string());
-  if (ReadSceneHeader(JsonPlace(json, file.string(), ""), 2, 3) == 3)
-    return ParseSceneInSpace(text, file.string());
-  return ParseScene(text, file.string());
+  std::string text = ReadText(file), source = file.string();
+  Json json = ParseJson(text, source);
+  if (json.is_object() && json.value("format", Json()) == "stiction-problem") {
+    const Json scene = JsonPlace(json, source, "").Required("scene", "the scene of the problem").json();
+    json = scene;
+    text = JsonText(json);
+    source += ": scene";
+  }
+  if (ReadSceneHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseSceneInSpace(text, source);
+  return ParseScene(text, source);
 }
 
 }  // namespace stiction

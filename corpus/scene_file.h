@@ -28,7 +28,8 @@ struct SceneFileOf {
 using SceneFile = SceneFileOf<Scene<Rational>>;
 using SceneFileInSpace = SceneFileOf<SceneInSpace<Rational>>;
 
-// Scenes of dimension 2, of dimension 3, and whichever it is.
+// Scenes of dimension 2, of dimension 3, and whichever it is; the last from the key "scene" of a
+// stiction-problem file too.
 SceneFile ParseScene(std::string_view text, const std::string& source);
 SceneFile ReadScene(const std::filesystem::path& file);
 SceneFileInSpace ParseSceneInSpace(std::string_view text, const std::string& source);

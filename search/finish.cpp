@@ -41,13 +41,14 @@ Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid)
 }
 
 // A minimized problem as a file: what it shows, where it comes from, what every policy makes of it.
-ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const Policy& policy,
-                     bool whole_grid) {
+ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const Policy& policy, bool whole_grid,
+                     bool has_scene) {
   ProblemFile file;
   file.name = finding.signature;
   file.problem = problem;
   file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
                      {"minimized", true}};
+  if (has_scene) (*file.origin)["scene"] = kSceneOfParent;
   file.expect[whole_grid ? "*" : PolicyName(policy)] = finding.exact_outcome;
   return file;
 }
@@ -117,6 +118,7 @@ struct Unfinished {
   ExactProblem problem;
   ExactRun run;
   Json grid;
+  bool has_scene = false;
 };
 
 // All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
@@ -164,7 +166,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   const Json grid = GridCounts(small, limits, cancelled);
   if (cancelled()) return;
   const bool whole = IsWhole(grid, outcome);
-  finding.minimized = ToJson(Describe(small, finding, policy, whole)).dump();
+  finding.minimized = ToJson(Describe(small, finding, policy, whole, found.has_scene)).dump();
   if (IsLoop(outcome)) {
     const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
     finding.minimized_certificate =
@@ -183,7 +185,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
                                      const std::function<bool()>& cancelled) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
   Unfinished found{file.problem, RunExact(file.problem, {ParsePolicy(finding.policy), {}, limits}),
-                   Json::object()};
+                   Json::object(), file.scene.has_value()};
   Finding finished = finding;
   finished.done = true;
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);

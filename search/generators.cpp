@@ -51,6 +51,14 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "entries of J moved by multiples of 2^-k in [-2^-k, 2^-k], k in 8..20; friction coupled to the "
        "normals' columns by multiples of 2^-k in [-2^-k, 2^-k], k in 0..8. A = J J'.",
        true},
+      {kScenes, "scenes",
+       "1 to 3 planar bodies at rest that touch and do not overlap: convex polygons of uniform density, with "
+       "rational coordinates and Pythagorean normals, on a floor, between walls (all up to 37 degrees off), "
+       "on, "
+       "beside and wedged between each other, under gravity and, with probability 1/2, applied forces and "
+       "moments; every body has a contact, and one at least is on the floor. A = J M^-1 J', b = J M^-1 F. Two "
+       "bodies have one friction coefficient. Problem files carry the scene.",
+       false},
   }};
   return kRows;
 }

@@ -49,8 +49,9 @@ enum class GeneratorId : std::uint8_t {
   kConditioned,
   kBodies,
   kExponential,
+  kScenes,
 };
-inline constexpr int kGeneratorCount = 8;
+inline constexpr int kGeneratorCount = 9;
 
 struct GeneratorRow {
   GeneratorId id;
@@ -70,7 +71,8 @@ inline const GeneratorRow& Row(GeneratorId id) { return Generators()[static_cast
 std::optional<GeneratorId> FindGenerator(std::string_view name);
 
 // Fills `problem`, whose memory is reused, from `choices`. The friction coefficients are drawn first: one
-// of the palette for all contacts with probability 1/2, otherwise one per contact, uniformly.
+// of the palette for all contacts with probability 1/2, otherwise one per contact, uniformly; contacts of two
+// bodies of `scenes` share that of their first.
 template <class Scalar, int Rows>
 void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, Choices& choices,
               ContactProblem<Scalar, Rows>& problem);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "search/generators.h"
+#include "search/scenes.ipp"
 #include "solver/check.h"
 #include "solver/scalar.h"
 
@@ -22,7 +23,7 @@ namespace stiction {
 namespace generators {
 
 inline constexpr int kMaxRows = 2 * kMaxContacts;
-inline constexpr int kMaxBodies = 3;
+inline constexpr int kMaxBodies = kMostSceneBodies;
 
 // On the stack for fixed Rows. Only the leading columns in use are ever set or read.
 template <class Scalar, int Rows>
@@ -403,16 +404,22 @@ void SetContactRows(const ContactFrame<Scalar>& frame, const Body<Scalar>& body,
   J(2 * contact + 1, 3 * index + 2) = rx * nx + ry * ny;
 }
 
-// J by contacts: contact i < bodies is one of body i, so that each body has one; the partner is the world
-// or another body. One point and one frame per contact, so that all arms fit together.
 template <class Scalar, int Rows>
-BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<Body<Scalar>, kMaxBodies>& body,
-                                        Choices& choices) {
+BodyJacobian<Scalar, Rows> NoContacts(int rows, int bodies) {
   BodyJacobian<Scalar, Rows> J;
   if constexpr (Rows == Eigen::Dynamic) J.resize(rows, 3 * bodies);
   for (int k = 0; k < 3 * bodies; ++k) {
     for (int i = 0; i < rows; ++i) J(i, k) = Scalar(0);
   }
+  return J;
+}
+
+// J by contacts: contact i < bodies is one of body i, so that each body has one; the partner is the world
+// or another body. One point and one frame per contact, so that all arms fit together.
+template <class Scalar, int Rows>
+BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<Body<Scalar>, kMaxBodies>& body,
+                                        Choices& choices) {
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, bodies);
   for (int contact = 0; contact < rows / 2; ++contact) {
     const ContactFrame<Scalar> frame = DrawContactFrame<Scalar>(choices);
     const int mine = contact < bodies ? contact : static_cast<int>(choices.Integer(0, bodies - 1));
@@ -424,7 +431,21 @@ BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<B
   return J;
 }
 
-// A = J M^-1 J', b = J M^-1 F for bodies at rest. Not modelled: shapes. Bodies may overlap each other and
+// A = J M^-1 J', b = J M^-1 F for bodies at rest.
+template <class Scalar, int Rows, class AnyBody>
+void SetFromBodies(const BodyJacobian<Scalar, Rows>& J, int bodies, const std::array<AnyBody, kMaxBodies>& body,
+                   ContactProblem<Scalar, Rows>& problem) {
+  BodyJacobian<Scalar, Rows> weighted = J;
+  for (int k = 0; k < 3 * bodies; ++k) {
+    for (int i = 0; i < problem.rows(); ++i) weighted(i, k) *= body[k / 3].inverse_mass[k % 3];
+  }
+  SetProduct(weighted, J, 3 * bodies, problem);
+  MirrorLowerTriangle(problem);
+  SetImage(
+      J, 3 * bodies, [&body](int k) { return body[k / 3].free_acceleration[k % 3]; }, problem);
+}
+
+// Not modelled: shapes. Bodies may overlap each other and
 // the world, and lie on either side of a contact.
 template <class Scalar, int Rows>
 void Bodies(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
@@ -434,14 +455,7 @@ void Bodies(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   std::array<Body<Scalar>, kMaxBodies> body;
   for (int i = 0; i < bodies; ++i) body[i] = DrawBody<Scalar>(load != 1, load != 0, choices);
   const BodyJacobian<Scalar, Rows> J = DrawContacts<Scalar, Rows>(rows, bodies, body, choices);
-  BodyJacobian<Scalar, Rows> weighted = J;
-  for (int k = 0; k < 3 * bodies; ++k) {
-    for (int i = 0; i < rows; ++i) weighted(i, k) *= body[k / 3].inverse_mass[k % 3];
-  }
-  SetProduct(weighted, J, 3 * bodies, problem);
-  MirrorLowerTriangle(problem);
-  SetImage(
-      J, 3 * bodies, [&body](int k) { return body[k / 3].free_acceleration[k % 3]; }, problem);
+  SetFromBodies(J, bodies, body, problem);
 }
 
 // ---- exponential ------------------------------------------------------------------------------
@@ -514,6 +528,45 @@ void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   SetImage(J, rows, y, problem);
 }
 
+// ---- scenes -----------------------------------------------------------------------------------
+
+// The rows of one contact in the columns of one body, as SetContactRows.
+template <class Scalar, class Columns>
+void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int contact, int index, int sign,
+                  Columns& J) {
+  const Vector2<Scalar> n = Scalar(sign) * normal, t = Quarter<Scalar>(n);
+  for (int k = 0; k < 2; ++k) {
+    J(2 * contact, 3 * index + k) = n[k];
+    J(2 * contact + 1, 3 * index + k) = t[k];
+  }
+  J(2 * contact, 3 * index + 2) = Cross<Scalar>(arm, n);
+  J(2 * contact + 1, 3 * index + 2) = Cross<Scalar>(arm, t);
+}
+
+template <class Scalar, int Rows>
+void Scenes(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  const SceneDesign design = DrawSceneDesign(rows / 2, choices);
+  std::array<SceneBody<Scalar>, kMaxBodies> body;
+  for (int c = 0; c < design.cells; ++c) body[c] = MakeSceneBody<Scalar>(design, c);
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, design.cells);
+  int contact = 0;
+  for (int i = 0; i < design.interfaces; ++i) {
+    const SceneInterface& interface = design.interface[i];
+    const Vector2<Scalar> normal = NormalOf<Scalar>(design.lines[interface.line]);
+    for (int k = 0; k < interface.contacts; ++k, ++contact) {
+      if (k > 0) problem.contacts[contact].mu = problem.contacts[contact - 1].mu;
+      const Vector2<Scalar> point = PointAt<Scalar>(design, interface, interface.at[k]);
+      const auto set = [&](int c, int sign) {
+        SetSceneRows<Scalar>(normal, point - body[c].center, contact, c, sign, J);
+      };
+      set(interface.upper, 1);
+      if (interface.lower != kTheWorld) set(interface.lower, -1);
+    }
+  }
+  SetFromBodies(J, design.cells, body, problem);
+}
+
 }  // namespace generators
 
 template <class Scalar, int Rows>
@@ -541,6 +594,8 @@ void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, C
       return generators::Bodies(choices, problem);
     case GeneratorId::kExponential:
       return generators::Exponential(choices, problem);
+    case GeneratorId::kScenes:
+      return generators::Scenes(choices, problem);
   }
 }
 

@@ -28,6 +28,9 @@
 
 namespace stiction {
 
+// "scene" of a minimized problem's origin, where its parent had one.
+inline constexpr const char* kSceneOfParent = "that of the parent; these A and b may belong to none";
+
 struct Simplicity {
   std::int64_t contacts = 0;
   std::int64_t rows = 0;

@@ -11,7 +11,9 @@
 #include "certify/existence.h"
 #include "certify/safe.h"
 #include "corpus/kinds.h"
+#include "corpus/scene_file.h"
 #include "search/generators.ipp"
+#include "search/scenes.h"
 #include "search/signature.h"
 #include "solver/published.ipp"
 #include "solver/residual.h"
@@ -23,7 +25,8 @@ constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
 
 ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,
                    const ExactProblem& problem) {
-  const std::string generator(Row(TaskOf(Schedule(campaign), unit).generator).name);
+  const Task task = TaskOf(Schedule(campaign), unit);
+  const std::string generator(Row(task.generator).name);
   ProblemFile file;
   file.name = fmt::format("{}-{}-{}", generator, unit, index);
   file.problem = problem;
@@ -31,6 +34,14 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
                      {"campaign_seed", std::to_string(campaign.seed)},
                      {"unit", unit},
                      {"index", index}};
+  Choices choices(
+      ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+  if (auto scene = GenerateScene(task.generator, task.contacts, campaign.palette, choices)) {
+    scene->name = file.name;
+    SceneFile scene_file;
+    scene_file.scene = *std::move(scene);
+    file.scene = ToJson(scene_file);
+  }
   return file;
 }
 

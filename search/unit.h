@@ -40,7 +40,7 @@ class UnitRunner {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The exact problem with this number, and the same as a file.
+// The exact problem with this number, and the same as a file, with its scene where it has one.
 ProblemFile RegenerateFile(const Campaign& campaign, std::int64_t unit, std::int64_t index);
 ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index);
 

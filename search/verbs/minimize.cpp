@@ -60,8 +60,9 @@ int RunMinimize(const MinimizeVerb& o) {
   const Minimized minimized = Minimize(file.problem, options);
   const Simplicity after = SimplicityOf(minimized.problem);
   file.problem = minimized.problem;
-  file.scene.reset();
   file.origin = Json{{"parent", file.name}, {"minimized", true}};
+  if (file.scene) (*file.origin)["scene"] = kSceneOfParent;
+  file.scene.reset();
   file.name += "-minimized";
   file.expect = {{whole_grid ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
   WriteText(o.output, Print(file));

@@ -272,7 +272,7 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
 void AddAssemble(CLI::App& program, Action& action) {
   auto o = std::make_shared<AssembleCommand>();
   CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
-  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
   verb.add_option(
           "-o,--output", o->output,
           "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
@@ -293,7 +293,7 @@ void AddAssemble(CLI::App& program, Action& action) {
 void AddSimulate(CLI::App& program, Action& action) {
   auto o = std::make_shared<SimulateCommand>();
   CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
-  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
   verb.add_option(
           "-o,--output", o->output,
           "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
@@ -320,7 +320,7 @@ void AddSimulate(CLI::App& program, Action& action) {
 void AddDraw(CLI::App& program, Action& action) {
   auto o = std::make_shared<DrawCommand>();
   CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
-  verb.add_option("SCENE", o->scene, "stiction-scene file")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
   verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
   verb.callback([o, &action] {
     action = [o] {

@@ -308,8 +308,8 @@ void AddProblem(CLI::App& program, Action& action) {
   auto o = std::make_shared<ProblemVerb>();
   CLI::App& verb =
       *program.add_subcommand("problem",
-                              "Write any problem that a search tried, or the worst case without friction, as a "
-                              "problem file");
+                              "Write any problem that a search tried, with its scene where it has one, or the worst "
+                              "case without friction, as a problem file");
   verb.add_option("STORE", o->store, "store of a search");
   verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
   verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")

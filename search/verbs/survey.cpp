@@ -12,6 +12,7 @@
 
 #include "certify/bounds.h"
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/existence.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
@@ -32,6 +33,7 @@ namespace {
 
 constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
 constexpr int kExactSpatialContacts = 10;
+constexpr int kPublishedContacts = 32;     // up to here the published algorithm runs over rationals
 constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
 constexpr double kRounding = 1e-2;         // A - A' up to this part of A may be rounding, and is mended
 constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
@@ -279,6 +281,19 @@ Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>
   return run;
 }
 
+// The published algorithm as it stands, under the policy `paper`: does it loop?
+Json RunPublished(const ExactProblem& problem, const Limits& limits) {
+  const Stopwatch watch;
+  const ExactRun published = RunExact(problem, {Policy{}, {}, limits});
+  Json run = {{"method", "baraff"}, {"arithmetic", "exact"}, {"outcome", Name(published.verdict.outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["pivots"] = published.verdict.statistics.pivots;
+  if (!published.verdict.reason.empty()) run["reason"] = published.verdict.reason;
+  if (published.verdict.outcome == Outcome::kSolved)
+    run["residual"] = ToDouble(NaturalResidual(problem, published.state.f, published.a));
+  return run;
+}
+
 Json PlanarRuns(const ExactProblem& problem, const Limits& limits) {
   Json runs = Json::array();
   for (const char* method : {"complete", "lemke"}) {
@@ -288,6 +303,7 @@ Json PlanarRuns(const ExactProblem& problem, const Limits& limits) {
   const std::vector<std::vector<int>> groups = UncoupledContacts(problem);
   const bool small = std::all_of(groups.begin(), groups.end(),
                                  [](const auto& group) { return group.size() <= kExactContacts; });
+  if (problem.contacts.size() <= kPublishedContacts) runs.push_back(RunPublished(problem, limits));
   if (small) runs.push_back(RunExactly(problem, groups, limits));
   return runs;
 }
@@ -465,6 +481,24 @@ void PrintEntry(const Json& entry) {
   if (entry.contains("symmetrized")) PrintRuns("  (A + A')/2", "", "0", entry["symmetrized"]);
 }
 
+// How often each method ended how.
+void PrintCounts(const Json& entries) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const Json& entry : entries) {
+    for (const Json& run : entry.value("runs", Json::array())) {
+      const std::string method =
+          fmt::format("{}, {}", run["method"].get<std::string>(), run.value("arithmetic", "-"));
+      ++counts[method][run["outcome"].get<std::string>()];
+    }
+  }
+  fmt::print("\n{} problems\n", entries.size());
+  for (const auto& [method, outcomes] : counts) {
+    std::vector<std::string> parts;
+    for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
+    fmt::print("{:24} {}\n", method, fmt::join(parts, ", "));
+  }
+}
+
 // A file that cannot be read does not keep the others from being judged.
 int Survey(const SurveyOptions& o) {
   int exit = kExitDone;
@@ -487,6 +521,7 @@ int Survey(const SurveyOptions& o) {
     }
   }
   if (o.json) std::cout << JsonText(entries) << "\n";
+  if (!o.json && entries.size() > 1) PrintCounts(entries);
   return exit;
 }
 

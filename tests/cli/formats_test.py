@@ -98,15 +98,24 @@ class Formats(cli.TestCase):
         symmetric, = self.survey(self.file("fc.dat", FRICTION.replace("1.0001", "1")))
         self.assertIs(symmetric["meets assumptions"], True)
         self.assertNotIn("symmetrized", symmetric)
-        double, exact = symmetric["runs"]
+        double, published, exact = symmetric["runs"]
         self.assertEqual((double["method"], double["arithmetic"], double["outcome"]), ("complete", "double", "solved"))
         self.assertLess(double["residual"], 1e-12)
         self.assertEqual((exact["arithmetic"], exact["residual"]), ("exact", 0))
+        self.assertEqual((published["method"], published["arithmetic"], published["outcome"], published["residual"]),
+                         ("baraff", "exact", "solved", 0))
         outside, = self.survey(self.file("fc.dat", FRICTION.replace("1.0001", "1").replace("-1 0.5 -1", "-1 0.5 -3")))
         self.assertIs(outside["range"]["in-range"], False)
         # Along the kernel (1, 0, -1, 0) of W: 2 / sqrt(2), of abs(b) = sqrt(10.5).
         self.assertAlmostEqual(outside["range"]["distance"], (2 / 10.5) ** 0.5)
         self.assertIs(outside["meets assumptions"], False)
+
+    def test_survey_counts_how_the_methods_end(self):
+        self.file("reference.json", cli.REFERENCE)
+        self.file("fc.dat", FRICTION.replace("1.0001", "1"))
+        counts = self.succeeds("survey", self.folder).out.split("2 problems\n")[1]
+        self.assertRegex(counts, r"(?m)^baraff, exact +cycle 1, solved 1$")
+        self.assertRegex(counts, r"(?m)^complete, double +solved 2$")
 
     def test_what_the_matrix_does_not_couple_is_decided_exactly_group_by_group(self):
         size = 60
@@ -135,7 +144,7 @@ class Formats(cli.TestCase):
         self.assertIn("line 1", bad["error"])
         self.assertIs(good["meets assumptions"], True)
         text = cli.run("survey", self.folder / "b.dat")
-        self.assertEqual((text.code, len(text.out.splitlines())), (0, 3))
+        self.assertEqual((text.code, len(text.out.splitlines())), (0, 4))
 
     def test_survey_of_more_than_fifty_contacts_gives_bounds_that_hold(self):
         size = 60

@@ -121,6 +121,35 @@ class Scenes(cli.TestCase):
                 self.assertEqual(done.code, 0, done.err)
                 ElementTree.fromstring(done.out)
 
+    def test_a_problem_of_the_search_carries_its_scene(self):
+        store, file = self.folder / "s.store", self.folder / "p.json"
+        self.succeeds("search", "--generator", "scenes", "--contacts", 3, "--mu", "1/2", "--problems", 1,
+                      "--store", store)
+        for index in (0, 17):
+            self.succeeds("problem", store, 0, index, "-o", file)
+            self.succeeds("assemble", file, "--full", "-o", self.folder / "again.json")
+            found, again = (json.loads(path.read_text()) for path in (file, self.folder / "again.json"))
+            for key in ("contacts", "A", "b"):
+                self.assertEqual(found[key], again[key])
+            self.succeeds("draw", file, "-o", self.folder / "p.svg")
+            drawn = (self.folder / "p.svg").read_text()
+            self.assertGreaterEqual(drawn.count("<polygon") + drawn.count("<path"), len(found["scene"]["bodies"]))
+        self.refuses("draw", self.file("bare.json", cli.REFERENCE), "-o", self.folder / "b.svg", says=["scene"])
+
+    def test_a_minimized_problem_says_whose_scene_it_had(self):
+        file, small = self.file("p.json", {**cli.REFERENCE, "scene": {"any": "value"}}), self.folder / "small.json"
+        self.succeeds("minimize", file, "-o", small)
+        small = json.loads(small.read_text())
+        self.assertNotIn("scene", small)
+        self.assertIn("parent", small["origin"]["scene"])
+
+    def test_a_block_on_two_slopes_makes_the_published_algorithm_loop(self):
+        _, output = self.assemble("block-in-a-valley")
+        with open(cli.ROOT / "corpus" / "cycle-of-a-block-in-a-valley.json", encoding="utf-8") as file:
+            stored = json.load(file)
+        for key in ("contacts", "A", "b"):
+            self.assertEqual(json.loads(output.read_text())[key], stored[key])
+
     def test_scenes_in_space(self):
         out, output = self.assemble("space/ball-slides-then-rolls", "--explain")
         self.assertIn("sliding, slip (0, -1)", out)
