@@ -2,6 +2,7 @@
 // bench --suite scenes: frames a second with the whole frame counted, and what the minimal model saves.
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -72,6 +73,7 @@ Json ToJson(const Measured& m) {
 }  // namespace
 
 int BenchScenes(const BenchOptions& o) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   std::error_code error;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(o.scenes, error)) {

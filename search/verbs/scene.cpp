@@ -2,6 +2,8 @@
 // stiction assemble, simulate, draw: scenes.
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <cmath>
 #include <filesystem>
@@ -80,7 +82,7 @@ struct SimulateCommand {
   std::string scene, output, problems;
   std::optional<double> seconds, step;
   double rest = 0;
-  int frames_a_second = 30;
+  int frames_a_second = 30, threads = 0;
   bool full = false, svg = true;
 };
 
@@ -195,6 +197,8 @@ class SimulationWriter {
 
 template <class ExactScene>
 int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    o.threads > 0 ? o.threads : tbb::info::default_concurrency());
   SimulationOptions options;
   options.step = o.step.value_or(ToDouble(file.step));
   options.rest = o.rest;
@@ -272,7 +276,8 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
 void AddAssemble(CLI::App& program, Action& action) {
   auto o = std::make_shared<AssembleCommand>();
   CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
   verb.add_option(
           "-o,--output", o->output,
           "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
@@ -293,7 +298,8 @@ void AddAssemble(CLI::App& program, Action& action) {
 void AddSimulate(CLI::App& program, Action& action) {
   auto o = std::make_shared<SimulateCommand>();
   CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
   verb.add_option(
           "-o,--output", o->output,
           "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
@@ -307,6 +313,8 @@ void AddSimulate(CLI::App& program, Action& action) {
   verb.add_option("--frames", o->frames_a_second, "pictures a second of simulated time")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  verb.add_option("--threads", o->threads, "for independent islands; results do not depend on it [all cores]")
+      ->check(CLI::Range(1, 1024));
   verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
   verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
   verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
@@ -320,7 +328,8 @@ void AddSimulate(CLI::App& program, Action& action) {
 void AddDraw(CLI::App& program, Action& action) {
   auto o = std::make_shared<DrawCommand>();
   CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")->required();
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
   verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
   verb.callback([o, &action] {
     action = [o] {

@@ -34,6 +34,8 @@
 #ifndef STICTION_SOLVER_SCENE_SIMULATE_H_
 #define STICTION_SOLVER_SCENE_SIMULATE_H_
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -78,6 +80,8 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
+
+  bool operator==(const SimulationStatistics&) const = default;
 };
 
 // visit(name, help, counter)
@@ -187,7 +191,7 @@ class SimulationOf {
   SceneType scene_;
   SimulationOptions options_;
   std::function<void(const FrameProblem&)> observe_;
-  SolverOf<SceneType> solver_;
+  tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
   SimulationStatistics statistics_;
   std::vector<Touch> contacts_;
   std::vector<Touch> beyond_;  // what else is so near that it might touch within the step

@@ -10,6 +10,7 @@
 #define STICTION_SOLVER_SCENE_SIMULATE_IPP_
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@ namespace stiction {
 
 inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 inline constexpr int kHoldRounds = 8;
+inline constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
 // The derivative of the gap: negative where the contact closes.
 template <class SceneType, class Touch>
@@ -48,7 +50,10 @@ bool SolveReduced(const ContactProblem<double>& problem, const Tolerances& toler
 template <class SceneType>
 SimulationOf<SceneType>::SimulationOf(SceneType scene, const SimulationOptions& options,
                                       std::function<void(const FrameProblem&)> observe)
-    : scene_(std::move(scene)), options_(options), observe_(std::move(observe)), solver_(options) {
+    : scene_(std::move(scene)),
+      options_(options),
+      observe_(std::move(observe)),
+      solvers_([options] { return SolverOf<SceneType>(options); }) {
   const double gravity = scene_.gravity.norm();
   scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : 1e-3;
 }
@@ -111,21 +116,38 @@ bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
 
 // ---- Solving ---------------------------------------------------------------------------------
 
-// False with failed_ set if an island has no answer.
+// Islands at the same time where there is work enough: every answer depends on its own problem alone. False
+// with failed_ set to the first island that has no answer.
 template <class SceneType>
 bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) {
-  f.resize(model.islands.size());
-  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+  const std::size_t count = model.islands.size();
+  int rows = 0, largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
     const auto& problem = model.islands[i].problem;
-    ++statistics_.problems;
-    statistics_.rows += problem.rows();
+    rows += problem.rows();
+    largest = std::max(largest, problem.rows());
     if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), problem});
-    if (!SolveScene(solver_, problem, f[i], statistics_)) {
-      failed_ = i;
-      return false;
-    }
   }
-  return true;
+  statistics_.problems += static_cast<std::int64_t>(count);
+  statistics_.rows += rows;
+
+  f.resize(count);
+  std::vector<SimulationStatistics> counted(count);
+  std::vector<char> solved(count, 0);
+  const auto solve = [&](std::size_t i) {
+    solved[i] = SolveScene(solvers_.local(), model.islands[i].problem, f[i], counted[i]);
+  };
+  if (count > 1 && largest >= kParallelRows) {
+    tbb::parallel_for(std::size_t{0}, count, solve);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) solve(i);
+  }
+  for (const SimulationStatistics& part : counted) {
+    statistics_.fallbacks += part.fallbacks;
+    statistics_.loose += part.loose;
+  }
+  failed_ = std::find(solved.begin(), solved.end(), 0) - solved.begin();
+  return failed_ == count;
 }
 
 template <class SceneType>

@@ -3,6 +3,8 @@
 
 #include "solver/scene/simulate.h"
 
+#include <tbb/global_control.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -295,6 +297,35 @@ TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes"
     CHECK(DriftOf(jack.scene()).joints < 1e-3);
   }
   for (std::size_t i = 1; i < heights.size(); ++i) CHECK(heights[i] > heights[i - 1] + 0.1);
+}
+
+// `count` copies of the stack, side by side on floors of their own, the k-th pushed by k centimetres a second.
+Scene<double> Towers(int count) {
+  const Scene<double> stack = NamedScene("stack");
+  Scene<double> towers = stack;
+  towers.bodies.clear();
+  for (int k = 0; k < count; ++k) {
+    for (RigidBody<double> body : stack.bodies) {
+      body.position[0] += 30.0 * k;
+      if (!body.fixed) body.velocity[0] += 0.01 * k;
+      towers.bodies.push_back(body);
+    }
+  }
+  return towers;
+}
+
+TEST_CASE("simulate: islands have the same answers on any number of threads") {
+  const auto run = [](int threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Simulation simulation(Towers(30));
+    for (int i = 0; i < 20; ++i) simulation.Step();
+    return simulation;
+  };
+  const Simulation one = run(1), four = run(4);
+  CHECK(one.statistics().problems > 20 * 25);
+  CHECK(one.statistics() == four.statistics());
+  CHECK(LargestMove(one.scene(), four.scene()) == 0);
+  CHECK(LargestMove(Towers(30), one.scene()) > 1e-3);
 }
 
 TEST_CASE("simulate: every problem is shown, and the same run twice is the same") {
