@@ -147,6 +147,7 @@ class SimulationWriter {
     MakeFolder(o.output);
     if (o.svg) MakeFolder(fs::path(o.output) / "frames");
     if (!o.problems.empty()) MakeFolder(o.problems);
+    RemoveOlder();
   }
 
   void Add(const SimulationOf<SceneType>& simulation, bool shown) {
@@ -172,14 +173,22 @@ class SimulationWriter {
     SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < frames_.size(); ++k) {
       SetPoses(moved, frames_[k]);
-      WriteText((folder / "frames" / fmt::format("{:05}.svg", k)).string(),
-                DrawSvg(moved, view_, frames_[k].marks));
+      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, frames_[k].marks));
     }
   }
 
   const Drift& worst() const { return worst_; }
 
  private:
+  static std::string FrameName(std::size_t k) { return fmt::format("{:05}.svg", k); }
+
+  // What would stand from a run before among the files of this one.
+  void RemoveOlder() const {
+    const fs::path folder(o_.output);
+    fs::remove(folder / "undecided.json");
+    for (std::size_t k = 0; fs::remove(folder / "frames" / FrameName(k)); ++k) continue;
+  }
+
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -303,7 +312,7 @@ void AddSimulate(CLI::App& program, Action& action) {
   verb.add_option(
           "-o,--output", o->output,
           "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
-          "has no answer (exit 3)")
+          "has no answer (exit 3); those of a run before are replaced")
       ->required();
   verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
   verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));

@@ -214,22 +214,9 @@ std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene, const S
   for (int a = 0; a < bodies; ++a) {
     for (const auto& shape : scene.bodies[a].shapes) placed[a].push_back(Place(scene.bodies[a], shape));
   }
-  for (int a = 0; a < bodies; ++a) {
-    for (int b = a + 1; b < bodies; ++b) {
-      const PairFacts<Scalar> facts = FactsOf(scene, a, b);
-      for (std::size_t i = 0; facts.collide && i < placed[a].size(); ++i) {
-        for (std::size_t j = 0; j < placed[b].size(); ++j) {
-          TouchPoint<Scalar> pattern;
-          pattern.a = a;
-          pattern.b = b;
-          pattern.shape_a = static_cast<int>(i);
-          pattern.shape_b = static_cast<int>(j);
-          pattern.mu = facts.mu;
-          PairFinder<Scalar>(scene.gap, margin, pattern, found).Find(placed[a][i], placed[b][j]);
-        }
-      }
-    }
-  }
+  ForEachPair<TouchPoint<Scalar>>(scene, placed, [&](const auto& pattern, const auto& a, const auto& b) {
+    PairFinder<Scalar>(scene.gap, margin, pattern, found).Find(a, b);
+  });
   return found;
 }
 

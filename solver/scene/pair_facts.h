@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What two bodies of a scene are to each other: whether they may touch, and their friction. Plane and space.
+// What two bodies of a scene are to each other: whether they may touch, and their friction; all pairs of pieces
+// that may. Plane and space.
 
 #ifndef STICTION_SOLVER_SCENE_PAIR_FACTS_H_
 #define STICTION_SOLVER_SCENE_PAIR_FACTS_H_
 
 #include <algorithm>
+#include <vector>
 
 namespace stiction {
 
@@ -28,6 +30,29 @@ PairFacts<Scalar> FactsOf(const SceneType<Scalar>& scene, int a, int b) {
   }
   facts.collide = facts.collide && !(scene.bodies[a].fixed && scene.bodies[b].fixed);
   return facts;
+}
+
+// visit(pattern, piece of a, piece of b) for all pairs of pieces that may touch; `placed` holds each body's.
+// The pattern is a Touch that names bodies and pieces, and has their friction.
+template <class Touch, class SceneType, class Placed, class Visit>
+void ForEachPair(const SceneType& scene, const std::vector<std::vector<Placed>>& placed, const Visit& visit) {
+  const int bodies = static_cast<int>(placed.size());
+  for (int a = 0; a < bodies; ++a) {
+    for (int b = a + 1; b < bodies; ++b) {
+      const auto facts = FactsOf(scene, a, b);
+      for (std::size_t i = 0; facts.collide && i < placed[a].size(); ++i) {
+        for (std::size_t j = 0; j < placed[b].size(); ++j) {
+          Touch pattern;
+          pattern.a = a;
+          pattern.b = b;
+          pattern.shape_a = static_cast<int>(i);
+          pattern.shape_b = static_cast<int>(j);
+          pattern.mu = facts.mu;
+          visit(pattern, placed[a][i], placed[b][j]);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace stiction

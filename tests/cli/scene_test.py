@@ -114,6 +114,15 @@ class Scenes(cli.TestCase):
         problem = json.loads((folder / "undecided.json").read_text())
         self.assertEqual(problem["format"], "stiction-problem")
 
+    def test_a_second_run_leaves_nothing_of_the_first(self):
+        out = self.folder / "out"
+        self.assertEqual(cli.run("simulate", FOLDER / "scripted-wedge-jams.json", "-o", out).code, 3)
+        self.succeeds("simulate", FOLDER / "stack.json", "-o", out, "--seconds", 1)
+        self.assertFalse((out / "undecided.json").exists())
+        many = len(list((out / "frames").iterdir()))
+        self.succeeds("simulate", FOLDER / "stack.json", "-o", out, "--seconds", "0.2")
+        self.assertLess(len(list((out / "frames").iterdir())), many)
+
     def test_every_scene_is_drawn(self):
         for scene in sorted(FOLDER.glob("**/*.json")):
             with self.subTest(scene=scene.name):
