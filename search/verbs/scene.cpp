@@ -218,10 +218,10 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   SimulationWriter<SceneType> writer(o);
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
-    observe = [&o, &file](const FrameProblem& met) {
+    const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
+    observe = [&o, &file, scene_name](const FrameProblem& met) {
       const char* level = kLevelNames[static_cast<int>(met.level)];
-      const std::string name =
-          fmt::format("{}-{:05}-{}-{}.json", file.scene.name, met.frame, level, met.island + 1);
+      const std::string name = fmt::format("{}-{:05}-{}-{}.json", scene_name, met.frame, level, met.island + 1);
       WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
     };
   }

@@ -77,6 +77,7 @@ void View::Include(const Scene<double>& scene) {
 }
 
 void View::AddMargin() {
+  if (!(right > left)) left = bottom = -1, right = top = 1;  // nothing to see
   const double margin = 0.15 * std::max({right - left, top - bottom, 1e-3});
   left -= margin;
   right += margin;

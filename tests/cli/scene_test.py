@@ -123,6 +123,18 @@ class Scenes(cli.TestCase):
         self.succeeds("simulate", FOLDER / "stack.json", "-o", out, "--seconds", "0.2")
         self.assertLess(len(list((out / "frames").iterdir())), many)
 
+    def test_names_do_not_leave_the_folder_and_nothing_can_be_drawn(self):
+        empty = {"format": "stiction-scene", "version": 1, "name": "none", "dimension": 2, "bodies": []}
+        for dimension in (2, 3):
+            out = self.folder / "none.svg"
+            self.succeeds("draw", self.file("none.json", {**empty, "dimension": dimension}), "-o", out)
+            self.assertNotIn("nan", out.read_text())
+        scene = json.loads((FOLDER / "stack.json").read_text())
+        problems = self.folder / "deep" / "problems"
+        self.succeeds("simulate", self.file("up.json", {**scene, "name": "../up"}), "-o", self.folder / "out",
+                      "--seconds", "0.1", "--problems", problems)
+        self.assertTrue(list(problems.glob("up-*.json")))
+
     def test_every_scene_is_drawn(self):
         for scene in sorted(FOLDER.glob("**/*.json")):
             with self.subTest(scene=scene.name):
