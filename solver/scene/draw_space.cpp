@@ -168,6 +168,38 @@ std::string Dot(const Screen& screen, const Point& p, const char* fill, int radi
                      screen.X(at[0]), screen.Y(at[1]), radius, fill);
 }
 
+// The line through p along d, `pixels` to both sides in the picture.
+std::string LineAlong(const Screen& screen, const Point& p, const Point& d, double pixels, const char* style) {
+  const double seen = Seen(d).norm();
+  if (seen < 1e-6) return "";
+  const Point half = pixels / (screen.scale * seen) * d;
+  return fmt::format("<path d=\"{}\" stroke=\"black\" {}/>", Path(screen, {p - half, p + half}), style);
+}
+
+std::string Square(const Screen& screen, const Point& p) {
+  const Vector2<double> at = Seen(p);
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" fill=\"white\" stroke=\"black\"/>",
+      screen.X(at[0]) - 4, screen.Y(at[1]) - 4);
+}
+
+std::string Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointInSpace<double>& joint) {
+  const BodyInSpace<double>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  const Point p = a.At(joint.at_a), along = RotationMatrix<double>(b.rotation) * joint.direction;
+  const std::string arm = fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {a.position, p}));
+  switch (joint.kind) {
+    case JointKindInSpace::kBall:
+      return arm + Dot(screen, p, "white", 4);
+    case JointKindInSpace::kHinge:
+      return arm + LineAlong(screen, p, along, 16, "stroke-width=\"3\"") + Dot(screen, p, "white", 4);
+    case JointKindInSpace::kRail:
+    case JointKindInSpace::kSlider:
+      break;
+  }
+  const std::string rail = LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, "stroke-dasharray=\"6 4\"");
+  return arm + rail + (joint.kind == JointKindInSpace::kRail ? Dot(screen, p, "white", 4) : Square(screen, p));
+}
+
 // A newton in metres: a quarter of the view for the weight of all bodies that move.
 double ForceScale(const SceneInSpace<double>& scene, const View& view) {
   double mass = 0;
@@ -181,11 +213,7 @@ std::string Picture(const SceneInSpace<double>& scene, const ViewInSpace& view, 
   std::string text = "<g stroke='black' stroke-width='0.7' stroke-linejoin='round'>";
   for (const auto& piece : FromBackToFront(scene)) text += Drawn(screen, piece);
   text += "</g>";
-  for (const auto& joint : scene.joints) {
-    const Point at = scene.bodies[joint.a].At(joint.at_a), to = scene.bodies[joint.a].position;
-    text +=
-        fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {to, at})) + Dot(screen, at, "white", 4);
-  }
+  for (const auto& joint : scene.joints) text += Drawn(screen, scene, joint);
   for (const auto& point : marks.contacts) text += Dot(screen, point, "#30c030", 3);
   const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {

@@ -197,7 +197,7 @@ class Scenes(cli.TestCase):
                 (lambda s: s["bodies"][1].update(rotation=[0, 0, 0, 0]), "bodies[1].rotation"),
                 (lambda s: s["bodies"][1].update(position=[0, 0]), "bodies[1].position"),
                 (lambda s: s.update(joints=[{"kind": "pin", "bodies": ["floor", "tripod"]}]),
-                 'joints[0].kind: found "pin", expected ball'),
+                 'joints[0].kind: found "pin", expected ball, hinge, rail or slider'),
                 (lambda s: s.update(dimension=4), "dimension: found 4, expected 2 or 3")):
             scene = json.loads(good)
             change(scene)
