@@ -109,7 +109,8 @@ TEST_CASE(
   CHECK(hinge.at_a == MakeVector3<Rational>(0, 0, -1));
   CHECK(hinge.direction == MakeVector3<Rational>(1, 0, 0));
   // b's rotation back after a's: z of the door is -y of the world, and of the frame.
-  const Vector3<Rational> z = RotationMatrix<Rational>(hinge.relative_rotation) * MakeVector3<Rational>(0, 0, 1);
+  const Vector3<Rational> z =
+      RotationMatrix<Rational>(hinge.relative_rotation) * MakeVector3<Rational>(0, 0, 1);
   CHECK(z == MakeVector3<Rational>(0, -1, 0));
   CHECK(joint(R"("kind": "rail", "axis": ["0", "3", "4"])").direction ==
         MakeVector3<Rational>(0, Rational(3, 5), Rational(4, 5)));
@@ -129,6 +130,18 @@ TEST_CASE("scene file: joints and accelerations of dimension 3 are written so th
   CHECK(file.scene.bodies[0].acceleration[1] == Rational(1, 3));
   CHECK(ParseSceneInSpace(Print(file), "again").scene.bodies[0].acceleration ==
         file.scene.bodies[0].acceleration);
+}
+
+TEST_CASE("scene file: joints and accelerations of dimension 3 are rounded to doubles") {
+  const auto text = JointText(R"("kind": "slider", "axis": ["0", "3", "4"], "turn": ["1", "2", "2", "4"])");
+  const auto scene = Round(ParseSceneInSpace(text, "file").scene);
+  const auto& joint = scene.joints.at(0);
+  CHECK(joint.kind == JointKindInSpace::kSlider);
+  CHECK(std::pair(joint.a, joint.b) == std::pair(1, 0));
+  CHECK(joint.at_b[1] == 2);
+  CHECK((joint.direction - Vector3<double>(0, 0.6, 0.8)).norm() < 1e-15);
+  CHECK((joint.relative_rotation - Quaternion<double>(0.2, 0.4, 0.4, 0.8)).norm() < 1e-15);
+  const auto file = ParseSceneInSpace(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
   CHECK(Round(file.scene).bodies[0].acceleration[1] == 1.0 / 3);
 }
 

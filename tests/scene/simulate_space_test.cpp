@@ -252,6 +252,26 @@ TEST_CASE("simulate in space: joined bodies in flight keep their momenta, and th
   }
 }
 
+TEST_CASE("simulate in space: on two hinges of one axis bodies move as on one") {
+  for (SceneInSpace<double> scene :
+       {Started("leaning-gate").scene(), JoinedInFlight(JointKindInSpace::kHinge)}) {
+    SimulationOptions options;
+    options.step = 1.0 / 240;
+    SimulationInSpace one(scene, options);
+    scene.joints.push_back(scene.joints[0]);
+    auto& second = scene.joints[1];
+    second.at_b += 0.4 * second.direction;
+    second.at_a += 0.4 * (RotationMatrix<double>(second.relative_rotation).transpose() * second.direction);
+    SimulationInSpace two(scene, options);
+    for (int i = 0; i < 480; ++i) one.Step(), two.Step();
+    for (const int body : {0, 1}) {
+      const auto &x = one.scene().bodies[body], &y = two.scene().bodies[body];
+      CHECK((x.position - y.position).norm() < 1e-4);
+      CHECK((x.rotation - y.rotation).norm() < 1e-4);
+    }
+  }
+}
+
 TEST_CASE("simulate in space: a trapdoor rests on a box above mu = 3/8, and falls to the floor below") {
   SimulationInSpace rests = Started("trapdoor-rests"), opens = Started("trapdoor-opens");
   const auto start = rests.scene().bodies;
