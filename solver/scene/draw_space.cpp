@@ -127,6 +127,31 @@ std::string Path(const Screen& screen, const std::vector<Point>& points) {
   return text;
 }
 
+// The line through p along d, `pixels` to both sides in the picture.
+std::string LineAlong(const Screen& screen, const Point& p, const Point& d, double pixels, const char* style) {
+  const double seen = Seen(d).norm();
+  if (seen < 1e-6) return "";
+  const Point half = pixels / (screen.scale * seen) * d;
+  return fmt::format("<path d=\"{}\" stroke=\"black\" {}/>", Path(screen, {p - half, p + half}), style);
+}
+
+// A line from the centre of a to its point; a bar along the axis of a hinge, a broken line along a rail; on the
+// point a white circle, of a slider a square.
+std::string Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointInSpace<double>& joint) {
+  const BodyInSpace<double>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  const Point p = a.At(joint.at_a), along = RotationMatrix<double>(b.rotation) * joint.direction;
+  std::string text = fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {a.position, p}));
+  if (joint.kind == JointKindInSpace::kHinge)
+    text += LineAlong(screen, p, along, 16, "stroke-width=\"3\"");
+  else if (joint.kind != JointKindInSpace::kBall)
+    text += LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, "stroke-dasharray=\"6 4\"");
+  const Vector2<double> at = Seen(p);
+  return text + fmt::format(
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" rx=\"{}\" fill=\"white\" "
+                    "stroke=\"black\"/>",
+                    screen.X(at[0]) - 4, screen.Y(at[1]) - 4, joint.kind == JointKindInSpace::kSlider ? 0 : 4);
+}
+
 // The visible half of a ball's circle across one of its axes.
 std::string Equator(const Screen& screen, const ConvexPiece& ball, int axis) {
   const Point normal = ball.turn.col(axis);
@@ -166,38 +191,6 @@ std::string Dot(const Screen& screen, const Point& p, const char* fill, int radi
   const Vector2<double> at = Seen(p);
   return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>",
                      screen.X(at[0]), screen.Y(at[1]), radius, fill);
-}
-
-// The line through p along d, `pixels` to both sides in the picture.
-std::string LineAlong(const Screen& screen, const Point& p, const Point& d, double pixels, const char* style) {
-  const double seen = Seen(d).norm();
-  if (seen < 1e-6) return "";
-  const Point half = pixels / (screen.scale * seen) * d;
-  return fmt::format("<path d=\"{}\" stroke=\"black\" {}/>", Path(screen, {p - half, p + half}), style);
-}
-
-std::string Square(const Screen& screen, const Point& p) {
-  const Vector2<double> at = Seen(p);
-  return fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" fill=\"white\" stroke=\"black\"/>",
-      screen.X(at[0]) - 4, screen.Y(at[1]) - 4);
-}
-
-std::string Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointInSpace<double>& joint) {
-  const BodyInSpace<double>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
-  const Point p = a.At(joint.at_a), along = RotationMatrix<double>(b.rotation) * joint.direction;
-  const std::string arm = fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {a.position, p}));
-  switch (joint.kind) {
-    case JointKindInSpace::kBall:
-      return arm + Dot(screen, p, "white", 4);
-    case JointKindInSpace::kHinge:
-      return arm + LineAlong(screen, p, along, 16, "stroke-width=\"3\"") + Dot(screen, p, "white", 4);
-    case JointKindInSpace::kRail:
-    case JointKindInSpace::kSlider:
-      break;
-  }
-  const std::string rail = LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, "stroke-dasharray=\"6 4\"");
-  return arm + rail + (joint.kind == JointKindInSpace::kRail ? Dot(screen, p, "white", 4) : Square(screen, p));
 }
 
 // A newton in metres: a quarter of the view for the weight of all bodies that move.

@@ -4,9 +4,6 @@
 // Forces are drawn as they act on the later body of a contact. Faces that look away are left out; convex pieces
 // are drawn from the back to the front. Of two pieces that a face's plane parts, the one on the viewer's side
 // is in front.
-//
-// Joints: a line from the centre of a to its point, a white circle there; a bar along the axis of a hinge; a
-// broken line along a rail, a square on a slider's.
 
 #ifndef STICTION_SOLVER_SCENE_DRAW_SPACE_H_
 #define STICTION_SOLVER_SCENE_DRAW_SPACE_H_
