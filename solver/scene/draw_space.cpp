@@ -127,6 +127,31 @@ std::string Path(const Screen& screen, const std::vector<Point>& points) {
   return text;
 }
 
+// The line through p along d, `pixels` to both sides in the picture.
+std::string LineAlong(const Screen& screen, const Point& p, const Point& d, double pixels, const char* style) {
+  const double seen = Seen(d).norm();
+  if (seen < 1e-6) return "";
+  const Point half = pixels / (screen.scale * seen) * d;
+  return fmt::format("<path d=\"{}\" stroke=\"black\" {}/>", Path(screen, {p - half, p + half}), style);
+}
+
+// A line from the centre of a to its point; a bar along the axis of a hinge, a broken line along a rail; on the
+// point a white circle, of a slider a square.
+std::string Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointInSpace<double>& joint) {
+  const BodyInSpace<double>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  const Point p = a.At(joint.at_a), along = RotationMatrix<double>(b.rotation) * joint.direction;
+  std::string text = fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {a.position, p}));
+  if (joint.kind == JointKindInSpace::kHinge)
+    text += LineAlong(screen, p, along, 16, "stroke-width=\"3\"");
+  else if (joint.kind != JointKindInSpace::kBall)
+    text += LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, "stroke-dasharray=\"6 4\"");
+  const Vector2<double> at = Seen(p);
+  return text + fmt::format(
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" rx=\"{}\" fill=\"white\" "
+                    "stroke=\"black\"/>",
+                    screen.X(at[0]) - 4, screen.Y(at[1]) - 4, joint.kind == JointKindInSpace::kSlider ? 0 : 4);
+}
+
 // The visible half of a ball's circle across one of its axes.
 std::string Equator(const Screen& screen, const ConvexPiece& ball, int axis) {
   const Point normal = ball.turn.col(axis);
@@ -181,11 +206,7 @@ std::string Picture(const SceneInSpace<double>& scene, const ViewInSpace& view, 
   std::string text = "<g stroke='black' stroke-width='0.7' stroke-linejoin='round'>";
   for (const auto& piece : FromBackToFront(scene)) text += Drawn(screen, piece);
   text += "</g>";
-  for (const auto& joint : scene.joints) {
-    const Point at = scene.bodies[joint.a].At(joint.at_a), to = scene.bodies[joint.a].position;
-    text +=
-        fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {to, at})) + Dot(screen, at, "white", 4);
-  }
+  for (const auto& joint : scene.joints) text += Drawn(screen, scene, joint);
   for (const auto& point : marks.contacts) text += Dot(screen, point, "#30c030", 3);
   const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {

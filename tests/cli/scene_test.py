@@ -177,6 +177,13 @@ class Scenes(cli.TestCase):
         self.assertEqual(cli.run("solve", output, "--method", "complete").code, 0)
         out, output = self.assemble("space/tripod")
         self.assertEqual(cli.run("solve", output, "--method", "complete", "--json").json()["f"], ["20", "20/3", "40/3"])
+        out, output = self.assemble("space/leaning-gate", "--explain")
+        self.assertIn("joint 1, row 5 (hinge of gate and post): bilateral, one row", out)
+        solved = cli.run("solve", output, "--method", "complete", "--json").json()
+        self.assertEqual((solved["outcome"], len(solved["f"])), ("solved", 5))
+        drawn = cli.run("draw", FOLDER / "space" / "slider-crank.json", "-o", "-").out
+        for mark, count in (("stroke-width='3'", 1), ("stroke-dasharray", 1), ("rx='0'", 1), ("rx='4'", 3)):
+            self.assertEqual(drawn.count(mark), count, mark)
         folder, problems = self.folder / "run", self.folder / "problems"
         done = cli.run("simulate", FOLDER / "space" / "ball-slides-then-rolls.json", "-o", folder, "--seconds", "0.5",
                        "--problems", problems)
@@ -197,7 +204,7 @@ class Scenes(cli.TestCase):
                 (lambda s: s["bodies"][1].update(rotation=[0, 0, 0, 0]), "bodies[1].rotation"),
                 (lambda s: s["bodies"][1].update(position=[0, 0]), "bodies[1].position"),
                 (lambda s: s.update(joints=[{"kind": "pin", "bodies": ["floor", "tripod"]}]),
-                 'joints[0].kind: found "pin", expected ball'),
+                 'joints[0].kind: found "pin", expected ball, hinge, rail or slider'),
                 (lambda s: s.update(dimension=4), "dimension: found 4, expected 2 or 3")):
             scene = json.loads(good)
             change(scene)
