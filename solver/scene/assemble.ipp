@@ -239,7 +239,7 @@ class Assembler {
     switch (options_.level) {
       case Level::kForces:
         for (int side = 0; side < 2; ++side) row.b += row.J[side].dot(free_[constraint.bodies[side]]);
-        row.b += row.bias;
+        row.b += step ? Scalar(row.bias / 2) : row.bias;
         if (step) row.b += (Velocity(constraint, i, model_.bodies) + gap / options_.step) / options_.step;
         break;
       case Level::kImpulses:

@@ -224,8 +224,8 @@ Drift DriftOf(const Scene<double>& scene);
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
-// The same for a large island, whose A stays sparse and whose joints stay in it: proximal points (proximal.h).
-// Where this fails, SolveScene has its turn.
+// The same with a sparse A, in which joints stay: proximal points (proximal.h). It has its turn before SolveScene
+// where an island is large, and after it elsewhere.
 bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
                  ContactProblem<double>::Vector& f);
 

@@ -124,17 +124,16 @@ bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
 
 // ---- Solving ---------------------------------------------------------------------------------
 
-// A large island without all of its A, if that gives an answer.
 template <class SceneType>
 bool SolveIsland(SolverOf<SceneType>& solver, const typename SceneTypes<SceneType>::Model& model,
                  std::size_t island, ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
-  if (model.islands[island].rows >= kSparseRows) {
-    if (SolveSparse(solver, model.SparseProblem(island), f)) {
-      ++statistics.sparse;
-      return true;
-    }
-  }
-  return SolveScene(solver, model.Problem(island), f, statistics);
+  const auto sparse = [&] {
+    const bool solved = SolveSparse(solver, model.SparseProblem(island), f);
+    statistics.sparse += solved;
+    return solved;
+  };
+  const auto dense = [&] { return SolveScene(solver, model.Problem(island), f, statistics); };
+  return model.islands[island].rows < kSparseRows ? dense() || sparse() : sparse() || dense();
 }
 
 // Islands at the same time where there is work enough: every answer depends on its own problem alone. False
