@@ -109,7 +109,7 @@ void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
 // Different mu break it: the wrenches that the two can give need not contain that of a rough contact between.
 // Over doubles equality is to 1e-12 of the numbers compared.
 template <class Scalar, int Dof>
-std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints);
+std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints);
 
 }  // namespace stiction
 

@@ -5,8 +5,10 @@
 #define STICTION_SOLVER_SCENE_MECHANICS_IPP_
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <iterator>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "solver/scalar.h"
@@ -221,29 +223,107 @@ bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>&
   return i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
 }
 
+// Numbers of contacts between the same two bodies, ascending, in a list of all.
+using ContactNumbers = std::span<const int>;
+
+// The normal row of a constraint: the part of the lower of its bodies, or of the higher.
 template <class Scalar, int Dof>
-std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
-  const int count = static_cast<int>(constraints.size());
-  std::vector<bool> redundant(constraints.size(), false);
-  const auto bodies_of = [&constraints](int i) {
-    const auto [first, second] = constraints[i].bodies;
-    return std::minmax({first, second});
-  };
-  std::map<std::pair<int, int>, std::vector<int>> of_pair;
-  for (int i = 0; i < count; ++i) of_pair[bodies_of(i)].push_back(i);
-  std::vector<int> others;
-  for (int i = 0; i < count; ++i) {
-    if (constraints[i].law.kind == ContactKind::kBilateral) continue;
-    others.clear();
-    for (const int j : of_pair[bodies_of(i)]) {
-      if (j != i && !redundant[j] && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
-    }
-    for (std::size_t j = 0; j < others.size() && !redundant[i]; ++j) {
-      for (std::size_t k = j; k < others.size() && !redundant[i]; ++k)
-        redundant[i] = IsBetween(constraints[i], constraints[others[j]], constraints[others[k]]);
-    }
-    if (Dof == 6 && !redundant[i]) redundant[i] = IsInHull(constraints, i, others);
+const Eigen::Matrix<Scalar, Dof, 1>& NormalPart(const Constraint<Scalar, Dof>& constraint, int side) {
+  return constraint.rows[0].J[constraint.bodies[1] < constraint.bodies[0] ? 1 - side : side];
+}
+
+// More than the rounding that IsBetween and IsInTriangle forgive in numbers up to `scale`.
+inline constexpr double kForgiven = 4e-12;
+
+// Two tests that show at once that contact i is no combination of any others of its group. Whether the last
+// number of its normal row, a moment, is beyond that of all others, as that of the ends of an edge is:
+template <class Scalar, int Dof>
+bool IsOutermost(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, ContactNumbers group) {
+  const Scalar& own = NormalPart(constraints[i], 1)[Dof - 1];
+  int sign = 0;  // of own - other
+  for (const int j : group) {
+    if (j == i) continue;
+    const Scalar& other = NormalPart(constraints[j], 1)[Dof - 1];
+    const Scalar scale = std::max<Scalar>(Scalar(1), std::max<Scalar>(Abs(own), Abs(other)));
+    const int found = Sign<Scalar>(Scalar(own - other), Scalar(scale * kForgiven));
+    if (found == 0 || found == -sign) return false;
+    sign = found;
   }
+  return true;
+}
+
+// And whether a plane has its normal row on one side and all of theirs on the other, as that of the corner of a
+// face. The plane is across v, the sum of what leads from them to i.
+template <class Scalar, int Dof>
+bool IsSetApart(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, ContactNumbers group) {
+  using Part = Eigen::Matrix<Scalar, Dof, 1>;
+  std::array<Part, 2> v = {Part::Constant(Scalar(0)), Part::Constant(Scalar(0))};
+  Scalar scale(1), length(0);
+  for (const int j : group) {
+    for (int side = 0; side < 2; ++side) {
+      const Part& other = NormalPart(constraints[j], side);
+      v[side] += NormalPart(constraints[i], side) - other;
+      for (int k = 0; k < Dof; ++k) scale = std::max<Scalar>(scale, Abs<Scalar>(other[k]));
+    }
+  }
+  for (int k = 0; k < 2 * Dof; ++k) length += Abs<Scalar>(v[k / Dof][k % Dof]);
+  const auto height = [&](int j) {
+    return Scalar(v[0].dot(NormalPart(constraints[j], 0)) + v[1].dot(NormalPart(constraints[j], 1)));
+  };
+  const Scalar own = height(i), forgiven = Scalar(scale * length * kForgiven);
+  return std::all_of(group.begin(), group.end(),
+                     [&](int j) { return j == i || Sign<Scalar>(Scalar(own - height(j)), forgiven) > 0; });
+}
+
+// Whether contact i is a combination of the others.
+template <class Scalar, int Dof>
+bool IsCombination(const std::vector<Constraint<Scalar, Dof>>& constraints, int i,
+                   const std::vector<int>& others) {
+  for (std::size_t j = 0; j < others.size(); ++j) {
+    for (std::size_t k = others.size(); k-- > j;) {  // the ends first
+      if (IsBetween(constraints[i], constraints[others[j]], constraints[others[k]])) return true;
+    }
+  }
+  return Dof == 6 && IsInHull(constraints, i, others);
+}
+
+// Adds what can be dropped of a group.
+template <class Scalar, int Dof>
+void AddRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints, ContactNumbers group,
+                  std::vector<int>& redundant) {
+  const auto before = static_cast<std::ptrdiff_t>(redundant.size());
+  std::vector<int> others;
+  for (const int i : group) {
+    if (IsOutermost(constraints, i, group) || (Dof == 6 && IsSetApart(constraints, i, group))) continue;
+    others.clear();
+    for (const int j : group) {
+      const bool is_kept = std::find(redundant.begin() + before, redundant.end(), j) == redundant.end();
+      if (j != i && is_kept && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
+    }
+    if (IsCombination(constraints, i, others)) redundant.push_back(i);
+  }
+}
+
+template <class Scalar, int Dof>
+std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
+  const auto bodies = [&constraints](int i) {
+    const auto [first, second] = constraints[i].bodies;
+    return std::array{std::min(first, second), std::max(first, second)};
+  };
+  std::vector<int> contacts;
+  contacts.reserve(constraints.size());
+  for (int i = 0; i < static_cast<int>(constraints.size()); ++i) {
+    if (constraints[i].law.kind != ContactKind::kBilateral) contacts.push_back(i);
+  }
+  const auto before = [&bodies](int i, int j) { return bodies(i) < bodies(j); };
+  if (!std::is_sorted(contacts.begin(), contacts.end(), before))  // contacts are found pair by pair
+    std::stable_sort(contacts.begin(), contacts.end(), before);
+  std::vector<int> redundant;
+  for (auto from = contacts.begin(), to = from; from != contacts.end(); from = to) {
+    to = std::find_if(from, contacts.end(), [&](int i) { return bodies(i) != bodies(*from); });
+    if (to - from > 1) AddRedundant<Scalar, Dof>(constraints, ContactNumbers(from, to), redundant);
+  }
+  std::sort(redundant.begin(), redundant.end());
   return redundant;
 }
 
