@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "solver/scalar.h"
@@ -223,8 +221,15 @@ bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>&
   return i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
 }
 
-// Numbers of contacts between the same two bodies, ascending, in a list of all.
-using ContactNumbers = std::span<const int>;
+// Contacts between the same two bodies, ascending: the entries [from, to) of an order of all constraints, or
+// where that is empty these numbers themselves.
+struct ContactGroup {
+  const std::vector<int>& order;
+  int from, to;
+
+  int size() const { return to - from; }
+  int operator[](int k) const { return order.empty() ? from + k : order[from + k]; }
+};
 
 // The normal row of a constraint: the part of the lower of its bodies, or of the higher.
 template <class Scalar, int Dof>
@@ -232,22 +237,25 @@ const Eigen::Matrix<Scalar, Dof, 1>& NormalPart(const Constraint<Scalar, Dof>& c
   return constraint.rows[0].J[constraint.bodies[1] < constraint.bodies[0] ? 1 - side : side];
 }
 
-// More than the rounding that IsBetween and IsInTriangle forgive in numbers up to `scale`.
+// More than what IsBetween and IsInTriangle forgive in numbers up to 1, 1e-12, and the rounding here.
 inline constexpr double kForgiven = 4e-12;
 
-// Two tests that show at once that contact i is no combination of any others of its group. Whether the last
-// number of its normal row, a moment, is beyond that of all others, as that of the ends of an edge is:
+// Two tests that show cheaply that contact i is no combination of any others of its group, as combinations lie
+// in their hull. Whether the last number of its normal row, a moment, is beyond that of all others, as that of
+// the ends of an edge is:
 template <class Scalar, int Dof>
-bool IsOutermost(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, ContactNumbers group) {
+bool IsOutermost(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, const ContactGroup& group) {
+  const auto last = [&](int n) -> const Scalar& { return NormalPart(constraints[group[n]], 1)[Dof - 1]; };
   const Scalar& own = NormalPart(constraints[i], 1)[Dof - 1];
-  int sign = 0;  // of own - other
-  for (const int j : group) {
-    if (j == i) continue;
-    const Scalar& other = NormalPart(constraints[j], 1)[Dof - 1];
-    const Scalar scale = std::max<Scalar>(Scalar(1), std::max<Scalar>(Abs(own), Abs(other)));
-    const int found = Sign<Scalar>(Scalar(own - other), Scalar(scale * kForgiven));
-    if (found == 0 || found == -sign) return false;
-    sign = found;
+  Scalar scale(1);
+  for (int n = 0; n < group.size(); ++n) scale = std::max<Scalar>(scale, Abs<Scalar>(last(n)));
+  const Scalar forgiven = Scalar(scale * kForgiven);
+  int side = 0;
+  for (int n = 0; n < group.size(); ++n) {
+    if (group[n] == i) continue;
+    const int sign = Sign<Scalar>(Scalar(own - last(n)), forgiven);
+    if (sign == 0 || sign == -side) return false;
+    side = sign;
   }
   return true;
 }
@@ -255,13 +263,13 @@ bool IsOutermost(const std::vector<Constraint<Scalar, Dof>>& constraints, int i,
 // And whether a plane has its normal row on one side and all of theirs on the other, as that of the corner of a
 // face. The plane is across v, the sum of what leads from them to i.
 template <class Scalar, int Dof>
-bool IsSetApart(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, ContactNumbers group) {
+bool IsSetApart(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, const ContactGroup& group) {
   using Part = Eigen::Matrix<Scalar, Dof, 1>;
   std::array<Part, 2> v = {Part::Constant(Scalar(0)), Part::Constant(Scalar(0))};
   Scalar scale(1), length(0);
-  for (const int j : group) {
+  for (int n = 0; n < group.size(); ++n) {
     for (int side = 0; side < 2; ++side) {
-      const Part& other = NormalPart(constraints[j], side);
+      const Part& other = NormalPart(constraints[group[n]], side);
       v[side] += NormalPart(constraints[i], side) - other;
       for (int k = 0; k < Dof; ++k) scale = std::max<Scalar>(scale, Abs<Scalar>(other[k]));
     }
@@ -271,8 +279,10 @@ bool IsSetApart(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, 
     return Scalar(v[0].dot(NormalPart(constraints[j], 0)) + v[1].dot(NormalPart(constraints[j], 1)));
   };
   const Scalar own = height(i), forgiven = Scalar(scale * length * kForgiven);
-  return std::all_of(group.begin(), group.end(),
-                     [&](int j) { return j == i || Sign<Scalar>(Scalar(own - height(j)), forgiven) > 0; });
+  for (int n = 0; n < group.size(); ++n) {
+    if (group[n] != i && Sign<Scalar>(Scalar(own - height(group[n])), forgiven) <= 0) return false;
+  }
+  return true;
 }
 
 // Whether contact i is a combination of the others.
@@ -289,14 +299,17 @@ bool IsCombination(const std::vector<Constraint<Scalar, Dof>>& constraints, int 
 
 // Adds what can be dropped of a group.
 template <class Scalar, int Dof>
-void AddRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints, ContactNumbers group,
+void AddRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints, const ContactGroup& group,
                   std::vector<int>& redundant) {
+  if (group.size() == 2 && IsOutermost(constraints, group[0], group)) return;  // so is the other
   const auto before = static_cast<std::ptrdiff_t>(redundant.size());
   std::vector<int> others;
-  for (const int i : group) {
+  for (int n = 0; n < group.size(); ++n) {
+    const int i = group[n];
     if (IsOutermost(constraints, i, group) || (Dof == 6 && IsSetApart(constraints, i, group))) continue;
     others.clear();
-    for (const int j : group) {
+    for (int k = 0; k < group.size(); ++k) {
+      const int j = group[k];
       const bool is_kept = std::find(redundant.begin() + before, redundant.end(), j) == redundant.end();
       if (j != i && is_kept && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
     }
@@ -306,22 +319,25 @@ void AddRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints, Conta
 
 template <class Scalar, int Dof>
 std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
-  const auto bodies = [&constraints](int i) {
+  const int count = static_cast<int>(constraints.size());
+  const auto bodies = [&constraints](int i) {  // those of joints before all others
     const auto [first, second] = constraints[i].bodies;
-    return std::array{std::min(first, second), std::max(first, second)};
+    if (constraints[i].law.kind == ContactKind::kBilateral) return std::pair(-1, -1);
+    return std::pair(std::min(first, second), std::max(first, second));
   };
-  std::vector<int> contacts;
-  contacts.reserve(constraints.size());
-  for (int i = 0; i < static_cast<int>(constraints.size()); ++i) {
-    if (constraints[i].law.kind != ContactKind::kBilateral) contacts.push_back(i);
+  std::vector<int> order;
+  for (int i = 1; i < count && order.empty(); ++i) {
+    if (bodies(i - 1) <= bodies(i)) continue;  // as nearly always: joints come first, contacts pair by pair
+    order.resize(constraints.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&bodies](int j, int k) { return bodies(j) < bodies(k); });
   }
-  const auto before = [&bodies](int i, int j) { return bodies(i) < bodies(j); };
-  if (!std::is_sorted(contacts.begin(), contacts.end(), before))  // contacts are found pair by pair
-    std::stable_sort(contacts.begin(), contacts.end(), before);
   std::vector<int> redundant;
-  for (auto from = contacts.begin(), to = from; from != contacts.end(); from = to) {
-    to = std::find_if(from, contacts.end(), [&](int i) { return bodies(i) != bodies(*from); });
-    if (to - from > 1) AddRedundant<Scalar, Dof>(constraints, ContactNumbers(from, to), redundant);
+  const ContactGroup all{order, 0, count};
+  for (int from = 0, to = 0; from < count; from = to) {
+    const auto pair = bodies(all[from]);
+    while (to < count && bodies(all[to]) == pair) ++to;
+    if (to - from > 1 && pair.first >= 0) AddRedundant<Scalar, Dof>(constraints, {order, from, to}, redundant);
   }
   std::sort(redundant.begin(), redundant.end());
   return redundant;
