@@ -259,7 +259,7 @@ TEST_CASE("pairs: the table says of every two bodies what their joints and rules
   CHECK(across_levels > 10);
 }
 
-// A scene of two of the bodies; b = a leaves only what is given.
+// A scene of two of the bodies, without what is given.
 template <class SceneType>
 SceneType OfTwo(const SceneType& scene, int a, int b) {
   SceneType two;
@@ -279,8 +279,8 @@ SceneType OfTwo(const SceneType& scene, int a, int b) {
   return two;
 }
 
-bool HaveSameRound(const TouchPoint<double>& x, const TouchPoint<double>& y) { return x.flat_b == y.flat_b; }
-bool HaveSameRound(const TouchPoint<Rational>& x, const TouchPoint<Rational>& y) {
+template <class Scalar>
+bool HaveSameRound(const TouchPoint<Scalar>& x, const TouchPoint<Scalar>& y) {
   return x.flat_b == y.flat_b;
 }
 template <class Scalar>
