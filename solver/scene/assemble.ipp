@@ -253,11 +253,13 @@ class Assembler {
   }
 
   void DropRedundant() {
-    const std::vector<bool> redundant = FindRedundant(model_.constraints);
+    const std::vector<int> redundant = FindRedundant(model_.constraints);
+    if (redundant.empty()) return;
     std::vector<Constraint<Scalar, kDof>> kept;
-    for (std::size_t i = 0; i < redundant.size(); ++i) {
-      if (redundant[i]) {
+    for (std::size_t i = 0, dropped = 0; i < model_.constraints.size(); ++i) {
+      if (dropped < redundant.size() && redundant[dropped] == static_cast<int>(i)) {
         model_.omitted.push_back({model_.constraints[i].source, OmissionReason::kRedundant});
+        ++dropped;
       } else {
         kept.push_back(std::move(model_.constraints[i]));
       }
