@@ -42,7 +42,7 @@ constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
 struct SurveyOptions {
   std::vector<std::string> paths;
   int rows = 1500;
-  bool suspicions = false;  // planar problems: over rationals only what doubles leave open
+  bool suspicions = false;  // bounds for the assumptions; in the plane, runs over rationals of suspicions only
   bool json = false;
   Limits limits;
 };
@@ -393,7 +393,7 @@ Json Runs(const SparseProblem& problem, const std::string& source, const SurveyO
 // ---- One problem -----------------------------------------------------------------------------
 
 Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions& o) {
-  const bool small = problem.contacts.size() <= kExactContacts;
+  const bool small = !o.suspicions && problem.contacts.size() <= kExactContacts;
   const auto dense = [&] { return ToDense(problem, source).problem; };
   std::optional<ExactProblem> exact;
   if (small) exact = dense();
