@@ -154,6 +154,24 @@ class Scenes(cli.TestCase):
         self.succeeds("simulate", FOLDER / "stack.json", "-o", out, "--seconds", "0.1")
         self.assertEqual([self.arrows(out, k) for k in range(4)], [10] * 4)  # from the first to the last
 
+    def test_an_arrow_of_a_force_far_above_the_usual_is_cut_and_dashed(self):
+        block = {"shapes": [{"box": [1, 1]}]}
+        scene = {"format": "stiction-scene", "version": 1, "name": "weights", "dimension": 2, "gravity": [0, -10],
+                 "step": "1/64", "bodies": [
+                     {"name": "floor", "fixed": True, "shapes": [{"box": [20, 1]}]},
+                     {"name": "light", "mass": 1, "position": [-3, 1], **block},
+                     {"name": "heavy", "mass": 1000, "position": [3, 2], **block}]}
+        out = self.folder / "out"
+        self.succeeds("simulate", self.file("weights.json", scene), "-o", out, "--seconds", "0.6")
+        frames = [path.read_text() for path in sorted((out / "frames").iterdir())]
+        self.assertEqual((frames[0].count("<line"), frames[0].count("dasharray")), (2, 0))
+        self.assertEqual((frames[-1].count("<line"), frames[-1].count("dasharray")), (4, 2))
+        picture = ElementTree.fromstring(frames[-1])
+        for line in picture.iter("{http://www.w3.org/2000/svg}line"):
+            length = float(line.get("y1")) - float(line.get("y2"))
+            share = 0.25 if line.get("stroke-dasharray") else 0.15
+            self.assertAlmostEqual(length / float(picture.get("height")), share, 2)
+
     def test_forces_are_drawn_as_they_act_on_what_moves_and_joints_are_in_view(self):
         done = cli.run("draw", FOLDER / "beam-on-two-supports.json", "-o", "-")
         lines = list(ElementTree.fromstring(done.out).iter("{http://www.w3.org/2000/svg}line"))
