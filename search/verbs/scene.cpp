@@ -64,7 +64,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
   }
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     ProblemFile problem;
-    problem.problem = model.islands[i].problem;
+    problem.problem = model.Problem(i);
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};

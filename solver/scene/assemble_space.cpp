@@ -174,21 +174,25 @@ const char* KindName(const BallJoint<Scalar>&) {
   return "ball";
 }
 
-#define STICTION_INSTANTIATE(Scalar)                                                              \
-  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);          \
-  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);      \
-  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                   \
-                                                   const TouchPointInSpace<Scalar>&);             \
-  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                            \
-                                          const std::vector<TouchPointInSpace<Scalar>>&,          \
-                                          const AssembleOptions<Scalar>&);                        \
-  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                            \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&); \
-  template typename ContactProblem<Scalar>::Vector ExtendForces(                                  \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,  \
-      const SceneModel<Scalar, 6>&);                                                              \
-  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                          \
-                                            const std::vector<TouchPointInSpace<Scalar>>&,        \
+#define STICTION_INSTANTIATE(Scalar)                                                                          \
+  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);                      \
+  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);                  \
+  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                               \
+                                                   const TouchPointInSpace<Scalar>&);                         \
+  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                                        \
+                                          const std::vector<TouchPointInSpace<Scalar>>&,                      \
+                                          const AssembleOptions<Scalar>&);                                    \
+  template ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, 6>>&,                 \
+                                                 const std::vector<Constraint<Scalar, 6>>&, const Island&);   \
+  template SparseContactProblem<Scalar> SparseProblemOf(                                                      \
+      const std::vector<BodyDynamics<Scalar, 6>>&, const std::vector<Constraint<Scalar, 6>>&, const Island&); \
+  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                                        \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);             \
+  template typename ContactProblem<Scalar>::Vector ExtendForces(                                              \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,              \
+      const SceneModel<Scalar, 6>&);                                                                          \
+  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                                      \
+                                            const std::vector<TouchPointInSpace<Scalar>>&,                    \
                                             const SceneModel<Scalar, 6>&, const AssembleOptions<Scalar>&)
 
 STICTION_INSTANTIATE(double);

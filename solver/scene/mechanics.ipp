@@ -20,9 +20,8 @@ inline int RootOf(std::vector<int>& parent, int i) {
 }
 
 template <class Scalar, int Dof>
-std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                        const std::vector<Constraint<Scalar, Dof>>& constraints,
-                                        bool together) {
+std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                const std::vector<Constraint<Scalar, Dof>>& constraints, bool together) {
   const int count = static_cast<int>(bodies.size());
   std::vector<int> parent(count);
   std::iota(parent.begin(), parent.end(), 0);
@@ -33,7 +32,7 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
     const auto [first, second] = constraint.bodies;
     if (!bodies[first].fixed && !bodies[second].fixed) parent[RootOf(parent, first)] = RootOf(parent, second);
   }
-  std::vector<Island<Scalar>> islands;
+  std::vector<Island> islands;
   std::vector<int> island_of(count, -1);
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const int body = member(constraints[i]);
@@ -44,6 +43,7 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
       islands.emplace_back();
     }
     islands[island].constraints.push_back(static_cast<int>(i));
+    islands[island].rows += static_cast<int>(constraints[i].rows.size());
   }
   for (int body = 0; body < count && !islands.empty(); ++body) {
     const int island = island_of[together ? 0 : RootOf(parent, body)];
@@ -52,10 +52,11 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
   return islands;
 }
 
-template <class Scalar, int Dof>
-void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
-                 Island<Scalar>& island) {
+// add(i, j, value), j <= i: what a body that can move contributes to A(i, j). The values of all bodies add up.
+template <class Scalar, int Dof, class Add>
+void ForEachEntry(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                  const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island,
+                  const Add& add) {
   using Vector = Eigen::Matrix<Scalar, Dof, 1>;
   struct Touch {
     int row;
@@ -63,41 +64,70 @@ void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
     Vector WJ;
   };
   std::vector<std::vector<Touch>> touches(bodies.size());
-  ContactProblem<Scalar>& problem = island.problem;
-  problem.dimension = dimension;
-  problem.contacts.clear();
-  int rows = 0;
+  int at = 0;
   for (const int i : island.constraints) {
-    const auto& constraint = constraints[i];
-    problem.contacts.push_back(constraint.law);
-    for (const auto& row : constraint.rows) {
+    for (const auto& row : constraints[i].rows) {
       for (int side = 0; side < 2; ++side) {
-        const int body = constraint.bodies[side];
-        if (!bodies[body].fixed) touches[body].push_back({rows, &row.J[side], bodies[body].W * row.J[side]});
+        const int body = constraints[i].bodies[side];
+        if (!bodies[body].fixed) touches[body].push_back({at, &row.J[side], bodies[body].W * row.J[side]});
       }
-      ++rows;
+      ++at;
     }
   }
-  problem.A = ContactProblem<Scalar>::Matrix::Constant(rows, rows, Scalar(0));
-  problem.b.resize(rows);
   for (const int body : island.bodies) {
     const auto& list = touches[body];
     for (std::size_t i = 0; i < list.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) problem.A(list[i].row, list[j].row) += list[i].J->dot(list[j].WJ);
+      for (std::size_t j = 0; j <= i; ++j) add(list[i].row, list[j].row, Scalar(list[i].J->dot(list[j].WJ)));
     }
   }
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < i; ++j) problem.A(j, i) = problem.A(i, j);
-  }
+}
+
+// A problem with everything but A.
+template <class Problem, class Scalar, int Dof>
+Problem WithoutMatrix(const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island) {
+  Problem problem;
+  problem.dimension = Dof == 3 ? 2 : 3;
+  problem.b.resize(island.rows);
   int at = 0;
   for (const int i : island.constraints) {
+    problem.contacts.push_back(constraints[i].law);
     for (const auto& row : constraints[i].rows) problem.b[at++] = row.b;
   }
+  return problem;
+}
+
+template <class Scalar, int Dof>
+ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                      const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                      const Island& island) {
+  auto problem = WithoutMatrix<ContactProblem<Scalar>>(constraints, island);
+  problem.A = ContactProblem<Scalar>::Matrix::Constant(island.rows, island.rows, Scalar(0));
+  ForEachEntry(bodies, constraints, island,
+               [&problem](int i, int j, const Scalar& value) { problem.A(i, j) += value; });
+  for (int i = 0; i < island.rows; ++i) {
+    for (int j = 0; j < i; ++j) problem.A(j, i) = problem.A(i, j);
+  }
+  return problem;
+}
+
+template <class Scalar, int Dof>
+SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                             const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                             const Island& island) {
+  auto problem = WithoutMatrix<SparseContactProblem<Scalar>>(constraints, island);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  ForEachEntry(bodies, constraints, island, [&entries](int i, int j, const Scalar& value) {
+    entries.emplace_back(i, j, value);
+    if (j < i) entries.emplace_back(j, i, value);
+  });
+  problem.A.resize(island.rows, island.rows);
+  problem.A.setFromTriplets(entries.begin(), entries.end());
+  return problem;
 }
 
 template <class Scalar, int Dof>
 void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island<Scalar>& island,
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island,
                  const typename ContactProblem<Scalar>::Vector& f,
                  std::vector<Eigen::Matrix<Scalar, Dof, 1>>& change) {
   int at = 0;

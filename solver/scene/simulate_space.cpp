@@ -80,6 +80,17 @@ bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<dou
   return SolveReduced(problem, solver.fast.options().tolerances, run, accept, f);
 }
 
+bool SolveSparse(SolverOf<SceneInSpace<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f) {
+  const auto has_friction = [](const auto& contact) { return contact.HasFrictionRows(); };
+  if (std::any_of(problem.contacts.begin(), problem.contacts.end(), has_friction)) return false;
+  SparseContactProblem<double> planar = problem;  // one row each, as in the plane
+  planar.dimension = 2;
+  if (solver.proximal.Run(planar).outcome != Outcome::kSolved) return false;
+  f = solver.proximal.f();
+  return true;
+}
+
 template class SimulationOf<SceneInSpace<double>>;
 
 Energy EnergyOf(const SceneInSpace<double>& scene) {

@@ -280,10 +280,10 @@ struct Solved {
 Solved SolveScene(const SceneInSpace<Rational>& scene) {
   Solved solved;
   solved.model = Assemble(scene, FindContacts(scene));
-  for (const auto& island : solved.model.islands) {
+  for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
     SpaceOptions options;
     options.law = FrictionLaw::kCoulomb;
-    const SpaceSolution solution = SolveInSpace(island.problem, options);
+    const SpaceSolution solution = SolveInSpace(solved.model.Problem(i), options);
     REQUIRE(solution.outcome == Outcome::kSolved);
     solved.f.push_back(solution.f);
     solved.bound = std::min(solved.bound, solution.bound);
@@ -356,17 +356,19 @@ TEST_CASE(
     INFO(name);
     const auto scene = NamedScene(name);
     const auto solved = SolveScene(scene);
-    for (const auto& island : solved.model.islands) {
-      CHECK(IsSymmetric(island.problem));
-      CHECK(IsPositiveSemidefinite(island.problem));
-      CHECK(IsInRange(island.problem));
+    for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
+      const ExactProblem problem = solved.model.Problem(i);
+      CHECK(IsSymmetric(problem));
+      CHECK(IsPositiveSemidefinite(problem));
+      CHECK(IsInRange(problem));
+      CHECK(ExactMatrix(solved.model.SparseProblem(i).A) == problem.A);
     }
     AssembleOptions<Rational> options;
     options.minimal = false;
     const auto full = Assemble(scene, FindContacts(scene), options);
     REQUIRE(full.islands.size() == 1);
     const ExactVector all = ExtendForces(solved.model, solved.f, full);
-    CHECK(FindCoulombViolation(full.islands[0].problem, all, solved.bound).value_or("") == "");
+    CHECK(FindCoulombViolation(full.Problem(0), all, solved.bound).value_or("") == "");
     CHECK(BodyAccelerations(full, {all}) == solved.accelerations);
   }
 }
@@ -392,7 +394,7 @@ TEST_CASE(
   options.minimal = false;
   const auto full = Assemble(scene, FindContacts(scene), options);
   const ExactVector all = ExtendForces(solved.model, solved.f, full);
-  CHECK(FindCoulombViolation(full.islands[0].problem, all, 1).value_or("") == "");
+  CHECK(FindCoulombViolation(full.Problem(0), all, 1).value_or("") == "");
   scene.mu = 1;
   CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
   scene.mu = 0;
