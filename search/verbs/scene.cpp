@@ -240,7 +240,7 @@ class SimulationProgress {
     bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Thousands(done),
                                     Thousands(steps), left));
   }
-  void Finish() const { bar_.Clear(); }
+  ~SimulationProgress() { bar_.Clear(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -267,7 +267,6 @@ void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a
     writer.AddState(simulation);
     progress.Show(k + 1, steps, simulation.time());
   }
-  progress.Finish();
   writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
 }
 
