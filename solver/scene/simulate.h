@@ -64,6 +64,7 @@ struct SimulationOptions {
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
+  int halvings = 10;                            // of a step, one within the other; 0: none
   FastOptions fast;                             // in the plane, and without friction
   CoulombOptions coulomb = WithResidual(1e-7);  // in space
 };
@@ -80,6 +81,8 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
+  std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
+  std::int64_t deep = 0;         // frames that ran out of halvings
 
   bool operator==(const SimulationStatistics&) const = default;
 };
@@ -98,6 +101,8 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
+  visit("halved", "steps that ended too deep and were done in two halves", s.halved);
+  visit("deep", "frames that ran out of halvings", s.deep);
 }
 
 // A problem that a frame met, and where.
@@ -173,9 +178,13 @@ class SimulationOf {
   using Forces = std::vector<ContactProblem<double>::Vector>;
   using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
 
+  void StepBy(double h, int halvings);
+  void TakeStep();
+  double Overlap() const;
   Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
+  void FindNear();
   void FindStepContacts();
   bool AddClosing(const Changes& accelerations);
   Changes Response(const Model& model, const Forces& f) const;
@@ -193,6 +202,10 @@ class SimulationOf {
   std::function<void(const FrameProblem&)> observe_;
   tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
   SimulationStatistics statistics_;
+  double step_ = 0;          // that is being taken: options_.step or a part of it
+  bool exhausted_ = false;   // no halvings are left in this frame
+  std::vector<Touch> near_;  // all that may touch within a step from the present state
+  bool is_near_known_ = false;
   std::vector<Touch> contacts_;
   std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
   std::vector<Applied> forces_;
