@@ -110,6 +110,9 @@ class CoulombSolver {
   bool Newton();
   void Approach();
   bool LineSearch(const Vector& map, const Vector& step);
+  void FollowPath();
+  Vector SmoothMap(const Vector& f, const Scalar& m, Matrix* slope) const;
+  bool SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope);
   void Note();
   Vector Answer(const Vector& f) const;
   Vector Map(const Vector& f, const Vector& a) const;
