@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
@@ -52,6 +53,7 @@ void CoulombSolver<Scalar>::Start(const Problem& problem) {
     first_row_.push_back(row + size);
   }
   rho_ = 0;
+  followed_ = false;
   f_ = Vector::Zero(problem.rows());
   best_f_ = f_;
   best_a_ = problem.b;
@@ -84,11 +86,9 @@ void CoulombSolver<Scalar>::Improve() {
   if (problem_->rows() == 0) return;
   Newton();
   int count = options_.sweeps;
-  bool followed = false;
   for (int round = 0; round < kRounds && !Reached(); ++round, count *= 4) {
     if (count > problem_->rows()) {
-      if (!followed) FollowPath();
-      followed = true;
+      FollowPath();
       Approach();
     }
     if (Reached()) return;
@@ -210,10 +210,12 @@ void CoulombSolver<Scalar>::Approach() {
   if (Reached()) Newton();
 }
 
-// The smoothed law for m from the size of b's forces downward, each by Newton's method from the last.
+// The smoothed laws with m from the size of b's forces downward, each by Newton's method from the last; then
+// the best point that was met.
 template <class Scalar>
 void CoulombSolver<Scalar>::FollowPath() {
-  constexpr int kMostSteps = 300, kStepsEach = 10, kFew = 2;
+  constexpr int kMostSteps = 1000, kStepsEach = 60, kFew = 2;
+  if (std::exchange(followed_, true)) return;
   const Scalar largest = problem_->b.cwiseAbs().maxCoeff() / problem_->A.diagonal().maxCoeff();
   const std::int64_t end = statistics_.newton_steps + kMostSteps;
   f_.setZero();
@@ -233,14 +235,13 @@ void CoulombSolver<Scalar>::FollowPath() {
   Newton();
 }
 
-// A step of Newton's method; it may make the map somewhat larger, as curved paths ask for. False if there is
-// none.
+// A step of Newton's method, which may make the map larger; false if there is none.
 template <class Scalar>
 bool CoulombSolver<Scalar>::SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope) {
   ++statistics_.newton_steps;
   const Vector step = slope.partialPivLu().solve(-map);
   if (!step.allFinite()) return false;
-  const Scalar most = 5 * map.norm();
+  const Scalar most = 20 * map.norm();
   for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
     const Vector f = f_ + t * step;
     if (!(SmoothMap(f, m, nullptr).norm() < most)) continue;

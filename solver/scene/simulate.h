@@ -21,12 +21,21 @@
 // velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
 // counted.
 //
+// Overlap. Contacts are predicted from the features that are near at the start of a step, to first order: a
+// body that turns fast, an edge that gives way to a face, a corner behind another leave overlap that speeds and
+// steps set. A step that ends deeper than the gap (1 mm in a scene without), and deeper than it began, is taken
+// back and done in two halves, and they likewise, SimulationOptions::halvings times one within the other. So no
+// frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings, and what was left of it
+// was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
+// were taken back too, and all counters but `frames` and `contacts` count them.
+//
 // Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
 // in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
 // f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
 // promised: the answer need not be the solution nearest to f = 0.
 //
-// Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
+// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual) ends the
+// simulation: SimulationError.
 // Cost. For each island one problem of forces, another for every time that contacts come to rest within the
 // step, one of positions where there are joints, one of impulses in a collision; dense in the rows of an
 // island.
@@ -49,8 +58,12 @@ namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
 
-// In space a problem need not be solved as far as rounding allows, and cannot always: contacts lie close to
-// each other in a heap. What is not solved to the residual of the options is accepted to this one, and counted.
+// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
+// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
+// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
+// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
+// tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
+// is accepted to this one, and counted.
 inline constexpr double kLooseResidual = 1e-5;
 
 inline CoulombOptions WithResidual(double residual) {
@@ -162,8 +175,8 @@ class SimulationOf {
   explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
                         std::function<void(const FrameProblem&)> observe = {});
 
-  // One step. SimulationError if a problem is not solved; the state is then that of the frame's start, but for
-  // corrected positions and impulses.
+  // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
+  // of the part of it that failed, but for corrected positions and impulses.
   void Step();
 
   const SceneType& scene() const { return scene_; }
