@@ -210,8 +210,8 @@ void CoulombSolver<Scalar>::Approach() {
   if (Reached()) Newton();
 }
 
-// The smoothed laws with m from the size of b's forces downward, each by Newton's method from the last; then
-// the best point that was met.
+// The smoothed laws with m from a tenth of the forces that b asks for downward, each by Newton's method from
+// the last; then the best point that was met.
 template <class Scalar>
 void CoulombSolver<Scalar>::FollowPath() {
   constexpr int kMostSteps = 1000, kStepsEach = 60, kFew = 2;
@@ -220,7 +220,7 @@ void CoulombSolver<Scalar>::FollowPath() {
   const std::int64_t end = statistics_.newton_steps + kMostSteps;
   f_.setZero();
   Matrix slope;
-  for (Scalar m = largest; m > Scalar(1e-9) * largest && statistics_.newton_steps < end;) {
+  for (Scalar m = largest / 10; m > Scalar(1e-9) * largest && statistics_.newton_steps < end;) {
     int steps = 0;
     for (; steps < kStepsEach && !Reached(); ++steps) {
       const Vector map = SmoothMap(f_, m, &slope);
