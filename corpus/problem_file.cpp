@@ -257,6 +257,30 @@ Json NumbersToJson(const Numbers& numbers) {
   return json;
 }
 
+Json RowsToJson(const Matrix& A) {
+  Json json = Json::array();
+  for (int i = 0; i < A.rows(); ++i) json.push_back(NumbersToJson(A.row(i)));
+  return json;
+}
+
+// Large, symmetric, and mostly zeros.
+bool IsBestSparse(const Matrix& A) {
+  constexpr int kSmall = 64;
+  const auto rows = A.rows();
+  return rows > kSmall && 4 * (A.array() != Rational(0)).count() <= rows * rows && A == A.transpose();
+}
+
+// The entries on and below the diagonal that are not zero, row by row.
+Json EntriesToJson(const Matrix& A) {
+  Json entries = Json::array();
+  for (int i = 0; i < A.rows(); ++i) {
+    for (int j = 0; j <= i; ++j) {
+      if (A(i, j) != 0) entries.push_back(Json::array({i, j, ToString(A(i, j))}));
+    }
+  }
+  return {{"size", A.rows()}, {"entries", std::move(entries)}};
+}
+
 // `{"key": value, "key": value}`, spaced for people.
 std::string ObjectOnOneLine(const Json& object) {
   std::vector<std::string> members;
@@ -282,6 +306,8 @@ std::string Indented(const Json& value) {
 }
 
 std::string PrintedValue(const std::string& key, const Json& value) {
+  if (key == "A" && value.is_object())
+    return fmt::format(R"({{"size": {}, "entries": {}}})", value["size"].dump(), LinePerItem(value["entries"]));
   if (key == "contacts" || key == "A") return LinePerItem(value);
   if (key == "scene" || key == "origin" || key == "expect") return Indented(value);
   return JsonText(value);
@@ -340,8 +366,7 @@ Json ProblemToJson(const ExactProblem& problem) {
   json["contacts"] = Json::array();
   for (const auto& contact : problem.contacts)
     json["contacts"].push_back(ContactToJson(contact, problem.dimension));
-  json["A"] = Json::array();
-  for (int i = 0; i < problem.rows(); ++i) json["A"].push_back(NumbersToJson(problem.A.row(i)));
+  json["A"] = IsBestSparse(problem.A) ? EntriesToJson(problem.A) : RowsToJson(problem.A);
   json["b"] = NumbersToJson(problem.b);
   return json;
 }

@@ -45,7 +45,8 @@ ProblemFile ParseProblem(std::string_view text, const std::string& source);
 ProblemFile ReadProblem(const std::filesystem::path& file);
 
 // Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
-// InternalError. Every number of the problem is an exact string, A is in dense rows.
+// InternalError. Every number of the problem is an exact string. A is in rows, or, where it is symmetric with
+// more than 64 rows and at most a quarter of its entries are not zero, in entries.
 //
 // The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
 Json ProblemToJson(const ExactProblem& problem);

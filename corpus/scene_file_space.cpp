@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene files of dimension 3.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,6 +12,7 @@ namespace {
 
 using Vector = Vector3<Rational>;
 
+constexpr std::array<std::string_view, 4> kJointNames = {"ball", "hinge", "rail", "slider"};
 const std::string kTriple = "three numbers [x, y, z]";
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -113,8 +115,19 @@ void ReadMass(const JsonPlace& place, BodyInSpace<Rational>& body) {
     }
     return;
   }
+  if (const auto given = place.Optional("acceleration"))
+    given->Refuse("no acceleration of a body that is not fixed");
   body.mass = Positive(place.Required("mass", "the mass, a number > 0"));
   body.inertia = inertia ? ReadInertia(*inertia) : UniformInertia(place, body);
+}
+
+Quaternion<Rational> ReadQuaternion(const JsonPlace& place) {
+  const std::string expected = "a quaternion [w, x, y, z], not zero";
+  if (place.Size(expected) != 4) place.Refuse(expected);
+  Quaternion<Rational> q;
+  for (std::size_t i = 0; i < 4; ++i) q[static_cast<int>(i)] = ExactNumber(place[i]);
+  if (q.squaredNorm() == 0) place.Refuse(expected);
+  return q;
 }
 
 // "rotation": a quaternion [w, x, y, z]; or "axis" and "angle" in radians.
@@ -122,14 +135,7 @@ Quaternion<Rational> ReadRotation(const JsonPlace& place) {
   const auto rotation = place.Optional("rotation"), axis = place.Optional("axis"),
              angle = place.Optional("angle");
   if (rotation && (axis || angle)) rotation->Refuse("a rotation, or an axis and an angle, not both");
-  if (rotation) {
-    const std::string expected = "a quaternion [w, x, y, z], not zero";
-    if (rotation->Size(expected) != 4) rotation->Refuse(expected);
-    Quaternion<Rational> q;
-    for (std::size_t i = 0; i < 4; ++i) q[static_cast<int>(i)] = ExactNumber((*rotation)[i]);
-    if (q.squaredNorm() == 0) rotation->Refuse(expected);
-    return q;
-  }
+  if (rotation) return ReadQuaternion(*rotation);
   if (!axis && !angle) return MakeQuaternion<Rational>(Rational(1), Zero3<Rational>());
   const double half = ToDouble(ExactNumber(place.Required("angle", "an angle about the axis, rad"))) / 2;
   const Vector direction = ReadDirection(place.Required("axis", "an axis [x, y, z] of the angle"));
@@ -139,7 +145,7 @@ Quaternion<Rational> ReadRotation(const JsonPlace& place) {
 BodyInSpace<Rational> ReadBody(const JsonPlace& place) {
   place.RequireObject();
   place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "axis", "angle", "velocity",
-                   "spin", "force", "torque", "shapes", "level"});
+                   "spin", "acceleration", "force", "torque", "shapes", "level"});
   BodyInSpace<Rational> body;
   body.name = place.Required("name", "a name").Text("a name");
   if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
@@ -149,6 +155,7 @@ BodyInSpace<Rational> ReadBody(const JsonPlace& place) {
   if (const auto position = place.Optional("position")) body.position = ReadVector(*position);
   if (const auto velocity = place.Optional("velocity")) body.velocity = ReadVector(*velocity);
   if (const auto spin = place.Optional("spin")) body.spin = ReadVector(*spin);
+  if (const auto acceleration = place.Optional("acceleration")) body.acceleration = ReadVector(*acceleration);
   if (const auto force = place.Optional("force")) body.force = ReadVector(*force);
   if (const auto torque = place.Optional("torque")) body.torque = ReadVector(*torque);
   if (const auto level = place.Optional("level"))
@@ -173,14 +180,39 @@ void ReadAnchors(const SceneInSpace<Rational>& scene, const JsonPlace& place, It
   item.at_b = ReadVector((*anchors)[1]);
 }
 
-BallJoint<Rational> ReadJoint(const SceneInSpace<Rational>& scene, const JsonPlace& place) {
+// A direction of the world, or in the coordinates of b.
+Vector DirectionSeenFrom(const BodyInSpace<Rational>& b, const JsonPlace& place, const std::string& world,
+                         const std::string& local) {
+  if (const auto found = place.Optional(local)) {
+    if (place.Optional(world)) found->Refuse('"' + world + "\" or \"" + local + "\", not both");
+    return ReadDirection(*found);
+  }
+  const Vector direction = ReadDirection(place.Required(world, "a direction [x, y, z]"));
+  return RotationMatrix<Rational>(b.rotation).transpose() * direction;
+}
+
+JointInSpace<Rational> ReadJoint(const SceneInSpace<Rational>& scene, const JsonPlace& place) {
   place.RequireObject();
-  place.AllowKeys({"kind", "bodies", "at", "anchors"});
-  const JsonPlace kind = place.Required("kind", "ball");
-  if (kind.Text("ball") != "ball") kind.Refuse("ball");
-  BallJoint<Rational> joint;
+  place.AllowKeys({"kind", "bodies", "at", "anchors", "direction", "axis", "turn"});
+  const std::string kinds = "ball, hinge, rail or slider";
+  const JsonPlace named = place.Required("kind", kinds);
+  const auto kind = std::find(kJointNames.begin(), kJointNames.end(), named.Text(kinds));
+  if (kind == kJointNames.end()) named.Refuse(kinds);
+  JointInSpace<Rational> joint;
+  joint.kind = static_cast<JointKindInSpace>(kind - kJointNames.begin());
   std::tie(joint.a, joint.b) = ReadPair(scene, place);
   ReadAnchors(scene, place, joint);
+  const bool ball = joint.kind == JointKindInSpace::kBall, rail = joint.kind == JointKindInSpace::kRail;
+  for (const char* key : {"direction", "axis", "turn"}) {
+    const auto given = place.Optional(key);
+    if (given && (ball || (rail && key == std::string_view("turn"))))
+      given->Refuse(std::string("no ") + key + " of a " + named.Text(kinds));
+  }
+  const BodyInSpace<Rational>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  joint.direction = ball ? Zero3<Rational>() : DirectionSeenFrom(b, place, "direction", "axis");
+  const auto turn = place.Optional("turn");
+  joint.relative_rotation =
+      turn ? ReadQuaternion(*turn) : Product<Rational>(Conjugate<Rational>(b.rotation), a.rotation);
   return joint;
 }
 
@@ -190,11 +222,7 @@ GivenContactInSpace<Rational> ReadContact(const SceneInSpace<Rational>& scene, c
   GivenContactInSpace<Rational> contact;
   std::tie(contact.a, contact.b) = ReadPair(scene, place);
   ReadAnchors(scene, place, contact);
-  const auto axis = place.Optional("axis");
-  if (axis && place.Optional("normal")) axis->Refuse(R"("normal" or "axis", not both)");
-  contact.normal = axis ? ReadDirection(*axis)
-                        : Vector(RotationMatrix<Rational>(scene.bodies[contact.b].rotation).transpose() *
-                                 ReadDirection(place.Required("normal", "a direction [x, y, z]")));
+  contact.normal = DirectionSeenFrom(scene.bodies[contact.b], place, "normal", "axis");
   return contact;
 }
 
@@ -218,6 +246,7 @@ Json BodyJson(const BodyInSpace<Rational>& body) {
   Json json = {{"name", body.name}};
   if (body.fixed) {
     json["fixed"] = true;
+    json["acceleration"] = NumbersJson(body.acceleration);
   } else {
     json["mass"] = ToString(body.mass);
     json["inertia"] = Json::array();
@@ -239,6 +268,15 @@ template <class Item>
 Json AnchoredJson(const SceneInSpace<Rational>& scene, const Item& item) {
   return {{"bodies", PairJson(scene, item)},
           {"anchors", Json::array({NumbersJson(item.at_a), NumbersJson(item.at_b)})}};
+}
+
+Json JointJson(const SceneInSpace<Rational>& scene, const JointInSpace<Rational>& joint) {
+  Json json = {{"kind", kJointNames[static_cast<int>(joint.kind)]}};
+  json.update(AnchoredJson(scene, joint));
+  if (joint.kind != JointKindInSpace::kBall) json["axis"] = NumbersJson(joint.direction);
+  if (joint.kind == JointKindInSpace::kHinge || joint.kind == JointKindInSpace::kSlider)
+    json["turn"] = NumbersJson(joint.relative_rotation);
+  return json;
 }
 
 }  // namespace
@@ -264,11 +302,7 @@ Json ToJson(const SceneFileInSpace& file) {
   const SceneInSpace<Rational>& scene = file.scene;
   Json json = SceneJson(file, 3, NumbersJson(scene.gravity));
   for (const auto& body : scene.bodies) json["bodies"].push_back(BodyJson(body));
-  for (const auto& joint : scene.joints) {
-    Json joint_json = {{"kind", "ball"}};
-    joint_json.update(AnchoredJson(scene, joint));
-    json["joints"].push_back(std::move(joint_json));
-  }
+  for (const auto& joint : scene.joints) json["joints"].push_back(JointJson(scene, joint));
   for (const auto& contact : scene.contacts) {
     Json contact_json = AnchoredJson(scene, contact);
     contact_json["axis"] = NumbersJson(contact.normal);

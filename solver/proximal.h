@@ -21,30 +21,15 @@
 #ifndef STICTION_SOLVER_PROXIMAL_H_
 #define STICTION_SOLVER_PROXIMAL_H_
 
-#include <Eigen/SparseCore>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "solver/complete.h"
-#include "solver/problem.h"
 #include "solver/residual.h"
+#include "solver/sparse_problem.h"
 
 namespace stiction {
-
-// ContactProblem with a sparse A.
-template <class Scalar>
-struct SparseContactProblem {
-  using Matrix = Eigen::SparseMatrix<Scalar>;
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-
-  int dimension = 2;
-  std::vector<Contact<Scalar>> contacts;
-  Matrix A;
-  Vector b;
-
-  int rows() const { return static_cast<int>(b.size()); }
-};
 
 struct ProximalOptions {
   double residual = 1e-8;  // largest natural residual of an answer that is called solved, relative to b

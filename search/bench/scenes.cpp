@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench --suite scenes: frames a second with the whole frame counted, and what the minimal model saves.
+// bench --suite scenes: frames a second with the whole frame counted, and what the minimal model, or more
+// threads, save.
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -19,21 +21,35 @@ namespace {
 
 constexpr std::int64_t kFrames = 600;  // at most, of one run
 
-struct Measured {
-  std::vector<double> rates;      // frames a second, of each run; sorted at the end
-  double rows = 0, problems = 0;  // of a frame
-  std::string failure;
-
-  double least() const { return rates.empty() ? 0 : rates.front(); }
-  double median() const { return rates.empty() ? 0 : rates[rates.size() / 2]; }
-  double most() const { return rates.empty() ? 0 : rates.back(); }
+// One side of the table.
+struct Way {
+  std::string name;
+  bool minimal = true;
+  int threads = 1;
 };
 
+struct Measured {
+  std::vector<double> rates;      // frames a second, of each run
+  double rows = 0, problems = 0;  // of a frame
+  std::string failure;
+};
+
+struct Spread {
+  double least = 0, median = 0, most = 0;
+};
+
+Spread SpreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  return {values.front(), values[values.size() / 2], values.back()};
+}
+
 template <class ExactScene>
-void RunOnce(const SceneFileOf<ExactScene>& file, bool minimal, Measured& measured) {
+void RunOnce(const SceneFileOf<ExactScene>& file, const Way& way, Measured& measured) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, way.threads);
   SimulationOptions options;
   options.step = ToDouble(file.step);
-  options.minimal = minimal;
+  options.minimal = way.minimal;
   const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / options.step), 1, kFrames);
   const auto scene = Round(file.scene);
   SimulationOf<std::remove_const_t<decltype(scene)>> simulation(scene, options);
@@ -50,30 +66,61 @@ void RunOnce(const SceneFileOf<ExactScene>& file, bool minimal, Measured& measur
   measured.problems = static_cast<double>(simulation.statistics().problems) / static_cast<double>(frames);
 }
 
-// Minimal and full models by turns, so that what else the machine does meets both.
+// Both ways by turns, so that what else the machine does meets both.
+struct Pair {
+  Measured first, second;
+  Spread ratio;  // of the rates of a turn, first to second
+
+  std::string failure() const { return first.failure.empty() ? second.failure : first.failure; }
+};
+
 template <class ExactScene>
-std::pair<Measured, Measured> Measure(const SceneFileOf<ExactScene>& file, int repeat) {
-  Measured minimal, full;
+Pair Measure(const SceneFileOf<ExactScene>& file, const std::array<Way, 2>& ways, int repeat) {
+  Pair pair;
   for (int run = 0; run < repeat; ++run) {
-    RunOnce(file, true, minimal);
-    RunOnce(file, false, full);
+    RunOnce(file, ways[0], pair.first);
+    RunOnce(file, ways[1], pair.second);
   }
-  std::sort(minimal.rates.begin(), minimal.rates.end());
-  std::sort(full.rates.begin(), full.rates.end());
-  return {minimal, full};
+  if (!pair.failure().empty()) return pair;
+  std::vector<double> ratios;
+  for (int run = 0; run < repeat; ++run) ratios.push_back(pair.first.rates[run] / pair.second.rates[run]);
+  pair.ratio = SpreadOf(std::move(ratios));
+  return pair;
 }
+
+Json ToJson(const Spread& s) { return {{"least", s.least}, {"median", s.median}, {"most", s.most}}; }
 
 Json ToJson(const Measured& m) {
   if (!m.failure.empty()) return {{"failure", m.failure}};
-  return {{"frames_a_second", {{"least", m.least()}, {"median", m.median()}, {"most", m.most()}}},
-          {"rows", m.rows},
-          {"problems", m.problems}};
+  return {{"frames_a_second", ToJson(SpreadOf(m.rates))}, {"rows", m.rows}, {"problems", m.problems}};
+}
+
+void PrintHead(const std::array<Way, 2>& ways) {
+  fmt::print(
+      "frames a second, contacts, assembly and solving counted: median (least - most); rows and problems of a\n"
+      "frame; ratio of the first to the second, run by turns\n");
+  fmt::print("{:24} {:>32} {:>6} {:>6} | {:>32} {:>6} {:>6} | {}\n", "scene", ways[0].name, "rows", "prob.",
+             ways[1].name, "rows", "prob.", "ratio");
+}
+
+void PrintRow(const std::string& name, const Pair& pair) {
+  if (!pair.failure().empty()) {
+    fmt::print("{:24} {}\n", name, pair.failure());
+    return;
+  }
+  const auto rates = [](const Measured& m) {
+    const Spread rate = SpreadOf(m.rates);
+    return fmt::format("{:.0f} ({:.0f} - {:.0f})", rate.median, rate.least, rate.most);
+  };
+  fmt::print("{:24} {:>32} {:>6.1f} {:>6.2f} | {:>32} {:>6.1f} {:>6.2f} | {:.2f} ({:.2f} - {:.2f})\n", name,
+             rates(pair.first), pair.first.rows, pair.first.problems, rates(pair.second), pair.second.rows,
+             pair.second.problems, pair.ratio.median, pair.ratio.least, pair.ratio.most);
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 int BenchScenes(const BenchOptions& o) {
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   std::error_code error;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(o.scenes, error)) {
@@ -82,28 +129,20 @@ int BenchScenes(const BenchOptions& o) {
   if (error || files.empty())
     throw InputError(fmt::format("{}: found no scenes, expected a folder of stiction-scene files", o.scenes));
   std::sort(files.begin(), files.end());
+  std::array<Way, 2> ways = {Way{"minimal", true, 1}, Way{"full", false, 1}};
+  if (o.threads > 1)
+    ways = {Way{fmt::format("{} threads", o.threads), true, o.threads}, Way{"1 thread", true, 1}};
   Json rows = Json::array();
-  if (!o.json) {
-    fmt::print(
-        "frames a second of one thread, contacts, assembly and solving counted; rows and problems of a frame\n"
-        "{:24} {:>10} {:>24} {:>6} {:>6} | {:>10} {:>6} {:>6} | {:>8}\n",
-        "scene", "minimal", "(least - most)", "rows", "prob.", "full", "rows", "prob.", "min/full");
-  }
+  if (!o.json) PrintHead(ways);
   for (const auto& path : files) {
     const auto file = ReadAnyScene(path);
     const auto name = std::visit([](const auto& of) { return of.scene.name; }, file);
-    const auto [minimal, full] = std::visit([&o](const auto& of) { return Measure(of, o.repeat); }, file);
-    rows.push_back({{"scene", name}, {"minimal", ToJson(minimal)}, {"full", ToJson(full)}});
-    if (o.json) continue;
-    if (!minimal.failure.empty() || !full.failure.empty()) {
-      fmt::print("{:24} {}\n", name, minimal.failure.empty() ? full.failure : minimal.failure);
-      continue;
-    }
-    fmt::print("{:24} {:>10.0f} {:>24} {:>6.1f} {:>6.2f} | {:>10.0f} {:>6.1f} {:>6.2f} | {:>8.2f}\n", name,
-               minimal.median(), fmt::format("({:.0f} - {:.0f})", minimal.least(), minimal.most()),
-               minimal.rows, minimal.problems, full.median(), full.rows, full.problems,
-               minimal.median() / full.median());
-    std::fflush(stdout);
+    const Pair pair = std::visit([&](const auto& of) { return Measure(of, ways, o.repeat); }, file);
+    rows.push_back({{"scene", name},
+                    {ways[0].name, ToJson(pair.first)},
+                    {ways[1].name, ToJson(pair.second)},
+                    {"ratio", ToJson(pair.ratio)}});
+    if (!o.json) PrintRow(name, pair);
   }
   if (o.json) std::cout << JsonText(rows) << "\n";
   return 0;

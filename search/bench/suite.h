@@ -21,6 +21,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::optional<GeneratorId> generator;  // empty: the suite's own
   std::string scenes = "corpus/scenes";  // folder
+  int threads = 1;                       // of a simulation
   bool json = false;
 };
 
@@ -42,7 +43,8 @@ int BenchSpace(const BenchOptions& options);
 // The published algorithm where contacts slide (sliding.cpp).
 int BenchSliding(const BenchOptions& options);
 
-// The scenes of a folder, minimal and full models side by side (scenes.cpp). InputError if there are none.
+// The scenes of a folder, side by side the minimal and the full model, or one thread and more (scenes.cpp).
+// InputError if there are none.
 int BenchScenes(const BenchOptions& options);
 
 }  // namespace stiction

@@ -89,7 +89,9 @@ constexpr std::array kSuites = {
           BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
     Suite{"sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts, BenchSliding},
-    Suite{"scenes", "frames a second of the scenes of a folder, minimal and full models", kMaxContacts, BenchScenes},
+    Suite{"scenes",
+          "frames a second of the scenes of a folder, minimal and full models, or one thread and more",
+          kMaxContacts, BenchScenes},
 };
 
 int RunBench(const BenchOptions& o) {
@@ -141,6 +143,9 @@ void AddBench(CLI::App& program, Action& action) {
           "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
   verb.add_option("--scenes", o->scenes, "scenes: the folder")->capture_default_str();
+  verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return RunBench(*o); }; });
 }

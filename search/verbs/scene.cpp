@@ -5,12 +5,16 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <set>
 
 #include "corpus/scene_file.h"
+#include "search/summary.h"
 #include "search/verbs/verbs.h"
 #include "solver/scene/draw_space.h"
 
@@ -60,7 +64,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
   }
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     ProblemFile problem;
-    problem.problem = model.islands[i].problem;
+    problem.problem = model.Problem(i);
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
@@ -139,41 +143,55 @@ auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source)
   return scene;
 }
 
-// The folder with what a run writes.
+// The folder with what a run writes. Tables grow as the run goes; pictures, which share a view, come at its
+// end.
 template <class SceneType>
 class SimulationWriter {
  public:
-  explicit SimulationWriter(const SimulateCommand& o) : o_(o) {
+  using Picture = typename DrawingOf<SceneType>::FrameType;
+
+  explicit SimulationWriter(const SimulateCommand& o)
+      : o_(o), energy_file_(fs::path(o.output) / "energy.csv"), drift_file_(fs::path(o.output) / "drift.csv") {
     MakeFolder(o.output);
     if (o.svg) MakeFolder(fs::path(o.output) / "frames");
     if (!o.problems.empty()) MakeFolder(o.problems);
     RemoveOlder();
+    energy_.open(energy_file_);
+    drift_.open(drift_file_);
+    energy_ << "time_s,kinetic_J,potential_J,total_J\n";
+    drift_ << "time_s,joints_m,overlap_m\n";
+    Flush();
   }
 
-  void Add(const SimulationOf<SceneType>& simulation, bool shown) {
+  void AddState(const SimulationOf<SceneType>& simulation) {
     const Energy energy = EnergyOf(simulation.scene());
     const Drift drift = DriftOf(simulation.scene());
-    energy_ += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
+    energy_ << fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
                            energy.potential, energy.total());
-    drift_ += fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
+    drift_ << fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
     worst_.joints = std::max(worst_.joints, drift.joints);
     worst_.overlap = std::max(worst_.overlap, drift.overlap);
-    if (!shown) return;
-    view_.Include(simulation.scene());
-    frames_.push_back(Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
   }
 
-  void Write(const SceneType& scene) {
+  // What has been added reaches the files, up to this picture.
+  void AddPicture(const SceneType& scene, Picture picture) {
+    view_.Include(scene);
+    pictures_.push_back(std::move(picture));
+    Flush();
+  }
+
+  void WritePictures(const SceneType& scene) {
     const fs::path folder(o_.output);
     view_.AddMargin();
-    WriteText((folder / "energy.csv").string(), energy_);
-    WriteText((folder / "drift.csv").string(), drift_);
+    std::vector<double> largest;
+    for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
+    const double newton = ForceScale(view_, std::move(largest));
     WriteText((folder / "animation.html").string(),
-              DrawAnimation(scene, view_, frames_, static_cast<double>(o_.frames_a_second)));
+              DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
     SceneType moved = scene;
-    for (std::size_t k = 0; o_.svg && k < frames_.size(); ++k) {
-      SetPoses(moved, frames_[k]);
-      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, frames_[k].marks));
+    for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
+      SetPoses(moved, pictures_[k]);
+      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, pictures_[k].marks, newton));
     }
   }
 
@@ -186,6 +204,7 @@ class SimulationWriter {
   void RemoveOlder() const {
     const fs::path folder(o_.output);
     fs::remove(folder / "undecided.json");
+    fs::remove(folder / "animation.html");
     for (std::size_t k = 0; fs::remove(folder / "frames" / FrameName(k)); ++k) continue;
   }
 
@@ -196,13 +215,68 @@ class SimulationWriter {
       throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
   }
 
+  void Flush() {
+    if (!energy_.flush()) throw InputError(fmt::format("{}: cannot be written", energy_file_.string()));
+    if (!drift_.flush()) throw InputError(fmt::format("{}: cannot be written", drift_file_.string()));
+  }
+
   const SimulateCommand& o_;
-  std::string energy_ = "time_s,kinetic_J,potential_J,total_J\n";
-  std::string drift_ = "time_s,joints_m,overlap_m\n";
+  fs::path energy_file_, drift_file_;
+  std::ofstream energy_, drift_;
   Drift worst_;
   typename DrawingOf<SceneType>::ViewType view_;
-  std::vector<typename DrawingOf<SceneType>::FrameType> frames_;
+  std::vector<Picture> pictures_;
 };
+
+// About twice a second, of runs that take more than that.
+class SimulationProgress {
+ public:
+  void Show(std::int64_t done, std::int64_t steps, double time) {
+    const auto now = Clock::now();
+    if (!bar_.IsShown() || now - shown_ < std::chrono::milliseconds(500)) return;
+    shown_ = now;
+    const double fraction = static_cast<double>(done) / static_cast<double>(steps);
+    const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;
+    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Thousands(done),
+                                    Thousands(steps), left));
+  }
+  ~SimulationProgress() { bar_.Clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ProgressBar bar_;
+  Clock::time_point start_ = Clock::now(), shown_ = start_;
+};
+
+// All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
+// the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
+// before it.
+template <class SceneType>
+void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a_second,
+         const std::atomic<bool>& interrupted, SimulationWriter<SceneType>& writer) {
+  SimulationProgress progress;
+  double next = 0;  // picture, s
+  writer.AddState(simulation);
+  for (std::int64_t k = 0; k < steps && !interrupted; ++k) {
+    const bool shown = simulation.time() >= next - 1e-9;
+    if (shown) next += 1.0 / pictures_a_second;
+    const double time = simulation.time();
+    const std::optional<SceneType> start = shown ? std::optional(simulation.scene()) : std::nullopt;
+    simulation.Step();
+    if (start) writer.AddPicture(*start, Record(*start, time, MarksOf(simulation)));
+    writer.AddState(simulation);
+    progress.Show(k + 1, steps, simulation.time());
+  }
+  writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
+}
+
+void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const std::string& folder) {
+  ForEachField(statistics, [](const char* name, const char* help, std::int64_t value) {
+    fmt::print("{:12} {:>10}   {}\n", name, value, help);
+  });
+  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", worst.joints, worst.overlap,
+             (fs::path(folder) / "animation.html").string());
+}
 
 template <class ExactScene>
 int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
@@ -225,30 +299,27 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
       WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
     };
   }
+  const std::atomic<bool>& interrupted = Interruption();
   SimulationOf<SceneType> simulation(scene, options, observe);
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
-  double next = 0;
   try {
-    for (std::int64_t k = 0; k < steps; ++k) {
-      const bool shown = simulation.time() >= next - 1e-9;
-      if (shown) next += 1.0 / o.frames_a_second;
-      if (k == 0) writer.Add(simulation, shown);
-      simulation.Step();
-      writer.Add(simulation, k == 0 || shown);
-    }
+    Run(simulation, steps, o.frames_a_second, interrupted, writer);
   } catch (const SimulationError& error) {
     const fs::path at = fs::path(o.output) / "undecided.json";
     WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
-    writer.Write(scene);
+    auto marks = MarksOf(simulation);
+    marks.forces.clear();  // they are of the step before
+    writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), std::move(marks)));
+    writer.WritePictures(scene);
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
     return kExitUndecided;
   }
-  writer.Write(scene);
-  ForEachField(simulation.statistics(), [](const char* name, const char* help, std::int64_t value) {
-    fmt::print("{:12} {:>10}   {}\n", name, value, help);
-  });
-  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", writer.worst().joints,
-             writer.worst().overlap, (fs::path(o.output) / "animation.html").string());
+  writer.WritePictures(scene);
+  WriteSummary(simulation.statistics(), writer.worst(), o.output);
+  if (interrupted) {
+    fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
+               simulation.time(), seconds);
+  }
   return kExitDone;
 }
 
@@ -276,7 +347,7 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
   typename DrawingOf<SceneType>::ViewType view;
   view.Include(scene);
   view.AddMargin();
-  WriteText(o.output, DrawSvg(scene, view, marks));
+  WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));
   return kExitDone;
 }
 
@@ -311,15 +382,18 @@ void AddSimulate(CLI::App& program, Action& action) {
       ->required();
   verb.add_option(
           "-o,--output", o->output,
-          "folder to write: animation.html, frames/*.svg, energy.csv, drift.csv; undecided.json where a frame "
-          "has no answer (exit 3); those of a run before are replaced")
+          "folder to write: energy.csv and drift.csv, which grow as the run goes; at its end, or where Ctrl-C "
+          "ends it, animation.html and frames/*.svg; undecided.json where a frame has no answer (exit 3); "
+          "those "
+          "of a run before are replaced")
       ->required();
   verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
   verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));
   verb.add_option("--rest", o->rest,
                   "speed up to which a contact counts as at rest, m/s [what gravity makes in one step]")
       ->check(CLI::Range(1e-15, 1e6));
-  verb.add_option("--frames", o->frames_a_second, "pictures a second of simulated time")
+  verb.add_option("--frames", o->frames_a_second,
+                  "pictures a second of simulated time; all are kept in memory until the end")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   verb.add_option("--threads", o->threads, "for independent islands; results do not depend on it [all cores]")

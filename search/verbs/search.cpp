@@ -4,12 +4,9 @@
 #include "search/search.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
-#include <csignal>
 #include <iostream>
 #include <thread>
 
@@ -26,11 +23,6 @@ namespace {
 
 constexpr double kDefaultMinutes = 1;
 constexpr double kLogSeconds = 10;  // between progress lines where standard error is no terminal
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-void OnSignal(int) { interrupted = true; }
 
 struct SearchVerb {
   std::string campaign;
@@ -97,21 +89,18 @@ Campaign CampaignOf(const SearchVerb& o) {
 
 class ProgressLine {
  public:
-  explicit ProgressLine(std::optional<double> minutes)
-      : minutes_(minutes), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit ProgressLine(std::optional<double> minutes) : minutes_(minutes) {}
 
   void Show(const SearchProgress& progress) {
-    if (terminal_) {
-      fmt::print(stderr, "\r\033[K{} {}", Bar(Fraction(progress)), Line(progress));
+    if (bar_.IsShown()) {
+      bar_.Show(Fraction(progress), Line(progress));
     } else if (progress.seconds - last_ >= kLogSeconds) {
       last_ = progress.seconds;
       fmt::print(stderr, "{}\n", Line(progress));
+      std::fflush(stderr);
     }
-    std::fflush(stderr);
   }
-  void Finish() const {
-    if (terminal_) fmt::print(stderr, "\r\033[K");
-  }
+  void Finish() const { bar_.Clear(); }
 
  private:
   double Fraction(const SearchProgress& progress) const {
@@ -122,11 +111,6 @@ class ProgressLine {
           fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
     }
     return std::min(fraction, 1.0);
-  }
-  static std::string Bar(double fraction) {
-    constexpr int kWidth = 20;
-    const int filled = static_cast<int>(fraction * kWidth);
-    return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "]";
   }
   std::string Line(const SearchProgress& progress) const {
     const double fraction = Fraction(progress);
@@ -139,7 +123,7 @@ class ProgressLine {
   }
 
   std::optional<double> minutes_;
-  bool terminal_;
+  ProgressBar bar_;
   double last_ = 0;
 };
 
@@ -160,9 +144,7 @@ int RunSearchVerb(const SearchVerb& o) {
   options.minutes = o.minutes;
   options.problems = o.problems;
   if (!o.minutes && !o.problems) options.minutes = kDefaultMinutes;
-  options.interrupted = &interrupted;
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  options.interrupted = &Interruption();
   fmt::print(stderr, "seed {}, {} threads, shard {}, store {}\n", campaign.seed, options.threads, o.shard,
              o.store);
   ProgressLine line(options.minutes);
@@ -306,10 +288,10 @@ void AddMerge(CLI::App& program, Action& action) {
 
 void AddProblem(CLI::App& program, Action& action) {
   auto o = std::make_shared<ProblemVerb>();
-  CLI::App& verb =
-      *program.add_subcommand("problem",
-                              "Write any problem that a search tried, with its scene where it has one, or the worst "
-                              "case without friction, as a problem file");
+  CLI::App& verb = *program.add_subcommand(
+      "problem",
+      "Write any problem that a search tried, with its scene where it has one, or the worst "
+      "case without friction, as a problem file");
   verb.add_option("STORE", o->store, "store of a search");
   verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
   verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")

@@ -2,8 +2,11 @@
 // Pieces that several verbs share.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -19,6 +22,11 @@ namespace {
 
 constexpr int kExactAssumptionRows =
     60;  // above, exact elimination of numbers as long as doubles takes minutes
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+void OnSignal(int) { interrupted = true; }
 
 template <class Options>
 void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
@@ -107,6 +115,26 @@ void WriteText(const std::string& file, const std::string& text) {
   out << text;
   out.close();
   if (!out) throw InputError(fmt::format("{}: cannot be written", file));
+}
+
+const std::atomic<bool>& Interruption() {
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+  return interrupted;
+}
+
+ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressBar::Show(double fraction, const std::string& text) const {
+  constexpr int kWidth = 20;
+  if (!terminal_) return;
+  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
+  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
+  std::fflush(stderr);
+}
+
+void ProgressBar::Clear() const {
+  if (terminal_) fmt::print(stderr, "\r\033[K");
 }
 
 Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }

@@ -25,6 +25,7 @@
 #include "solver/coulomb.h"
 #include "solver/lemke.h"
 #include "solver/proximal.h"
+#include "solver/published.h"
 #include "solver/reduction.ipp"
 #include "solver/residual.h"
 
@@ -41,6 +42,7 @@ constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
 struct SurveyOptions {
   std::vector<std::string> paths;
   int rows = 1500;
+  bool suspicions = false;  // bounds for the assumptions; in the plane, runs over rationals of suspicions only
   bool json = false;
   Limits limits;
 };
@@ -159,6 +161,13 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
     reason = verdict.reason;
     f = driving.state().f;
     pivots = verdict.statistics.pieces;
+  } else if (method == "baraff") {
+    PublishedAlgorithm<double> algorithm({Policy{}, {}, limits});
+    const Verdict verdict = algorithm.Run(rounded);
+    outcome = verdict.outcome;
+    reason = verdict.reason;
+    f = algorithm.state().f;
+    pivots = verdict.statistics.pivots;
   } else {
     LemkeOptions options;
     options.cover = Cover::kUnits;
@@ -294,17 +303,24 @@ Json RunPublished(const ExactProblem& problem, const Limits& limits) {
   return run;
 }
 
-Json PlanarRuns(const ExactProblem& problem, const Limits& limits) {
+Json PlanarRuns(const ExactProblem& problem, const SurveyOptions& o) {
+  const Limits& limits = o.limits;
   Json runs = Json::array();
   for (const char* method : {"complete", "lemke"}) {
     runs.push_back(RunInDoubles(problem, method, limits));
     if (runs.back()["outcome"] == "solved") break;
   }
+  bool has_solution = false, is_found = false;  // over doubles: by any method, by the published algorithm
+  if (o.suspicions) {
+    has_solution = runs.back()["outcome"] == "solved";
+    runs.push_back(RunInDoubles(problem, "baraff", limits));
+    is_found = runs.back()["outcome"] == "solved";
+  }
   const std::vector<std::vector<int>> groups = UncoupledContacts(problem);
   const bool small = std::all_of(groups.begin(), groups.end(),
                                  [](const auto& group) { return group.size() <= kExactContacts; });
-  if (problem.contacts.size() <= kPublishedContacts) runs.push_back(RunPublished(problem, limits));
-  if (small) runs.push_back(RunExactly(problem, groups, limits));
+  if (!is_found && problem.contacts.size() <= kPublishedContacts) runs.push_back(RunPublished(problem, limits));
+  if (!has_solution && small) runs.push_back(RunExactly(problem, groups, limits));
   return runs;
 }
 
@@ -366,7 +382,7 @@ Json Runs(const SparseProblem& problem, const std::string& source, const SurveyO
   if (planar && problem.contacts.size() > kExactContacts) runs.push_back(RunSparse(problem));
   if (problem.rows() <= o.rows) {
     const ExactProblem dense = ToDense(problem, source).problem;
-    for (Json& run : planar ? PlanarRuns(dense, o.limits) : SpatialRuns(dense, o.limits))
+    for (Json& run : planar ? PlanarRuns(dense, o) : SpatialRuns(dense, o.limits))
       runs.push_back(std::move(run));
   }
   if (runs.empty())
@@ -377,7 +393,7 @@ Json Runs(const SparseProblem& problem, const std::string& source, const SurveyO
 // ---- One problem -----------------------------------------------------------------------------
 
 Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions& o) {
-  const bool small = problem.contacts.size() <= kExactContacts;
+  const bool small = !o.suspicions && problem.contacts.size() <= kExactContacts;
   const auto dense = [&] { return ToDense(problem, source).problem; };
   std::optional<ExactProblem> exact;
   if (small) exact = dense();
@@ -482,7 +498,7 @@ void PrintEntry(const Json& entry) {
 }
 
 // How often each method ended how.
-void PrintCounts(const Json& entries) {
+void PrintCounts(const Json& entries, bool suspicions) {
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Json& entry : entries) {
     for (const Json& run : entry.value("runs", Json::array())) {
@@ -491,7 +507,7 @@ void PrintCounts(const Json& entries) {
       ++counts[method][run["outcome"].get<std::string>()];
     }
   }
-  fmt::print("\n{} problems\n", entries.size());
+  fmt::print("\n{} problems{}\n", entries.size(), suspicions ? "; exact: those that doubles leave open" : "");
   for (const auto& [method, outcomes] : counts) {
     std::vector<std::string> parts;
     for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
@@ -521,7 +537,7 @@ int Survey(const SurveyOptions& o) {
     }
   }
   if (o.json) std::cout << JsonText(entries) << "\n";
-  if (!o.json && entries.size() > 1) PrintCounts(entries);
+  if (!o.json && entries.size() > 1) PrintCounts(entries, o.suspicions);
   return exit;
 }
 
@@ -543,6 +559,10 @@ void AddSurvey(CLI::App& program, Action& action) {
   verb.add_option("--rows", o->rows, "the most rows for methods that hold A as a dense matrix")
       ->check(CLI::Range(0, kMostDenseRows))
       ->capture_default_str();
+  verb.add_flag(
+      "--suspicions", o->suspicions,
+      "in the plane: also the published algorithm over doubles, and over rationals only what no run over "
+      "doubles solves with a residual of at most 1e-6");
   AddLimits(verb, o->limits);
   verb.add_flag("--json", o->json, "machine output");
   verb.callback([o, &action] { action = [o] { return Survey(*o); }; });

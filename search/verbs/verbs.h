@@ -5,6 +5,7 @@
 #define STICTION_SEARCH_VERBS_VERBS_H_
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -67,6 +68,22 @@ std::string Expected(const ProblemFile& file, const Policy& policy);
 
 // Writes a text file; "-" is standard output.
 void WriteText(const std::string& file, const std::string& text);
+
+// From the first call on SIGINT and SIGTERM set what it returns, and do nothing else: the verb ends by itself.
+const std::atomic<bool>& Interruption();
+
+// A bar on standard error, where that is a terminal.
+class ProgressBar {
+ public:
+  ProgressBar();
+  bool IsShown() const { return terminal_; }
+  // `fraction`: of what is to be done, 0 to 1.
+  void Show(double fraction, const std::string& text) const;
+  void Clear() const;
+
+ private:
+  bool terminal_;
+};
 
 // What has a table of counters (ForEachField), by their names.
 template <class S>

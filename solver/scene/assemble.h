@@ -8,11 +8,12 @@
 // Levels: what the problem says, by its b. WF are the accelerations that the given forces cause.
 //
 //   forces       a = A f + b at this instant, (15), (16) of [Baraff94]: b = J WF + bias. Contacts that part
-//                are left out: they have no force, whatever aN. A tangential speed above `rest` makes a
-//                contact sliding (24). With a step h > 0 what is there already counts as well,
+//                faster than `rest` are left out: they have no force, whatever aN. A tangential speed above
+//                `rest` makes a contact sliding (24). With a step h > 0 what is there already counts as well,
 //                  b_N += vN / h + max(gap, 0) / h^2,   b_F += vF / h,   joints: b += v / h,
 //                so that aN >= 0 says that the gap stays open until the end of the step (to first order), and
-//                what rest there is of velocities that should be zero is taken away.
+//                what rest there is of velocities that should be zero is taken away. A contact that parts may
+//                be back before the end of the step: it is left out only as long as it is not `closing`.
 //   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision with
 //                restitution 0, Coulomb's law between impulse and velocity after; friction is static
 //                throughout, and whatever slips is at its limit by the law itself. Unless driven bodies close
@@ -59,8 +60,12 @@ template <class Scalar>
 struct AssembleOptions {
   Level level = Level::kForces;
   Scalar step = Scalar(0);  // h, s; 0: the instant itself
-  bool minimal = true;      // false: islands together, redundant contacts kept, two rows for every contact
-  std::vector<bool> held;   // contacts, by number, that count as static whatever their tangential speed
+  // False: islands together, redundant contacts kept, friction rows for every contact, and, with a step > 0,
+  // contacts that part. (At the instant itself those have no row: f = 0 is no condition of (15).)
+  bool minimal = true;
+  // Contacts, by number:
+  std::vector<bool> held;     // that count as static whatever their tangential speed
+  std::vector<bool> closing;  // that stay although they part; step > 0
 };
 
 enum class OmissionReason : std::uint8_t { kSeparating, kRedundant };
@@ -74,10 +79,18 @@ template <class Scalar, int Dof = 3>
 struct SceneModel {
   std::vector<BodyDynamics<Scalar, Dof>> bodies;
   std::vector<Constraint<Scalar, Dof>> constraints;  // that the problems hold
-  std::vector<Island<Scalar>> islands;
+  std::vector<Island> islands;
   std::vector<Omission> omitted;
   std::vector<int>
       colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
+
+  // That of an island.
+  ContactProblem<Scalar> Problem(std::size_t island) const {
+    return DenseProblemOf(bodies, constraints, islands[island]);
+  }
+  SparseContactProblem<Scalar> SparseProblem(std::size_t island) const {
+    return SparseProblemOf(bodies, constraints, islands[island]);
+  }
 };
 
 // What assembling and stepping ask of a scene, in the plane or in space (assemble_space.h). Both have the

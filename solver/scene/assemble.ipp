@@ -181,8 +181,6 @@ class Assembler {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddContact(contacts[i], static_cast<int>(i));
     if (options_.minimal) DropRedundant();
     model_.islands = FindIslands(model_.bodies, model_.constraints, !options_.minimal);
-    for (auto& island : model_.islands)
-      FormProblem(model_.bodies, model_.constraints, Types::kDimension, island);
     return std::move(model_);
   }
 
@@ -191,7 +189,8 @@ class Assembler {
     Constraint<Scalar, kDof> constraint = ContactConstraint(scene_, contact);
     constraint.source = number;
     const Scalar speed = Velocity(constraint, 0, model_.bodies);
-    if (options_.level == Level::kForces && speed > scene_.rest) {
+    const bool stays = Sign(options_.step) != 0 && (!options_.minimal || IsIn(options_.closing, number));
+    if (options_.level == Level::kForces && speed > scene_.rest && !stays) {
       model_.omitted.push_back({number, OmissionReason::kSeparating});
       return;
     }
@@ -201,8 +200,8 @@ class Assembler {
     model_.constraints.push_back(std::move(constraint));
   }
 
-  bool IsHeld(int contact) const {
-    return contact < static_cast<int>(options_.held.size()) && options_.held[contact];
+  static bool IsIn(const std::vector<bool>& contacts, int number) {
+    return number < static_cast<int>(contacts.size()) && contacts[number];
   }
 
   void SetLaw(Constraint<Scalar, kDof>& constraint) {
@@ -214,7 +213,7 @@ class Assembler {
       return;
     }
     law.kind = ContactKind::kStatic;
-    if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsHeld(constraint.source)) return;
+    if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsIn(options_.held, constraint.source)) return;
     const Scalar speed = Velocity(constraint, 1, model_.bodies);
     if constexpr (Types::kDimension == 2) {
       if (Abs<Scalar>(speed) <= scene_.rest) return;
@@ -240,7 +239,7 @@ class Assembler {
     switch (options_.level) {
       case Level::kForces:
         for (int side = 0; side < 2; ++side) row.b += row.J[side].dot(free_[constraint.bodies[side]]);
-        row.b += row.bias;
+        row.b += step ? Scalar(row.bias / 2) : row.bias;
         if (step) row.b += (Velocity(constraint, i, model_.bodies) + gap / options_.step) / options_.step;
         break;
       case Level::kImpulses:
@@ -254,11 +253,13 @@ class Assembler {
   }
 
   void DropRedundant() {
-    const std::vector<bool> redundant = FindRedundant(model_.constraints);
+    const std::vector<int> redundant = FindRedundant(model_.constraints);
+    if (redundant.empty()) return;
     std::vector<Constraint<Scalar, kDof>> kept;
-    for (std::size_t i = 0; i < redundant.size(); ++i) {
-      if (redundant[i]) {
+    for (std::size_t i = 0, dropped = 0; i < model_.constraints.size(); ++i) {
+      if (dropped < redundant.size() && redundant[dropped] == static_cast<int>(i)) {
         model_.omitted.push_back({model_.constraints[i].source, OmissionReason::kRedundant});
+        ++dropped;
       } else {
         kept.push_back(std::move(model_.constraints[i]));
       }
@@ -308,7 +309,7 @@ typename ContactProblem<Scalar>::Vector ExtendForces(
   }
   typename ContactProblem<Scalar>::Vector extended;
   if (full.islands.empty()) return extended;
-  extended = ContactProblem<Scalar>::Vector::Constant(full.islands[0].problem.rows(), Scalar(0));
+  extended = ContactProblem<Scalar>::Vector::Constant(full.islands[0].rows, Scalar(0));
   int at = 0;
   for (const int k : full.islands[0].constraints) {
     for (int row = 0; row < static_cast<int>(full.constraints[k].rows.size()); ++row, ++at) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/scene/assemble_space.h"
 
+#include <array>
+#include <utility>
+
 #include "solver/scene/assemble.ipp"
 #include "solver/scene/explain.ipp"
 
@@ -15,6 +18,7 @@ std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>& scen
     d.W = Eigen::Matrix<Scalar, 6, 6>::Constant(Scalar(0));
     d.force = Eigen::Matrix<Scalar, 6, 1>::Constant(Scalar(0));
     d.velocity << body.velocity, body.spin;
+    d.imposed << body.acceleration, Zero3<Scalar>();
     if (!body.fixed) {
       const Matrix3<Scalar> inertia = body.WorldInertia();
       const Vector3<Scalar> momentum = inertia * body.spin;
@@ -143,26 +147,81 @@ Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>& scene,
   return constraint;
 }
 
+namespace {
+
+// Across the point p of a and q of b, along u.
+template <class Scalar>
+ConstraintRow<Scalar, 6> PointRow(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
+                                  const Vector3<Scalar>& p, const Vector3<Scalar>& q,
+                                  const Vector3<Scalar>& u) {
+  ConstraintRow<Scalar, 6> row = RowAlong<Scalar>(u, p - a.position, p - b.position);
+  const SeenFromB<Scalar> y(b.spin, p - q, a.VelocityAt(p) - b.VelocityAt(q),
+                            Twice<Scalar>(a.spin, p - a.position) - Twice<Scalar>(b.spin, q - b.position));
+  row.bias = u.dot(y.second);
+  row.error = u.dot(p - q);
+  return row;
+}
+
+// Between the directions y of a and s of b.
+template <class Scalar>
+ConstraintRow<Scalar, 6> DirectionRow(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
+                                      const Vector3<Scalar>& y, const Vector3<Scalar>& s) {
+  ConstraintRow<Scalar, 6> row;
+  const Vector3<Scalar> axis = CrossProduct<Scalar>(y, s);
+  row.J[0] << Zero3<Scalar>(), axis;
+  row.J[1] << Zero3<Scalar>(), -axis;
+  const SeenFromB<Scalar> seen(b.spin, y, CrossProduct<Scalar>(a.spin, y), Twice<Scalar>(a.spin, y));
+  row.bias = s.dot(seen.second);
+  row.error = s.dot(y);
+  return row;
+}
+
+// (e1, e2, e3) as columns, in the coordinates of b.
+template <class Scalar>
+Matrix3<Scalar> AxesOf(const JointInSpace<Scalar>& joint) {
+  if (joint.kind == JointKindInSpace::kBall) return Matrix3<Scalar>::Identity();
+  Matrix3<Scalar> axes;
+  axes.col(0) = FirstTangent<Scalar>(joint.direction);
+  axes.col(1) = CrossProduct<Scalar>(joint.direction, axes.col(0));
+  axes.col(2) = joint.direction;
+  return axes;
+}
+
+template <class Scalar>
+std::vector<ConstraintRow<Scalar, 6>> RowsOf(const SceneInSpace<Scalar>& scene,
+                                             const JointInSpace<Scalar>& joint) {
+  const BodyInSpace<Scalar>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  const Vector3<Scalar> p = a.At(joint.at_a), q = b.At(joint.at_b);
+  const Matrix3<Scalar> axes = AxesOf(joint), e = RotationMatrix<Scalar>(b.rotation) * axes;
+  const Matrix3<Scalar> seen_from_a = RotationMatrix<Scalar>(joint.relative_rotation).transpose() * axes;
+  const Matrix3<Scalar> d = RotationMatrix<Scalar>(a.rotation) * seen_from_a;
+  const bool slides = joint.kind == JointKindInSpace::kRail || joint.kind == JointKindInSpace::kSlider;
+  std::vector<ConstraintRow<Scalar, 6>> rows;
+  for (int k = 0; k < (slides ? 2 : 3); ++k) rows.push_back(PointRow<Scalar>(a, b, p, q, e.col(k)));
+  if (joint.kind == JointKindInSpace::kHinge) {
+    for (int k = 0; k < 2; ++k) rows.push_back(DirectionRow<Scalar>(a, b, d.col(2), e.col(k)));
+  }
+  if (joint.kind == JointKindInSpace::kSlider) {
+    for (int k = 0; k < 3; ++k) rows.push_back(DirectionRow<Scalar>(a, b, d.col(k), e.col((k + 1) % 3)));
+  }
+  return rows;
+}
+
+}  // namespace
+
 template <class Scalar>
 std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>& scene) {
   std::vector<Constraint<Scalar, 6>> constraints;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-    const BallJoint<Scalar>& joint = scene.joints[i];
-    const BodyInSpace<Scalar>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
-    const Vector3<Scalar> p = a.At(joint.at_a), q = b.At(joint.at_b);
-    const Vector3<Scalar> bias = Twice<Scalar>(a.spin, p - a.position) - Twice<Scalar>(b.spin, q - b.position);
-    for (int k = 0; k < 3; ++k) {
-      Vector3<Scalar> axis = Zero3<Scalar>();
-      axis[k] = Scalar(1);
+    int part = 0;
+    for (auto& row : RowsOf(scene, scene.joints[i])) {
       Constraint<Scalar, 6> constraint;
-      constraint.bodies = {joint.a, joint.b};
+      constraint.bodies = {scene.joints[i].a, scene.joints[i].b};
       constraint.law.kind = ContactKind::kBilateral;
-      constraint.rows.push_back(RowAlong<Scalar>(axis, p - a.position, q - b.position));
-      constraint.rows[0].bias = bias[k];
-      constraint.rows[0].error = p[k] - q[k];
+      constraint.rows.push_back(std::move(row));
       constraint.from_joint = true;
       constraint.source = static_cast<int>(i);
-      constraint.part = k;
+      constraint.part = part++;
       constraints.push_back(std::move(constraint));
     }
   }
@@ -170,25 +229,30 @@ std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>& 
 }
 
 template <class Scalar>
-const char* KindName(const BallJoint<Scalar>&) {
-  return "ball";
+const char* KindName(const JointInSpace<Scalar>& joint) {
+  constexpr std::array kNames = {"ball", "hinge", "rail", "slider"};
+  return kNames[static_cast<int>(joint.kind)];
 }
 
-#define STICTION_INSTANTIATE(Scalar)                                                              \
-  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);          \
-  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);      \
-  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                   \
-                                                   const TouchPointInSpace<Scalar>&);             \
-  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                            \
-                                          const std::vector<TouchPointInSpace<Scalar>>&,          \
-                                          const AssembleOptions<Scalar>&);                        \
-  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                            \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&); \
-  template typename ContactProblem<Scalar>::Vector ExtendForces(                                  \
-      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,  \
-      const SceneModel<Scalar, 6>&);                                                              \
-  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                          \
-                                            const std::vector<TouchPointInSpace<Scalar>>&,        \
+#define STICTION_INSTANTIATE(Scalar)                                                                          \
+  template std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>&);                      \
+  template std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>&);                  \
+  template Constraint<Scalar, 6> ContactConstraint(const SceneInSpace<Scalar>&,                               \
+                                                   const TouchPointInSpace<Scalar>&);                         \
+  template SceneModel<Scalar, 6> Assemble(const SceneInSpace<Scalar>&,                                        \
+                                          const std::vector<TouchPointInSpace<Scalar>>&,                      \
+                                          const AssembleOptions<Scalar>&);                                    \
+  template ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, 6>>&,                 \
+                                                 const std::vector<Constraint<Scalar, 6>>&, const Island&);   \
+  template SparseContactProblem<Scalar> SparseProblemOf(                                                      \
+      const std::vector<BodyDynamics<Scalar, 6>>&, const std::vector<Constraint<Scalar, 6>>&, const Island&); \
+  template std::vector<Eigen::Matrix<Scalar, 6, 1>> BodyAccelerations(                                        \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);             \
+  template typename ContactProblem<Scalar>::Vector ExtendForces(                                              \
+      const SceneModel<Scalar, 6>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,              \
+      const SceneModel<Scalar, 6>&);                                                                          \
+  template std::vector<std::string> Explain(const SceneInSpace<Scalar>&,                                      \
+                                            const std::vector<TouchPointInSpace<Scalar>>&,                    \
                                             const SceneModel<Scalar, 6>&, const AssembleOptions<Scalar>&)
 
 STICTION_INSTANTIATE(double);

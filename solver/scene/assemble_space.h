@@ -15,14 +15,13 @@
 //
 // and with c the corner or centre of a, q or d a point of b:
 //
-//   against a face of b               g = n.(c - q) - radius                  g'' = n.y''
-//   against a corner or ball at d     g = abs(c - d) - radii                  g'' = n.y'' + abs(T y')^2 /
-//   abs(y) a ball against an edge of b       the same with d the nearest point of the edge; T y' less its part
-//   along the edge edge e_a across edge e_b          g = m.y / abs(m), m = e_a x e_b, y between any points of
-//   the two
+//   against a face of b               g = n.(c - q) - radius         g'' = n.y''
+//   against a corner or ball at d     g = abs(c - d) - radii         g'' = n.y'' + abs(T y')^2 / abs(y)
+//   a ball against an edge of b       the same, d the nearest point of the edge, T y' less its part along it
+//   edge e_a across edge e_b          g = m.y / abs(m), m = e_a x e_b, y between any points of the two
 //
-// T takes the part orthogonal to n. For edges m' and m'' follow from those of e_a; at the nearest points, y = g
-// n,
+// T takes the part orthogonal to n. For edges m' and m'' follow from those of e_a; at the nearest points,
+// where y = g n,
 //
 //   L' = n.m',   L'' = (m'.m' + n.m'' L - L'^2) / L,   L = abs(m)
 //   g' = n.y',   g'' = (g n.m'' + 2 m'.y' + L n.y'' - 2 g' L' - g L'') / L
@@ -35,6 +34,24 @@
 //   bias = t.(w_a x (w_a x r_a) - w_b x (w_b x r_b) + u x (R (u x n)))
 //
 // (A ball that spins about the normal while it rolls needs the last term: it rolls straight on.)
+//
+// Joints. e1, e2, e3 are orthogonal unit vectors that turn with b, e3 the direction of a hinge, rail or slider;
+// d1, d2, d3 turn with a, and are e1, e2, e3 at the relative rotation of the joint. y = p - q, p the point of a
+// and q that of b.
+//
+//   point       g = e_k.y        J = (e_k, (p - x_a) x e_k | -e_k, -((p - x_b) x e_k))    bias = e_k.y''
+//   direction   g = e_k.d_j      J = (0, d_j x e_k | 0, -(d_j x e_k))                     bias = e_k.d_j''
+//
+// b's material is taken at p, not at q: e_k turns with it, g' = e_k.y', y' = v_a(p) - v_b(q) - w_b x (p - q).
+// Errors are m, or sines of angles.
+//
+//   ball     e1.y, e2.y, e3.y, with the axes of b
+//   hinge    those of a ball, e1.d3, e2.d3
+//   rail     e1.y, e2.y
+//   slider   those of a rail, e2.d1, e3.d2, e1.d3
+//
+// Near the relative rotation the rows of directions are independent: those of a slider less than 60 degrees
+// from it, those of a hinge less than 90.
 
 #ifndef STICTION_SOLVER_SCENE_ASSEMBLE_SPACE_H_
 #define STICTION_SOLVER_SCENE_ASSEMBLE_SPACE_H_
@@ -57,7 +74,7 @@ struct SceneTypes<SceneInSpace<Number>> {
 template <class Scalar>
 std::vector<BodyDynamics<Scalar, 6>> DynamicsOf(const SceneInSpace<Scalar>& scene);
 
-// Three rows of a joint, in order: J, bias and error; b is not set.
+// The rows of each joint, in order: J, bias and error; b is not set.
 template <class Scalar>
 std::vector<Constraint<Scalar, 6>> JointConstraints(const SceneInSpace<Scalar>& scene);
 

@@ -24,6 +24,7 @@ PlacedShape<Scalar> Place(const RigidBody<Scalar>& body, const BodyShape<Scalar>
   PlacedShape<Scalar> placed;
   placed.radius = shape.radius;
   placed.center = body.At(shape.center);
+  placed.corners.reserve(shape.polygon.size());
   for (const auto& corner : shape.polygon) placed.corners.push_back(body.At(corner));
   const bool disc = shape.IsDisc();
   placed.low = placed.high = disc ? placed.center : placed.corners[0];
@@ -190,12 +191,12 @@ class PairFinder {
 };
 
 template <class Scalar>
-TouchPoint<Scalar> Given(const Scene<Scalar>& scene, const GivenContact<Scalar>& given) {
+TouchPoint<Scalar> Given(const Scene<Scalar>& scene, const Scalar& mu, const GivenContact<Scalar>& given) {
   const RigidBody<Scalar>&a = scene.bodies[given.a], &b = scene.bodies[given.b];
   TouchPoint<Scalar> contact;
   contact.a = given.a;
   contact.b = given.b;
-  contact.mu = FactsOf(scene, given.a, given.b).mu;
+  contact.mu = mu;
   contact.normal = Rotate<Scalar>(b.rotation, given.normal);
   const Vector2<Scalar> p = a.At(given.at_a), q = b.At(given.at_b);
   contact.gap = Dot<Scalar>(contact.normal, p - q);
@@ -208,15 +209,19 @@ TouchPoint<Scalar> Given(const Scene<Scalar>& scene, const GivenContact<Scalar>&
 template <class Scalar>
 std::vector<TouchPoint<Scalar>> FindContacts(const Scene<Scalar>& scene, const Scalar& margin) {
   std::vector<TouchPoint<Scalar>> found;
-  for (const auto& given : scene.contacts) found.push_back(Given(scene, given));
+  const PairTable table(scene);
+  for (const auto& given : scene.contacts)
+    found.push_back(Given<Scalar>(scene, table.Of(given.a, given.b).mu, given));
   const int bodies = static_cast<int>(scene.bodies.size());
   std::vector<std::vector<PlacedShape<Scalar>>> placed(bodies);
   for (int a = 0; a < bodies; ++a) {
+    placed[a].reserve(scene.bodies[a].shapes.size());
     for (const auto& shape : scene.bodies[a].shapes) placed[a].push_back(Place(scene.bodies[a], shape));
   }
-  ForEachPair<TouchPoint<Scalar>>(scene, placed, [&](const auto& pattern, const auto& a, const auto& b) {
+  const auto find = [&](const auto& pattern, const auto& a, const auto& b) {
     PairFinder<Scalar>(scene.gap, margin, pattern, found).Find(a, b);
-  });
+  };
+  ForEachPair<TouchPoint<Scalar>>(table, placed, Scalar(scene.gap + margin), find);
   return found;
 }
 

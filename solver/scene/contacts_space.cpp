@@ -30,6 +30,8 @@ PlacedShape<Scalar> Place(const BodyInSpace<Scalar>& body, const Matrix3<Scalar>
                           const ShapeInSpace<Scalar>& shape) {
   PlacedShape<Scalar> placed;
   placed.shape = &shape;
+  placed.corners.reserve(shape.corners.size());
+  placed.normals.reserve(shape.normals.size());
   for (const auto& corner : shape.corners) placed.corners.push_back(body.position + R * corner);
   for (const auto& normal : shape.normals) placed.normals.push_back(R * normal);
   if (shape.IsBall()) {
@@ -307,12 +309,13 @@ class PairFinder {
 };
 
 template <class Scalar>
-TouchPointInSpace<Scalar> Given(const SceneInSpace<Scalar>& scene, const GivenContactInSpace<Scalar>& given) {
+TouchPointInSpace<Scalar> Given(const SceneInSpace<Scalar>& scene, const Scalar& mu,
+                                const GivenContactInSpace<Scalar>& given) {
   const BodyInSpace<Scalar>&a = scene.bodies[given.a], &b = scene.bodies[given.b];
   TouchPointInSpace<Scalar> contact;
   contact.a = given.a;
   contact.b = given.b;
-  contact.mu = FactsOf(scene, given.a, given.b).mu;
+  contact.mu = mu;
   contact.normal = RotationMatrix<Scalar>(b.rotation) * given.normal;
   const Vector3<Scalar> p = a.At(given.at_a);
   contact.gap = contact.normal.dot(p - b.At(given.at_b));
@@ -325,17 +328,21 @@ TouchPointInSpace<Scalar> Given(const SceneInSpace<Scalar>& scene, const GivenCo
 template <class Scalar>
 std::vector<TouchPointInSpace<Scalar>> FindContacts(const SceneInSpace<Scalar>& scene, const Scalar& margin) {
   std::vector<TouchPointInSpace<Scalar>> found;
-  for (const auto& given : scene.contacts) found.push_back(Given(scene, given));
+  const PairTable table(scene);
+  for (const auto& given : scene.contacts)
+    found.push_back(Given<Scalar>(scene, table.Of(given.a, given.b).mu, given));
   const int bodies = static_cast<int>(scene.bodies.size());
   std::vector<std::vector<PlacedShape<Scalar>>> placed(bodies);
   for (int a = 0; a < bodies; ++a) {
     const Matrix3<Scalar> R = RotationMatrix<Scalar>(scene.bodies[a].rotation);
+    placed[a].reserve(scene.bodies[a].shapes.size());
     for (const auto& shape : scene.bodies[a].shapes)
       placed[a].push_back(Place<Scalar>(scene.bodies[a], R, shape));
   }
-  ForEachPair<TouchPointInSpace<Scalar>>(scene, placed, [&](const auto& pattern, const auto& a, const auto& b) {
+  const auto find = [&](const auto& pattern, const auto& a, const auto& b) {
     PairFinder<Scalar>(scene.gap, margin, pattern, found).Find(a, b);
-  });
+  };
+  ForEachPair<TouchPointInSpace<Scalar>>(table, placed, Scalar(scene.gap + margin), find);
   return found;
 }
 

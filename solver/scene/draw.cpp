@@ -20,9 +20,15 @@ const char* ColourOf(const RigidBody<double>& body) {
   return kLevelColours[static_cast<std::size_t>(((body.level % count) + count) % count)];
 }
 
-// The pieces of a body in its own coordinates, y up.
-std::string Pieces(const RigidBody<double>& body, double scale) {
+// The pieces of a body in its own coordinates, y up; behind them a rod to each of its joints.
+std::string Pieces(const Scene<double>& scene, int index, double scale) {
+  const RigidBody<double>& body = scene.bodies[index];
   std::string text;
+  for (const auto& joint : scene.joints) {
+    if (body.fixed || (joint.a != index && joint.b != index)) continue;
+    const Vector2<double>& at = joint.a == index ? joint.at_a : joint.at_b;
+    text += fmt::format("<path d=\"M0,0 L{:.5g},{:.5g}\"/>", at[0], at[1]);
+  }
   for (const auto& shape : body.shapes) {
     if (shape.IsDisc()) {
       // The radius line shows the turning.
@@ -55,18 +61,18 @@ std::string Circle(const Screen& screen, const Vector2<double>& p, const char* f
 void View::Include(const Scene<double>& scene) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (!(right > left)) left = bottom = kInfinite, right = top = -kInfinite;
+  const auto include = [this](const Vector2<double>& p, double r) {
+    left = std::min(left, p[0] - r);
+    right = std::max(right, p[0] + r);
+    bottom = std::min(bottom, p[1] - r);
+    top = std::max(top, p[1] + r);
+  };
   for (const bool fixed : {false, true}) {
     // Fixed bodies may be as large as a ground: they count where no moving body has set the view. Cranks and
     // wheels that are driven move.
     if (fixed && right > left) break;
     for (const auto& body : scene.bodies) {
       if ((body.fixed && body.spin == 0) != fixed) continue;
-      const auto include = [this](const Vector2<double>& p, double r) {
-        left = std::min(left, p[0] - r);
-        right = std::max(right, p[0] + r);
-        bottom = std::min(bottom, p[1] - r);
-        top = std::max(top, p[1] + r);
-      };
       include(body.position, 0.01);
       for (const auto& shape : body.shapes) {
         if (shape.IsDisc()) include(body.At(shape.center), shape.radius);
@@ -74,6 +80,7 @@ void View::Include(const Scene<double>& scene) {
       }
     }
   }
+  for (const auto& joint : scene.joints) include(scene.bodies[joint.a].At(joint.at_a), 0);
 }
 
 void View::AddMargin() {
@@ -114,32 +121,29 @@ void SetPoses(Scene<double>& scene, const RecordedFrame& frame) {
   }
 }
 
-double ForceScale(const Scene<double>& scene, const View& view) {
-  double mass = 0;
-  for (const auto& body : scene.bodies) mass += body.fixed ? 0 : body.mass;
-  const double weight = mass * Length<double>(scene.gravity);
-  return (view.top - view.bottom) / 4 / (weight > 0 ? weight : 1);
+double ForceScale(const View& view, std::vector<double> largest) {
+  largest.erase(std::remove(largest.begin(), largest.end(), 0.0), largest.end());
+  if (largest.empty()) return 1;
+  const auto median = largest.begin() + static_cast<std::ptrdiff_t>(largest.size() / 2);
+  std::nth_element(largest.begin(), median, largest.end());
+  return 0.15 * (view.top - view.bottom) / *median;
 }
 
-std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks) {
+std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks, double newton) {
   const Screen screen(view);
   std::string text = Head(screen);
-  for (const auto& body : scene.bodies) {
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const auto& body = scene.bodies[i];
     text += fmt::format("<g transform=\"{}\">{}</g>\n",
                         Matrix(screen, body.position[0], body.position[1], body.rotation[0], body.rotation[1]),
-                        Pieces(body, screen.scale));
+                        Pieces(scene, i, screen.scale));
   }
   for (const auto& joint : scene.joints)
     text += Circle(screen, scene.bodies[joint.a].At(joint.at_a), "white", 4);
   for (const auto& point : marks.contacts) text += Circle(screen, point, "#30c030", 3);
-  const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {
-    if (force.from_joint || Length<double>(force.force) == 0) continue;
-    const Vector2<double> tip = force.point + scale * force.force;
-    text += fmt::format(
-        "<line x1=\"{:.5g}\" y1=\"{:.5g}\" x2=\"{:.5g}\" y2=\"{:.5g}\" stroke=\"#d00000\" stroke-width=\"1.5\" "
-        "marker-end=\"url(#tip)\"/>\n",
-        screen.X(force.point[0]), screen.Y(force.point[1]), screen.X(tip[0]), screen.Y(tip[1]));
+    if (force.from_joint || force.force.norm() == 0) continue;
+    text += Line(ArrowOf(screen, force.point, newton * ShownForce(scene, force)));
   }
   return text + "</svg>\n";
 }
@@ -147,7 +151,7 @@ std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& m
 namespace {
 
 std::string FrameData(const Scene<double>& scene, const Screen& screen, const RecordedFrame& frame,
-                      double force_scale) {
+                      double newton) {
   std::string poses, joints, contacts, forces;
   Scene<double> moved = scene;
   SetPoses(moved, frame);
@@ -159,10 +163,10 @@ std::string FrameData(const Scene<double>& scene, const Screen& screen, const Re
   for (const auto& p : frame.marks.contacts)
     contacts += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
   for (const auto& force : frame.marks.forces) {
-    if (force.from_joint) continue;
-    const Vector2<double> tip = force.point + force_scale * force.force;
-    forces += fmt::format("[{:.1f},{:.1f},{:.1f},{:.1f}],", screen.X(force.point[0]), screen.Y(force.point[1]),
-                          screen.X(tip[0]), screen.Y(tip[1]));
+    if (force.from_joint || force.force.norm() == 0) continue;
+    const Arrow arrow = ArrowOf(screen, force.point, newton * ShownForce(scene, force));
+    forces +=
+        fmt::format("[{:.1f},{:.1f},{:.1f},{:.1f},{:d}],", arrow.x1, arrow.y1, arrow.x2, arrow.y2, arrow.cut);
   }
   return fmt::format("[{:.4g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
 }
@@ -176,7 +180,7 @@ function show(k) {
   marks.innerHTML = joints.map(p => circle(p, 'white', 4)).join('') +
     contacts.map(p => circle(p, '#30c030', 3)).join('') +
     forces.map(f => `<line x1="${f[0]}" y1="${f[1]}" x2="${f[2]}" y2="${f[3]}" stroke="#d00000" ` +
-      `stroke-width="1.5" marker-end="url(#tip)"/>`).join('');
+      `stroke-width="1.5" ${f[4] ? 'stroke-dasharray="6 3"' : ''} marker-end="url(#tip)"/>`).join('');
   slider.value = k;
   label.textContent = `t = ${time.toFixed(3)} s`;
 }
@@ -185,15 +189,15 @@ function show(k) {
 }  // namespace
 
 std::string DrawAnimation(const Scene<double>& scene, const View& view,
-                          const std::vector<RecordedFrame>& frames, double rate) {
+                          const std::vector<RecordedFrame>& frames, double newton, double rate) {
   const Screen screen(view);
   std::string text = PageHead(scene.name);
   text += Head(screen) + "<g id=\"bodies\">\n";
-  for (const auto& body : scene.bodies) text += "<g>" + Pieces(body, screen.scale) + "</g>\n";
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
+    text += "<g>" + Pieces(scene, i, screen.scale) + "</g>\n";
   text += "</g>\n<g id=\"marks\"></g>\n</svg>\n";
   std::string data;
-  const double force_scale = ForceScale(scene, view);
-  for (const auto& frame : frames) data += FrameData(scene, screen, frame, force_scale);
+  for (const auto& frame : frames) data += FrameData(scene, screen, frame, newton);
   return text + PageTail(data, rate, kShow);
 }
 

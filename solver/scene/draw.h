@@ -2,11 +2,13 @@
 // Draw: a state as an SVG, a run as one HTML page that moves. Text only; no file is written here.
 //
 // Fixed bodies are dark, others have the colour of their level; joints are white circles, contacts green ones,
-// forces red arrows from where they act on the first body of the contact.
+// forces of contacts red arrows, as they act on the body that moves, or on the later one of two. An arrow that
+// would be longer than a quarter of the picture's height is dashed and that long.
 
 #ifndef STICTION_SOLVER_SCENE_DRAW_H_
 #define STICTION_SOLVER_SCENE_DRAW_H_
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -19,7 +21,7 @@ namespace stiction {
 struct View {
   double left = 0, right = 0, bottom = 0, top = 0;
 
-  void Include(const Scene<double>& scene);  // bodies that move, and the corners of fixed ones near them
+  void Include(const Scene<double>& scene);  // bodies that move, and joints; all bodies if none moves
   void AddMargin();
 };
 
@@ -39,13 +41,23 @@ struct RecordedFrame {
 RecordedFrame Record(const Scene<double>& scene, double time, Marks marks);
 void SetPoses(Scene<double>& scene, const RecordedFrame& frame);
 
-// A newton in metres: a quarter of the view for the weight of all bodies that move, or 1 without gravity.
-double ForceScale(const Scene<double>& scene, const View& view);
+// The largest force of a contact, N; 0 if there is none.
+template <class MarksType>
+double LargestForce(const MarksType& marks) {
+  double largest = 0;
+  for (const auto& force : marks.forces) {
+    if (!force.from_joint) largest = std::max(largest, force.force.norm());
+  }
+  return largest;
+}
+// A newton in metres: 0.15 of the view's height for the median of these forces, zeros left out, each the
+// largest of a picture.
+double ForceScale(const View& view, std::vector<double> largest);
 
-std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks);
+std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks, double newton);
 // `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
 std::string DrawAnimation(const Scene<double>& scene, const View& view,
-                          const std::vector<RecordedFrame>& frames, double rate);
+                          const std::vector<RecordedFrame>& frames, double newton, double rate);
 
 // The types of a scene's drawing.
 template <class SceneType>

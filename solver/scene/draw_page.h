@@ -29,6 +29,35 @@ struct Screen {
   double Y(double y) const { return scale * (top - y); }
 };
 
+struct Arrow {
+  double x1, y1, x2, y2;  // pixels
+  bool cut;               // longer than it is drawn
+};
+
+// From a point of the world along a vector of the world.
+inline Arrow ArrowOf(const Screen& screen, const Vector2<double>& from, Vector2<double> along) {
+  const double longest = screen.height / 4 / screen.scale, length = along.norm();
+  const bool cut = length > longest;
+  if (cut) along *= longest / length;
+  const Vector2<double> to = from + along;
+  return {screen.X(from[0]), screen.Y(from[1]), screen.X(to[0]), screen.Y(to[1]), cut};
+}
+
+inline std::string Line(const Arrow& arrow) {
+  return fmt::format(
+      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d00000\" stroke-width=\"1.5\"{} "
+      "marker-end=\"url(#tip)\"/>\n",
+      arrow.x1, arrow.y1, arrow.x2, arrow.y2, arrow.cut ? " stroke-dasharray=\"6 3\"" : "");
+}
+
+// The force as a picture shows it (draw.h); `force.force` acts on the first body.
+template <class SceneType, class Force>
+auto ShownForce(const SceneType& scene, const Force& force) {
+  const auto [first, second] = force.bodies;
+  const bool on_first = scene.bodies[first].fixed ? false : scene.bodies[second].fixed || first > second;
+  return (on_first ? 1.0 : -1.0) * force.force;
+}
+
 inline std::string Head(const Screen& screen) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "

@@ -127,6 +127,31 @@ std::string Path(const Screen& screen, const std::vector<Point>& points) {
   return text;
 }
 
+// The line through p along d, `pixels` to both sides in the picture.
+std::string LineAlong(const Screen& screen, const Point& p, const Point& d, double pixels, const char* style) {
+  const double seen = Seen(d).norm();
+  if (seen < 1e-6) return "";
+  const Point half = pixels / (screen.scale * seen) * d;
+  return fmt::format("<path d=\"{}\" stroke=\"black\" {}/>", Path(screen, {p - half, p + half}), style);
+}
+
+// A line from the centre of a to its point; a bar along the axis of a hinge, a broken line along a rail; on the
+// point a white circle, of a slider a square.
+std::string Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointInSpace<double>& joint) {
+  const BodyInSpace<double>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+  const Point p = a.At(joint.at_a), along = RotationMatrix<double>(b.rotation) * joint.direction;
+  std::string text = fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {a.position, p}));
+  if (joint.kind == JointKindInSpace::kHinge)
+    text += LineAlong(screen, p, along, 16, "stroke-width=\"3\"");
+  else if (joint.kind != JointKindInSpace::kBall)
+    text += LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, "stroke-dasharray=\"6 4\"");
+  const Vector2<double> at = Seen(p);
+  return text + fmt::format(
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" rx=\"{}\" fill=\"white\" "
+                    "stroke=\"black\"/>",
+                    screen.X(at[0]) - 4, screen.Y(at[1]) - 4, joint.kind == JointKindInSpace::kSlider ? 0 : 4);
+}
+
 // The visible half of a ball's circle across one of its axes.
 std::string Equator(const Screen& screen, const ConvexPiece& ball, int axis) {
   const Point normal = ball.turn.col(axis);
@@ -168,34 +193,16 @@ std::string Dot(const Screen& screen, const Point& p, const char* fill, int radi
                      screen.X(at[0]), screen.Y(at[1]), radius, fill);
 }
 
-// A newton in metres: a quarter of the view for the weight of all bodies that move.
-double ForceScale(const SceneInSpace<double>& scene, const View& view) {
-  double mass = 0;
-  for (const auto& body : scene.bodies) mass += body.fixed ? 0 : body.mass;
-  const double weight = mass * scene.gravity.norm();
-  return (view.top - view.bottom) / 4 / (weight > 0 ? weight : 1);
-}
-
-std::string Picture(const SceneInSpace<double>& scene, const ViewInSpace& view, const Screen& screen,
-                    const MarksInSpace& marks) {
+std::string Picture(const SceneInSpace<double>& scene, const Screen& screen, const MarksInSpace& marks,
+                    double newton) {
   std::string text = "<g stroke='black' stroke-width='0.7' stroke-linejoin='round'>";
   for (const auto& piece : FromBackToFront(scene)) text += Drawn(screen, piece);
   text += "</g>";
-  for (const auto& joint : scene.joints) {
-    const Point at = scene.bodies[joint.a].At(joint.at_a), to = scene.bodies[joint.a].position;
-    text +=
-        fmt::format("<path d=\"{}\" stroke=\"black\"/>", Path(screen, {to, at})) + Dot(screen, at, "white", 4);
-  }
+  for (const auto& joint : scene.joints) text += Drawn(screen, scene, joint);
   for (const auto& point : marks.contacts) text += Dot(screen, point, "#30c030", 3);
-  const double scale = ForceScale(scene, view);
   for (const auto& force : marks.forces) {
     if (force.force.norm() == 0 || force.from_joint) continue;
-    const double sign = force.bodies[0] < force.bodies[1] ? -1 : 1;
-    const Vector2<double> from = Seen(force.point), to = Seen(force.point + sign * scale * force.force);
-    text += fmt::format(
-        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d00000\" "
-        "stroke-width=\"1.5\" marker-end=\"url(#tip)\"/>",
-        screen.X(from[0]), screen.Y(from[1]), screen.X(to[0]), screen.Y(to[1]));
+    text += Line(ArrowOf(screen, Seen(force.point), Seen(newton * ShownForce(scene, force))));
   }
   std::replace(text.begin(), text.end(), '"', '\'');
   return text;
@@ -260,19 +267,20 @@ void SetPoses(SceneInSpace<double>& scene, const RecordedFrameInSpace& frame) {
   }
 }
 
-std::string DrawSvg(const SceneInSpace<double>& scene, const ViewInSpace& view, const MarksInSpace& marks) {
+std::string DrawSvg(const SceneInSpace<double>& scene, const ViewInSpace& view, const MarksInSpace& marks,
+                    double newton) {
   const Screen screen(view);
-  return Head(screen) + Picture(scene, view, screen, marks) + "\n</svg>\n";
+  return Head(screen) + Picture(scene, screen, marks, newton) + "\n</svg>\n";
 }
 
 std::string DrawAnimation(const SceneInSpace<double>& scene, const ViewInSpace& view,
-                          const std::vector<RecordedFrameInSpace>& frames, double rate) {
+                          const std::vector<RecordedFrameInSpace>& frames, double newton, double rate) {
   const Screen screen(view);
   SceneInSpace<double> moved = scene;
   std::string data;
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    data += fmt::format("[{:.4g},\"{}\"],\n", frame.time, Picture(moved, view, screen, frame.marks));
+    data += fmt::format("[{:.4g},\"{}\"],\n", frame.time, Picture(moved, screen, frame.marks, newton));
   }
   return PageHead(scene.name) + Head(screen) + "<g id=\"picture\"></g>\n</svg>\n" + PageTail(data, rate, kShow);
 }

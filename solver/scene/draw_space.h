@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draw in space: draw.h seen from one direction, without perspective.
 //
-// Forces are drawn as they act on the later body of a contact. Faces that look away are left out; convex pieces
-// are drawn from the back to the front. Of two pieces that a face's plane parts, the one on the viewer's side
-// is in front.
+// Faces that look away are left out; convex pieces are drawn from the back to the front. Of two pieces that a
+// face's plane parts, the one on the viewer's side is in front.
 
 #ifndef STICTION_SOLVER_SCENE_DRAW_SPACE_H_
 #define STICTION_SOLVER_SCENE_DRAW_SPACE_H_
@@ -39,9 +38,10 @@ struct RecordedFrameInSpace {
 RecordedFrameInSpace Record(const SceneInSpace<double>& scene, double time, MarksInSpace marks);
 void SetPoses(SceneInSpace<double>& scene, const RecordedFrameInSpace& frame);
 
-std::string DrawSvg(const SceneInSpace<double>& scene, const ViewInSpace& view, const MarksInSpace& marks);
+std::string DrawSvg(const SceneInSpace<double>& scene, const ViewInSpace& view, const MarksInSpace& marks,
+                    double newton);
 std::string DrawAnimation(const SceneInSpace<double>& scene, const ViewInSpace& view,
-                          const std::vector<RecordedFrameInSpace>& frames, double rate);
+                          const std::vector<RecordedFrameInSpace>& frames, double newton, double rate);
 
 template <>
 struct DrawingOf<SceneInSpace<double>> {

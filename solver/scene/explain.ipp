@@ -87,7 +87,7 @@ std::vector<std::string> Explain(const SceneType& scene, const std::vector<typen
     const auto& island = model.islands[i];
     lines.push_back(
         fmt::format("problem {} of {}: {} bodies that move, {} rows{}", i + 1, model.islands.size(),
-                    island.bodies.size(), island.problem.rows(),
+                    island.bodies.size(), island.rows,
                     model.islands.size() > 1
                         ? "; it shares no moving body with the others, so A has only zeros between them"
                         : ""));

@@ -7,9 +7,9 @@
 //                     rounding over rationals: symmetric, positive semidefinite, range(A) = range(J)
 //   accelerations     W (F + J' f)
 //
-// Only entries of rows that share a body which can move are formed, and only one triangle of them. An island is
-// a set of bodies that constraints connect; fixed bodies connect nothing. Each island is a problem of its own:
-// the A of all is the block diagonal of theirs.
+// An island is a set of bodies that constraints connect; fixed bodies connect nothing. Each island is a problem
+// of its own: the A of all is the block diagonal of theirs. An island keeps J; A is formed when a method asks
+// for it, as the method wants it, dense or sparse, and only from rows that share a body which can move.
 
 #ifndef STICTION_SOLVER_SCENE_MECHANICS_H_
 #define STICTION_SOLVER_SCENE_MECHANICS_H_
@@ -17,7 +17,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/problem.h"
+#include "solver/sparse_problem.h"
 
 namespace stiction {
 
@@ -64,29 +64,33 @@ Scalar Velocity(const Constraint<Scalar, Dof>& constraint, int row,
   return velocity;
 }
 
-template <class Scalar>
 struct Island {
   std::vector<int> bodies;       // that can move
   std::vector<int> constraints;  // in order
-  ContactProblem<Scalar> problem;
+  int rows = 0;
 };
 
 // The islands that have constraints, ordered by their first one; all in one if `together`. Constraints between
 // bodies that cannot move are in none, unless `together`.
 template <class Scalar, int Dof>
-std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                        const std::vector<Constraint<Scalar, Dof>>& constraints, bool together);
+std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                const std::vector<Constraint<Scalar, Dof>>& constraints, bool together);
 
-// Sets the island's problem from its constraints' laws, rows and b.
+// The island's problem from its constraints' laws, rows and b: with all of A, rows x rows, and with its nonzero
+// blocks only.
 template <class Scalar, int Dof>
-void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
-                 Island<Scalar>& island);
+ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                      const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                      const Island& island);
+template <class Scalar, int Dof>
+SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                             const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                             const Island& island);
 
 // W J' f of an island's forces, added to `change`, a vector per body.
 template <class Scalar, int Dof>
 void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island<Scalar>& island,
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island,
                  const typename ContactProblem<Scalar>::Vector& f,
                  std::vector<Eigen::Matrix<Scalar, Dof, 1>>& change);
 
@@ -107,9 +111,10 @@ void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
 // a face inside the hull of the rest. The proof is the same with three shares. With friction it would be wrong:
 // forces at the corners also turn about the normal, so J_F differs, and only constraints at one point agree.
 // Different mu break it: the wrenches that the two can give need not contain that of a rough contact between.
-// Over doubles equality is to 1e-12 of the numbers compared.
+// Over doubles equality is to 1e-12 of the numbers compared. What a plane parts from all others of its bodies,
+// by more than that, is no mean of them and not compared further. Numbers ascending.
 template <class Scalar, int Dof>
-std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints);
+std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints);
 
 }  // namespace stiction
 

@@ -5,7 +5,7 @@
 #define STICTION_SOLVER_SCENE_MECHANICS_IPP_
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -20,9 +20,8 @@ inline int RootOf(std::vector<int>& parent, int i) {
 }
 
 template <class Scalar, int Dof>
-std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                        const std::vector<Constraint<Scalar, Dof>>& constraints,
-                                        bool together) {
+std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                const std::vector<Constraint<Scalar, Dof>>& constraints, bool together) {
   const int count = static_cast<int>(bodies.size());
   std::vector<int> parent(count);
   std::iota(parent.begin(), parent.end(), 0);
@@ -33,7 +32,7 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
     const auto [first, second] = constraint.bodies;
     if (!bodies[first].fixed && !bodies[second].fixed) parent[RootOf(parent, first)] = RootOf(parent, second);
   }
-  std::vector<Island<Scalar>> islands;
+  std::vector<Island> islands;
   std::vector<int> island_of(count, -1);
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const int body = member(constraints[i]);
@@ -44,6 +43,7 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
       islands.emplace_back();
     }
     islands[island].constraints.push_back(static_cast<int>(i));
+    islands[island].rows += static_cast<int>(constraints[i].rows.size());
   }
   for (int body = 0; body < count && !islands.empty(); ++body) {
     const int island = island_of[together ? 0 : RootOf(parent, body)];
@@ -52,10 +52,11 @@ std::vector<Island<Scalar>> FindIslands(const std::vector<BodyDynamics<Scalar, D
   return islands;
 }
 
-template <class Scalar, int Dof>
-void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, int dimension,
-                 Island<Scalar>& island) {
+// add(i, j, value), j <= i: what a body that can move contributes to A(i, j). The values of all bodies add up.
+template <class Scalar, int Dof, class Add>
+void ForEachEntry(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                  const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island,
+                  const Add& add) {
   using Vector = Eigen::Matrix<Scalar, Dof, 1>;
   struct Touch {
     int row;
@@ -63,41 +64,70 @@ void FormProblem(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
     Vector WJ;
   };
   std::vector<std::vector<Touch>> touches(bodies.size());
-  ContactProblem<Scalar>& problem = island.problem;
-  problem.dimension = dimension;
-  problem.contacts.clear();
-  int rows = 0;
+  int at = 0;
   for (const int i : island.constraints) {
-    const auto& constraint = constraints[i];
-    problem.contacts.push_back(constraint.law);
-    for (const auto& row : constraint.rows) {
+    for (const auto& row : constraints[i].rows) {
       for (int side = 0; side < 2; ++side) {
-        const int body = constraint.bodies[side];
-        if (!bodies[body].fixed) touches[body].push_back({rows, &row.J[side], bodies[body].W * row.J[side]});
+        const int body = constraints[i].bodies[side];
+        if (!bodies[body].fixed) touches[body].push_back({at, &row.J[side], bodies[body].W * row.J[side]});
       }
-      ++rows;
+      ++at;
     }
   }
-  problem.A = ContactProblem<Scalar>::Matrix::Constant(rows, rows, Scalar(0));
-  problem.b.resize(rows);
   for (const int body : island.bodies) {
     const auto& list = touches[body];
     for (std::size_t i = 0; i < list.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) problem.A(list[i].row, list[j].row) += list[i].J->dot(list[j].WJ);
+      for (std::size_t j = 0; j <= i; ++j) add(list[i].row, list[j].row, Scalar(list[i].J->dot(list[j].WJ)));
     }
   }
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < i; ++j) problem.A(j, i) = problem.A(i, j);
-  }
+}
+
+// A problem with everything but A.
+template <class Problem, class Scalar, int Dof>
+Problem WithoutMatrix(const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island) {
+  Problem problem;
+  problem.dimension = Dof == 3 ? 2 : 3;
+  problem.b.resize(island.rows);
   int at = 0;
   for (const int i : island.constraints) {
+    problem.contacts.push_back(constraints[i].law);
     for (const auto& row : constraints[i].rows) problem.b[at++] = row.b;
   }
+  return problem;
+}
+
+template <class Scalar, int Dof>
+ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                      const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                      const Island& island) {
+  auto problem = WithoutMatrix<ContactProblem<Scalar>>(constraints, island);
+  problem.A = ContactProblem<Scalar>::Matrix::Constant(island.rows, island.rows, Scalar(0));
+  ForEachEntry(bodies, constraints, island,
+               [&problem](int i, int j, const Scalar& value) { problem.A(i, j) += value; });
+  for (int i = 0; i < island.rows; ++i) {
+    for (int j = 0; j < i; ++j) problem.A(j, i) = problem.A(i, j);
+  }
+  return problem;
+}
+
+template <class Scalar, int Dof>
+SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                             const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                             const Island& island) {
+  auto problem = WithoutMatrix<SparseContactProblem<Scalar>>(constraints, island);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  ForEachEntry(bodies, constraints, island, [&entries](int i, int j, const Scalar& value) {
+    entries.emplace_back(i, j, value);
+    if (j < i) entries.emplace_back(j, i, value);
+  });
+  problem.A.resize(island.rows, island.rows);
+  problem.A.setFromTriplets(entries.begin(), entries.end());
+  return problem;
 }
 
 template <class Scalar, int Dof>
 void AddResponse(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island<Scalar>& island,
+                 const std::vector<Constraint<Scalar, Dof>>& constraints, const Island& island,
                  const typename ContactProblem<Scalar>::Vector& f,
                  std::vector<Eigen::Matrix<Scalar, Dof, 1>>& change) {
   int at = 0;
@@ -221,29 +251,125 @@ bool HaveOneLaw(const Constraint<Scalar, Dof>& i, const Constraint<Scalar, Dof>&
   return i.law.kind == j.law.kind && i.law.mu == j.law.mu && i.law.slip == j.law.slip;
 }
 
+// Contacts between the same two bodies, ascending: the entries [from, to) of an order of all constraints, or
+// where that is empty these numbers themselves.
+struct ContactGroup {
+  const std::vector<int>& order;
+  int from, to;
+
+  int size() const { return to - from; }
+  int operator[](int k) const { return order.empty() ? from + k : order[from + k]; }
+};
+
+// The normal row of a constraint: the part of the lower of its bodies, or of the higher.
 template <class Scalar, int Dof>
-std::vector<bool> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
-  const int count = static_cast<int>(constraints.size());
-  std::vector<bool> redundant(constraints.size(), false);
-  const auto bodies_of = [&constraints](int i) {
-    const auto [first, second] = constraints[i].bodies;
-    return std::minmax({first, second});
-  };
-  std::map<std::pair<int, int>, std::vector<int>> of_pair;
-  for (int i = 0; i < count; ++i) of_pair[bodies_of(i)].push_back(i);
-  std::vector<int> others;
-  for (int i = 0; i < count; ++i) {
-    if (constraints[i].law.kind == ContactKind::kBilateral) continue;
-    others.clear();
-    for (const int j : of_pair[bodies_of(i)]) {
-      if (j != i && !redundant[j] && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
-    }
-    for (std::size_t j = 0; j < others.size() && !redundant[i]; ++j) {
-      for (std::size_t k = j; k < others.size() && !redundant[i]; ++k)
-        redundant[i] = IsBetween(constraints[i], constraints[others[j]], constraints[others[k]]);
-    }
-    if (Dof == 6 && !redundant[i]) redundant[i] = IsInHull(constraints, i, others);
+const Eigen::Matrix<Scalar, Dof, 1>& NormalPart(const Constraint<Scalar, Dof>& constraint, int side) {
+  return constraint.rows[0].J[constraint.bodies[1] < constraint.bodies[0] ? 1 - side : side];
+}
+
+// More than what IsBetween and IsInTriangle forgive in numbers up to 1, 1e-12, and the rounding here.
+inline constexpr double kForgiven = 4e-12;
+
+// Two tests that show cheaply that contact i is no combination of any others of its group, as combinations lie
+// in their hull. Whether the last number of its normal row, a moment, is beyond that of all others, as that of
+// the ends of an edge is:
+template <class Scalar, int Dof>
+bool IsOutermost(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, const ContactGroup& group) {
+  const auto last = [&](int n) -> const Scalar& { return NormalPart(constraints[group[n]], 1)[Dof - 1]; };
+  const Scalar& own = NormalPart(constraints[i], 1)[Dof - 1];
+  Scalar scale(1);
+  for (int n = 0; n < group.size(); ++n) scale = std::max<Scalar>(scale, Abs<Scalar>(last(n)));
+  const Scalar forgiven = Scalar(scale * kForgiven);
+  int side = 0;
+  for (int n = 0; n < group.size(); ++n) {
+    if (group[n] == i) continue;
+    const int sign = Sign<Scalar>(Scalar(own - last(n)), forgiven);
+    if (sign == 0 || sign == -side) return false;
+    side = sign;
   }
+  return true;
+}
+
+// And whether a plane has its normal row on one side and all of theirs on the other, as that of the corner of a
+// face. The plane is across v, the sum of what leads from them to i.
+template <class Scalar, int Dof>
+bool IsSetApart(const std::vector<Constraint<Scalar, Dof>>& constraints, int i, const ContactGroup& group) {
+  using Part = Eigen::Matrix<Scalar, Dof, 1>;
+  std::array<Part, 2> v = {Part::Constant(Scalar(0)), Part::Constant(Scalar(0))};
+  Scalar scale(1), length(0);
+  for (int n = 0; n < group.size(); ++n) {
+    for (int side = 0; side < 2; ++side) {
+      const Part& other = NormalPart(constraints[group[n]], side);
+      v[side] += NormalPart(constraints[i], side) - other;
+      for (int k = 0; k < Dof; ++k) scale = std::max<Scalar>(scale, Abs<Scalar>(other[k]));
+    }
+  }
+  for (int k = 0; k < 2 * Dof; ++k) length += Abs<Scalar>(v[k / Dof][k % Dof]);
+  const auto height = [&](int j) {
+    return Scalar(v[0].dot(NormalPart(constraints[j], 0)) + v[1].dot(NormalPart(constraints[j], 1)));
+  };
+  const Scalar own = height(i), forgiven = Scalar(scale * length * kForgiven);
+  for (int n = 0; n < group.size(); ++n) {
+    if (group[n] != i && Sign<Scalar>(Scalar(own - height(group[n])), forgiven) <= 0) return false;
+  }
+  return true;
+}
+
+// Whether contact i is a combination of the others.
+template <class Scalar, int Dof>
+bool IsCombination(const std::vector<Constraint<Scalar, Dof>>& constraints, int i,
+                   const std::vector<int>& others) {
+  for (std::size_t j = 0; j < others.size(); ++j) {
+    for (std::size_t k = others.size(); k-- > j;) {  // the ends first
+      if (IsBetween(constraints[i], constraints[others[j]], constraints[others[k]])) return true;
+    }
+  }
+  return Dof == 6 && IsInHull(constraints, i, others);
+}
+
+// Adds what can be dropped of a group.
+template <class Scalar, int Dof>
+void AddRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints, const ContactGroup& group,
+                  std::vector<int>& redundant) {
+  if (group.size() == 2 && IsOutermost(constraints, group[0], group)) return;  // so is the other
+  const auto before = static_cast<std::ptrdiff_t>(redundant.size());
+  std::vector<int> others;
+  for (int n = 0; n < group.size(); ++n) {
+    const int i = group[n];
+    if (IsOutermost(constraints, i, group) || (Dof == 6 && IsSetApart(constraints, i, group))) continue;
+    others.clear();
+    for (int k = 0; k < group.size(); ++k) {
+      const int j = group[k];
+      const bool is_kept = std::find(redundant.begin() + before, redundant.end(), j) == redundant.end();
+      if (j != i && is_kept && HaveOneLaw(constraints[i], constraints[j])) others.push_back(j);
+    }
+    if (IsCombination(constraints, i, others)) redundant.push_back(i);
+  }
+}
+
+template <class Scalar, int Dof>
+std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints) {
+  const int count = static_cast<int>(constraints.size());
+  const auto bodies = [&constraints](int i) {  // those of joints before all others
+    const auto [first, second] = constraints[i].bodies;
+    if (constraints[i].law.kind == ContactKind::kBilateral) return std::pair(-1, -1);
+    return std::pair(std::min(first, second), std::max(first, second));
+  };
+  std::vector<int> order;
+  for (int i = 1; i < count && order.empty(); ++i) {
+    if (bodies(i - 1) <= bodies(i)) continue;  // as nearly always: joints come first, contacts pair by pair
+    order.resize(constraints.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&bodies](int j, int k) { return bodies(j) < bodies(k); });
+  }
+  std::vector<int> redundant;
+  const ContactGroup all{order, 0, count};
+  for (int from = 0, to = 0; from < count; from = to) {
+    const auto pair = bodies(all[from]);
+    while (to < count && bodies(all[to]) == pair) ++to;
+    if (to - from > 1 && pair.first >= 0) AddRedundant<Scalar, Dof>(constraints, {order, from, to}, redundant);
+  }
+  std::sort(redundant.begin(), redundant.end());
   return redundant;
 }
 

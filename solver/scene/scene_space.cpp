@@ -214,6 +214,12 @@ ShapeInSpace<double> Round(const ShapeInSpace<Exact>& shape) {
   return rounded;
 }
 
+Quaternion<double> NearestRotation(const Quaternion<Exact>& rotation) {
+  Quaternion<double> nearest;
+  for (int i = 0; i < 4; ++i) nearest[i] = Nearest(rotation[i]);
+  return nearest.normalized();
+}
+
 BodyInSpace<double> Round(const BodyInSpace<Exact>& body) {
   BodyInSpace<double> rounded;
   rounded.name = body.name;
@@ -221,10 +227,10 @@ BodyInSpace<double> Round(const BodyInSpace<Exact>& body) {
   rounded.mass = Nearest(body.mass);
   for (int i = 0; i < 9; ++i) rounded.inertia(i % 3, i / 3) = Nearest(body.inertia(i % 3, i / 3));
   rounded.position = NearestVector(body.position);
-  for (int i = 0; i < 4; ++i) rounded.rotation[i] = Nearest(body.rotation[i]);
-  rounded.rotation.normalize();
+  rounded.rotation = NearestRotation(body.rotation);
   rounded.velocity = NearestVector(body.velocity);
   rounded.spin = NearestVector(body.spin);
+  rounded.acceleration = NearestVector(body.acceleration);
   rounded.force = NearestVector(body.force);
   rounded.torque = NearestVector(body.torque);
   rounded.level = body.level;
@@ -242,8 +248,11 @@ SceneInSpace<double> Round(const SceneInSpace<Exact>& scene) {
   rounded.gap = Nearest(scene.gap);
   rounded.rest = Nearest(scene.rest);
   for (const auto& body : scene.bodies) rounded.bodies.push_back(Round(body));
-  for (const auto& joint : scene.joints)
-    rounded.joints.push_back({joint.a, joint.b, NearestVector(joint.at_a), NearestVector(joint.at_b)});
+  for (const auto& joint : scene.joints) {
+    rounded.joints.push_back({joint.kind, joint.a, joint.b, NearestVector(joint.at_a),
+                              NearestVector(joint.at_b), NearestVector(joint.direction),
+                              NearestRotation(joint.relative_rotation)});
+  }
   for (const auto& given : scene.contacts) {
     rounded.contacts.push_back(
         {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});

@@ -8,6 +8,7 @@
 #ifndef STICTION_SOLVER_SCENE_SCENE_SPACE_H_
 #define STICTION_SOLVER_SCENE_SCENE_SPACE_H_
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct BodyInSpace {
   Vector3<Scalar> position = Zero3<Scalar>();
   Quaternion<Scalar> rotation = MakeQuaternion<Scalar>(Scalar(1), Zero3<Scalar>());
   Vector3<Scalar> velocity = Zero3<Scalar>(), spin = Zero3<Scalar>();
+  Vector3<Scalar> acceleration = Zero3<Scalar>();                     // of a fixed body; m/s^2
   Vector3<Scalar> force = Zero3<Scalar>(), torque = Zero3<Scalar>();  // beside gravity, at the centre of mass
   std::vector<ShapeInSpace<Scalar>> shapes;
   int level = 0;  // bodies of different levels do not touch
@@ -65,11 +67,20 @@ struct BodyInSpace {
   }
 };
 
-// A ball joint: the points at_a and at_b, in the coordinates of a and of b, coincide (3 rows).
+// ball    the points at_a and at_b coincide (3 rows)
+// hinge   a ball on which a turns relative to b about `direction` only (5 rows)
+// rail    at_a stays on the line through at_b along `direction`, which turns with b (2 rows)
+// slider  a rail on which a does not turn relative to b either (5 rows)
+enum class JointKindInSpace : std::uint8_t { kBall, kHinge, kRail, kSlider };
+
 template <class Scalar>
-struct BallJoint {
-  int a = 0, b = 0;
-  Vector3<Scalar> at_a, at_b;
+struct JointInSpace {
+  JointKindInSpace kind = JointKindInSpace::kBall;
+  int a = 0, b = 0;                             // bodies
+  Vector3<Scalar> at_a, at_b;                   // in the coordinates of a and of b
+  Vector3<Scalar> direction = Zero3<Scalar>();  // unit vector in the coordinates of b; not of a ball
+  // Of a, seen from b. Slider, and hinge: there any turn about its axis may follow.
+  Quaternion<Scalar> relative_rotation = MakeQuaternion<Scalar>(Scalar(1), Zero3<Scalar>());
 };
 
 // The point at_a of body a stays outside of the plane through at_b of body b with the outer normal `normal`,
@@ -88,7 +99,7 @@ struct SceneInSpace {
   Scalar gap = Scalar(0);                     // shapes that are no farther apart count as touching
   Scalar rest = Scalar(0);                    // a tangential speed up to which a contact counts as at rest
   std::vector<BodyInSpace<Scalar>> bodies;
-  std::vector<BallJoint<Scalar>> joints;
+  std::vector<JointInSpace<Scalar>> joints;
   std::vector<GivenContactInSpace<Scalar>> contacts;
   std::vector<PairRule<Scalar>> pairs;
 };

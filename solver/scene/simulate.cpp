@@ -103,6 +103,13 @@ bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& p
   return SolveReduced(problem, solver.fast.options().tolerances, run, accept, f);
 }
 
+bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f) {
+  if (solver.proximal.Run(problem).outcome != Outcome::kSolved) return false;
+  f = solver.proximal.f();
+  return true;
+}
+
 template class SimulationOf<Scene<double>>;
 
 Energy EnergyOf(const Scene<double>& scene) {

@@ -11,7 +11,8 @@
 //                 found first are resolved before, as by 3: moved bodies may show others
 //   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
 //                 `impulses`, an inelastic collision with restitution 0 and Coulomb's law, v += W J' p
-//   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f)
+//   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f); a contact that parts is
+//                 left out, and brought back where it would overlap at the end of the step
 //   5 motion      x += h v, with the new v (the symplectic Euler method)
 //
 // At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
@@ -37,8 +38,8 @@
 // Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual) ends the
 // simulation: SimulationError.
 // Cost. For each island one problem of forces, another for every time that contacts come to rest within the
-// step, one of positions where there are joints, one of impulses in a collision; dense in the rows of an
-// island.
+// step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400 rows
+// and more stays sparse.
 
 #ifndef STICTION_SOLVER_SCENE_SIMULATE_H_
 #define STICTION_SOLVER_SCENE_SIMULATE_H_
@@ -52,6 +53,7 @@
 
 #include "solver/coulomb.h"
 #include "solver/fast.h"
+#include "solver/proximal.h"
 #include "solver/scene/assemble.h"
 
 namespace stiction {
@@ -94,6 +96,7 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
+  std::int64_t sparse = 0;       // problems solved with a sparse A
   std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
   std::int64_t deep = 0;         // frames that ran out of halvings
 
@@ -114,6 +117,7 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
+  visit("sparse", "problems solved with a sparse A", s.sparse);
   visit("halved", "steps that ended too deep and were done in two halves", s.halved);
   visit("deep", "frames that ran out of halvings", s.deep);
 }
@@ -160,8 +164,10 @@ struct SolverOf;
 
 template <>
 struct SolverOf<Scene<double>> {
-  explicit SolverOf(const SimulationOptions& options) : fast(options.fast) {}
+  explicit SolverOf(const SimulationOptions& options)
+      : fast(options.fast), proximal({.residual = options.fast.residual}) {}
   FastSolver<double> fast;
+  ProximalNewton<double> proximal;
 };
 
 template <class SceneType>
@@ -194,11 +200,13 @@ class SimulationOf {
   void StepBy(double h, int halvings);
   void TakeStep();
   double Overlap() const;
-  Model AssembleAt(Level level, const std::vector<bool>& held = {}) const;
+  Model AssembleAt(Level level, const std::vector<bool>& held = {},
+                   const std::vector<bool>& closing = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
   void FindNear();
   void FindStepContacts();
+  bool Closes(const Touch& contact, const Changes& accelerations) const;
   bool AddClosing(const Changes& accelerations);
   Changes Response(const Model& model, const Forces& f) const;
   bool HasDrifted() const;
@@ -207,6 +215,7 @@ class SimulationOf {
   void ApplyImpulses();
   Changes Accelerations();
   int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
+  int KeepClosing(const Model& model, const Changes& accelerations, std::vector<bool>& closing) const;
   void KeepForces(const Model& model, const Forces& f);
   void Move(const Changes& accelerations);
 
@@ -240,6 +249,11 @@ Drift DriftOf(const Scene<double>& scene);
 //   FastSolver with complete driving: counted
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
+
+// The same with a sparse A, in which joints stay: proximal points (proximal.h). It has its turn before
+// SolveScene where an island is large, and after it elsewhere.
+bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f);
 
 }  // namespace stiction
 

@@ -24,6 +24,7 @@ namespace stiction {
 
 inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 inline constexpr int kHoldRounds = 8;
+inline constexpr int kSparseRows = 400;   // from which on a sparse A costs less
 inline constexpr double kDeep = 1e-3;     // m; where the scene has no gap
 inline constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
@@ -122,12 +123,14 @@ double SimulationOf<SceneType>::Overlap() const {
 }
 
 template <class SceneType>
-auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& held) const -> Model {
+auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& held,
+                                         const std::vector<bool>& closing) const -> Model {
   AssembleOptions<double> options;
   options.level = level;
   options.step = step_;
   options.minimal = options_.minimal;
   options.held = held;
+  options.closing = closing;
   return Assemble(scene_, contacts_, options);
 }
 
@@ -151,15 +154,20 @@ void SimulationOf<SceneType>::FindStepContacts() {
   contacts_.erase(beyond, contacts_.end());
 }
 
-// Moves from beyond_ to contacts_ what would overlap at the end of the step; whether there was anything.
+// Whether the contact would overlap at the end of the step, to first order.
+template <class SceneType>
+bool SimulationOf<SceneType>::Closes(const Touch& contact, const Changes& accelerations) const {
+  const double h = step_;
+  const auto normal = ContactConstraint(scene_, contact).rows[0];
+  const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
+  return !(contact.gap + h * (ApproachOf(scene_, contact) + h * change) >= -kDrift);
+}
+
+// Moves from beyond_ to contacts_ what closes; whether there was anything.
 template <class SceneType>
 bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
-  const double h = step_;
-  const auto closing = std::stable_partition(beyond_.begin(), beyond_.end(), [&](const Touch& contact) {
-    const auto normal = ContactConstraint(scene_, contact).rows[0];
-    const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
-    return contact.gap + h * (ApproachOf(scene_, contact) + h * change) >= -kDrift;
-  });
+  const auto closing = std::stable_partition(
+      beyond_.begin(), beyond_.end(), [&](const Touch& contact) { return !Closes(contact, accelerations); });
   const bool found = closing != beyond_.end();
   contacts_.insert(contacts_.end(), closing, beyond_.end());
   beyond_.erase(closing, beyond_.end());
@@ -168,6 +176,18 @@ bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
 
 // ---- Solving ---------------------------------------------------------------------------------
 
+template <class SceneType>
+bool SolveIsland(SolverOf<SceneType>& solver, const typename SceneTypes<SceneType>::Model& model,
+                 std::size_t island, ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
+  const auto sparse = [&] {
+    const bool solved = SolveSparse(solver, model.SparseProblem(island), f);
+    statistics.sparse += solved;
+    return solved;
+  };
+  const auto dense = [&] { return SolveScene(solver, model.Problem(island), f, statistics); };
+  return model.islands[island].rows < kSparseRows ? dense() || sparse() : sparse() || dense();
+}
+
 // Islands at the same time where there is work enough: every answer depends on its own problem alone. False
 // with failed_ set to the first island that has no answer.
 template <class SceneType>
@@ -175,10 +195,9 @@ bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) 
   const std::size_t count = model.islands.size();
   int rows = 0, largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& problem = model.islands[i].problem;
-    rows += problem.rows();
-    largest = std::max(largest, problem.rows());
-    if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), problem});
+    rows += model.islands[i].rows;
+    largest = std::max(largest, model.islands[i].rows);
+    if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), model.Problem(i)});
   }
   statistics_.problems += static_cast<std::int64_t>(count);
   statistics_.rows += rows;
@@ -187,7 +206,7 @@ bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) 
   std::vector<SimulationStatistics> counted(count);
   std::vector<char> solved(count, 0);
   const auto solve = [&](std::size_t i) {
-    solved[i] = SolveScene(solvers_.local(), model.islands[i].problem, f[i], counted[i]);
+    solved[i] = SolveIsland(solvers_.local(), model, i, f[i], counted[i]);
   };
   if (count > 1 && largest >= kParallelRows) {
     tbb::parallel_for(std::size_t{0}, count, solve);
@@ -197,6 +216,7 @@ bool SimulationOf<SceneType>::Solve(const Model& model, Level level, Forces& f) 
   for (const SimulationStatistics& part : counted) {
     statistics_.fallbacks += part.fallbacks;
     statistics_.loose += part.loose;
+    statistics_.sparse += part.sparse;
   }
   failed_ = std::find(solved.begin(), solved.end(), 0) - solved.begin();
   return failed_ == count;
@@ -207,8 +227,8 @@ void SimulationOf<SceneType>::Fail(const Model& model, Level level, std::size_t 
   throw SimulationError(
       fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided",
                   statistics_.frames, time(), kLevelNames[static_cast<int>(level)], island + 1,
-                  model.islands[island].problem.rows()),
-      model.islands[island].problem);
+                  model.islands[island].rows),
+      model.Problem(island));
 }
 
 template <class SceneType>
@@ -264,9 +284,9 @@ void SimulationOf<SceneType>::ApplyImpulses() {
 
 template <class SceneType>
 auto SimulationOf<SceneType>::Accelerations() -> Changes {
-  std::vector<bool> held(contacts_.size(), false);
+  std::vector<bool> held(contacts_.size(), false), closing(contacts_.size(), false);
   for (int round = 0;; ++round) {
-    const Model model = AssembleAt(Level::kForces, held);
+    const Model model = AssembleAt(Level::kForces, held, closing);
     const bool all_held = std::find(held.begin(), held.end(), false) == held.end();
     Forces f;
     if (!Solve(model, Level::kForces, f)) {
@@ -278,7 +298,8 @@ auto SimulationOf<SceneType>::Accelerations() -> Changes {
     Changes accelerations = BodyAccelerations(model, f);
     const int reversing = all_held ? 0 : HoldReversing(model, accelerations, held);
     statistics_.stopped += reversing;
-    if (reversing == 0 || round >= kHoldRounds) {
+    const int back = KeepClosing(model, accelerations, closing);
+    if ((reversing == 0 && back == 0) || round >= kHoldRounds) {
       KeepForces(model, f);
       return accelerations;
     }
@@ -301,6 +322,20 @@ int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& ac
     }
     if (along >= 0) continue;
     held[constraint.source] = true;
+    ++count;
+  }
+  return count;
+}
+
+// Marks the contacts left out because they part that would be back, and overlap, at the end of the step.
+template <class SceneType>
+int SimulationOf<SceneType>::KeepClosing(const Model& model, const Changes& accelerations,
+                                         std::vector<bool>& closing) const {
+  int count = 0;
+  for (const Omission& omission : model.omitted) {
+    if (omission.reason != OmissionReason::kSeparating) continue;
+    if (!Closes(contacts_[omission.contact], accelerations)) continue;
+    closing[omission.contact] = true;
     ++count;
   }
   return count;

@@ -77,7 +77,22 @@ bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<dou
   const auto accept = [&](const auto& whole, const auto& a) {
     return CoulombResidual(problem, whole, a) <= kWholeResidual;
   };
-  return SolveReduced(problem, solver.fast.options().tolerances, run, accept, f);
+  // Joints that repeat each other, as two hinges of a door do, contradict each other by rounding, which may be
+  // much beside a small drift; `accept` has the last word.
+  Tolerances tolerances = solver.fast.options().tolerances;
+  tolerances.acceleration = kWholeResidual;
+  return SolveReduced(problem, tolerances, run, accept, f);
+}
+
+bool SolveSparse(SolverOf<SceneInSpace<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f) {
+  const auto has_friction = [](const auto& contact) { return contact.HasFrictionRows(); };
+  if (std::any_of(problem.contacts.begin(), problem.contacts.end(), has_friction)) return false;
+  SparseContactProblem<double> planar = problem;  // one row each, as in the plane
+  planar.dimension = 2;
+  if (solver.proximal.Run(planar).outcome != Outcome::kSolved) return false;
+  f = solver.proximal.f();
+  return true;
 }
 
 template class SimulationOf<SceneInSpace<double>>;

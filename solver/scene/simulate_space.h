@@ -19,9 +19,11 @@ namespace stiction {
 
 template <>
 struct SolverOf<SceneInSpace<double>> {
-  explicit SolverOf(const SimulationOptions& options) : coulomb(options.coulomb), fast(options.fast) {}
+  explicit SolverOf(const SimulationOptions& options)
+      : coulomb(options.coulomb), fast(options.fast), proximal({.residual = options.fast.residual}) {}
   CoulombSolver<double> coulomb;
   FastSolver<double> fast;
+  ProximalNewton<double> proximal;
 };
 
 using SimulationInSpace = SimulationOf<SceneInSpace<double>>;
@@ -32,6 +34,10 @@ Drift DriftOf(const SceneInSpace<double>& scene);
 
 bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
+
+// Without friction only; otherwise false.
+bool SolveSparse(SolverOf<SceneInSpace<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f);
 
 }  // namespace stiction
 

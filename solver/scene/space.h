@@ -57,6 +57,12 @@ Quaternion<Scalar> Product(const Quaternion<Scalar>& p, const Quaternion<Scalar>
   return MakeQuaternion<Scalar>(Scalar(p[0] * q[0] - u.dot(v)), sum);
 }
 
+// The rotation back.
+template <class Scalar>
+Quaternion<Scalar> Conjugate(const Quaternion<Scalar>& q) {
+  return MakeQuaternion<Scalar>(q[0], Vector3<Scalar>(-q.template tail<3>()));
+}
+
 // Exactly orthogonal over rationals, whatever the length of q.
 template <class Scalar>
 Matrix3<Scalar> RotationMatrix(const Quaternion<Scalar>& q) {

@@ -117,6 +117,21 @@ class Formats(cli.TestCase):
         self.assertRegex(counts, r"(?m)^baraff, exact +cycle 1, solved 1$")
         self.assertRegex(counts, r"(?m)^complete, double +solved 2$")
 
+    def test_suspicions_alone_are_run_over_rationals(self):
+        files = [self.file("reference.json", cli.REFERENCE), self.file("solved.json", cli.SOLVED)]
+        loop, solved = self.survey(*files, "--suspicions")
+        self.assertEqual([(run["method"], run["arithmetic"], run["outcome"]) for run in loop["runs"]],
+                         [("complete", "double", "solved"), ("baraff", "double", "cycle"), ("baraff", "exact", "cycle")])
+        self.assertEqual([(run["method"], run["arithmetic"], run["outcome"]) for run in solved["runs"]],
+                         [("complete", "double", "solved"), ("baraff", "double", "solved")])
+        counts = self.succeeds("survey", self.folder, "--suspicions").out.split("2 problems; exact: those that")[1]
+        self.assertRegex(counts, r"(?m)^baraff, double +cycle 1, solved 1$")
+        self.assertRegex(counts, r"(?m)^baraff, exact +cycle 1$")
+        jammed = self.folder / "jammed.json"
+        self.succeeds("assemble", cli.ROOT / "corpus" / "scenes" / "scripted-wedge-jams.json", "-o", jammed)
+        entry, = self.survey(jammed, "--suspicions")  # no solution, which only a run over rationals proves
+        self.assertEqual([(run["arithmetic"], run["outcome"]) for run in entry["runs"]][-1], ("exact", "no-solution"))
+
     def test_what_the_matrix_does_not_couple_is_decided_exactly_group_by_group(self):
         size = 60
         rows = [["0"] * size for _ in range(size)]

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A running search: its progress on a terminal, its end by clock or signal."""
+"""A running search or simulation: its progress on a terminal, its end by clock or signal."""
 
 import os
 import pty
 import signal
 import subprocess
 import time
+
+import xml.etree.ElementTree as ElementTree
 
 import cli
 
@@ -16,29 +18,25 @@ LONG = 60  # minutes that a search is given which ends for another reason
 PATIENCE = 120  # seconds, on a machine with other work; small against LONG
 
 
-class Running(cli.TestCase):
-    def start(self, *arguments, **streams):
-        """A search in the background, with the disposition of signals that a shell would give it."""
+class Background(cli.TestCase):
+    def launch(self, *arguments, **streams):
+        """A process in the background, with the disposition of signals that a shell would give it."""
         streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams}
-        search = subprocess.Popen([cli.program, "search", "--store", self.folder / "a.store", *map(str, arguments)],
-                                  stdin=subprocess.DEVNULL, **streams)
-        self.addCleanup(lambda: (search.kill(), search.wait()))
-        return search
+        process = subprocess.Popen([cli.program, *map(str, arguments)], stdin=subprocess.DEVNULL, **streams)
+        self.addCleanup(lambda: (process.kill(), process.wait()))
+        return process
 
-    def finish(self, search, timeout=2 * PATIENCE):
-        out, err = search.communicate(timeout=timeout)
-        return cli.Run(search.returncode, (out or b"").decode(), (err or b"").decode())
+    def finish(self, process, timeout=2 * PATIENCE):
+        out, err = process.communicate(timeout=timeout)
+        return cli.Run(process.returncode, (out or b"").decode(), (err or b"").decode())
 
-    def wait_for_units(self, least):
+    def wait_until(self, holds):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
-            done = cli.run("status", self.folder / "a.store", "--json")
-            if done.code == 0 and done.json()["units"] >= least:
+            if holds():
                 return
             time.sleep(0.05)
-        self.fail("the search does not get on")
-
-    # ---- Terminal ----
+        self.fail("it does not get on")
 
     def open_terminal(self):
         try:
@@ -46,16 +44,32 @@ class Running(cli.TestCase):
         except OSError as error:  # a bare chroot has none
             self.skipTest(f"SKIPPED: no pseudo-terminals here: {error}")
 
-    def read_terminal(self, terminal):
+    def read_terminal(self, terminal, until=None):
+        """What comes until the other side is closed, or until it holds a text."""
         shown = b""
-        while True:
+        while until is None or until not in shown:
             try:
                 part = os.read(terminal, 65536)
             except OSError:  # the other side is closed
-                return shown.decode()
+                break
             if not part:
-                return shown.decode()
+                break
             shown += part
+        return shown.decode()
+
+
+class Searches(Background):
+    def start(self, *arguments, **streams):
+        return self.launch("search", "--store", self.folder / "a.store", *arguments, **streams)
+
+    def wait_for_units(self, least):
+        def there():
+            done = cli.run("status", self.folder / "a.store", "--json")
+            return done.code == 0 and done.json()["units"] >= least
+
+        self.wait_until(there)
+
+    # ---- Terminal ----
 
     def test_a_terminal_shows_a_bar(self):
         mine, its = self.open_terminal()
@@ -133,6 +147,56 @@ class Running(cli.TestCase):
 
     def test_an_interrupt_does_not_wait_for_findings_that_take_long(self):
         self.interrupt(signal.SIGINT, [*LARGE, "--threads", 1], units=1, seconds=2)
+
+
+class Simulations(Background):
+    FRAMES = 2  # pictures a second
+
+    def start(self, folder, *arguments, **streams):
+        scene = cli.ROOT / "corpus" / "scenes" / "double-action-jack.json"
+        return self.launch("simulate", scene, "-o", folder, "--frames", self.FRAMES, *arguments, **streams)
+
+    def rows(self, file):
+        """Whole lines but for the head, as numbers."""
+        text = file.read_text() if file.exists() else ""
+        return [[float(x) for x in line.split(",")] for line in text[:text.rfind("\n") + 1].splitlines()[1:]]
+
+    def test_an_interrupted_simulation_leaves_a_whole_folder(self):
+        for signal_number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=signal_number):
+                folder, again = self.folder / signal_number.name, self.folder / "again"
+                simulation = self.start(folder, "--seconds", 1e5)
+                self.wait_until(lambda: len(self.rows(folder / "energy.csv")) > 1000)  # they grow as it goes
+                simulation.send_signal(signal_number)
+                done = self.finish(simulation)
+                self.assertEqual(done.code, 0, done.err)
+                self.assertIn("Interrupted at t = ", done.err)
+                self.assertIn("frames ", done.out)
+                # Nothing is missing, and it is what a run of that length writes.
+                times = [row[0] for row in self.rows(folder / "energy.csv")]
+                self.succeeds("simulate", cli.ROOT / "corpus" / "scenes" / "double-action-jack.json", "-o", again,
+                              "--frames", self.FRAMES, "--seconds", times[-1])
+                written = sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+                self.assertEqual(written, sorted(path.relative_to(again) for path in again.rglob("*") if path.is_file()))
+                for name in written:
+                    self.assertEqual((folder / name).read_bytes(), (again / name).read_bytes(), name)
+                self.assertEqual([row[0] for row in self.rows(folder / "drift.csv")], times)
+                for frame in (folder / "frames").iterdir():
+                    ElementTree.parse(frame)
+                self.assertGreater(len(written), self.FRAMES * times[-1])
+
+    def test_a_terminal_shows_a_bar_until_the_end(self):
+        mine, its = self.open_terminal()
+        simulation = self.start(self.folder / "run", "--seconds", 1e5, "--no-svg", stderr=its)
+        os.close(its)
+        self.assertRegex(self.read_terminal(mine, until=b"s left"), r"\r\x1b\[K\[#*\.+\] t = .* of 24,000,000 steps, ")
+        simulation.send_signal(signal.SIGINT)
+        shown = self.read_terminal(mine)
+        os.close(mine)
+        done = self.finish(simulation)
+        self.assertEqual(done.code, 0)
+        self.assertRegex(shown, r"\r\x1b\[KInterrupted at t = ")
+        self.assertPlain(done)
 
 
 if __name__ == "__main__":

@@ -745,6 +745,31 @@ TEST_CASE("problem file: A as entries is read to the same values as A in rows") 
   }
 }
 
+TEST_CASE("problem file: a large A of mostly zeros is written in entries, unless it is not symmetric") {
+  ProblemFile file;
+  file.name = "band";
+  constexpr int kRows = 70;
+  file.problem.contacts.resize(kRows);
+  for (auto& contact : file.problem.contacts) contact.kind = ContactKind::kFrictionless;
+  file.problem.A = ExactProblem::Matrix::Constant(kRows, kRows, Rational(0));
+  file.problem.b = ExactProblem::Vector::Constant(kRows, Rational(-1));
+  for (int i = 0; i < kRows; ++i) {
+    file.problem.A(i, i) = 2;
+    if (i > 0) file.problem.A(i, i - 1) = file.problem.A(i - 1, i) = Rational(-1, 3);
+  }
+  const std::string text = Print(file);
+  const Json json = ToJson(file);
+  CHECK(json["A"]["size"] == kRows);
+  CHECK(json["A"]["entries"].size() == 2 * kRows - 1);
+  CHECK(json["A"]["entries"][1] == Json::array({1, 0, "-1/3"}));
+  CHECK(ParseJson(text, "printed") == json);
+  CHECK(SameFile(ParseProblem(text, "printed"), file));
+  CHECK(SameProblem(ProblemFromJson(ProblemToJson(file.problem), "json", "", true), file.problem));
+  file.problem.A(3, 40) = 1;
+  CHECK(ToJson(file)["A"].is_array());
+  CHECK(SameFile(ParseProblem(Print(file), "printed"), file));
+}
+
 TEST_CASE("problem file: the writer never emits a number of the problem as anything but a string") {
   RandomProblem random(5);
   for (int i = 0; i < 100; ++i) {

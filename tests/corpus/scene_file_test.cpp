@@ -19,10 +19,11 @@ std::string Body(const std::string& members) {
   return Text(R"([{"name": "a", )" + members + R"(}, {"name": "b", "fixed": true}])");
 }
 
-void CheckRefused(const std::string& text, const std::string& where, const std::string& expected) {
+void CheckRefused(const std::string& text, const std::string& where, const std::string& expected,
+                  bool in_space = false) {
   INFO(text);
   try {
-    ParseScene(text, "file");
+    in_space ? void(ParseSceneInSpace(text, "file")) : void(ParseScene(text, "file"));
     FAIL("accepted");
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -82,6 +83,98 @@ TEST_CASE("scene file: of dimension 3, read exactly and written so that it reads
   CHECK(scene.contacts[0].normal[2] == 1);
   const std::string text = Print(file);
   CHECK(Print(ParseSceneInSpace(text, "again")) == text);
+}
+
+// A fixed door frame, turned so that its x axis is (4/5, 0, 3/5) in the world, and a door.
+std::string SpaceText(const std::string& more, const std::string& of_frame = "",
+                      const std::string& of_door = "") {
+  return R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 3, "bodies": [
+    {"name": "frame", "fixed": true, "rotation": [3, 0, -1, 0])" +
+         of_frame + R"(}, {"name": "door", "mass": "1", "position": ["0", "1", "0"], "rotation": [1, 1, 0, 0],
+     "shapes": [{"box": [1, 1, 1]}])" +
+         of_door + "}]" + more + "}";
+}
+
+std::string JointText(const std::string& members) {
+  return SpaceText(R"(, "joints": [{"bodies": ["door", "frame"], "at": [0, 2, 0], )" + members + "}]");
+}
+
+TEST_CASE(
+    "scene file: joints of dimension 3 have their direction and turn in the coordinates of their second body") {
+  const auto joint = [](const std::string& members) {
+    return ParseSceneInSpace(JointText(members), "file").scene.joints.at(0);
+  };
+  const auto hinge = joint(R"("kind": "hinge", "direction": ["8", "0", "6"])");
+  CHECK(hinge.kind == JointKindInSpace::kHinge);
+  CHECK(hinge.at_a == MakeVector3<Rational>(0, 0, -1));
+  CHECK(hinge.direction == MakeVector3<Rational>(1, 0, 0));
+  // b's rotation back after a's: z of the door is -y of the world, and of the frame.
+  const Vector3<Rational> z =
+      RotationMatrix<Rational>(hinge.relative_rotation) * MakeVector3<Rational>(0, 0, 1);
+  CHECK(z == MakeVector3<Rational>(0, -1, 0));
+  CHECK(joint(R"("kind": "rail", "axis": ["0", "3", "4"])").direction ==
+        MakeVector3<Rational>(0, Rational(3, 5), Rational(4, 5)));
+  const auto slider = joint(R"("kind": "slider", "axis": [0, 0, 1], "turn": ["1", "2", "3", "4"])");
+  CHECK(slider.relative_rotation[3] == 4);
+  CHECK(joint(R"("kind": "ball")").at_b == MakeVector3<Rational>(0, 2, 0));
+}
+
+TEST_CASE("scene file: joints and accelerations of dimension 3 are written so that they read back the same") {
+  for (const char* members : {R"("kind": "ball")", R"("kind": "hinge", "direction": ["1", "1", "0"])",
+                              R"("kind": "rail", "direction": ["1", "2", "3"])",
+                              R"("kind": "slider", "axis": ["0", "0", "1"], "turn": ["1", "2", "3", "1/4"])"}) {
+    const std::string text = Print(ParseSceneInSpace(JointText(members), "file"));
+    CHECK(Print(ParseSceneInSpace(text, "again")) == text);
+  }
+  const auto file = ParseSceneInSpace(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
+  CHECK(file.scene.bodies[0].acceleration[1] == Rational(1, 3));
+  CHECK(ParseSceneInSpace(Print(file), "again").scene.bodies[0].acceleration ==
+        file.scene.bodies[0].acceleration);
+}
+
+TEST_CASE("scene file: joints and accelerations of dimension 3 are rounded to doubles") {
+  const auto text = JointText(R"("kind": "slider", "axis": ["0", "3", "4"], "turn": ["1", "2", "2", "4"])");
+  const auto scene = Round(ParseSceneInSpace(text, "file").scene);
+  const auto& joint = scene.joints.at(0);
+  CHECK(joint.kind == JointKindInSpace::kSlider);
+  CHECK(std::pair(joint.a, joint.b) == std::pair(1, 0));
+  CHECK(joint.at_b[1] == 2);
+  CHECK((joint.direction - Vector3<double>(0, 0.6, 0.8)).norm() < 1e-15);
+  CHECK((joint.relative_rotation - Quaternion<double>(0.2, 0.4, 0.4, 0.8)).norm() < 1e-15);
+  const auto file = ParseSceneInSpace(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
+  CHECK(Round(file.scene).bodies[0].acceleration[1] == 1.0 / 3);
+}
+
+TEST_CASE("scene file: errors of dimension 3 name the place, what was found and what was expected") {
+  const auto refused = [](const std::string& text, const std::string& where, const std::string& expected) {
+    CheckRefused(text, where, expected, true);
+  };
+  refused(JointText(R"("kind": "pin")"), "joints[0].kind", "ball, hinge, rail or slider");
+  refused(JointText(R"("kind": 3)"), "joints[0].kind", "ball, hinge, rail or slider");
+  refused(JointText(R"("kind": "ball", "direction": [1, 0, 0])"), "joints[0].direction",
+          "no direction of a ball");
+  refused(JointText(R"("kind": "ball", "axis": [1, 0, 0])"), "joints[0].axis", "no axis of a ball");
+  refused(JointText(R"("kind": "ball", "turn": [1, 0, 0, 0])"), "joints[0].turn", "no turn of a ball");
+  refused(JointText(R"("kind": "rail", "axis": [1, 0, 0], "turn": [1, 0, 0, 0])"), "joints[0].turn",
+          "no turn of a rail");
+  refused(JointText(R"("kind": "hinge")"), "joints[0].direction", "a direction [x, y, z]");
+  refused(JointText(R"("kind": "slider", "direction": [1, 0])"), "joints[0].direction",
+          "three numbers [x, y, z]");
+  refused(JointText(R"("kind": "slider", "direction": [0, 0, 0])"), "joints[0].direction", "not zero");
+  refused(JointText(R"("kind": "hinge", "direction": [1, 0, 0], "axis": [1, 0, 0])"), "joints[0].axis",
+          R"("direction" or "axis", not both)");
+  refused(JointText(R"("kind": "hinge", "direction": [1, 0, 0], "turn": [1, 0, 0])"), "joints[0].turn",
+          "a quaternion [w, x, y, z], not zero");
+  refused(JointText(R"("kind": "hinge", "direction": [1, 0, 0], "turn": [0, 0, 0, 0])"), "joints[0].turn",
+          "a quaternion [w, x, y, z], not zero");
+  refused(JointText(R"("kind": "hinge", "direction": [1, 0, 0], "anchors": [[0, 0, 0], [0, 0, 0]])"),
+          "joints[0].anchors", R"("at" or "anchors", not both)");
+  refused(JointText(R"("kind": "ball", "normal": [1, 0, 0])"), "joints[0].normal", "");
+  refused(SpaceText(R"(, "contacts": [{"bodies": ["door", "frame"], "at": [0, 0, 0], "normal": [0, 0, 1],
+                             "axis": [0, 0, 1]}])"),
+          "contacts[0].axis", R"("normal" or "axis", not both)");
+  refused(SpaceText("", "", R"(, "acceleration": [0, 0, 1])"), "bodies[1].acceleration", "fixed");
+  refused(SpaceText("", R"(, "acceleration": [0, 1])"), "bodies[0].acceleration", "three numbers [x, y, z]");
 }
 
 TEST_CASE("scene file: errors name the place, what was found and what was expected") {

@@ -71,7 +71,7 @@ ExactProblem FullModel(const Scene<Rational>& scene) {
   options.minimal = false;
   const auto model = Assemble(scene, FindContacts(scene), options);
   REQUIRE(model.islands.size() == 1);
-  return model.islands[0].problem;
+  return model.Problem(0);
 }
 
 TEST_CASE("scenes: contact finding sees the contacts asked for and no other, all of them without gap") {
