@@ -33,6 +33,7 @@ namespace stiction {
 
 struct ProximalOptions {
   double residual = 1e-8;  // largest natural residual of an answer that is called solved, relative to b
+  double aim = 1e-8;       // residual at which it ends; between the two it ends when points gain nothing
   double first_eps = 0.1;
   int points = 200;  // proximal problems tried
   int newton = 12;   // steps of Newton's method for each of them
@@ -57,15 +58,15 @@ class ProximalNewton {
   // Requires dimension 2. Starts from f = 0.
   ProximalVerdict Run(const Problem& problem);
 
-  // Forces in which the last run ended, and a = A f + b.
-  const Vector& f() const { return f_; }
-  const Vector& a() const { return a_; }
+  // The best forces that the last run found, and a = A f + b.
+  const Vector& f() const { return best_f_; }
+  const Vector& a() const { return best_a_; }
 
  private:
   static constexpr Scalar kSettled = Scalar(1e-12);  // natural residual of a proximal problem
 
   void Start(const Problem& problem);
-  bool IsSolved() const;
+  Scalar Measured() const;
   void Regularize(Scalar eps);
   bool Settle();
   void TakeCells();
@@ -76,6 +77,7 @@ class ProximalNewton {
   const Problem* problem_ = nullptr;
   ProximalVerdict verdict_;
   Vector f_, a_;
+  Vector best_f_, best_a_;
   Vector D_;
   std::vector<int> row_of_;  // normal row by contact
 

@@ -17,31 +17,43 @@ template <class Scalar>
 ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
   Start(problem);
   constexpr Scalar kHopeless(1e6);  // so large an eps keeps f where it is
-  Scalar eps(options_.first_eps);
-  while (!IsSolved()) {
-    if (verdict_.points == options_.points || eps > kHopeless) {
+  constexpr int kIdle = 4;          // points that gain nothing before a solution is good enough
+  Scalar eps(options_.first_eps), best = Measured();
+  int idle = 0;
+  while (!(best <= Scalar(options_.aim))) {
+    const bool is_good = best <= Scalar(options_.residual);
+    if (verdict_.points == options_.points || eps > kHopeless || (is_good && idle == kIdle)) {
+      if (is_good) break;
       verdict_.reason = eps > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
     }
     ++verdict_.points;
+    ++idle;
     Regularize(eps);
-    if (Settle()) {
-      f_ = trial_;
-      a_ = problem.A * f_ + problem.b;
-      eps /= 2;
-    } else {
+    if (!Settle()) {
       eps *= 3;
+      continue;
     }
+    f_ = trial_;
+    a_ = problem.A * f_ + problem.b;
+    eps /= 2;
+    const Scalar now = Measured();
+    if (now < best / 2) idle = 0;
+    if (!(now < best)) continue;
+    best = now;
+    best_f_ = f_;
+    best_a_ = a_;
   }
   verdict_.outcome = Outcome::kSolved;
   return verdict_;
 }
 
+// Of f_, relative to b, with the rounding of A f.
 template <class Scalar>
-bool ProximalNewton<Scalar>::IsSolved() const {
+Scalar ProximalNewton<Scalar>::Measured() const {
   const Residual<Scalar> residual = MeasureResidual(*problem_, f_, a_);
-  const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * residual.scale;  // that of A f
-  return residual.worst + rounding <= Scalar(options_.residual) * residual.b_scale;
+  const Scalar worst = residual.worst + std::numeric_limits<Scalar>::epsilon() * residual.scale;
+  return residual.b_scale > 0 ? Scalar(worst / residual.b_scale) : worst;
 }
 
 template <class Scalar>
@@ -52,6 +64,8 @@ void ProximalNewton<Scalar>::Start(const Problem& problem) {
   const int rows = problem.rows();
   f_ = Vector::Zero(rows);
   a_ = problem.b;
+  best_f_ = f_;
+  best_a_ = a_;
   D_ = problem.A.diagonal();
   const Scalar largest = rows > 0 ? D_.maxCoeff() : Scalar(0);
   for (Scalar& d : D_) {

@@ -65,7 +65,7 @@ Scalar Velocity(const Constraint<Scalar, Dof>& constraint, int row,
 }
 
 struct Island {
-  std::vector<int> bodies;       // that can move
+  std::vector<int> bodies;       // that can move, ascending
   std::vector<int> constraints;  // in order
   int rows = 0;
 };

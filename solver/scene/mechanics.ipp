@@ -63,19 +63,21 @@ void ForEachEntry(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
     const Vector* J;
     Vector WJ;
   };
-  std::vector<std::vector<Touch>> touches(bodies.size());
+  std::vector<std::vector<Touch>> touches(island.bodies.size());
   int at = 0;
   for (const int i : island.constraints) {
-    for (const auto& row : constraints[i].rows) {
-      for (int side = 0; side < 2; ++side) {
-        const int body = constraints[i].bodies[side];
-        if (!bodies[body].fixed) touches[body].push_back({at, &row.J[side], bodies[body].W * row.J[side]});
-      }
-      ++at;
+    for (int side = 0; side < 2; ++side) {
+      const int body = constraints[i].bodies[side];
+      if (bodies[body].fixed) continue;
+      auto& list =
+          touches[std::lower_bound(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin()];
+      int row = at;
+      for (const auto& of : constraints[i].rows)
+        list.push_back({row++, &of.J[side], bodies[body].W * of.J[side]});
     }
+    at += static_cast<int>(constraints[i].rows.size());
   }
-  for (const int body : island.bodies) {
-    const auto& list = touches[body];
+  for (const auto& list : touches) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j) add(list[i].row, list[j].row, Scalar(list[i].J->dot(list[j].WJ)));
     }

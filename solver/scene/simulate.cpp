@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
 constexpr int kProximalPoints = 3;
-constexpr double kProximalResidual = 1e-13;  // at which more points gain nothing
 constexpr double kWholeResidual = 1e-7;      // of a problem with the bilateral rows that reduction took out
 
 void Turn(Vector2<double>& rotation, double angle) {
@@ -37,7 +36,7 @@ bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& p
   double residual = std::numeric_limits<double>::infinity();
   std::vector<Cell> cells;
   f.setZero(problem.rows());
-  for (int point = 0; point < kProximalPoints && residual > kProximalResidual; ++point) {
+  for (int point = 0; point < kProximalPoints && residual > kProximalAim; ++point) {
     near.b = problem.b - eps * f;
     if (!SolveQuickly(solver, near, cells)) return false;
     f = solver.f();
@@ -51,18 +50,26 @@ bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& p
   return residual <= solver.options().residual;
 }
 
-bool SolveInTurn(FastSolver<double>& solver, const ContactProblem<double>& problem,
-                 ContactProblem<double>::Vector& f, std::int64_t& fallbacks) {
+bool SolveInTurn(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
   const bool friction = problem.rows() > static_cast<int>(problem.contacts.size());
-  if (friction && SolveQuickly(solver, problem)) {
-    f = solver.f();
+  if (friction && SolveQuickly(solver.fast, problem)) {
+    f = solver.fast.f();
     return true;
   }
-  if (friction && SolveProximally(solver, problem, f)) return true;
-  const FastVerdict verdict = solver.Run(problem);
-  fallbacks += verdict.statistics.fallbacks;
-  f = solver.f();
-  return verdict.outcome == Outcome::kSolved;
+  if (friction && SolveProximally(solver.fast, problem, f)) return true;
+  const auto complete = [&] {
+    const FastVerdict verdict = solver.fast.Run(problem);
+    statistics.fallbacks += verdict.statistics.fallbacks;
+    f = solver.fast.f();
+    return verdict.outcome == Outcome::kSolved;
+  };
+  const auto sparse = [&] {
+    const bool solved = SolveSparse(solver, {2, problem.contacts, problem.A.sparseView(), problem.b}, f);
+    statistics.sparse += solved;
+    return solved;
+  };
+  return friction ? sparse() || complete() : complete() || sparse();
 }
 
 }  // namespace
@@ -95,7 +102,7 @@ static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
   const auto run = [&](const ContactProblem<double>& p, ContactProblem<double>::Vector& x) {
-    return SolveInTurn(solver.fast, p, x, statistics.fallbacks);
+    return SolveInTurn(solver, p, x, statistics);
   };
   const auto accept = [&](const auto& whole, const auto& a) {
     return NaturalResidual(problem, whole, a) <= kWholeResidual;

@@ -96,7 +96,7 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
-  std::int64_t sparse = 0;       // problems solved with a sparse A
+  std::int64_t sparse = 0;       // problems solved by proximal points of a sparse A
   std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
   std::int64_t deep = 0;         // frames that ran out of halvings
 
@@ -117,7 +117,7 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
-  visit("sparse", "problems solved with a sparse A", s.sparse);
+  visit("sparse", "problems solved by proximal points of a sparse A", s.sparse);
   visit("halved", "steps that ended too deep and were done in two halves", s.halved);
   visit("deep", "frames that ran out of halvings", s.deep);
 }
@@ -158,6 +158,8 @@ struct Drift {
   double overlap = 0;  // m
 };
 
+inline constexpr double kProximalAim = 1e-13;  // a residual beyond which points gain nothing
+
 // What solves the problems of a scene: SolveScene(solver, problem, f, fallbacks).
 template <class SceneType>
 struct SolverOf;
@@ -165,7 +167,7 @@ struct SolverOf;
 template <>
 struct SolverOf<Scene<double>> {
   explicit SolverOf(const SimulationOptions& options)
-      : fast(options.fast), proximal({.residual = options.fast.residual}) {}
+      : fast(options.fast), proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
   FastSolver<double> fast;
   ProximalNewton<double> proximal;
 };
@@ -246,12 +248,12 @@ Drift DriftOf(const Scene<double>& scene);
 //   the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from f = 0: two
 //   contacts of one face give A dependent rows of friction, so that a choice of cells need not determine its
 //   forces; these it does determine, and their accelerations agree with the problem's to rounding
+//   SolveSparse: more proximal points, from large eps to small: counted
 //   FastSolver with complete driving: counted
 bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
-// The same with a sparse A, in which joints stay: proximal points (proximal.h). It has its turn before
-// SolveScene where an island is large, and after it elsewhere.
+// The same with a sparse A, in which joints stay: proximal points (proximal.h).
 bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
                  ContactProblem<double>::Vector& f);
 

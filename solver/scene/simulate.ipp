@@ -176,16 +176,15 @@ bool SimulationOf<SceneType>::AddClosing(const Changes& accelerations) {
 
 // ---- Solving ---------------------------------------------------------------------------------
 
+// Of a large island A stays sparse, if that gives an answer.
 template <class SceneType>
 bool SolveIsland(SolverOf<SceneType>& solver, const typename SceneTypes<SceneType>::Model& model,
                  std::size_t island, ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
-  const auto sparse = [&] {
-    const bool solved = SolveSparse(solver, model.SparseProblem(island), f);
-    statistics.sparse += solved;
-    return solved;
-  };
-  const auto dense = [&] { return SolveScene(solver, model.Problem(island), f, statistics); };
-  return model.islands[island].rows < kSparseRows ? dense() || sparse() : sparse() || dense();
+  if (model.islands[island].rows >= kSparseRows && SolveSparse(solver, model.SparseProblem(island), f)) {
+    ++statistics.sparse;
+    return true;
+  }
+  return SolveScene(solver, model.Problem(island), f, statistics);
 }
 
 // Islands at the same time where there is work enough: every answer depends on its own problem alone. False

@@ -20,7 +20,7 @@ namespace stiction {
 template <>
 struct SolverOf<SceneInSpace<double>> {
   explicit SolverOf(const SimulationOptions& options)
-      : coulomb(options.coulomb), fast(options.fast), proximal({.residual = options.fast.residual}) {}
+      : coulomb(options.coulomb), fast(options.fast), proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
   CoulombSolver<double> coulomb;
   FastSolver<double> fast;
   ProximalNewton<double> proximal;

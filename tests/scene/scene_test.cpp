@@ -329,9 +329,7 @@ TEST_CASE("scene: the tension of a pendulum at the bottom is m (g + w^2 l)") {
 TEST_CASE("scene: a contact counts as sliding from the stated speed on, by the sign of its speed") {
   Scene<Rational> scene = NamedScene("incline-rests").scene;
   scene.bodies[1].velocity = MakeVector2<Rational>(Q("-4/500"), Q("-3/500"));  // 1/100 down the slope
-  const auto kind = [&scene] {
-    return Assemble(scene, FindContacts(scene)).Problem(0).contacts.at(0);
-  };
+  const auto kind = [&scene] { return Assemble(scene, FindContacts(scene)).Problem(0).contacts.at(0); };
   CHECK(kind().kind == ContactKind::kSliding);
   const Rational slip = kind().slip[0];
   scene.bodies[1].velocity *= Rational(-1);
