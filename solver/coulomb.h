@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coulomb's law in space, with the round cone: friction of a slipping contact is opposite to its acceleration.
 //
-// Three methods take turns, from one start (Improve):
+// Four methods take turns, from one start (Improve):
 //
 //   Sweeps    contact by contact the force that solves its law while the others keep theirs (one_contact.h).
 //   Newton    on the map of Alart and Curnier (cited from memory), per static contact with r > 0:
 //               sN = fN - r aN,  sF = fF - r aF,   fN - max(0, sN)  and  fF - P(sF),
 //             P the nearest point of the disc of radius mu max(0, sN), whose zeros are the solutions. It is
 //             piecewise smooth; with a line search it converges near a solution, quadratically.
+//   Path      Newton's method on smoothed laws (smooth_law.h), from f = 0 and a wide m to m = 0, once. A step
+//             may make its map larger: the path has turns where b is a little out of range(A).
 //   Approach  proximal steps (the regularization of Rockafellar, cited from memory): f becomes the solution
 //             of the problem with A + rho / r and b - rho / r f, by Newton's method; rho falls from step to
 //             step, and rises where Newton's method fails. A solution f of the problem is a fixed point.
 //
 // Sweeps cost least and are many; where A is singular, as with more contacts than bodies can tell apart,
-// Newton's steps are long, and the proximal ones lead. Starts, in this order: f = 0; then the solutions of
-// complete driving on polygons of more and more sides, which exist wherever A is semidefinite and b in
-// range(A). A need not be symmetric.
+// Newton's steps are long, and the other two lead. The smoothed law keeps the forces of contacts that stick
+// inside their cones; what the others end at are bounds, and near them they slow down. Starts, in this order: f
+// = 0; then the solutions of complete driving on polygons of more and more sides, which exist wherever A is
+// semidefinite and b in range(A). A need not be symmetric.
 //
 // Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
 // CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
@@ -110,6 +113,9 @@ class CoulombSolver {
   bool Newton();
   void Approach();
   bool LineSearch(const Vector& map, const Vector& step);
+  void FollowPath();
+  Vector SmoothMap(const Vector& f, const Scalar& m, Matrix* slope) const;
+  bool SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope);
   void Note();
   Vector Answer(const Vector& f) const;
   Vector Map(const Vector& f, const Vector& a) const;
@@ -124,6 +130,7 @@ class CoulombSolver {
   Vector weight_;          // by row, 1 / r
   Scalar rho_ = Scalar(0);
   Vector center_;  // of a proximal step
+  bool followed_ = false;
   Matrix regular_;
   Vector f_, a_;
   Vector best_f_, best_a_;

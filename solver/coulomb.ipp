@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/complete_space.ipp"
 #include "solver/coulomb.h"
 #include "solver/one_contact.h"
 #include "solver/residual.h"
+#include "solver/smooth_law.h"
 
 namespace stiction {
 
@@ -51,6 +53,7 @@ void CoulombSolver<Scalar>::Start(const Problem& problem) {
     first_row_.push_back(row + size);
   }
   rho_ = 0;
+  followed_ = false;
   f_ = Vector::Zero(problem.rows());
   best_f_ = f_;
   best_a_ = problem.b;
@@ -84,7 +87,10 @@ void CoulombSolver<Scalar>::Improve() {
   Newton();
   int count = options_.sweeps;
   for (int round = 0; round < kRounds && !Reached(); ++round, count *= 4) {
-    if (count > problem_->rows()) Approach();
+    if (count > problem_->rows()) {
+      FollowPath();
+      Approach();
+    }
     if (Reached()) return;
     Sweep(count);
     Newton();
@@ -202,6 +208,88 @@ void CoulombSolver<Scalar>::Approach() {
   }
   rho_ = 0;
   if (Reached()) Newton();
+}
+
+// The smoothed laws with m from a tenth of the forces that b asks for downward, each by Newton's method from
+// the last; then the best point that was met.
+template <class Scalar>
+void CoulombSolver<Scalar>::FollowPath() {
+  constexpr int kMostSteps = 1000, kStepsEach = 60, kFew = 2;
+  if (std::exchange(followed_, true)) return;
+  const Scalar largest = problem_->b.cwiseAbs().maxCoeff() / problem_->A.diagonal().maxCoeff();
+  const std::int64_t end = statistics_.newton_steps + kMostSteps;
+  f_.setZero();
+  Matrix slope;
+  for (Scalar m = largest / 10; m > Scalar(1e-9) * largest && statistics_.newton_steps < end;) {
+    int steps = 0;
+    for (; steps < kStepsEach && !Reached(); ++steps) {
+      const Vector map = SmoothMap(f_, m, &slope);
+      if (map.norm() <= m / 1000) break;
+      if (!SmoothStep(m, map, slope)) break;
+      Note();
+    }
+    if (Reached()) break;
+    m /= steps <= kFew ? 4 : 2;
+  }
+  f_ = best_f_;
+  Newton();
+}
+
+// A step of Newton's method, which may make the map larger; false if there is none.
+template <class Scalar>
+bool CoulombSolver<Scalar>::SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope) {
+  ++statistics_.newton_steps;
+  const Vector step = slope.partialPivLu().solve(-map);
+  if (!step.allFinite()) return false;
+  const Scalar most = 20 * map.norm();
+  for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
+    const Vector f = f_ + t * step;
+    if (!(SmoothMap(f, m, nullptr).norm() < most)) continue;
+    f_ = f;
+    return true;
+  }
+  return false;
+}
+
+// The smoothed laws of all contacts and, if asked for, their derivative.
+template <class Scalar>
+auto CoulombSolver<Scalar>::SmoothMap(const Vector& f, const Scalar& m, Matrix* slope) const -> Vector {
+  const Matrix& A = problem_->A;
+  const Vector a = A * f + problem_->b;
+  const Scalar force = problem_->b.cwiseAbs().maxCoeff() / A.diagonal().maxCoeff();
+  Vector map = f;  // friction is zero where nothing else is said
+  if (slope != nullptr) slope->setIdentity(f.size(), f.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const auto& contact = problem_->contacts[i];
+    const int row = first_row_[i];
+    const Scalar r = r_[i];
+    if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
+      const SmoothStatic<Scalar> law(f.template segment<3>(row), a.template segment<3>(row), contact.mu, r, m,
+                                     m / r * (m / force));
+      map.template segment<3>(row) = law.h;
+      if (slope == nullptr) continue;
+      slope->middleRows(row, 3) = law.by_a * A.middleRows(row, 3);
+      slope->template block<3, 3>(row, row) += law.by_f;
+      continue;
+    }
+    if (contact.kind == ContactKind::kBilateral) {
+      map[row] = r * a[row];
+      if (slope != nullptr) slope->row(row) = r * A.row(row);
+      continue;
+    }
+    const SmoothPositive<Scalar> normal(f[row] - r * a[row], m);
+    map[row] = f[row] - normal.value;
+    if (slope != nullptr) {
+      slope->row(row) = normal.slope * r * A.row(row);
+      (*slope)(row, row) += 1 - normal.slope;
+    }
+    if (contact.kind != ContactKind::kSliding) continue;
+    for (int k = 0; k < 2; ++k) {
+      map[row + 1 + k] += contact.mu * contact.slip[k] * f[row];
+      if (slope != nullptr) (*slope)(row + 1 + k, row) = contact.mu * contact.slip[k];
+    }
+  }
+  return map;
 }
 
 // f += t step for the first t = 1, 1/2, 1/4, ... that makes the map smaller; false if there is none.

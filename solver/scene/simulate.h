@@ -22,12 +22,21 @@
 // velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
 // counted.
 //
+// Overlap. Contacts are predicted from the features that are near at the start of a step, to first order: a
+// body that turns fast, an edge that gives way to a face, a corner behind another leave overlap that speeds and
+// steps set. A step that ends deeper than the gap (1 mm in a scene without), and deeper than it began, is taken
+// back and done in two halves, and they likewise, SimulationOptions::halvings times one within the other. So no
+// frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings, and what was left of it
+// was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
+// were taken back too, and all counters but `frames` and `contacts` count them.
+//
 // Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
 // in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
 // f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
 // promised: the answer need not be the solution nearest to f = 0.
 //
-// Errors. A frame whose problem is not solved to FastOptions::residual ends the simulation: SimulationError.
+// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual) ends the
+// simulation: SimulationError.
 // Cost. For each island one problem of forces, another for every time that contacts come to rest within the
 // step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400 rows
 // and more stays sparse.
@@ -51,8 +60,12 @@ namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
 
-// In space a problem need not be solved as far as rounding allows, and cannot always: contacts lie close to
-// each other in a heap. What is not solved to the residual of the options is accepted to this one, and counted.
+// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
+// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
+// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
+// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
+// tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
+// is accepted to this one, and counted.
 inline constexpr double kLooseResidual = 1e-5;
 
 inline CoulombOptions WithResidual(double residual) {
@@ -66,6 +79,7 @@ struct SimulationOptions {
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
+  int halvings = 10;                            // of a step, one within the other; 0: none
   FastOptions fast;                             // in the plane, and without friction
   CoulombOptions coulomb = WithResidual(1e-7);  // in space
 };
@@ -83,6 +97,8 @@ struct SimulationStatistics {
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
   std::int64_t sparse = 0;       // problems solved by proximal points of a sparse A
+  std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
+  std::int64_t deep = 0;         // frames that ran out of halvings
 
   bool operator==(const SimulationStatistics&) const = default;
 };
@@ -102,6 +118,8 @@ void ForEachField(S& s, Visit visit) {
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
   visit("sparse", "problems solved by proximal points of a sparse A", s.sparse);
+  visit("halved", "steps that ended too deep and were done in two halves", s.halved);
+  visit("deep", "frames that ran out of halvings", s.deep);
 }
 
 // A problem that a frame met, and where.
@@ -165,8 +183,8 @@ class SimulationOf {
   explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
                         std::function<void(const FrameProblem&)> observe = {});
 
-  // One step. SimulationError if a problem is not solved; the state is then that of the frame's start, but for
-  // corrected positions and impulses.
+  // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
+  // of the part of it that failed, but for corrected positions and impulses.
   void Step();
 
   const SceneType& scene() const { return scene_; }
@@ -181,10 +199,14 @@ class SimulationOf {
   using Forces = std::vector<ContactProblem<double>::Vector>;
   using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
 
+  void StepBy(double h, int halvings);
+  void TakeStep();
+  double Overlap() const;
   Model AssembleAt(Level level, const std::vector<bool>& held = {},
                    const std::vector<bool>& closing = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
+  void FindNear();
   void FindStepContacts();
   bool Closes(const Touch& contact, const Changes& accelerations) const;
   bool AddClosing(const Changes& accelerations);
@@ -204,6 +226,10 @@ class SimulationOf {
   std::function<void(const FrameProblem&)> observe_;
   tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
   SimulationStatistics statistics_;
+  double step_ = 0;          // that is being taken: options_.step or a part of it
+  bool exhausted_ = false;   // no halvings are left in this frame
+  std::vector<Touch> near_;  // all that may touch within a step from the present state
+  bool is_near_known_ = false;
   std::vector<Touch> contacts_;
   std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
   std::vector<Applied> forces_;

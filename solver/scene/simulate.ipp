@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "solver/reduction.ipp"
 #include "solver/residual.h"
@@ -24,6 +25,7 @@ namespace stiction {
 inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 inline constexpr int kHoldRounds = 8;
 inline constexpr int kSparseRows = 400;   // from which on a sparse A costs less
+inline constexpr double kDeep = 1e-3;     // m; where the scene has no gap
 inline constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
 // The derivative of the gap: negative where the contact closes.
@@ -59,8 +61,45 @@ SimulationOf<SceneType>::SimulationOf(SceneType scene, const SimulationOptions& 
   scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : 1e-3;
 }
 
+template <class Body>
+auto MotionOf(const Body& body) {
+  return std::tuple(body.position, body.rotation, body.velocity, body.spin);
+}
+
 template <class SceneType>
 void SimulationOf<SceneType>::Step() {
+  exhausted_ = false;
+  StepBy(options_.step, options_.halvings);
+  ++statistics_.frames;
+  statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
+  statistics_.deep += exhausted_;
+}
+
+// At once or, where that ends too deep, from the same state in two halves.
+template <class SceneType>
+void SimulationOf<SceneType>::StepBy(double h, int halvings) {
+  if (!is_near_known_) FindNear();
+  const double allowed = std::max(scene_.gap > 0 ? scene_.gap : kDeep, Overlap());
+  std::vector<decltype(MotionOf(scene_.bodies[0]))> before;
+  before.reserve(scene_.bodies.size());
+  for (const auto& body : scene_.bodies) before.push_back(MotionOf(body));
+  step_ = h;
+  TakeStep();
+  FindNear();
+  if (exhausted_ || Overlap() <= allowed) return;
+  exhausted_ = halvings == 0;
+  if (exhausted_) return;
+  ++statistics_.halved;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    auto& body = scene_.bodies[i];
+    std::tie(body.position, body.rotation, body.velocity, body.spin) = before[i];
+  }
+  is_near_known_ = false;
+  for (int half = 0; half < 2; ++half) StepBy(h / 2, halvings - 1);
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::TakeStep() {
   FindStepContacts();
   if (HasDrifted()) {
     if (Collides()) ApplyImpulses();
@@ -74,8 +113,13 @@ void SimulationOf<SceneType>::Step() {
     accelerations = Accelerations();
   } while (AddClosing(accelerations));
   Move(accelerations);
-  ++statistics_.frames;
-  statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
+}
+
+template <class SceneType>
+double SimulationOf<SceneType>::Overlap() const {
+  double overlap = 0;
+  for (const auto& contact : near_) overlap = std::max(overlap, -contact.gap);
+  return overlap;
 }
 
 template <class SceneType>
@@ -83,7 +127,7 @@ auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& h
                                          const std::vector<bool>& closing) const -> Model {
   AssembleOptions<double> options;
   options.level = level;
-  options.step = options_.step;
+  options.step = step_;
   options.minimal = options_.minimal;
   options.held = held;
   options.closing = closing;
@@ -91,12 +135,20 @@ auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& h
 }
 
 template <class SceneType>
-void SimulationOf<SceneType>::FindStepContacts() {
+void SimulationOf<SceneType>::FindNear() {
   double fastest = scene_.gravity.norm() * options_.step;
   for (const auto& body : scene_.bodies) fastest = std::max(fastest, FastestPoint(body));
-  contacts_ = FindContacts(scene_, 2 * options_.step * fastest);
+  near_ = FindContacts(scene_, 2 * options_.step * fastest);
+  is_near_known_ = true;
+}
+
+template <class SceneType>
+void SimulationOf<SceneType>::FindStepContacts() {
+  if (!is_near_known_) FindNear();
+  is_near_known_ = false;
+  contacts_ = std::move(near_);
   const auto beyond = std::stable_partition(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
-    return contact.gap + options_.step * ApproachOf(scene_, contact) <= scene_.gap;
+    return contact.gap + step_ * ApproachOf(scene_, contact) <= scene_.gap;
   });
   beyond_.assign(beyond, contacts_.end());
   contacts_.erase(beyond, contacts_.end());
@@ -105,7 +157,7 @@ void SimulationOf<SceneType>::FindStepContacts() {
 // Whether the contact would overlap at the end of the step, to first order.
 template <class SceneType>
 bool SimulationOf<SceneType>::Closes(const Touch& contact, const Changes& accelerations) const {
-  const double h = options_.step;
+  const double h = step_;
   const auto normal = ContactConstraint(scene_, contact).rows[0];
   const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
   return !(contact.gap + h * (ApproachOf(scene_, contact) + h * change) >= -kDrift);
@@ -213,7 +265,7 @@ template <class SceneType>
 bool SimulationOf<SceneType>::Collides() const {
   return std::any_of(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
     const double speed = ApproachOf(scene_, contact);
-    return speed < -scene_.rest && std::max(contact.gap, 0.0) + options_.step * speed < 0;
+    return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
   });
 }
 
@@ -264,7 +316,7 @@ int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& ac
     for (int row = 1; row < Types::kDimension; ++row) {
       double speed = Velocity(constraint, row, model.bodies);
       for (int side = 0; side < 2; ++side)
-        speed += options_.step * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
+        speed += step_ * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
       along += speed * constraint.law.slip[row - 1];
     }
     if (along >= 0) continue;
@@ -314,7 +366,7 @@ void SimulationOf<SceneType>::KeepForces(const Model& model, const Forces& f) {
 
 template <class SceneType>
 void SimulationOf<SceneType>::Move(const Changes& accelerations) {
-  const double h = options_.step;
+  const double h = step_;
   for (std::size_t i = 0; i < accelerations.size(); ++i) Advance(scene_.bodies[i], accelerations[i], h);
 }
 template <class SceneType>

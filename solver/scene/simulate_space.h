@@ -2,8 +2,8 @@
 // Simulate in space: simulate.h with three dimensions, step for step.
 //
 // Problems with friction go to CoulombSolver, started afresh: a few Gauss-Seidel sweeps from f = 0, then
-// Newton's method; complete driving on polygons behind it. Those without, to FastSolver. Bilateral and sliding
-// contacts are taken out before (reduction.h).
+// Newton's method, on the law and on smoothed ones; complete driving on polygons behind it. Those without, to
+// FastSolver. Bilateral and sliding contacts are taken out before (reduction.h).
 //
 // The given forces of a step contain the gyroscopic moment -w x (I w). After the turn by h w the spin is the
 // one that the angular momentum asks for, w = inverse of (the turned I) times (I w + h (moments)): nothing but
