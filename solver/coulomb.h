@@ -24,7 +24,9 @@
 // CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
 // Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
 // Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
-// Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep.
+// Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep. With a sparse A a sparse
+// LU
+//         factorization, and the entries of A.
 
 #ifndef STICTION_SOLVER_COULOMB_H_
 #define STICTION_SOLVER_COULOMB_H_
@@ -34,6 +36,8 @@
 #include <type_traits>
 
 #include "solver/complete_space.h"
+#include "solver/contact_slope.h"
+#include "solver/sparse_problem.h"
 
 namespace stiction {
 
@@ -82,11 +86,12 @@ struct CoulombVerdict {
   CoulombStatistics statistics;
 };
 
-// Reusable. Memory is kept between runs.
-template <class Scalar>
+// Reusable. Memory is kept between runs. Problem: a ContactProblem, or a SparseContactProblem, which complete
+// driving does not take: without polygons.
+template <class Scalar, class ProblemType = ContactProblem<Scalar>>
 class CoulombSolver {
  public:
-  using Problem = ContactProblem<Scalar>;
+  using Problem = ProblemType;
   using Vector = typename Problem::Vector;
 
   explicit CoulombSolver(const CoulombOptions& options = {}) : options_(options) {}
@@ -103,6 +108,8 @@ class CoulombSolver {
  private:
   using Matrix = typename Problem::Matrix;
   using Triple = std::array<Scalar, 3>;
+  using Block = Eigen::Matrix<Scalar, 3, 3>;
+  using Slopes = std::vector<ContactSlope<Scalar>>;
 
   void Start(const Problem& problem);
   bool Reached() const;
@@ -114,20 +121,21 @@ class CoulombSolver {
   void Approach();
   bool LineSearch(const Vector& map, const Vector& step);
   void FollowPath();
-  Vector SmoothMap(const Vector& f, const Scalar& m, Matrix* slope) const;
-  bool SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope);
+  Vector SmoothMap(const Vector& f, const Scalar& m, Slopes* slopes) const;
+  bool SmoothStep(const Scalar& m, const Vector& map, const Slopes& slopes);
   void Note();
   Vector Answer(const Vector& f) const;
   Vector Map(const Vector& f, const Vector& a) const;
-  Matrix Slope() const;
-  void SlopeOfContact(int i, Matrix& J) const;
+  ContactSlope<Scalar> SlopeOf(int i) const;
 
   CoulombOptions options_;
   SpatialDriving<Scalar> driving_;
   const Problem* problem_ = nullptr;
   std::vector<int> first_row_;
-  std::vector<Scalar> r_;  // by contact
-  Vector weight_;          // by row, 1 / r
+  std::vector<Scalar> r_;    // by contact
+  std::vector<Block> own_;   // its block of A, in the first entries
+  Scalar free_ = Scalar(0);  // max abs(b) / max A_ii: forces that b asks for
+  Vector weight_;            // by row, 1 / r
   Scalar rho_ = Scalar(0);
   Vector center_;  // of a proximal step
   bool followed_ = false;

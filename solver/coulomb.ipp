@@ -4,7 +4,6 @@
 #ifndef STICTION_SOLVER_COULOMB_IPP_
 #define STICTION_SOLVER_COULOMB_IPP_
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,8 +17,8 @@
 
 namespace stiction {
 
-template <class Scalar>
-CoulombVerdict CoulombSolver<Scalar>::Run(const Problem& problem, const Vector* start) {
+template <class Scalar, class ProblemType>
+CoulombVerdict CoulombSolver<Scalar, ProblemType>::Run(const Problem& problem, const Vector* start) {
   Start(problem);
   if (start != nullptr) {
     f_ = *start;
@@ -38,20 +37,29 @@ CoulombVerdict CoulombSolver<Scalar>::Run(const Problem& problem, const Vector* 
   return verdict;
 }
 
-template <class Scalar>
-void CoulombSolver<Scalar>::Start(const Problem& problem) {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::Start(const Problem& problem) {
   problem_ = &problem;
   statistics_ = {};
   first_row_.assign(1, 0);
   r_.clear();
+  own_.clear();
   weight_.resize(problem.rows());
+  Scalar largest = 0;
   for (const auto& contact : problem.contacts) {
     const int row = first_row_.back(), size = contact.HasFrictionRows() ? 3 : 1;
-    const Scalar trace = problem.A.diagonal().segment(row, size).sum();
+    Block own = Block::Zero();
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) own(i, j) = problem.A.coeff(row + i, row + j);
+      largest = std::max(largest, own(i, i));
+    }
+    const Scalar trace = own.trace();
+    own_.push_back(own);
     r_.push_back(trace > 0 ? 1 / trace : Scalar(1));
     weight_.segment(row, size).setConstant(1 / r_.back());
     first_row_.push_back(row + size);
   }
+  free_ = problem.rows() > 0 ? Scalar(problem.b.cwiseAbs().maxCoeff() / largest) : Scalar(0);
   rho_ = 0;
   followed_ = false;
   f_ = Vector::Zero(problem.rows());
@@ -60,27 +68,29 @@ void CoulombSolver<Scalar>::Start(const Problem& problem) {
   best_ = CoulombResidual(problem, best_f_, best_a_);
 }
 
-template <class Scalar>
-bool CoulombSolver<Scalar>::Reached() const {
+template <class Scalar, class ProblemType>
+bool CoulombSolver<Scalar, ProblemType>::Reached() const {
   return best_ <= std::max(Scalar(options_.residual), 8 * std::numeric_limits<Scalar>::epsilon());
 }
 
-template <class Scalar>
-void CoulombSolver<Scalar>::FromPolygon(int sides) {
-  driving_.options().tolerances = options_.tolerances;
-  driving_.options().limits = options_.limits;
-  const CompleteVerdict verdict = driving_.Run(
-      *problem_,
-      std::vector<FrictionPolygon<Scalar>>(problem_->contacts.size(), FrictionPolygon<Scalar>(sides)));
-  ++statistics_.polygons;
-  statistics_.pieces += verdict.statistics.pieces;
-  f_ = driving_.f();
-  if (f_.allFinite()) Improve();
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::FromPolygon(int sides) {
+  if constexpr (std::is_same_v<Problem, ContactProblem<Scalar>>) {
+    driving_.options().tolerances = options_.tolerances;
+    driving_.options().limits = options_.limits;
+    const CompleteVerdict verdict = driving_.Run(
+        *problem_,
+        std::vector<FrictionPolygon<Scalar>>(problem_->contacts.size(), FrictionPolygon<Scalar>(sides)));
+    ++statistics_.polygons;
+    statistics_.pieces += verdict.statistics.pieces;
+    f_ = driving_.f();
+    if (f_.allFinite()) Improve();
+  }
 }
 
 // From f_. A proximal stage costs as much as thousands of sweeps, the more the larger the problem.
-template <class Scalar>
-void CoulombSolver<Scalar>::Improve() {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::Improve() {
   constexpr int kRounds = 5;
   ++statistics_.starts;
   if (problem_->rows() == 0) return;
@@ -99,8 +109,8 @@ void CoulombSolver<Scalar>::Improve() {
 }
 
 // Ends early where only roundings move.
-template <class Scalar>
-void CoulombSolver<Scalar>::Sweep(int count) {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::Sweep(int count) {
   a_ = problem_->A * f_ + problem_->b;
   for (; count > 0; --count) {
     ++statistics_.sweeps;
@@ -121,24 +131,23 @@ void CoulombSolver<Scalar>::Sweep(int count) {
 }
 
 // The force that solves the law of contact i while the others keep theirs; the present one if there is none.
-template <class Scalar>
-auto CoulombSolver<Scalar>::ForceOf(int i) const -> Triple {
+template <class Scalar, class ProblemType>
+auto CoulombSolver<Scalar, ProblemType>::ForceOf(int i) const -> Triple {
   const auto& contact = problem_->contacts[i];
   const int row = first_row_[i];
-  const Matrix& A = problem_->A;
+  const Block& A = own_[i];
   if (contact.kind == ContactKind::kStatic) {
     const Eigen::Matrix<Scalar, 3, 1> f = f_.template segment<3>(row);
-    if (!(A(row, row) > 0)) return {f[0], f[1], f[2]};
-    const Eigen::Matrix<Scalar, 3, 3> W = A.template block<3, 3>(row, row);
-    return SolveOneContact<Scalar>(W, a_.template segment<3>(row) - W * f, contact.mu);
+    if (!(A(0, 0) > 0)) return {f[0], f[1], f[2]};
+    return SolveOneContact<Scalar>(A, a_.template segment<3>(row) - A * f, contact.mu);
   }
   const bool slides = contact.kind == ContactKind::kSliding;
   Triple force = {Scalar(1), Scalar(0), Scalar(0)};  // per fN
-  Scalar inertia = A(row, row), alone = a_[row] - A(row, row) * f_[row];
+  Scalar inertia = A(0, 0), alone = a_[row] - A(0, 0) * f_[row];
   for (int k = 1; k <= 2 && slides; ++k) {
     force[k] = -contact.mu * contact.slip[k - 1];
-    inertia += A(row, row + k) * force[k];
-    alone -= A(row, row + k) * f_[row + k];
+    inertia += A(0, k) * force[k];
+    alone -= A(0, k) * f_[row + k];
   }
   Scalar fN = inertia > 0 ? Scalar(-alone / inertia) : f_[row];
   if (contact.kind != ContactKind::kBilateral) fN = std::max(Scalar(0), fN);
@@ -146,8 +155,8 @@ auto CoulombSolver<Scalar>::ForceOf(int i) const -> Triple {
 }
 
 // Keeps f_ if it is the best so far.
-template <class Scalar>
-void CoulombSolver<Scalar>::Note() {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::Note() {
   const Vector a = problem_->A * f_ + problem_->b;
   const Scalar residual = CoulombResidual(*problem_, f_, a);
   if (!(residual < best_)) return;
@@ -157,8 +166,8 @@ void CoulombSolver<Scalar>::Note() {
 }
 
 // The accelerations of the map: those of the problem, or of the proximal one.
-template <class Scalar>
-auto CoulombSolver<Scalar>::Answer(const Vector& f) const -> Vector {
+template <class Scalar, class ProblemType>
+auto CoulombSolver<Scalar, ProblemType>::Answer(const Vector& f) const -> Vector {
   Vector a = problem_->A * f + problem_->b;
   if (rho_ > 0) a += rho_ * weight_.cwiseProduct(f - center_);
   return a;
@@ -166,11 +175,11 @@ auto CoulombSolver<Scalar>::Answer(const Vector& f) const -> Vector {
 
 // From f_, until the map is that of rounding or falls no more; with rho > 0, to a hundredth. Whether it got
 // there.
-template <class Scalar>
-bool CoulombSolver<Scalar>::Newton() {
+template <class Scalar, class ProblemType>
+bool CoulombSolver<Scalar, ProblemType>::Newton() {
   const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
-  regular_ = problem_->A;
-  regular_.diagonal() += std::max(rho_, shift) * weight_;
+  regular_ = WithDiagonal<Scalar>(problem_->A, std::max(rho_, shift) * weight_);
+  Slopes slopes(r_.size());
   a_ = Answer(f_);
   Note();
   Vector map = Map(f_, a_);
@@ -180,7 +189,8 @@ bool CoulombSolver<Scalar>::Newton() {
   for (int step = 0; step < options_.newton_steps && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
     if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
     ++statistics_.newton_steps;
-    if (!LineSearch(map, Slope().partialPivLu().solve(-map))) return false;
+    for (std::size_t i = 0; i < r_.size(); ++i) slopes[i] = SlopeOf(static_cast<int>(i));
+    if (!LineSearch(map, SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, regular_), -map))) return false;
     Note();
     map = Map(f_, a_);
     const Scalar now = map.norm();
@@ -192,8 +202,8 @@ bool CoulombSolver<Scalar>::Newton() {
 }
 
 // Proximal steps.
-template <class Scalar>
-void CoulombSolver<Scalar>::Approach() {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::Approach() {
   constexpr int kMostSteps = 30, kMostFailures = 4;
   rho_ = Scalar(0.01);
   for (int step = 0, failures = 0; step < kMostSteps && failures <= kMostFailures && !Reached(); ++step) {
@@ -212,20 +222,19 @@ void CoulombSolver<Scalar>::Approach() {
 
 // The smoothed laws with m from a tenth of the forces that b asks for downward, each by Newton's method from
 // the last; then the best point that was met.
-template <class Scalar>
-void CoulombSolver<Scalar>::FollowPath() {
+template <class Scalar, class ProblemType>
+void CoulombSolver<Scalar, ProblemType>::FollowPath() {
   constexpr int kMostSteps = 1000, kStepsEach = 60, kFew = 2;
   if (std::exchange(followed_, true)) return;
-  const Scalar largest = problem_->b.cwiseAbs().maxCoeff() / problem_->A.diagonal().maxCoeff();
   const std::int64_t end = statistics_.newton_steps + kMostSteps;
   f_.setZero();
-  Matrix slope;
-  for (Scalar m = largest / 10; m > Scalar(1e-9) * largest && statistics_.newton_steps < end;) {
+  Slopes slopes;
+  for (Scalar m = free_ / 10; m > Scalar(1e-9) * free_ && statistics_.newton_steps < end;) {
     int steps = 0;
     for (; steps < kStepsEach && !Reached(); ++steps) {
-      const Vector map = SmoothMap(f_, m, &slope);
+      const Vector map = SmoothMap(f_, m, &slopes);
       if (map.norm() <= m / 1000) break;
-      if (!SmoothStep(m, map, slope)) break;
+      if (!SmoothStep(m, map, slopes)) break;
       Note();
     }
     if (Reached()) break;
@@ -236,10 +245,10 @@ void CoulombSolver<Scalar>::FollowPath() {
 }
 
 // A step of Newton's method, which may make the map larger; false if there is none.
-template <class Scalar>
-bool CoulombSolver<Scalar>::SmoothStep(const Scalar& m, const Vector& map, const Matrix& slope) {
+template <class Scalar, class ProblemType>
+bool CoulombSolver<Scalar, ProblemType>::SmoothStep(const Scalar& m, const Vector& map, const Slopes& slopes) {
   ++statistics_.newton_steps;
-  const Vector step = slope.partialPivLu().solve(-map);
+  const Vector step = SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, problem_->A), -map);
   if (!step.allFinite()) return false;
   const Scalar most = 20 * map.norm();
   for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
@@ -252,49 +261,48 @@ bool CoulombSolver<Scalar>::SmoothStep(const Scalar& m, const Vector& map, const
 }
 
 // The smoothed laws of all contacts and, if asked for, their derivative.
-template <class Scalar>
-auto CoulombSolver<Scalar>::SmoothMap(const Vector& f, const Scalar& m, Matrix* slope) const -> Vector {
-  const Matrix& A = problem_->A;
-  const Vector a = A * f + problem_->b;
-  const Scalar force = problem_->b.cwiseAbs().maxCoeff() / A.diagonal().maxCoeff();
-  Vector map = f;  // friction is zero where nothing else is said
-  if (slope != nullptr) slope->setIdentity(f.size(), f.size());
+template <class Scalar, class ProblemType>
+auto CoulombSolver<Scalar, ProblemType>::SmoothMap(const Vector& f, const Scalar& m, Slopes* slopes) const
+    -> Vector {
+  const Vector a = problem_->A * f + problem_->b;
+  Vector map = f;
+  if (slopes != nullptr) slopes->assign(r_.size(), {});
+  ContactSlope<Scalar> unused;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const auto& contact = problem_->contacts[i];
     const int row = first_row_[i];
     const Scalar r = r_[i];
-    if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
-      const SmoothStatic<Scalar> law(f.template segment<3>(row), a.template segment<3>(row), contact.mu, r, m,
-                                     m / r * (m / force));
-      map.template segment<3>(row) = law.h;
-      if (slope == nullptr) continue;
-      slope->middleRows(row, 3) = law.by_a * A.middleRows(row, 3);
-      slope->template block<3, 3>(row, row) += law.by_f;
-      continue;
-    }
+    ContactSlope<Scalar>& slope = slopes != nullptr ? (*slopes)[i] : unused;
     if (contact.kind == ContactKind::kBilateral) {
       map[row] = r * a[row];
-      if (slope != nullptr) slope->row(row) = r * A.row(row);
+      slope.by_a(0, 0) = r;
+      continue;
+    }
+    if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
+      const SmoothStatic<Scalar> law(f.template segment<3>(row), a.template segment<3>(row), contact.mu, r, m,
+                                     m / r * (m / free_));
+      map.template segment<3>(row) = law.h;
+      slope = {law.by_f, law.by_a};
       continue;
     }
     const SmoothPositive<Scalar> normal(f[row] - r * a[row], m);
     map[row] = f[row] - normal.value;
-    if (slope != nullptr) {
-      slope->row(row) = normal.slope * r * A.row(row);
-      (*slope)(row, row) += 1 - normal.slope;
-    }
-    if (contact.kind != ContactKind::kSliding) continue;
-    for (int k = 0; k < 2; ++k) {
-      map[row + 1 + k] += contact.mu * contact.slip[k] * f[row];
-      if (slope != nullptr) (*slope)(row + 1 + k, row) = contact.mu * contact.slip[k];
+    slope.by_a(0, 0) = normal.slope * r;
+    slope.by_f(0, 0) = 1 - normal.slope;
+    if (!contact.HasFrictionRows()) continue;
+    for (int k = 1; k <= 2; ++k) {  // zero without friction
+      slope.by_f(k, k) = 1;
+      if (contact.kind != ContactKind::kSliding) continue;
+      map[row + k] += contact.mu * contact.slip[k - 1] * f[row];
+      slope.by_f(k, 0) = contact.mu * contact.slip[k - 1];
     }
   }
   return map;
 }
 
 // f += t step for the first t = 1, 1/2, 1/4, ... that makes the map smaller; false if there is none.
-template <class Scalar>
-bool CoulombSolver<Scalar>::LineSearch(const Vector& map, const Vector& step) {
+template <class Scalar, class ProblemType>
+bool CoulombSolver<Scalar, ProblemType>::LineSearch(const Vector& map, const Vector& step) {
   if (!step.allFinite()) return false;
   const Scalar present = map.squaredNorm();
   for (Scalar t = 1; t > Scalar(1e-3); t /= 2) {
@@ -308,8 +316,8 @@ bool CoulombSolver<Scalar>::LineSearch(const Vector& map, const Vector& step) {
   return false;
 }
 
-template <class Scalar>
-auto CoulombSolver<Scalar>::Map(const Vector& f, const Vector& a) const -> Vector {
+template <class Scalar, class ProblemType>
+auto CoulombSolver<Scalar, ProblemType>::Map(const Vector& f, const Vector& a) const -> Vector {
   using std::hypot;
   Vector map(f.size());
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -339,56 +347,46 @@ auto CoulombSolver<Scalar>::Map(const Vector& f, const Vector& a) const -> Vecto
   return map;
 }
 
-template <class Scalar>
-auto CoulombSolver<Scalar>::Slope() const -> Matrix {
-  Matrix J = Matrix::Zero(problem_->rows(), problem_->rows());
-  for (std::size_t i = 0; i < r_.size(); ++i) SlopeOfContact(static_cast<int>(i), J);
-  return J;
-}
-
-// Rows of contact i of the derivative of the map, on the piece of the present point.
-template <class Scalar>
-void CoulombSolver<Scalar>::SlopeOfContact(int i, Matrix& J) const {
+// Derivatives of the map of contact i, on the piece of the present point.
+template <class Scalar, class ProblemType>
+auto CoulombSolver<Scalar, ProblemType>::SlopeOf(int i) const -> ContactSlope<Scalar> {
   using std::hypot;
   const auto& contact = problem_->contacts[i];
   const int row = first_row_[i];
   const Scalar r = r_[i];
   const Scalar normal = f_[row] - r * a_[row];
   const bool open = contact.kind != ContactKind::kBilateral && normal <= 0;
-  if (open) {
-    J(row, row) = 1;
-  } else {
-    J.row(row) = r * regular_.row(row);
-  }
-  if (!contact.HasFrictionRows()) return;
+  ContactSlope<Scalar> slope;
+  (open ? slope.by_f : slope.by_a)(0, 0) = open ? Scalar(1) : r;
+  if (!contact.HasFrictionRows()) return slope;
   if (contact.kind == ContactKind::kSliding) {
-    for (int k = 0; k < 2; ++k) {
-      J(row + 1 + k, row + 1 + k) = 1;
-      J(row + 1 + k, row) = contact.mu * contact.slip[k];
+    for (int k = 1; k <= 2; ++k) {
+      slope.by_f(k, k) = 1;
+      slope.by_f(k, 0) = contact.mu * contact.slip[k - 1];
     }
-    return;
+    return slope;
   }
   const Scalar x = f_[row + 1] - r * a_[row + 1], y = f_[row + 2] - r * a_[row + 2];
   const Scalar length = hypot(x, y), radius = open ? Scalar(0) : contact.mu * normal;
   if (length <= radius && !open) {
-    J.row(row + 1) = r * regular_.row(row + 1);
-    J.row(row + 2) = r * regular_.row(row + 2);
-    return;
+    slope.by_a(1, 1) = slope.by_a(2, 2) = r;
+    return slope;
   }
-  J(row + 1, row + 1) = J(row + 2, row + 2) = 1;
-  if (open || length == 0) return;
+  slope.by_f(1, 1) = slope.by_f(2, 2) = 1;
+  if (open || length == 0) return slope;
   // fF - radius u, u = s / length: its derivative is 1 - mu u dsN - radius / length (1 - u u') ds.
   const Scalar u[2] = {x / length, y / length};
   const Scalar shrink = radius / length;
   for (int k = 0; k < 2; ++k) {
-    J.row(row + 1 + k) += contact.mu * u[k] * r * regular_.row(row);
-    J(row + 1 + k, row) -= contact.mu * u[k];
+    slope.by_a(1 + k, 0) = contact.mu * u[k] * r;
+    slope.by_f(1 + k, 0) = -contact.mu * u[k];
     for (int j = 0; j < 2; ++j) {
       const Scalar across = shrink * ((k == j ? 1 : 0) - u[k] * u[j]);
-      J.row(row + 1 + k) += across * r * regular_.row(row + 1 + j);
-      J(row + 1 + k, row + 1 + j) -= across;
+      slope.by_a(1 + k, 1 + j) = across * r;
+      slope.by_f(1 + k, 1 + j) -= across;
     }
   }
+  return slope;
 }
 
 }  // namespace stiction

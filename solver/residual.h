@@ -94,14 +94,15 @@ std::array<Scalar, 3> ProjectOnCone(const std::array<Scalar, 3>& x, const Scalar
   return {normal, along * x[1], along * x[2]};
 }
 
-// Requires dimension 3 and a floating-point Scalar.
-template <class Scalar, class Vector>
-Scalar CoulombResidual(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
+// Requires dimension 3 and a floating-point Scalar. Problem: as above.
+template <class Problem, class Vector>
+typename Problem::Vector::Scalar CoulombResidual(const Problem& problem, const Vector& f, const Vector& a) {
   using std::hypot;
+  using Scalar = typename Problem::Vector::Scalar;
   Scalar max_A = 0, max_b = 0, worst = 0, zero = 0;
   for (int i = 0; i < problem.rows(); ++i) {
     zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-    max_A = std::max(max_A, problem.A(i, i));
+    max_A = std::max<Scalar>(max_A, problem.A.coeff(i, i));
     max_b = std::max(max_b, Abs(problem.b[i]));
   }
   if (zero != 0) return zero;

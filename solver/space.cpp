@@ -13,5 +13,6 @@ template class SpatialDriving<long double>;
 template class CoulombSolver<float>;
 template class CoulombSolver<double>;
 template class CoulombSolver<long double>;
+template class CoulombSolver<double, SparseContactProblem<double>>;
 
 }  // namespace stiction

@@ -293,9 +293,11 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
     const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
-    observe = [&o, &file, scene_name](const FrameProblem& met) {
+    observe = [&o, &file, scene_name, frame = std::int64_t{-1}, number = 0](const FrameProblem& met) mutable {
       const char* level = kLevelNames[static_cast<int>(met.level)];
-      const std::string name = fmt::format("{}-{:05}-{}-{}.json", scene_name, met.frame, level, met.island + 1);
+      number = met.frame == frame ? number + 1 : 1;  // a frame can ask for several of one level and island
+      frame = met.frame;
+      const std::string name = fmt::format("{}-{:05}-{:02}-{}.json", scene_name, frame, number, level);
       WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
     };
   }

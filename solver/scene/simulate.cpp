@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
 constexpr int kProximalPoints = 3;
-constexpr double kWholeResidual = 1e-7;      // of a problem with the bilateral rows that reduction took out
+constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
 
 void Turn(Vector2<double>& rotation, double angle) {
   if (angle == 0) return;

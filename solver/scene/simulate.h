@@ -96,7 +96,7 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
-  std::int64_t sparse = 0;       // problems solved by proximal points of a sparse A
+  std::int64_t sparse = 0;       // problems solved with a sparse A
   std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
   std::int64_t deep = 0;         // frames that ran out of halvings
 
@@ -117,7 +117,7 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
-  visit("sparse", "problems solved by proximal points of a sparse A", s.sparse);
+  visit("sparse", "problems solved with a sparse A", s.sparse);
   visit("halved", "steps that ended too deep and were done in two halves", s.halved);
   visit("deep", "frames that ran out of halvings", s.deep);
 }

@@ -87,7 +87,11 @@ bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<dou
 bool SolveSparse(SolverOf<SceneInSpace<double>>& solver, const SparseContactProblem<double>& problem,
                  ContactProblem<double>::Vector& f) {
   const auto has_friction = [](const auto& contact) { return contact.HasFrictionRows(); };
-  if (std::any_of(problem.contacts.begin(), problem.contacts.end(), has_friction)) return false;
+  if (std::any_of(problem.contacts.begin(), problem.contacts.end(), has_friction)) {
+    if (solver.sparse.Run(problem).outcome != Outcome::kSolved) return false;
+    f = solver.sparse.f();
+    return true;
+  }
   SparseContactProblem<double> planar = problem;  // one row each, as in the plane
   planar.dimension = 2;
   if (solver.proximal.Run(planar).outcome != Outcome::kSolved) return false;

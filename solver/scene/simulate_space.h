@@ -20,8 +20,12 @@ namespace stiction {
 template <>
 struct SolverOf<SceneInSpace<double>> {
   explicit SolverOf(const SimulationOptions& options)
-      : coulomb(options.coulomb), fast(options.fast), proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
+      : coulomb(options.coulomb),
+        sparse(options.coulomb),
+        fast(options.fast),
+        proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
   CoulombSolver<double> coulomb;
+  CoulombSolver<double, SparseContactProblem<double>> sparse;
   FastSolver<double> fast;
   ProximalNewton<double> proximal;
 };
@@ -35,7 +39,7 @@ Drift DriftOf(const SceneInSpace<double>& scene);
 bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<double>& problem,
                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
 
-// Without friction only; otherwise false.
+// The same with a sparse A, in which bilateral and sliding contacts stay; without complete driving.
 bool SolveSparse(SolverOf<SceneInSpace<double>>& solver, const SparseContactProblem<double>& problem,
                  ContactProblem<double>::Vector& f);
 

@@ -90,6 +90,8 @@ class Scenes(cli.TestCase):
         self.assertNotIn("https://", page)
         written = sorted(problems.iterdir())
         self.assertGreater(len(written), 100)
+        counted = next(line.split()[1] for line in done.out.splitlines() if line.startswith("problems "))
+        self.assertEqual(len(written), int(counted), "each problem has a file of its own")
         self.assertEqual(cli.run("solve", written[50], "--method", "fast", "--arithmetic", "double").code, 0)
 
     @unittest.skipUnless(shutil.which("node"), "needs node")

@@ -278,6 +278,33 @@ TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are sol
   }
 }
 
+TEST_CASE("coulomb: a sparse A gives the answers of a dense one") {
+  CoulombOptions options;
+  options.sides = 0;
+  CoulombSolver<double> dense(options);
+  CoulombSolver<double, SparseContactProblem<double>> sparse(options);
+  int solved = 0;
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    Choices choices(7000 + index);
+    const int n = 1 + index % 6;
+    const bool definite = index % 2 == 0;
+    Problem problem = RandomRound(n, definite ? 3 * n : 1 + index % 7, definite, choices);
+    if (index % 3 == 0) problem = Repeated(2 + index % 5, 1, 1e-3, choices);
+    const SparseContactProblem<double> same = {3, problem.contacts, problem.A.sparseView(), problem.b};
+    const CoulombVerdict expected = dense.Run(problem), verdict = sparse.Run(same);
+    if (verdict.outcome == Outcome::kSolved) {
+      ++solved;
+      CHECK(CoulombResidual(problem, sparse.f(), Problem::Vector(problem.A * sparse.f() + problem.b)) <= 1e-8);
+    }
+    if (definite && index % 3 != 0) {  // almost always one solution; dense and sparse are the same steps
+      CHECK(expected.outcome == verdict.outcome);
+      CHECK((sparse.f() - dense.f()).norm() <= 1e-6 * (1 + dense.f().norm()));
+    }
+  }
+  CHECK(solved >= 57);
+}
+
 TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
   CoulombSolver<double> solver;
   for (int index = 0; index < 60; ++index) {
