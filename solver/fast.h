@@ -9,9 +9,10 @@
 //   exchange  the cells give a linear system M u = -b for the forces that they leave free; every contact
 //             that then violates its cell moves to the next: block pivoting, or a semismooth Newton method.
 //             A closing contact starts at the limit that opposes its tangential acceleration.
-//   active    without friction, where exchanging has not ended or M is singular: the active set method of
-//             Lawson and Hanson; f'Af / 2 + b'f decreases until a >= 0. A contact enters for a violation above
-//             the tolerance only, so that M stays regular where A is singular; M is updated, not factored.
+//   active    without friction, A symmetric, where exchanging has not ended or M is singular: the active set
+//             method of Lawson and Hanson; f'Af / 2 + b'f decreases until a >= 0. A contact enters for a
+//             violation above the tolerance only, so that M stays regular where A is singular; M is updated,
+//             not factored.
 //   resweep   with friction, where exchanging has not ended: more sweeps, and again
 //   complete  complete driving, for the kinds that it is built for
 //
@@ -107,7 +108,7 @@ class FastSolver {
   bool Find();
   void FallBack();
   bool Verify();
-  bool IsSymmetric() const;
+  bool IsSymmetric(Scalar tolerance) const;
   bool Project();
   void AddColumn(int row, Scalar factor);
 

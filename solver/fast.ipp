@@ -18,10 +18,11 @@ namespace stiction {
 // Numbers that were measured (bench --suite peers), not derived.
 inline constexpr int FirstSweeps(int rows) { return rows <= 4 ? 1 : rows <= 12 ? 2 : 4; }
 inline constexpr int kMoreSweeps = 20;
-inline constexpr int kFewRows = 16;  // up to which complete driving costs less than more sweeps
-inline constexpr int kRounds = 3;    // of sweeps and exchanges
-inline constexpr int kPatience = 4;  // exchanges in a row without fewer violations than ever,
-inline constexpr int kSingles = 10;  // then exchanges of one contact each
+inline constexpr int kFewRows = 16;        // up to which complete driving costs less than more sweeps
+inline constexpr int kRounds = 3;          // of sweeps and exchanges
+inline constexpr double kRounding = 1e-9;  // of the largest A_ii: asymmetry that rounding makes
+inline constexpr int kPatience = 4;        // exchanges in a row without fewer violations than ever,
+inline constexpr int kSingles = 10;        // then exchanges of one contact each
 
 // ---- The run ---------------------------------------------------------------------------------
 
@@ -30,7 +31,7 @@ FastVerdict FastSolver<Scalar>::Run(const Problem& problem, std::span<const Cell
   Start(problem);
   Guess(guess);
   bool found = Find() && Verify();
-  if (!found && !IsSymmetric()) {  // only one triangle was read where the cells suggest symmetry
+  if (!found && !IsSymmetric(Scalar(0))) {  // only one triangle was read where the cells suggest symmetry
     distrust_ = true;
     found = Find() && Verify();
   }
@@ -109,7 +110,7 @@ void FastSolver<Scalar>::Guess(std::span<const Cell> guess) {
 template <class Scalar>
 bool FastSolver<Scalar>::Find() {
   if (ExchangeUntilSettled()) return true;
-  if (frictionless_ && !distrust_) return ActiveSet();
+  if (frictionless_ && !distrust_) return IsSymmetric(Scalar(kRounding) * max_A_) && ActiveSet();
   const int rounds = problem_->rows() > kFewRows ? kRounds : 1;
   for (int round = 1; round < rounds; ++round) {
     Project();
@@ -158,11 +159,12 @@ bool FastSolver<Scalar>::Verify() {
   return residual.worst + spoiled <= std::max(Scalar(options_.residual), least) * residual.scale;
 }
 
+// Up to `tolerance`: an A from which bilateral rows were eliminated is symmetric but for rounding.
 template <class Scalar>
-bool FastSolver<Scalar>::IsSymmetric() const {
+bool FastSolver<Scalar>::IsSymmetric(Scalar tolerance) const {
   for (int j = 0; j < problem_->rows(); ++j) {
     for (int i = 0; i < j; ++i) {
-      if (problem_->A(i, j) != problem_->A(j, i)) return false;
+      if (!(std::abs(problem_->A(i, j) - problem_->A(j, i)) <= tolerance)) return false;
     }
   }
   return true;

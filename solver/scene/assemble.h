@@ -11,7 +11,8 @@
 //                faster than `rest` are left out: they have no force, whatever aN. A tangential speed above
 //                `rest` makes a contact sliding (24). With a step h > 0 what is there already counts as well,
 //                  b_N += vN / h + max(gap, 0) / h^2,   b_F += vF / h,   joints: b += v / h,
-//                so that aN >= 0 says that the gap stays open until the end of the step (to first order), and
+//                and bias counts half: h^2 aN = gap + h J v + h^2 bias / 2 with the velocities v after the step
+//                is the gap after the motion x += h v, to second order, so that aN >= 0 says that it stays open;
 //                what rest there is of velocities that should be zero is taken away. A contact that parts may
 //                be back before the end of the step: it is left out only as long as it is not `closing`.
 //   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision with

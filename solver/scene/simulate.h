@@ -13,7 +13,12 @@
 //                 `impulses`, an inelastic collision with restitution 0 and Coulomb's law, v += W J' p
 //   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f); a contact that parts is
 //                 left out, and brought back where it would overlap at the end of the step
-//   5 motion      x += h v, with the new v (the symplectic Euler method)
+//   5 motion      x += h v, with the new v
+//
+// Velocities are those of the middle of a step: v(t + h/2) = v(t - h/2) + h W (F + J' f), x(t + h) = x(t) + h v,
+// the leapfrog method. Constraints hold at x(t + h) to second order, since 4 counts half of bias (assemble.h): as
+// in SHAKE (J.-P. Ryckaert, G. Ciccotti, H. J. C. Berendsen, J. Comput. Phys. 23, 1977, cited from memory). With
+// all of bias J v = 0 would hold at the end, and linkages would gain energy without end.
 //
 // At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
 // round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are

@@ -261,6 +261,33 @@ TEST_CASE("fast: a matrix that is not symmetric is noticed") {
   CHECK(solver.f().isApprox(Eigen::Vector2d(1, 1)));
 }
 
+TEST_CASE("fast: without friction the active set method is for symmetric matrices only") {
+  FastSolver<double> solver;
+  std::int64_t updates = 0, fallbacks = 0;
+  for (const bool symmetric : {true, false}) {
+    for (int index = 0; index < 100; ++index) {
+      Choices choices(index);
+      const auto draw = [&choices] { return static_cast<double>(choices.Integer(-3, 3)); };
+      constexpr int kRows = 8, kRank = 3;
+      Eigen::MatrixXd B(kRows, kRank), C(kRank, kRows);
+      for (double& x : B.reshaped()) x = draw();
+      for (double& x : C.reshaped()) x = draw();
+      ContactProblem<double> problem;
+      problem.contacts.assign(kRows, {ContactKind::kFrictionless, 0, {}});
+      problem.A = B * (symmetric ? Eigen::MatrixXd(B.transpose()) : C);
+      problem.b.resize(kRows);
+      for (double& x : problem.b) x = draw();
+      problem.b = (problem.A * problem.b).eval();
+      const FastVerdict verdict = solver.Run(problem);
+      if (symmetric) updates += verdict.statistics.updates;
+      if (!symmetric) CHECK(verdict.statistics.updates == 0);
+      fallbacks += verdict.statistics.fallbacks;
+    }
+  }
+  CHECK(updates > 0);
+  CHECK(fallbacks > 0);
+}
+
 TEST_CASE("fast: what has no solution is undecided") {
   FastSolver<double> solver;
   CHECK(solver.Run(As<double>(NoSolution())).outcome == Outcome::kUndecided);
