@@ -353,6 +353,7 @@ TEST_CASE("simulate: a block that leaves, but is pressed back within the step, d
     scene.bodies[1].force = {600, -800};     // and back
     SimulationOptions options;
     options.minimal = minimal;
+    options.halvings = 0;
     Simulation simulation(scene, options);
     simulation.Step();
     CHECK(DriftOf(simulation.scene()).overlap < 1e-9);
