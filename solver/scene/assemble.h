@@ -9,13 +9,16 @@
 //
 //   forces       a = A f + b at this instant, (15), (16) of [Baraff94]: b = J WF + bias. Contacts that part
 //                faster than `rest` are left out: they have no force, whatever aN. A tangential speed above
-//                `rest` makes a contact sliding (24). With a step h > 0 what is there already counts as well,
-//                  b_N += vN / h + max(gap, 0) / h^2,   b_F += vF / h,   joints: b += v / h,
-//                and bias counts half: h^2 aN = gap + h J v + h^2 bias / 2 with the velocities v after the step
-//                is the gap after the motion x += h v, to second order, so that aN >= 0 says that it stays open;
+//                `rest` makes a contact sliding (24). With a step h > 0 what is there already counts as well.
+//                Velocities v are those of the middle of the step before, of length h' (0: of this instant),
+//                and v + k W (F + J' f), k = (h + h') / 2, those of the middle of this one. With them the gap
+//                after the motion x += h v is gap + h J v + h^2 bias / 2, to second order, so
+//                  b_N = J WF + (J v + h bias / 2 + max(gap, 0) / h) / k,   friction and joints without gap,
+//                says that it stays open. A kept contact has J v = h' bias / 2: then b = J WF + bias as above;
 //                what rest there is of velocities that should be zero is taken away. A contact that parts may
 //                be back before the end of the step: it is left out only as long as it is not `closing`.
-//   impulses     velocities after = A p + b, b = J v (b_N += max(gap, 0) / h): an inelastic collision with
+//   impulses     velocities after = A p + b, b = J v - h' bias / 2 (b_N += max(gap, 0) / h): an inelastic
+//   collision with
 //                restitution 0, Coulomb's law between impulse and velocity after; friction is static
 //                throughout, and whatever slips is at its limit by the law itself. Unless driven bodies close
 //                on each other, every problem of this kind has a solution: gaps are >= 0, so b is in range(A) +
@@ -60,7 +63,8 @@ enum class Level : std::uint8_t { kForces, kImpulses, kPositions };
 template <class Scalar>
 struct AssembleOptions {
   Level level = Level::kForces;
-  Scalar step = Scalar(0);  // h, s; 0: the instant itself
+  Scalar step = Scalar(0);    // h, s; 0: the instant itself
+  Scalar before = Scalar(0);  // of the step before, s; velocities are those of its middle; 0: of this instant
   // False: islands together, redundant contacts kept, friction rows for every contact, and, with a step > 0,
   // contacts that part. (At the instant itself those have no row: f = 0 is no condition of (15).)
   bool minimal = true;

@@ -188,7 +188,7 @@ class Assembler {
   void AddContact(const Touch& contact, int number) {
     Constraint<Scalar, kDof> constraint = ContactConstraint(scene_, contact);
     constraint.source = number;
-    const Scalar speed = Velocity(constraint, 0, model_.bodies);
+    const Scalar speed = Speed(constraint, 0);
     const bool stays = Sign(options_.step) != 0 && (!options_.minimal || IsIn(options_.closing, number));
     if (options_.level == Level::kForces && speed > scene_.rest && !stays) {
       model_.omitted.push_back({number, OmissionReason::kSeparating});
@@ -198,6 +198,11 @@ class Assembler {
     SetLaw(constraint);
     SetB(constraint);
     model_.constraints.push_back(std::move(constraint));
+  }
+
+  // At this instant, of what is kept: zero where a row is held at zero.
+  Scalar Speed(const Constraint<Scalar, kDof>& constraint, int row) const {
+    return Scalar(Velocity(constraint, row, model_.bodies) - options_.before / 2 * constraint.rows[row].bias);
   }
 
   static bool IsIn(const std::vector<bool>& contacts, int number) {
@@ -214,12 +219,12 @@ class Assembler {
     }
     law.kind = ContactKind::kStatic;
     if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsIn(options_.held, constraint.source)) return;
-    const Scalar speed = Velocity(constraint, 1, model_.bodies);
+    const Scalar speed = Speed(constraint, 1);
     if constexpr (Types::kDimension == 2) {
       if (Abs<Scalar>(speed) <= scene_.rest) return;
       law.slip = {Scalar(Sign(speed)), Scalar(0)};
     } else {
-      const auto velocity = MakeVector2<Scalar>(speed, Velocity(constraint, 2, model_.bodies));
+      const auto velocity = MakeVector2<Scalar>(speed, Speed(constraint, 2));
       if (Dot<Scalar>(velocity, velocity) <= scene_.rest * scene_.rest) return;
       law.slip = ExactDirection<Scalar>(velocity);
     }
@@ -239,11 +244,16 @@ class Assembler {
     switch (options_.level) {
       case Level::kForces:
         for (int side = 0; side < 2; ++side) row.b += row.J[side].dot(free_[constraint.bodies[side]]);
-        row.b += step ? Scalar(row.bias / 2) : row.bias;
-        if (step) row.b += (Velocity(constraint, i, model_.bodies) + gap / options_.step) / options_.step;
+        if (!step) {
+          row.b += row.bias;
+        } else {
+          const Scalar velocity = Velocity(constraint, i, model_.bodies);
+          row.b += (velocity + options_.step * row.bias / 2 + gap / options_.step) /
+                   ((options_.step + options_.before) / 2);
+        }
         break;
       case Level::kImpulses:
-        row.b = Velocity(constraint, i, model_.bodies);
+        row.b = Speed(constraint, i);
         if (step) row.b += gap / options_.step;
         break;
       case Level::kPositions:

@@ -93,8 +93,8 @@ static void Displace(RigidBody<double>& body, const Eigen::Vector3d& change) {
   Turn(body.rotation, change[2]);
 }
 
-static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration, double h) {
-  AddVelocity(body, h * acceleration);
+static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration, double k, double h) {
+  AddVelocity(body, k * acceleration);
   body.position += h * body.velocity;
   Turn(body.rotation, h * body.spin);
 }

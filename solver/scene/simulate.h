@@ -11,14 +11,15 @@
 //                 found first are resolved before, as by 3: moved bodies may show others
 //   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
 //                 `impulses`, an inelastic collision with restitution 0 and Coulomb's law, v += W J' p
-//   4 forces      the level `forces` with its terms of the step, v += h W (F + J' f); a contact that parts is
+//   4 forces      the level `forces` with its terms of the step, v += k W (F + J' f); a contact that parts is
 //                 left out, and brought back where it would overlap at the end of the step
 //   5 motion      x += h v, with the new v
 //
-// Velocities are those of the middle of a step: v(t + h/2) = v(t - h/2) + h W (F + J' f), x(t + h) = x(t) + h v,
-// the leapfrog method. Constraints hold at x(t + h) to second order, since 4 counts half of bias (assemble.h): as
-// in SHAKE (J.-P. Ryckaert, G. Ciccotti, H. J. C. Berendsen, J. Comput. Phys. 23, 1977, cited from memory). With
-// all of bias J v = 0 would hold at the end, and linkages would gain energy without end.
+// Velocities are those of the middle of a step, but for the start: v(t + h/2) = v(t - h'/2) + k W (F + J' f),
+// k = (h + h') / 2 with the step h' before (at the start k = h / 2), x(t + h) = x(t) + h v: the leapfrog
+// method. Constraints hold at x(t + h) to second order (assemble.h), as in SHAKE (J.-P. Ryckaert, G. Ciccotti,
+// H. J. C. Berendsen, J. Comput. Phys. 23, 1977, cited from memory). How fast a contact parts, approaches or
+// slides is measured so that what is kept has speed zero: J v - h' bias / 2.
 //
 // At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
 // round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are
@@ -206,6 +207,7 @@ class SimulationOf {
 
   void StepBy(double h, int halvings);
   void TakeStep();
+  double Kick() const { return (step_ + before_) / 2; }  // from the middle of one step to that of the next
   double Overlap() const;
   Model AssembleAt(Level level, const std::vector<bool>& held = {},
                    const std::vector<bool>& closing = {}) const;
@@ -232,6 +234,7 @@ class SimulationOf {
   tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
   SimulationStatistics statistics_;
   double step_ = 0;          // that is being taken: options_.step or a part of it
+  double before_ = 0;        // the step before, of whose middle the velocities are; 0: of the start itself
   bool exhausted_ = false;   // no halvings are left in this frame
   std::vector<Touch> near_;  // all that may touch within a step from the present state
   bool is_near_known_ = false;

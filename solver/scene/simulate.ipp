@@ -4,7 +4,7 @@
 //   FastestPoint(body)          bound of the speed of its points, m/s
 //   AddVelocity(body, change)   velocity and spin
 //   Displace(body, change)      position and turn
-//   Advance(body, acceleration, h)   a step of the symplectic Euler method
+//   Advance(body, acceleration, k, h)   velocities for the time k, then positions for h
 
 #ifndef STICTION_SOLVER_SCENE_SIMULATE_IPP_
 #define STICTION_SOLVER_SCENE_SIMULATE_IPP_
@@ -83,6 +83,7 @@ void SimulationOf<SceneType>::StepBy(double h, int halvings) {
   std::vector<decltype(MotionOf(scene_.bodies[0]))> before;
   before.reserve(scene_.bodies.size());
   for (const auto& body : scene_.bodies) before.push_back(MotionOf(body));
+  const double step_before = before_;
   step_ = h;
   TakeStep();
   FindNear();
@@ -94,6 +95,7 @@ void SimulationOf<SceneType>::StepBy(double h, int halvings) {
     auto& body = scene_.bodies[i];
     std::tie(body.position, body.rotation, body.velocity, body.spin) = before[i];
   }
+  before_ = step_before;
   is_near_known_ = false;
   for (int half = 0; half < 2; ++half) StepBy(h / 2, halvings - 1);
 }
@@ -128,6 +130,7 @@ auto SimulationOf<SceneType>::AssembleAt(Level level, const std::vector<bool>& h
   AssembleOptions<double> options;
   options.level = level;
   options.step = step_;
+  options.before = before_;
   options.minimal = options_.minimal;
   options.held = held;
   options.closing = closing;
@@ -160,7 +163,8 @@ bool SimulationOf<SceneType>::Closes(const Touch& contact, const Changes& accele
   const double h = step_;
   const auto normal = ContactConstraint(scene_, contact).rows[0];
   const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
-  return !(contact.gap + h * (ApproachOf(scene_, contact) + h * change) >= -kDrift);
+  const double speed = ApproachOf(scene_, contact) + Kick() * change + h / 2 * normal.bias;
+  return !(contact.gap + h * speed >= -kDrift);
 }
 
 // Moves from beyond_ to contacts_ what closes; whether there was anything.
@@ -264,8 +268,11 @@ void SimulationOf<SceneType>::CorrectPositions() {
 template <class SceneType>
 bool SimulationOf<SceneType>::Collides() const {
   return std::any_of(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
+    const auto closes = [&](double speed) {
+      return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
+    };
     const double speed = ApproachOf(scene_, contact);
-    return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
+    return closes(speed) && closes(speed - before_ / 2 * ContactConstraint(scene_, contact).rows[0].bias);
   });
 }
 
@@ -314,9 +321,9 @@ int SimulationOf<SceneType>::HoldReversing(const Model& model, const Changes& ac
     if (constraint.law.kind != ContactKind::kSliding) continue;
     double along = 0;  // the slip
     for (int row = 1; row < Types::kDimension; ++row) {
-      double speed = Velocity(constraint, row, model.bodies);
+      double speed = Velocity(constraint, row, model.bodies) + step_ / 2 * constraint.rows[row].bias;
       for (int side = 0; side < 2; ++side)
-        speed += step_ * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
+        speed += Kick() * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
       along += speed * constraint.law.slip[row - 1];
     }
     if (along >= 0) continue;
@@ -366,8 +373,9 @@ void SimulationOf<SceneType>::KeepForces(const Model& model, const Forces& f) {
 
 template <class SceneType>
 void SimulationOf<SceneType>::Move(const Changes& accelerations) {
-  const double h = step_;
-  for (std::size_t i = 0; i < accelerations.size(); ++i) Advance(scene_.bodies[i], accelerations[i], h);
+  for (std::size_t i = 0; i < accelerations.size(); ++i)
+    Advance(scene_.bodies[i], accelerations[i], Kick(), step_);
+  before_ = step_;
 }
 template <class SceneType>
 Drift MeasureDrift(const SceneType& scene) {

@@ -45,12 +45,12 @@ static void Displace(BodyInSpace<double>& body, const Vector6& change) {
   Turn(body.rotation, change.tail<3>());
 }
 
-static void Advance(BodyInSpace<double>& body, const Vector6& acceleration, double h) {
+static void Advance(BodyInSpace<double>& body, const Vector6& acceleration, double k, double h) {
   const Matrix3<double> inertia = body.WorldInertia();
   // `acceleration` has the gyroscopic moment, which changes no momentum.
   const Vector3<double> gyroscopic = -CrossProduct<double>(body.spin, inertia * body.spin);
-  AddVelocity(body, h * acceleration);
-  const Vector3<double> momentum = inertia * body.spin - h * gyroscopic;
+  AddVelocity(body, k * acceleration);
+  const Vector3<double> momentum = inertia * body.spin - k * gyroscopic;
   body.position += h * body.velocity;
   Turn(body.rotation, h * body.spin);
   if (!body.fixed && !body.spin.isZero(0)) body.spin = Inverse3<double>(body.WorldInertia()) * momentum;

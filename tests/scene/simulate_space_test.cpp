@@ -55,9 +55,9 @@ TEST_CASE(
   CHECK((rests.scene().bodies[1].position - start).norm() < 1e-9);
   SimulationInSpace slides = Started("box-on-slope-slides");
   for (int i = 0; i < 60; ++i) slides.Step();
-  // v = a t once it slides; the first steps, slower than `rest`, count as at rest and end the same way.
+  // v = a (t - h/2) once it slides; the first steps, slower than `rest`, count as at rest and end the same way.
   const double a = 10 * (0.6 - 2999.0 / 4000 * 0.8);
-  CHECK(slides.scene().bodies[1].velocity.norm() == Approx(a).epsilon(1e-6));
+  CHECK(slides.scene().bodies[1].velocity.norm() == Approx(a * (1 - 1.0 / 120)).epsilon(1e-6));
 }
 
 TEST_CASE("simulate in space: a thrown ball ends up rolling with 5/7 of its speed") {
@@ -126,7 +126,7 @@ TEST_CASE("simulate in space: a step that ends deep is taken back, and done in h
       halved(scene, WithStep(1.0 / 60));
   CHECK(WorstOverlap(whole, 2) > 0.01);
   CHECK(whole.statistics().halved == 0);
-  CHECK(whole.statistics().deep > 5);
+  CHECK(whole.statistics().deep > 3);
   CHECK(WorstOverlap(halved, 2) <= 1e-3);
   CHECK(halved.statistics().halved > 5);
   CHECK(halved.statistics().deep == 0);
@@ -296,11 +296,12 @@ TEST_CASE(
     "forms") {
   SimulationInSpace car = Started("cable-car"), sledge = Started("sledge-pushes-box");
   CHECK(Run(car, 240).drift < 1e-12);  // 1 s
-  CHECK((car.scene().bodies[1].velocity - 6 * Vector(-0.8, 0, -0.6)).norm() < 1e-9);
+  const double half = 1.0 / 480;       // velocities are those of the middle of the last step
+  CHECK((car.scene().bodies[1].velocity - 6 * (1 - half) * Vector(-0.8, 0, -0.6)).norm() < 1e-9);
   CHECK(car.scene().bodies[1].spin.norm() < 1e-9);
   CHECK(Run(sledge, 120).drift < 1e-12);
   for (const int body : {1, 2})
-    CHECK((sledge.scene().bodies[body].velocity - Vector(-0.8, 0, -0.6)).norm() < 1e-6);
+    CHECK((sledge.scene().bodies[body].velocity - (1 - 2 * half) * Vector(-0.8, 0, -0.6)).norm() < 1e-6);
 }
 
 // Steps of h and of h / 2 through the same time: drift, which a step makes and the next one mends, is of third
@@ -423,9 +424,9 @@ TEST_CASE("simulate in space: a fixed body moves with its acceleration") {
   SimulationInSpace simulation = Started("crate-on-a-truck");
   for (int i = 0; i < 120; ++i) simulation.Step();
   const auto& bodies = simulation.scene().bodies;
-  CHECK(bodies[0].velocity[0] == Approx(3).epsilon(1e-12));
-  CHECK(bodies[0].position[0] == Approx(0.75).epsilon(0.02));
-  CHECK(bodies[2].velocity[0] == Approx(2.5).epsilon(1e-6));
+  CHECK(bodies[0].velocity[0] == Approx(3 - 6.0 / 480).epsilon(1e-12));
+  CHECK(bodies[0].position[0] == Approx(0.75).epsilon(1e-9));
+  CHECK(bodies[2].velocity[0] == Approx(2.5 - 5.0 / 480).epsilon(1e-6));
   CHECK(bodies[2].position[2] == Approx(0.5).margin(1e-6));
 }
 
