@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
-
 // ---- assemble --------------------------------------------------------------------------------
 
 struct AssembleCommand {
@@ -125,22 +123,49 @@ double SumOfNumbers(const RigidBody<double>& body) {
          body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() + body.torque;
 }
 
+const auto& CornersOf(const BodyShape<double>& shape) { return shape.polygon; }
+const auto& CornersOf(const ShapeInSpace<double>& shape) { return shape.corners; }
+
 double SumOfNumbers(const BodyInSpace<double>& body) {
   return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
-         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() + body.force.sum() +
-         body.torque.sum();
+         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() +
+         body.acceleration.sum() + body.force.sum() + body.torque.sum();
 }
 
 // The finite scene of a file.
 template <class SceneType>
 auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source) {
   auto scene = Round(file.scene);
+  const auto require = [&source](double sum, const std::string& place) {
+    if (!std::isfinite(sum)) {
+      throw InputError(
+          fmt::format("{}: {}: found a number beyond the range of doubles, expected none", source, place));
+    }
+  };
   for (const auto& body : scene.bodies) {
-    if (!std::isfinite(SumOfNumbers(body)))
-      throw InputError(fmt::format("{}: body {}: found a number beyond the range of doubles, expected none",
-                                   source, body.name));
+    double sum = SumOfNumbers(body);
+    for (const auto& shape : body.shapes) {
+      sum += shape.center.sum() + shape.radius;
+      for (const auto& corner : CornersOf(shape)) sum += corner.sum();
+    }
+    require(sum, "body " + body.name);
   }
+  require(scene.gravity.sum() + scene.mu + scene.gap, "gravity, mu, gap");
+  for (const auto& pair : scene.pairs) require(pair.mu.value_or(0), "pairs");
+  for (const auto& joint : scene.joints) require(joint.at_a.sum() + joint.at_b.sum(), "joints");
+  for (const auto& contact : scene.contacts) require(contact.at_a.sum() + contact.at_b.sum(), "contacts");
   return scene;
+}
+
+// A number of a file that is within what the option of its name takes.
+double Within(const Rational& x, double least, double most, const std::string& place) {
+  const double value = x > Rational(most) ? std::numeric_limits<double>::infinity() : ToDouble(x);
+  if (value >= least && value <= most) return value;
+  throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
+}
+template <class SceneType>
+double StepOf(const SceneFileOf<SceneType>& file, const std::string& source) {
+  return Within(file.step, 1e-9, 1, source + ": step");
 }
 
 // The folder with what a run writes. Tables grow as the run goes; pictures, which share a view, come at its
@@ -283,10 +308,10 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     o.threads > 0 ? o.threads : tbb::info::default_concurrency());
   SimulationOptions options;
-  options.step = o.step.value_or(ToDouble(file.step));
+  options.step = o.step ? *o.step : StepOf(file, o.scene);
   options.rest = o.rest;
   options.minimal = !o.full;
-  const double seconds = o.seconds.value_or(ToDouble(file.seconds));
+  const double seconds = o.seconds ? *o.seconds : Within(file.seconds, 1e-9, 1e6, o.scene + ": seconds");
   const auto scene = RoundedScene(file, o.scene);
   using SceneType = std::remove_const_t<decltype(scene)>;
   SimulationWriter<SceneType> writer(o);
@@ -336,7 +361,7 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
   const auto scene = RoundedScene(file, o.scene);
   using SceneType = std::remove_const_t<decltype(scene)>;
   SimulationOptions options;
-  options.step = ToDouble(file.step);
+  options.step = StepOf(file, o.scene);
   SimulationOf<SceneType> simulation(scene, options);
   decltype(MarksOf(simulation)) marks;
   try {

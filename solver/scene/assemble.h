@@ -59,6 +59,7 @@
 namespace stiction {
 
 enum class Level : std::uint8_t { kForces, kImpulses, kPositions };
+inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 
 template <class Scalar>
 struct AssembleOptions {

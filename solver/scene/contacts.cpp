@@ -109,9 +109,10 @@ class PairFinder {
 
   void Round(TouchPoint<Scalar> contact, const Vector2<Scalar>& center_a, const Scalar& radius_a,
              const Vector2<Scalar>& center_b, const Scalar& radius_b) {
-    const Vector2<Scalar> apart = center_a - center_b;
-    if (Sign(apart[0]) == 0 && Sign(apart[1]) == 0) return;  // no direction to part them in
-    contact.gap = Length<Scalar>(apart) - radius_a - radius_b;
+    Vector2<Scalar> apart = center_a - center_b;
+    const bool concentric = Sign(apart[0]) == 0 && Sign(apart[1]) == 0;
+    if (concentric) apart[1] = Scalar(1);  // any direction parts them
+    contact.gap = (concentric ? Scalar(0) : Length<Scalar>(apart)) - radius_a - radius_b;
     if (contact.gap > reach_) return;
     contact.normal = UnitVector<Scalar>(apart);
     contact.point = center_b + radius_b * contact.normal;

@@ -180,10 +180,11 @@ class PairFinder {
 
   // The normal is from `origin` to the ball's centre.
   void Across(Touch contact, const Shape& ball, const Vector3<Scalar>& origin) {
-    const Vector3<Scalar> apart = ball.center - origin;
-    if (Sign<Scalar>(apart.squaredNorm()) == 0) return;  // no direction to part them in
+    Vector3<Scalar> apart = ball.center - origin;
+    const bool concentric = Sign<Scalar>(apart.squaredNorm()) == 0;
+    if (concentric) apart[2] = Scalar(1);  // any direction parts them
     contact.radius_a = ball.shape->radius;
-    contact.gap = Length3<Scalar>(apart) - contact.radius_a - contact.radius_b;
+    contact.gap = (concentric ? Scalar(0) : Length3<Scalar>(apart)) - contact.radius_a - contact.radius_b;
     contact.normal = UnitVector3<Scalar>(apart);
     contact.point = origin + contact.radius_b * contact.normal;
     if (contact.gap <= reach_) found_.push_back(contact);

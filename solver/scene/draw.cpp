@@ -72,7 +72,8 @@ void View::Include(const Scene<double>& scene) {
     // wheels that are driven move.
     if (fixed && right > left) break;
     for (const auto& body : scene.bodies) {
-      if ((body.fixed && body.spin == 0) != fixed) continue;
+      const bool driven = body.spin != 0 || !body.velocity.isZero(0) || !body.acceleration.isZero(0);
+      if ((body.fixed && !driven) != fixed) continue;
       include(body.position, 0.01);
       for (const auto& shape : body.shapes) {
         if (shape.IsDisc()) include(body.At(shape.center), shape.radius);
@@ -168,7 +169,7 @@ std::string FrameData(const Scene<double>& scene, const Screen& screen, const Re
     forces +=
         fmt::format("[{:.1f},{:.1f},{:.1f},{:.1f},{:d}],", arrow.x1, arrow.y1, arrow.x2, arrow.y2, arrow.cut);
   }
-  return fmt::format("[{:.4g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
+  return fmt::format("[{:.9g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
 }
 
 constexpr const char* kShow = R"js(

@@ -94,10 +94,18 @@ slider.max = frames.length - 1;
 )js";
   constexpr const char* kPlayer = R"js(
 let playing = true, began = null, first = 0;
+// The last picture up to a time, which starts again after the last one.
+function at(time) {
+  const last = frames.length - 1, span = frames[last][0] - frames[0][0] + 1 / rate;
+  const t = frames[0][0] + (time - frames[0][0]) % span;
+  let k = 0;
+  while (k < last && frames[k + 1][0] <= t + 1e-9) ++k;
+  return k;
+}
 function tick(now) {
   if (playing) {
     if (began === null) { began = now; first = +slider.value; }
-    show((first + Math.floor((now - began) / 1000 * rate)) % frames.length);
+    show(at(frames[first][0] + (now - began) / 1000));
   }
   requestAnimationFrame(tick);
 }

@@ -225,7 +225,8 @@ void ViewInSpace::Include(const SceneInSpace<double>& scene) {
   for (const bool fixed : {false, true}) {
     if (fixed && right > left) break;  // a ground may be large
     for (const auto& body : scene.bodies) {
-      if (body.fixed != fixed) continue;
+      const bool driven = !body.spin.isZero(0) || !body.velocity.isZero(0) || !body.acceleration.isZero(0);
+      if ((body.fixed && !driven) != fixed) continue;
       const auto include = [this](const Vector2<double>& low, const Vector2<double>& high) {
         left = std::min(left, low[0]), right = std::max(right, high[0]);
         bottom = std::min(bottom, low[1]), top = std::max(top, high[1]);
@@ -280,7 +281,7 @@ std::string DrawAnimation(const SceneInSpace<double>& scene, const ViewInSpace& 
   std::string data;
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    data += fmt::format("[{:.4g},\"{}\"],\n", frame.time, Picture(moved, screen, frame.marks, newton));
+    data += fmt::format("[{:.9g},\"{}\"],\n", frame.time, Picture(moved, screen, frame.marks, newton));
   }
   return PageHead(scene.name) + Head(screen) + "<g id=\"picture\"></g>\n</svg>\n" + PageTail(data, rate, kShow);
 }

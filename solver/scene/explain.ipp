@@ -115,7 +115,7 @@ std::vector<std::string> Explain(const SceneType& scene, const std::vector<typen
   if (still > 0) lines.push_back(fmt::format("{} bodies move freely: in no problem", still));
   lines.push_back(
       "pairs of fixed bodies, of different levels and of one joint: never contacts; two fixed bodies "
-      "would give a row of zeros");
+      "would give a row of zeros, joined ones too");
   return lines;
 }
 

@@ -71,7 +71,7 @@ struct Island {
 };
 
 // The islands that have constraints, ordered by their first one; all in one if `together`. Constraints between
-// bodies that cannot move are in none, unless `together`.
+// bodies that cannot move are in none.
 template <class Scalar, int Dof>
 std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
                                 const std::vector<Constraint<Scalar, Dof>>& constraints, bool together);

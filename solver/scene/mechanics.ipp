@@ -36,7 +36,7 @@ std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bo
   std::vector<int> island_of(count, -1);
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const int body = member(constraints[i]);
-    if (bodies[body].fixed && !together) continue;
+    if (bodies[body].fixed) continue;
     int& island = island_of[together ? 0 : RootOf(parent, body)];
     if (island < 0) {
       island = static_cast<int>(islands.size());

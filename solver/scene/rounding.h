@@ -11,10 +11,11 @@
 
 namespace stiction {
 
-// The double nearest to x, up to one unit of its last place.
+// The double nearest to x, up to one unit of its last place; infinite beyond them.
 inline double Nearest(const mpq_class& x) {
   const double below = x.get_d();  // toward zero
   const double above = std::nextafter(below, sgn(x) < 0 ? -HUGE_VAL : HUGE_VAL);
+  if (!std::isfinite(below) || !std::isfinite(above)) return below;
   const mpq_class from_below = abs(x - mpq_class(below)), from_above = abs(mpq_class(above) - x);
   return from_above < from_below ? above : below;
 }

@@ -41,11 +41,11 @@
 // f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
 // promised: the answer need not be the solution nearest to f = 0.
 //
-// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual) ends the
-// simulation: SimulationError.
-// Cost. For each island one problem of forces, another for every time that contacts come to rest within the
-// step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400 rows
-// and more stays sparse.
+// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
+// or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
+// miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
+// the step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400
+// rows and more stays sparse.
 
 #ifndef STICTION_SOLVER_SCENE_SIMULATE_H_
 #define STICTION_SOLVER_SCENE_SIMULATE_H_
@@ -102,7 +102,7 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
-  std::int64_t sparse = 0;       // problems solved with a sparse A
+  std::int64_t sparse = 0;       // problems solved with a sparse A, large ones and hard ones
   std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
   std::int64_t deep = 0;         // frames that ran out of halvings
 
@@ -123,7 +123,7 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
-  visit("sparse", "problems solved with a sparse A", s.sparse);
+  visit("sparse", "problems solved with a sparse A, large ones and hard ones", s.sparse);
   visit("halved", "steps that ended too deep and were done in two halves", s.halved);
   visit("deep", "frames that ran out of halvings", s.deep);
 }

@@ -22,7 +22,6 @@
 
 namespace stiction {
 
-inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 inline constexpr int kHoldRounds = 8;
 inline constexpr int kSparseRows = 400;   // from which on a sparse A costs less
 inline constexpr double kDeep = 1e-3;     // m; where the scene has no gap

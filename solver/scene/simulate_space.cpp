@@ -71,8 +71,9 @@ bool SolveScene(SolverOf<SceneInSpace<double>>& solver, const ContactProblem<dou
     statistics.fallbacks += verdict.statistics.polygons > 0;
     x = solver.coulomb.f();
     if (verdict.outcome == Outcome::kSolved) return true;
+    if (!(verdict.residual <= kLooseResidual)) return false;
     ++statistics.loose;
-    return verdict.residual <= kLooseResidual;
+    return true;
   };
   const auto accept = [&](const auto& whole, const auto& a) {
     return CoulombResidual(problem, whole, a) <= kWholeResidual;

@@ -94,6 +94,22 @@ class Scenes(cli.TestCase):
         self.assertEqual(len(written), int(counted), "each problem has a file of its own")
         self.assertEqual(cli.run("solve", written[50], "--method", "fast", "--arithmetic", "double").code, 0)
 
+    def test_numbers_beyond_doubles_and_steps_out_of_range_are_refused(self):
+        scene = json.loads((FOLDER / "stack.json").read_text())
+        huge = "1" + 400 * "0"
+        for key, value, place in (("gravity", ["0", huge], "gravity"), ("mu", huge, "gravity, mu, gap"),
+                                  ("step", huge, "step"), ("step", "1/" + huge, "step"),
+                                  ("seconds", huge, "seconds")):
+            path = self.folder / "huge.json"
+            path.write_text(json.dumps({**scene, key: value}))
+            done = cli.run("simulate", path, "-o", self.folder / "huge")
+            self.assertEqual(done.code, 2, done.err)
+            self.assertIn(place, done.err)
+        scene["bodies"][1]["shapes"] = [{"disc": huge}]
+        path.write_text(json.dumps(scene))
+        done = cli.run("draw", path, "-o", self.folder / "huge.svg")
+        self.assertEqual((done.code, done.out), (2, ""), done.err)
+
     @unittest.skipUnless(shutil.which("node"), "needs node")
     def test_the_page_of_an_animation_runs(self):
         self.succeeds("simulate", FOLDER / "gears.json", "-o", self.folder / "gears", "--seconds", "0.5", "--no-svg")
