@@ -467,6 +467,29 @@ TEST_CASE("simulate: a wall of many bricks stands, its A sparse") {
   CHECK(LargestMove(Wall(8), simulation.scene()) < 1e-8);
 }
 
+TEST_CASE("simulate: no scene of the plane overlaps by more than its gap") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(STICTION_SCENES)) {
+    const auto& path = entry.path();
+    if (path.extension() != ".json" || path.stem() == "scripted-wedge-jams") continue;  // which has no answer
+    INFO(path.stem().string());
+    const SceneFile file = ReadScene(path);
+    SimulationOptions options;
+    options.step = ToDouble(file.step);
+    Simulation simulation(Round(file.scene), options);
+    const double gap = simulation.scene().gap > 0 ? simulation.scene().gap : 1e-3;
+    double overlap = 0;
+    while (simulation.time() < ToDouble(file.seconds)) {
+      simulation.Step();
+      overlap = std::max(overlap, DriftOf(simulation.scene()).overlap);
+    }
+    CHECK(overlap <= gap);
+    CHECK(simulation.statistics().deep == 0);
+    ++scenes;
+  }
+  CHECK(scenes >= 29);
+}
+
 TEST_CASE("simulate: discs of one centre part") {
   Scene<double> scene;
   scene.bodies.resize(2);
