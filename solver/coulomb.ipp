@@ -177,7 +177,8 @@ auto CoulombSolver<Scalar, ProblemType>::Answer(const Vector& f) const -> Vector
 // there.
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::Newton() {
-  const Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
+  const Scalar root = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+  Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
   regular_ = WithDiagonal<Scalar>(problem_->A, std::max(rho_, shift) * weight_);
   Slopes slopes(r_.size());
   a_ = Answer(f_);
@@ -190,7 +191,15 @@ bool CoulombSolver<Scalar, ProblemType>::Newton() {
     if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
     ++statistics_.newton_steps;
     for (std::size_t i = 0; i < r_.size(); ++i) slopes[i] = SlopeOf(static_cast<int>(i));
-    if (!LineSearch(map, SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, regular_), -map))) return false;
+    const auto improves = [&] {
+      return LineSearch(map, SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, regular_), -map));
+    };
+    if (!improves()) {  // where A is singular, a shorter step along what does not matter
+      if (shift >= root) return false;
+      shift = root;
+      regular_ = WithDiagonal<Scalar>(problem_->A, std::max(rho_, shift) * weight_);
+      if (!improves()) return false;
+    }
     Note();
     map = Map(f_, a_);
     const Scalar now = map.norm();

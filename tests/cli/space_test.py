@@ -99,7 +99,7 @@ class Space(cli.TestCase):
                                              "--law", law, "--json").json()
                         self.assertEqual(done["outcome"], "solved")
                         if arithmetic != "exact":
-                            self.assertLess(done["residual"], 1e-4 if arithmetic == "float" else 1e-8)
+                            self.assertLess(done["residual"], 1e-4 if arithmetic == "float" else 1e-10)
                         self.assertEqual("bound" in done, arithmetic == "exact" and law == "coulomb")
 
     def test_a_path_that_folds_and_descends(self):
