@@ -8,7 +8,7 @@
 #include "certify/certificate.h"
 #include "certify/safe.h"
 #include "certify/verify_solution.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -5,7 +5,8 @@
 // For A symmetric positive semidefinite and b in range(A), which all problems here must have:
 //
 //   - every solution that a method returns meets (15) and (16), by verify_solution.h;
-//   - complete driving and Lemke's method end in a solution (solver/complete_driving.md, solver/lemke.h);
+//   - complete driving and Lemke's method end in a solution (solver/complete/complete_driving.md,
+//   solver/lemke/lemke.h);
 //   - some mode has a solution, and those of the other methods stand among the words that have any;
 //   - if A is definite and all solutions are *regular*, the signs of their reduced determinants sum to 1
 //     (complete_driving.md, 3), so their number is odd;

@@ -15,7 +15,7 @@ nonpenetrating rigid bodies, SIGGRAPH 1994), section 5:
 All numbers are fractions.Fraction and all comparisons exact: there is no tolerance.
 For `cycle` and `stall` the published algorithm is run here, from f = 0, under every
 policy named, and the certificate must agree with that run step by step. What a run
-is, switch by switch, is fixed in solver/readings.md, whose sections this file
+is, switch by switch, is fixed in solver/published/readings.md, whose sections this file
 follows; the certificate format is in certify/README.md.
 
 Trusted: Python, its json and fractions modules, and this file, which was written
@@ -574,7 +574,7 @@ def check_unsafe(problem, witness):
     return f"{' '.join(word)}, determinant {brief(value)}"
 
 
-# --- The published algorithm: sections 4.1-4.3 and 5.2-5.5, as solver/readings.md ---
+# --- The published algorithm: sections 4.1-4.3 and 5.2-5.5, as solver/published/readings.md ---
 
 SWITCHES = {  # the value of the reference policy `paper` first
     "scan": ("lowest", "normals-first", "most-violated", "highest"),

@@ -10,8 +10,8 @@
 #include "certify/linear_system.h"
 #include "certify/no_solution.h"
 #include "certify/verify_solution.h"
-#include "solver/check.h"
-#include "solver/elimination.ipp"
+#include "solver/linear/elimination.ipp"
+#include "solver/problem/check.h"
 
 namespace stiction {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <type_traits>
 
-#include "solver/complete.ipp"
-#include "solver/lemke.ipp"
-#include "solver/published.ipp"
-#include "solver/reduction.ipp"
+#include "solver/complete/complete.ipp"
+#include "solver/lemke/lemke.ipp"
+#include "solver/problem/reduction.ipp"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 

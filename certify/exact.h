@@ -2,9 +2,10 @@
 // The methods over rationals; the published algorithm for one policy, or for the whole grid.
 //
 // The published algorithm takes any planar problem here. Bilateral and sliding contacts leave it before a run
-// (solver/reduction.h), and the run is told in the terms of the whole problem: rows and contacts are the
-// problem's, bilateral variables stand in C from the start (4.5), and forces and accelerations are those of all
-// rows. Where they cannot leave it, the run ends in `singular` before its first step, and the reason says why.
+// (solver/problem/reduction.h), and the run is told in the terms of the whole problem: rows and contacts are
+// the problem's, bilateral variables stand in C from the start (4.5), and forces and accelerations are those of
+// all rows. Where they cannot leave it, the run ends in `singular` before its first step, and the reason says
+// why.
 
 #ifndef STICTION_CERTIFY_EXACT_H_
 #define STICTION_CERTIFY_EXACT_H_
@@ -14,9 +15,9 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/complete.h"
-#include "solver/lemke.h"
-#include "solver/published.h"
+#include "solver/complete/complete.h"
+#include "solver/lemke/lemke.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 

@@ -4,7 +4,7 @@
 #include "certify/certificate.h"
 #include "certify/no_solution.h"
 #include "certify/space.h"
-#include "solver/reduction.ipp"
+#include "solver/problem/reduction.ipp"
 
 namespace stiction {
 

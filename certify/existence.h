@@ -2,10 +2,11 @@
 // Existence: a solution with its certificate, a proof that there is none, or neither.
 //
 // The cheapest method first: complete driving, which ends in a solution whenever A is symmetric positive
-// semidefinite and b in range(A) (solver/complete_driving.md); then Lemke's method, whose path is another; both
-// after bilateral constraints and sliding contacts have left the problem (solver/reduction.h); then all contact
-// modes, which decide every planar problem that is small enough. In space complete driving on
-// polygons alone (space.h): it finds solutions of (21), (22), and proves nothing where it finds none.
+// semidefinite and b in range(A) (solver/complete/complete_driving.md); then Lemke's method, whose path is
+// another; both after bilateral constraints and sliding contacts have left the problem
+// (solver/problem/reduction.h); then all contact modes, which decide every planar problem that is small enough.
+// In space complete driving on polygons alone (space.h): it finds solutions of (21), (22), and proves nothing
+// where it finds none.
 
 #ifndef STICTION_CERTIFY_EXISTENCE_H_
 #define STICTION_CERTIFY_EXISTENCE_H_
@@ -15,7 +16,7 @@
 #include <string_view>
 
 #include "certify/enumerate.h"
-#include "solver/complete.h"
+#include "solver/complete/complete.h"
 
 namespace stiction {
 

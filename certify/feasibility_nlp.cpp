@@ -13,7 +13,7 @@
 
 #include "certify/ipopt_process.h"
 #include "certify/nearby_words.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

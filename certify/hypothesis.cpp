@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "certify/linear_system.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -16,7 +16,7 @@
 #include <cstring>
 
 #include "corpus/json_text.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

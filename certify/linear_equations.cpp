@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/linear_equations.h"
 
-#include "solver/elimination.ipp"
+#include "solver/linear/elimination.ipp"
 
 namespace stiction {
 

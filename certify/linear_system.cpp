@@ -5,7 +5,7 @@
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 

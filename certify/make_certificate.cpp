@@ -8,7 +8,7 @@
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "certify/witness.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 

@@ -6,7 +6,7 @@
 
 #include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "certify/certificate.h"
 #include "certify/witness.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

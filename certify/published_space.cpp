@@ -23,8 +23,8 @@ bool IsSurelyZero(const Interval& x) {
 }  // namespace stiction
 
 #include "corpus/rounded.h"
-#include "solver/published_space.ipp"
-#include "solver/reduction.ipp"
+#include "solver/problem/reduction.ipp"
+#include "solver/published/published_space.ipp"
 
 namespace stiction {
 namespace {

@@ -7,7 +7,8 @@
 //             `undecided`.
 // Suspicions  what floating point does not solve is run again over long double, with finer tolerances and
 //             states compared after finer rounding. `cycle` remains a suspicion.
-// Kinds       bilateral and sliding contacts leave a problem exactly (solver/reduction.h), before its numbers
+// Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
+// numbers
 //             are rounded or enclosed. Runs are told in the terms of the whole problem, as those of exact.h:
 //             bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
 
@@ -17,7 +18,7 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/published_space.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "certify/witness.h"
-#include "solver/check.h"
-#include "solver/elimination.ipp"
+#include "solver/linear/elimination.ipp"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

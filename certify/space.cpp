@@ -7,8 +7,8 @@
 #include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
-#include "solver/complete_space.ipp"
-#include "solver/coulomb.h"
+#include "solver/complete/complete_space.ipp"
+#include "solver/numeric/coulomb.h"
 
 namespace stiction {
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solutions in space, exact: of the conditions (21), (22) of [Baraff94], or of Coulomb's law up to a bound.
 //
-// Both begin with the exact solution of complete driving on friction polygons (solver/complete_space.h).
+// Both begin with the exact solution of complete driving on friction polygons
+// (solver/complete/complete_space.h).
 //
 //   Baraff    Contacts in a corner, separating or sticking meet (21), (22) as they are. Of one on an edge,
 //             where abs(fF) < mu fN, the edge is replaced by a point u of the circle near fF / abs(fF), and the
 //             word with fF = mu fN u is solved as linear equations. If that breaks a condition, u becomes a
 //             corner of the polygon, and complete driving runs again.
 //   Coulomb   The polygon's solution has -fF.aF >= c mu fN abs(aF), c the inner radius of the polygon. Newton's
-//             method in doubles goes on from it (solver/coulomb.h); its word, with directions of slip rounded
-//             to rational points of the circle, is solved as linear equations, and c measured. If that fails,
-//             corners are added opposite to the accelerations, and complete driving runs again.
+//             method in doubles goes on from it (solver/numeric/coulomb.h); its word, with directions of slip
+//             rounded to rational points of the circle, is solved as linear equations, and c measured. If that
+//             fails, corners are added opposite to the accelerations, and complete driving runs again.
 //
 // Whatever is returned as solved was verified by verify_solution.h.
 
@@ -22,7 +23,7 @@
 #include <vector>
 
 #include "certify/properties.h"
-#include "solver/complete_space.h"
+#include "solver/complete/complete_space.h"
 
 namespace stiction {
 
@@ -69,8 +70,8 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
 // condition whatever c.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
 
-// An upper bound of CoulombResidual (solver/residual.h) of f with a = A f + b, evaluated over rationals, with
-// square roots to 100 binary digits. Any kinds of contacts.
+// An upper bound of CoulombResidual (solver/problem/residual.h) of f with a = A f + b, evaluated over
+// rationals, with square roots to 100 binary digits. Any kinds of contacts.
 Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f);
 
 // What one contact does; a direction where it slips.

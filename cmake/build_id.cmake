@@ -16,7 +16,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # What a result can depend on. Untracked files do not count.
-set(folders solver corpus certify search reports)
+set(folders solver scene corpus certify search reports cli)
 
 # ARGN: git's arguments. Sets `out` to its output, and to "" if it fails or is not installed.
 function(git out)

@@ -13,7 +13,7 @@
 #include <set>
 #include <utility>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/solution.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
-#include "solver/check.h"
-#include "solver/options.h"
-#include "solver/solution.h"
+#include "solver/problem/check.h"
+#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 namespace {

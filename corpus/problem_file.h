@@ -23,7 +23,7 @@
 #include "corpus/input_error.h"
 #include "corpus/json_text.h"
 #include "corpus/rational.h"
-#include "solver/problem.h"
+#include "solver/problem/problem.h"
 
 namespace stiction {
 

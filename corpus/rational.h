@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/published.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 

@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "corpus/json_text.h"
-#include "solver/scene/scene_space.h"
+#include "scene/scene_space.h"
 
 namespace stiction {
 

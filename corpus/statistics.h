@@ -13,7 +13,7 @@
 #include <type_traits>
 
 #include "corpus/problem_file.h"
-#include "solver/solution.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

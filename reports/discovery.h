@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "corpus/store.h"
-#include "solver/solution.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "corpus/store.h"
 #include "search/generators.h"
-#include "solver/options.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 

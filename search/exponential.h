@@ -5,7 +5,7 @@
 //   max(i, j)) b_i = 8^(i-n-1) - 1,  i = 1..n
 //
 // A is the matrix of Fathi (Mathematical Programming 17, 1979; cited from memory) in reverse order, positive
-// definite. The count is proved in solver/readings.md, part 10.
+// definite. The count is proved in solver/published/readings.md, part 10.
 
 #ifndef STICTION_SEARCH_EXPONENTIAL_H_
 #define STICTION_SEARCH_EXPONENTIAL_H_

@@ -14,7 +14,7 @@
 #include "corpus/kinds.h"
 #include "search/minimize.h"
 #include "search/signature.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "corpus/store.h"
-#include "solver/options.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 

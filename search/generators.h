@@ -22,7 +22,7 @@
 #include <string_view>
 
 #include "search/choices.h"
-#include "solver/problem.h"
+#include "solver/problem/problem.h"
 
 namespace stiction {
 

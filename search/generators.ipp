@@ -16,8 +16,8 @@
 
 #include "search/generators.h"
 #include "search/scenes.ipp"
-#include "solver/check.h"
-#include "solver/scalar.h"
+#include "solver/problem/check.h"
+#include "solver/problem/scalar.h"
 
 namespace stiction {
 namespace generators {

@@ -7,10 +7,10 @@
 //   fewer contacts; fewer rows; fewer entries of A and b that are not zero; fewer bits in A (each entry
 //   once), b and mu; smaller sum of absolute numerators and denominators.
 // Passes run until none makes progress, so minimizing a minimized problem changes nothing:
-//   take bilateral contacts out (solver/reduction.h); drop contacts; drop friction; stretch tangents to mu = 1
-//   (with f = S f', A' = S A S, b' = S b and mu' = mu s_N / s_F it is the same problem in other units); round A
-//   and b to small integers; round the factors of A = L D L' and b = L c; divide A and b by common factors;
-//   move entries to zero and toward small numbers one by one.
+//   take bilateral contacts out (solver/problem/reduction.h); drop contacts; drop friction; stretch tangents to
+//   mu = 1 (with f = S f', A' = S A S, b' = S b and mu' = mu s_N / s_F it is the same problem in other units);
+//   round A and b to small integers; round the factors of A = L D L' and b = L c; divide A and b by common
+//   factors; move entries to zero and toward small numbers one by one.
 // Deterministic; no clock. Cost: one exact run per candidate, one run of the policies per accepted one.
 
 #ifndef STICTION_SEARCH_MINIMIZE_H_
@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/solution.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "search/generators.ipp"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

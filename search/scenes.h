@@ -15,7 +15,7 @@
 // unit normals (Pythagorean), so all coordinates, A and b are rational. Bodies are of uniform density, each of
 // its own, and at rest.
 //
-// Contacts come in the order of FindContacts on the scene (solver/scene/contacts.h), so that its full model
+// Contacts come in the order of FindContacts on the scene (scene/contacts.h), so that its full model
 // (AssembleOptions::minimal = false) is the problem itself.
 
 #ifndef STICTION_SEARCH_SCENES_H_
@@ -26,8 +26,8 @@
 #include <span>
 
 #include "corpus/rational.h"
+#include "scene/scene.h"
 #include "search/generators.h"
-#include "solver/scene/scene.h"
 
 namespace stiction {
 

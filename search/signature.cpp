@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

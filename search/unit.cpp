@@ -15,8 +15,8 @@
 #include "search/generators.ipp"
 #include "search/scenes.h"
 #include "search/signature.h"
-#include "solver/published.ipp"
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 namespace {

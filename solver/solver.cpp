@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods over floating-point scalars. Exact scalars are instantiated in certify.
 
-#include "solver/complete.ipp"
-#include "solver/fast.ipp"
-#include "solver/lemke.ipp"
-#include "solver/proximal.ipp"
-#include "solver/published.ipp"
+#include "solver/complete/complete.ipp"
+#include "solver/lemke/lemke.ipp"
+#include "solver/numeric/fast.ipp"
+#include "solver/numeric/proximal.ipp"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods in space over floating-point scalars. Exact scalars are instantiated in certify.
 
-#include "solver/complete_space.ipp"
-#include "solver/coulomb.ipp"
+#include "solver/complete/complete_space.ipp"
+#include "solver/numeric/coulomb.ipp"
 
 namespace stiction {
 

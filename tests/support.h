@@ -111,7 +111,7 @@ inline ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant
 }
 
 // The problem with a bilateral contact as its first and, in twice its units, as its last: what they leave of it
-// is the problem itself (solver/reduction.h).
+// is the problem itself (solver/problem/reduction.h).
 inline ExactProblem Bordered(const ExactProblem& problem) {
   const int rows = problem.rows();
   const Rational d = 2, b = -3;

@@ -3,7 +3,7 @@
 //
 // Section 5.1 of [Baraff94] describes static friction as: minimize z of (17) subject to (18). With
 // a = A f + b, z has absolute values and (18) a product. The same problem in smooth form takes the variables
-// of the linear complementarity problem (solver/lemke.h), x = (f+, f-, l beside fN), fF = f+ - f-:
+// of the linear complementarity problem (solver/lemke/lemke.h), x = (f+, f-, l beside fN), fF = f+ - f-:
 //
 //   minimize    sum of fN aN + f+ (aF + l) + f- (l - aF) + l (mu fN - f+ - f-)
 //   subject to  x >= 0,  aN >= 0,  aF + l >= 0,  l - aF >= 0,  mu fN - f+ - f- >= 0

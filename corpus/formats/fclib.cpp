@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

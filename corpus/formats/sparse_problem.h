@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/proximal.h"
+#include "solver/numeric/proximal.h"
 
 namespace stiction {
 

@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "certify/enumerate.h"
-#include "solver/complete.ipp"
-#include "solver/fast.ipp"
-#include "solver/lemke.ipp"
+#include "solver/complete/complete.ipp"
+#include "solver/lemke/lemke.ipp"
+#include "solver/numeric/fast.ipp"
 #include "tests/support.h"
 
 namespace stiction {

@@ -9,7 +9,7 @@
 #include "certify/no_solution.h"
 #include "certify/verify_solution.h"
 #include "certify/witness.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -12,7 +12,7 @@
 #include "certify/enumerate.h"
 #include "certify/safety_threshold.h"
 #include "certify/witness.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 #include "tests/support.h"
 
 namespace stiction {

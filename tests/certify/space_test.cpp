@@ -8,7 +8,7 @@
 #include "certify/certificate.h"
 #include "certify/existence.h"
 #include "certify/verify_solution.h"
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
 #include "tests/support.h"
 
 namespace stiction {

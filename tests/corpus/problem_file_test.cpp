@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

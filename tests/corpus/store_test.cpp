@@ -18,7 +18,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/kinds.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

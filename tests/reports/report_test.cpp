@@ -22,7 +22,7 @@
 #include "reports/discovery.h"
 #include "reports/html.h"
 #include "reports/page.h"
-#include "solver/check.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

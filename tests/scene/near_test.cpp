@@ -6,10 +6,10 @@
 #include <random>
 
 #include "corpus/rational.h"
-#include "solver/scene/contacts.h"
-#include "solver/scene/contacts_space.h"
-#include "solver/scene/mechanics.ipp"
-#include "solver/scene/pair_facts.h"
+#include "scene/contacts.h"
+#include "scene/contacts_space.h"
+#include "scene/mechanics.ipp"
+#include "scene/pair_facts.h"
 
 namespace stiction {
 namespace {

@@ -11,8 +11,8 @@
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
-#include "solver/reduction.ipp"
-#include "solver/scene/assemble.h"
+#include "scene/assemble.h"
+#include "solver/problem/reduction.ipp"
 
 namespace stiction {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes in space, stepped through time.
 
-#include "solver/scene/simulate_space.h"
+#include "scene/simulate_space.h"
 
 #include <tbb/global_control.h>
 

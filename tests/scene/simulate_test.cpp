@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stepping through time: closed forms, rest, energy, which of several solutions.
 
-#include "solver/scene/simulate.h"
+#include "scene/simulate.h"
 
 #include <tbb/global_control.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "corpus/scene_file.h"
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
 
 namespace stiction {
 namespace {

@@ -12,7 +12,7 @@
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
-#include "solver/scene/assemble_space.h"
+#include "scene/assemble_space.h"
 
 namespace stiction {
 namespace {

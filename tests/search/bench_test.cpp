@@ -3,10 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "bench/family.h"
+#include "bench/measure.h"
 #include "certify/existence.h"
 #include "certify/properties.h"
-#include "search/bench/family.h"
-#include "search/bench/measure.h"
 
 namespace stiction {
 namespace {
@@ -78,8 +78,8 @@ TEST_CASE("bench: a problem is a function of its arguments, and of each of them"
   CHECK(text(MakeFrictionless(5, 1, 1)) != text(smooth));
 }
 
-// Up to mu = 1/2 part 4 of solver/complete_driving.md does not exclude folds; none was ever seen in the family.
-// At mu = 0 the reduced determinants are principal minors, so there is none.
+// Up to mu = 1/2 part 4 of solver/complete/complete_driving.md does not exclude folds; none was ever seen in
+// the family. At mu = 0 the reduced determinants are principal minors, so there is none.
 TEST_CASE("bench: no folds without friction, some with much of it") {
   int folds_without = 0, folds_with_much = 0;
   for (int index = 0; index < 800; ++index) {

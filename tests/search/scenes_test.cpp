@@ -8,7 +8,7 @@
 #include <set>
 
 #include "corpus/scene_file.h"
-#include "solver/scene/assemble.h"
+#include "scene/assemble.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "solver/check.h"
+#include "solver/problem/check.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complete driving in space: what the proof promises of every path, and exact solutions of the polygonal law.
 
-#include "solver/complete_space.ipp"
+#include "solver/complete/complete_space.ipp"
 
 #include <catch2/catch.hpp>
 #include <map>

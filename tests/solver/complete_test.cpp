@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complete driving: known paths, what the proof promises of every path, and no wrong answers.
 
-#include "solver/complete.ipp"
+#include "solver/complete/complete.ipp"
 
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coulomb's law in space: the residual that measures it, and the solver that is judged by it.
 
-#include "solver/coulomb.h"
+#include "solver/numeric/coulomb.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "solver/one_contact.h"
-#include "solver/residual.h"
-#include "solver/smooth_law.h"
+#include "solver/numeric/one_contact.h"
+#include "solver/numeric/smooth_law.h"
+#include "solver/problem/residual.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direction system: its equations, checked one by one over rationals.
 
-#include "solver/direction.ipp"
+#include "solver/linear/direction.ipp"
 
 #include <catch2/catch.hpp>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elimination without fractions against plain elimination over rationals: the same pivots, signs and solutions.
 
-#include "solver/elimination.ipp"
+#include "solver/linear/elimination.ipp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "search/bench/plain_rational.h"
-#include "solver/complete.ipp"
-#include "solver/published.ipp"
+#include "bench/plain_rational.h"
+#include "solver/complete/complete.ipp"
+#include "solver/published/published.ipp"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fast method: solved means solved, whatever the guesses were; warm starts; other kinds of contacts.
 
-#include "solver/fast.h"
+#include "solver/numeric/fast.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 #include <map>
 
 #include "certify/verify_solution.h"
-#include "solver/complete.h"
-#include "solver/residual.h"
+#include "solver/complete/complete.h"
+#include "solver/problem/residual.h"
 #include "tests/support.h"
 
 namespace stiction {

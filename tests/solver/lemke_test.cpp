@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lemke's method: all problems of the paper's assumptions are solved; what rays mean; pivots.
 
-#include "solver/lemke.h"
+#include "solver/lemke/lemke.h"
 
 #include <catch2/catch.hpp>
 #include <type_traits>
 
 #include "certify/enumerate.h"
 #include "certify/verify_solution.h"
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of policy switches, and policies as text.
 
-#include "solver/options.h"
+#include "solver/problem/options.h"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems: which variable stands in which row.
 
-#include "solver/problem.h"
+#include "solver/problem/problem.h"
 
 #include <catch2/catch.hpp>
 

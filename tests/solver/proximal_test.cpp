@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proximal points: solved means solved; large sparse problems, singular ones among them; all kinds of contacts.
 
-#include "solver/proximal.h"
+#include "solver/numeric/proximal.h"
 
 #include <catch2/catch.hpp>
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/weak_residual.h"
+#include "solver/problem/weak_residual.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published algorithm on problems with known behaviour, and how runs end.
 
-#include "solver/published.h"
+#include "solver/published/published.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

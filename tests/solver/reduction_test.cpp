@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "solver/reduction.h"
+#include "solver/problem/reduction.h"
 
 #include <catch2/catch.hpp>
 
 #include "certify/existence.h"
 #include "certify/verify_solution.h"
-#include "solver/direction.ipp"
-#include "solver/published.ipp"
-#include "solver/reduction.ipp"
-#include "solver/residual.h"
+#include "solver/linear/direction.ipp"
+#include "solver/problem/reduction.ipp"
+#include "solver/problem/residual.h"
+#include "solver/published/published.ipp"
 #include "tests/support.h"
 
 namespace stiction::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The natural residual: zero on solutions and nowhere else.
 
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

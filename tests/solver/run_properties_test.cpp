@@ -6,7 +6,7 @@
 
 #include "certify/verify_solution.h"
 #include "search/signature.h"
-#include "solver/published.ipp"
+#include "solver/published/published.ipp"
 #include "tests/support.h"
 
 namespace stiction {

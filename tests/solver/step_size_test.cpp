@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The step size: each limit of the table in readings.md, part 3. All numbers are exact in every scalar.
 
-#include "solver/step_size.ipp"
+#include "solver/published/step_size.ipp"
 
 #include <catch2/catch.hpp>
 
-#include "solver/direction.ipp"
+#include "solver/linear/direction.ipp"
 #include "tests/support.h"
 
 namespace stiction {

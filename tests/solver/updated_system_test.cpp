@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Updated direction systems beside those that are eliminated afresh: directions, signs, whole runs.
 
-#include "solver/updated_system.ipp"
+#include "solver/linear/updated_system.ipp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -9,9 +9,9 @@
 
 #include "certify/exact.h"
 #include "search/choices.h"
-#include "solver/complete.ipp"
-#include "solver/published.ipp"
-#include "solver/residual.h"
+#include "solver/complete/complete.ipp"
+#include "solver/problem/residual.h"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/published.h"
-#include "solver/residual.h"
+#include "solver/problem/residual.h"
+#include "solver/published/published.h"
 #include "tests/support.h"
 
 namespace stiction {

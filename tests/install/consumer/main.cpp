@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "solver/published.h"
+#include "solver/published/published.h"
 
 int main() {
   stiction::ContactProblem<double> problem;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/measure.h"
+
+#include <algorithm>
+
+namespace stiction {
+
+Quartiles QuartilesOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return {values[n / 4], values[n / 2], values[3 * n / 4]};
+}
+
+Average AverageOf(const std::vector<std::int64_t>& values) {
+  Average average;
+  for (const std::int64_t value : values) {
+    average.mean += static_cast<double>(value);
+    average.most = std::max(average.most, value);
+  }
+  if (!values.empty()) average.mean /= static_cast<double>(values.size());
+  return average;
+}
+
+void Contingency::Count(bool first, bool second) {
+  ++(first ? (second ? both : first_only) : (second ? second_only : neither));
+}
+
+std::optional<std::string> FindMismatch(std::span<const NamedMeasure> measures) {
+  const NamedMeasure* solves = nullptr;
+  const NamedMeasure* refutes = nullptr;
+  for (const NamedMeasure& m : measures) {
+    if (m.exact && m.measure.wrong) return m.name + " returns what is no solution";
+    if (m.exact && m.measure.Solved()) solves = &m;
+    if (m.measure.refutes) refutes = &m;
+  }
+  if (solves == nullptr || refutes == nullptr) return std::nullopt;
+  return refutes->name + " finds no solution, " + solves->name + " does";
+}
+
+}  // namespace stiction

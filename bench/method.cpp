@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/method.h"
+
+#include <memory>
+
+#include "bench/stopwatch.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/feasibility_nlp.h"
+#include "certify/verify_solution.h"
+#include "solver/problem/residual.h"
+
+namespace stiction {
+namespace {
+
+constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
+
+// ---- Time ----------------------------------------------------------------------------------------
+
+// The processor time of another process; wall-clock time if it is gone.
+clockid_t ClockOf(pid_t process) {
+  clockid_t clock;
+  return clock_getcpuclockid(process, &clock) == 0 ? clock : CLOCK_MONOTONIC;
+}
+
+// ---- Methods -------------------------------------------------------------------------------------
+
+template <class Scalar>
+constexpr const char* kArithmetic = kIsExact<Scalar> ? "exact" : "double";
+
+template <class Scalar>
+const ContactProblem<Scalar>& In(const BenchProblem& problem) {
+  if constexpr (kIsExact<Scalar>) {
+    return problem.exact;
+  } else {
+    return problem.rounded;
+  }
+}
+
+bool Stands(const ExactProblem& problem, const ExactProblem::Vector& f) { return !FindViolation(problem, f); }
+
+bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>::Vector& f) {
+  const ContactProblem<double>::Vector a = problem.A * f + problem.b;
+  return NaturalResidual(problem, f, a) <= kWrongAnswer;
+}
+
+template <class Scalar>
+struct Answer {
+  Measure measure;
+  typename ContactProblem<Scalar>::Vector f;  // if solved
+};
+
+// run(problem) returns an Answer.
+template <class Scalar, class Run>
+Measure Timed(const BenchProblem& problem, Run run) {
+  const ContactProblem<Scalar>& data = In<Scalar>(problem);
+  const Stopwatch watch;
+  Answer<Scalar> answer = run(data);
+  Measure& measure = answer.measure;
+  measure.seconds = watch.Seconds() + measure.library_seconds;
+  if (measure.outcome == Outcome::kSolved) measure.wrong = !Stands(data, answer.f);
+  measure.refutes |= kIsExact<Scalar> && measure.outcome == Outcome::kRay;
+  return measure;
+}
+
+template <class Scalar>
+Method PublishedMethod(const std::string& policy) {
+  PublishedAlgorithm<Scalar> algorithm({ParsePolicy(policy), {}, {}});
+  return {.name = "baraff",
+          .reading = policy,
+          .arithmetic = kArithmetic<Scalar>,
+          .counts = "steps",
+          .run = [algorithm](const BenchProblem& problem) mutable {
+            return Timed<Scalar>(problem, [&algorithm](const auto& data) {
+              const Verdict verdict = algorithm.Run(data);
+              return Answer<Scalar>{{.outcome = verdict.outcome,
+                                     .work = verdict.statistics.steps,
+                                     .give_ups = verdict.statistics.give_ups},
+                                    algorithm.state().f};
+            });
+          }};
+}
+
+template <class Scalar>
+Method CompleteMethod() {
+  return {.name = "complete",
+          .reading = "",
+          .arithmetic = kArithmetic<Scalar>,
+          .counts = "pieces",
+          .run = [driving = CompleteDriving<Scalar>()](const BenchProblem& problem) mutable {
+            return Timed<Scalar>(problem, [&driving](const auto& data) {
+              const CompleteVerdict verdict = driving.Run(data);
+              return Answer<Scalar>{{.outcome = verdict.outcome,
+                                     .work = verdict.statistics.pieces,
+                                     .folds = verdict.statistics.folds,
+                                     .descents = verdict.statistics.descents},
+                                    driving.state().f};
+            });
+          }};
+}
+
+template <class Scalar>
+Method LemkeMethod(Cover cover) {
+  return {.name = "lemke",
+          .reading = cover == Cover::kOnes ? "ones" : "units",
+          .arithmetic = kArithmetic<Scalar>,
+          .counts = "pivots",
+          .run = [lemke = LemkeAlgorithm<Scalar>({cover, {}, {}})](const BenchProblem& problem) mutable {
+            return Timed<Scalar>(problem, [&lemke](const auto& data) {
+              const Verdict verdict = lemke.Run(data);
+              return Answer<Scalar>{{.outcome = verdict.outcome, .work = verdict.statistics.pivots}, lemke.f()};
+            });
+          }};
+}
+
+Method EnumerateMethod() {
+  return {.name = "enumerate",
+          .reading = "",
+          .arithmetic = "exact",
+          .counts = "programs",
+          .one_in = 20,
+          .most_contacts = 4,
+          .run = [](const BenchProblem& problem) {
+            return Timed<Rational>(problem, [](const auto& data) {
+              EnumerationOptions options;
+              options.first_solution_only = true;
+              const Enumeration modes = EnumerateModes(data, options);
+              Answer<Rational> answer;
+              answer.measure.work = modes.programs;
+              answer.measure.refutes = modes.ProvesNoSolution();
+              if (modes.solutions.empty()) return answer;
+              answer.measure.outcome = Outcome::kSolved;
+              answer.f = modes.solutions.front().f;
+              return answer;
+            });
+          }};
+}
+
+// Solved: an exact solution came out of one of its points.
+Method IpoptMethod(Formulation formulation, int one_in) {
+  const auto proposer = std::make_shared<IpoptProposer>();
+  return {.name = "ipopt",
+          .reading = formulation == Formulation::kNonlinear ? "(17), (18)" : "(5)",
+          .arithmetic = "exact",
+          .counts = "starts",
+          .one_in = one_in,
+          .run = [proposer, formulation](const BenchProblem& problem) {
+            return Timed<Rational>(problem, [&proposer, formulation](const auto& data) {
+              ProposalStatistics statistics;
+              ProposalOptions options;
+              options.formulation = formulation;
+              const Stopwatch watch(ClockOf(proposer->process_id()));
+              const auto f = proposer->ProposeSolution(data, options, statistics);
+              Answer<Rational> answer;
+              answer.measure.work = statistics.starts;
+              answer.measure.library_seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
+              if (!f) return answer;
+              answer.measure.outcome = Outcome::kSolved;
+              answer.f = *f;
+              return answer;
+            });
+          }};
+}
+
+}  // namespace
+
+std::vector<Method> Methods() {
+  return {CompleteMethod<Rational>(),
+          PublishedMethod<Rational>("paper"),
+          PublishedMethod<Rational>("apex=suspended"),
+          PublishedMethod<Rational>("admit=eager,file=yes,apex=suspended"),
+          LemkeMethod<Rational>(Cover::kOnes),
+          LemkeMethod<Rational>(Cover::kUnits),
+          CompleteMethod<double>(),
+          IpoptMethod(Formulation::kNonlinear, 10),
+          PublishedMethod<double>("paper"),
+          LemkeMethod<double>(Cover::kUnits),
+          EnumerateMethod()};
+}
+
+std::vector<Method> FrictionlessMethods() {
+  return {PublishedMethod<double>("paper"), LemkeMethod<double>(Cover::kUnits),
+          IpoptMethod(Formulation::kQuadratic, 1)};
+}
+
+}  // namespace stiction

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suites `peers` and `growth`: they become the program stiction-peers, which stands beside this one.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "bench/suite.h"
+#include "corpus/problem_file.h"
+
+namespace stiction {
+namespace {
+
+// `tables`: options that name them.
+int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tables) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
+  std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed), "--seconds",
+                                    std::to_string(0.06 * options.repeat)};
+  words.insert(words.end(), tables.begin(), tables.end());
+  if (options.json) words.push_back("--json");
+  if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
+  if (!options.contacts.empty()) words.push_back("--contacts");
+  for (const int contacts : options.contacts) words.push_back(std::to_string(contacts));
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw InputError(fmt::format("{}: cannot be run: {}; expected the program stiction-peers", program.string(),
+                               std::strerror(errno)));
+}
+
+}  // namespace
+
+int BenchPeers(const BenchOptions& options) { return BecomePeers(options, {}); }
+
+int BenchGrowth(const BenchOptions& options) { return BecomePeers(options, {"--table", "growth"}); }
+
+}  // namespace stiction

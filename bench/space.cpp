@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suite `space`: the readings of section 5.6 on the same random problems. Counts and outcomes.
+//
+//   A = J J', b = J w    J 3n x columns, entries of J and w uniform integers in [-1000, 1000]
+//
+// so that A is positive semidefinite and b in its range: `definite` has 3 n + 1 columns, `one body` has 6, and
+// its A is singular for three contacts and more. Problem `index` has mu = kFrictions[index mod 5] at all
+// contacts. All numbers are exact doubles.
+//
+// Suspicions  doubles suspect a cycle where a rounded state stands again. It is run again over long double,
+// rounded
+//             a million times finer: there it `recurs` (same start, same period), or the run only `approaches`
+//             a loop (a later start, or another period), or it is `refuted`.
+// Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an
+// edge`
+//             counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which the
+//             paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
+//             polygons may need more corners (`refined`).
+
+#include "certify/space.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+#include "bench/measure.h"
+#include "bench/suite.h"
+#include "bench/table.h"
+#include "certify/published_space.h"
+#include "certify/verify_solution.h"
+#include "corpus/exit_code.h"
+#include "search/choices.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kEntry = 1000;
+constexpr double kWrongAnswer = 1e-6;  // residual, relative
+constexpr std::array<std::array<int, 2>, 5> kFrictions = {{{1, 5}, {1, 2}, {1, 1}, {2, 1}, {5, 1}}};
+
+constexpr std::array kReadings = {Slip::kLiteral, Slip::kRedirect, Slip::kPolygon};
+constexpr int kSides = 8;
+
+struct Family {
+  const char* name;
+  int least_contacts;
+  int (*columns)(int contacts);
+};
+constexpr std::array kFamilies = {Family{"definite", 1, [](int contacts) { return 3 * contacts + 1; }},
+                                  Family{"one body", 3, [](int) { return 6; }}};
+
+ExactProblem MakeProblem(int columns, int contacts, std::uint64_t seed, std::int64_t index) {
+  Choices choices(ProblemSeed(seed, 100 * contacts + columns, index));
+  const int rows = 3 * contacts;
+  using Integers = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
+  Integers J(rows, columns), w(columns, 1);
+  for (int i = 0; i < rows; ++i) {
+    for (int k = 0; k < columns; ++k) J(i, k) = choices.Integer(-kEntry, kEntry);
+  }
+  for (int k = 0; k < columns; ++k) w(k) = choices.Integer(-kEntry, kEntry);
+  const auto exact = [](std::int64_t x) { return Rational(x); };
+  const auto [numerator, denominator] = kFrictions[index % kFrictions.size()];
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(contacts, {ContactKind::kStatic, Rational(numerator, denominator), {}});
+  problem.A = Integers(J * J.transpose()).unaryExpr(exact);
+  problem.b = Integers(J * w).unaryExpr(exact);
+  return problem;
+}
+
+// ---- Counting ------------------------------------------------------------------------------------
+
+struct Count {
+  std::int64_t problems = 0, solved = 0, wrong = 0, ray = 0, limit = 0, undecided = 0, singular = 0;
+  std::int64_t recurs = 0, approaches = 0, refuted = 0;                    // suspected cycles
+  std::int64_t breaks = 0, redirects = 0, give_ups = 0;                    // runs in which there was one
+  std::vector<std::int64_t> steps;                                         // of solved runs
+  std::int64_t proved_solved = 0, proved_ray = 0, unsure = 0, differ = 0;  // over intervals, or exactly
+  std::int64_t on_edge = 0, refined = 0;                                   // slip=polygon
+};
+
+constexpr std::array kCounters = {
+    &Count::problems,  &Count::solved,    &Count::wrong,    &Count::ray,           &Count::limit,
+    &Count::undecided, &Count::singular,  &Count::recurs,   &Count::approaches,    &Count::refuted,
+    &Count::breaks,    &Count::redirects, &Count::give_ups, &Count::proved_solved, &Count::proved_ray,
+    &Count::unsure,    &Count::differ,    &Count::on_edge,  &Count::refined};
+
+void Add(const Count& count, Count& sum) {
+  for (const auto counter : kCounters) sum.*counter += count.*counter;
+  sum.steps.insert(sum.steps.end(), count.steps.begin(), count.steps.end());
+}
+
+void CountSuspicion(const ExactProblem& problem, const PublishedOptions& options, const Verdict& suspected,
+                    Count& count) {
+  const PublishedSpaceVerdict again = RunSuspicionInSpace<double>(problem, options).verdict;
+  if (again.outcome != Outcome::kCycle) {
+    ++count.refuted;
+  } else if (again.start == suspected.start && again.period == suspected.period) {
+    ++count.recurs;
+  } else {
+    ++count.approaches;
+  }
+}
+
+void CountRounded(const ExactProblem& problem, const PublishedOptions& options, const RoundedSpaceRun& run,
+                  Count& count) {
+  const PublishedSpaceVerdict& verdict = run.verdict;
+  ++count.problems;
+  count.breaks += verdict.breaks > 0;
+  count.redirects += verdict.redirects > 0;
+  count.give_ups += verdict.statistics.give_ups > 0;
+  switch (verdict.outcome) {
+    case Outcome::kSolved:
+      ++count.solved;
+      count.wrong += !(run.residual <= kWrongAnswer);
+      count.steps.push_back(verdict.statistics.steps);
+      break;
+    case Outcome::kCycle:
+      CountSuspicion(problem, options, verdict, count);
+      break;
+    case Outcome::kRay:
+      ++count.ray;
+      break;
+    case Outcome::kSingular:
+      ++count.singular;
+      break;
+    case Outcome::kLimit:
+      ++count.limit;
+      break;
+    default:
+      ++count.undecided;
+      break;
+  }
+}
+
+// What intervals prove must be what doubles did.
+void CountIntervals(const PublishedSpaceVerdict& proved, const PublishedSpaceVerdict& rounded, Count& count) {
+  const bool decided = proved.outcome != Outcome::kUndecided && proved.outcome != Outcome::kLimit;
+  count.proved_solved += proved.outcome == Outcome::kSolved;
+  count.proved_ray += proved.outcome == Outcome::kRay;
+  count.unsure += !decided;
+  count.differ += decided && (proved.outcome != rounded.outcome || proved.statistics != rounded.statistics);
+}
+
+// Static contacts alone.
+bool BreaksOpposition(const SpaceRun& run) {
+  bool breaks = false;
+  for (Eigen::Index row = 0; row < run.f.size(); row += 3)
+    breaks |= run.f[row + 1] * run.a[row + 1] + run.f[row + 2] * run.a[row + 2] > 0;
+  return breaks;
+}
+
+Count CountPolygon(const ExactProblem& problem) {
+  const RationalPolygons polygons(problem.contacts.size(), FrictionPolygon<Rational>(kSides));
+  const SpaceRun run = RunSpace(problem, polygons, Limits{});
+  SpaceOptions options;
+  options.sides = kSides;
+  const SpaceSolution solution = SolveInSpace(problem, options);
+  const bool solved = solution.outcome == Outcome::kSolved;
+  Count count;
+  count.problems = 1;
+  count.solved = count.proved_solved = solved;
+  count.ray = count.proved_ray = solution.outcome == Outcome::kRay;
+  count.limit = solution.outcome == Outcome::kLimit;
+  count.undecided = solution.outcome == Outcome::kUndecided;
+  count.breaks = BreaksOpposition(run);
+  count.on_edge = run.verdict.outcome == Outcome::kSolved && FindWeakViolation(problem, run.f).has_value();
+  count.refined = solution.refinements > 0;
+  if (solved) {
+    count.wrong = FindWeakViolation(problem, solution.f).has_value();
+    count.steps.push_back(solution.statistics.pieces);
+  }
+  return count;
+}
+
+Count CountProblem(const ExactProblem& problem, Slip slip) {
+  if (slip == Slip::kPolygon) return CountPolygon(problem);
+  PublishedOptions options;
+  options.policy.slip = slip;
+  const RoundedSpaceRun run = RunRoundedInSpace<double>(problem, options);
+  Count count;
+  CountRounded(problem, options, run, count);
+  CountIntervals(RunIntervalsInSpace(problem, options).verdict, run.verdict, count);
+  return count;
+}
+
+// ---- Tables --------------------------------------------------------------------------------------
+
+Json RowOf(Json row, const Count& count) {
+  const Average steps = AverageOf(count.steps);
+  row.update({{"problems", count.problems},
+              {"solved", count.solved},
+              {"wrong", count.wrong},
+              {"recurs", count.recurs},
+              {"approaches", count.approaches},
+              {"refuted", count.refuted},
+              {"ray", count.ray},
+              {"limit", count.limit},
+              {"singular", count.singular},
+              {"undecided", count.undecided},
+              {"breaks (21)", count.breaks},
+              {"redirects", count.redirects},
+              {"gives up", count.give_ups},
+              {"steps, mean", steps.mean},
+              {"most", steps.most},
+              {"proved solved", count.proved_solved},
+              {"proved ray", count.proved_ray},
+              {"unsure", count.unsure},
+              {"differ", count.differ},
+              {"on an edge", count.on_edge},
+              {"refined", count.refined}});
+  return row;
+}
+
+std::string NameOf(Slip slip) {
+  Policy policy;
+  policy.slip = slip;
+  return PolicyName(policy);
+}
+
+std::string NameOf(const std::array<int, 2>& mu) {
+  return mu[1] == 1 ? fmt::format("{}", mu[0]) : fmt::format("{}/{}", mu[0], mu[1]);
+}
+
+}  // namespace
+
+int BenchSpace(const BenchOptions& options) {
+  const std::int64_t problems = options.problems.value_or(2000);
+  const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{1, 2, 3, 4} : options.contacts;
+  BenchTable by_size{
+      "sizes",
+      "readings of section 5.6: outcomes over doubles, and what intervals prove of them; slip=polygon "
+      "exactly"};
+  BenchTable by_friction{"friction", "the same by friction coefficient, all sizes"};
+  std::array<std::array<Count, kFrictions.size()>, kReadings.size()> of_friction;
+  std::int64_t bad = 0;
+  for (const Family& family : kFamilies) {
+    for (const int contacts : sizes) {
+      if (contacts < family.least_contacts) continue;
+      std::array<Count, kReadings.size()> of_size;
+      for (std::int64_t index = 0; index < problems; ++index) {
+        const ExactProblem problem = MakeProblem(family.columns(contacts), contacts, options.seed, index);
+        for (std::size_t r = 0; r < kReadings.size(); ++r) {
+          const Count count = CountProblem(problem, kReadings[r]);
+          Add(count, of_size[r]);
+          Add(count, of_friction[r][index % kFrictions.size()]);
+          bad += count.wrong + count.differ;
+        }
+      }
+      for (std::size_t r = 0; r < kReadings.size(); ++r) {
+        by_size.rows.push_back(RowOf(
+            {{"family", family.name}, {"contacts", contacts}, {"policy", NameOf(kReadings[r])}}, of_size[r]));
+      }
+      fmt::print(stderr, "{}, {} contacts: {} problems\n", family.name, contacts, problems);
+    }
+  }
+  for (std::size_t r = 0; r < kReadings.size(); ++r) {
+    for (std::size_t m = 0; m < kFrictions.size(); ++m) {
+      by_friction.rows.push_back(
+          RowOf({{"policy", NameOf(kReadings[r])}, {"mu", NameOf(kFrictions[m])}}, of_friction[r][m]));
+    }
+  }
+  if (options.json) {
+    std::cout << JsonText({{"suite", "space"},
+                           {"seed", options.seed},
+                           {"problems", problems},
+                           {by_size.name, by_size.rows},
+                           {by_friction.name, by_friction.rows}})
+              << "\n";
+  } else {
+    Print(by_size);
+    Print(by_friction);
+  }
+  return bad == 0 ? kExitDone : kExitNotSo;
+}
+
+}  // namespace stiction

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suites of stiction-bench: each measures, prints, and returns an exit code.
+
+#ifndef STICTION_BENCH_SUITE_H_
+#define STICTION_BENCH_SUITE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "search/generators.h"
+
+namespace stiction {
+
+struct BenchOptions {
+  std::string suite = "search";
+  std::vector<int> contacts;             // empty: the suite's own
+  std::optional<std::int64_t> problems;  // empty: the suite's own
+  int repeat = 5;
+  std::uint64_t seed = 1;
+  std::optional<GeneratorId> generator;  // empty: the suite's own
+  std::string scenes = "corpus/scenes";  // folder
+  int threads = 1;                       // of a simulation
+  bool json = false;
+};
+
+// Problems a second of the search's hot path, one thread (search_rate.cpp).
+int BenchSearch(const BenchOptions& options);
+
+// The methods side by side on the same problems (methods.cpp).
+int BenchMethods(const BenchOptions& options);
+
+// stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
+// program stiction-peers is missing.
+int BenchPeers(const BenchOptions& options);
+
+// Of it, the growth of time and memory with the number of contacts, direction systems updated and solved
+// afresh.
+int BenchGrowth(const BenchOptions& options);
+
+// Ways to solve a linear system exactly, side by side on the same systems (linear_algebra.cpp).
+int BenchLinearAlgebra(const BenchOptions& options);
+// The readings of section 5.6 side by side, on problems in space (space.cpp).
+int BenchSpace(const BenchOptions& options);
+// The published algorithm where contacts slide (sliding.cpp).
+int BenchSliding(const BenchOptions& options);
+
+// The scenes of a folder, side by side the minimal and the full model, or one thread and more (scenes.cpp).
+// InputError if there are none.
+int BenchScenes(const BenchOptions& options);
+
+}  // namespace stiction
+
+#endif  // STICTION_BENCH_SUITE_H_

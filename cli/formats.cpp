@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction import, stiction export: problems in the formats of others.
+
+#include "corpus/formats/formats.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/verbs.h"
+
+namespace stiction {
+namespace {
+
+std::vector<std::string> FormatNames() {
+  std::vector<std::string> names;
+  for (const PublishedFormat& format : PublishedFormats()) names.push_back(format.name);
+  return names;
+}
+
+std::string StoragesText() {
+  std::vector<std::string> rows;
+  for (const PublishedFormat& format : PublishedFormats()) {
+    rows.push_back(fmt::format("{}: {}", format.name, fmt::join(format.storages, ", ")));
+  }
+  return fmt::format("{}", fmt::join(rows, "; "));
+}
+
+struct ImportOptions {
+  std::string file, output, format;
+  bool symmetrize = false;
+};
+
+int Import(const ImportOptions& o) {
+  SparseProblem problem = ReadPublished(o.file, o.format);
+  if (o.symmetrize) Symmetrize(problem);
+  WriteText(o.output, Print(ToDense(problem, o.file)));
+  const Asymmetry asymmetry = LargestAsymmetry(problem);
+  // With the problem itself on standard output, nothing else may stand there.
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  out << fmt::format("{}: {} contacts, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
+                     problem.contacts.size(), problem.dimension, ToDouble(asymmetry.difference));
+  return kExitDone;
+}
+
+struct ExportOptions {
+  std::string file, output, format, storage;
+  bool round = false;
+};
+
+int Export(const ExportOptions& o) {
+  SparseProblem problem = ToSparse(ReadProblem(o.file));
+  const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
+  const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
+  fmt::print("{}: {} numbers rounded", o.output, report.rounded);
+  if (report.rounded > 0) fmt::print(", by {:.2g} of their value at most", ToDouble(report.largest_change));
+  fmt::print("\n");
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddImport(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ImportOptions>();
+  CLI::App& verb = *program.add_subcommand("import", "Read a problem in the format of another program");
+  verb.add_option("FILE", o->file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
+      ->required();
+  verb.add_option("-o,--output", o->output, "stiction-problem to write; - is standard output")->required();
+  verb.add_option("--format", o->format, "the format of the file; by default its content decides")
+      ->check(CLI::IsMember(FormatNames()));
+  verb.add_flag("--symmetrize", o->symmetrize,
+                "replace A by (A + A')/2; `origin` keeps the largest difference");
+  verb.callback([o, &action] { action = [o] { return Import(*o); }; });
+}
+
+void AddExport(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ExportOptions>();
+  CLI::App& verb = *program.add_subcommand("export", "Write a problem in the format of another program");
+  verb.add_option("FILE", o->file, "stiction-problem file")->required();
+  verb.add_option("-o,--output", o->output, "file to write")->required();
+  verb.add_option("--format", o->format, "the format to write")
+      ->required()
+      ->check(CLI::IsMember(FormatNames()));
+  verb.add_option("--storage", o->storage, "how the matrix is stored; " + StoragesText() + " [the first]");
+  verb.add_flag("--round", o->round, "write the nearest double for a number that is none");
+  verb.callback([o, &action] { action = [o] { return Export(*o); }; });
+}
+
+}  // namespace stiction

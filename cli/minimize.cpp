@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction minimize, stiction policies.
+
+#include "search/minimize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "certify/exact.h"
+#include "cli/verbs.h"
+#include "corpus/json_text.h"
+#include "search/finish.h"
+#include "search/signature.h"
+
+namespace stiction {
+namespace {
+
+struct MinimizeVerb {
+  std::string file;
+  std::string output;
+  std::string keep;  // empty: the outcome under the policy
+  std::string policy = "paper";
+  bool keep_signature = false;
+  bool json = false;
+  Limits limits;
+};
+
+std::optional<Outcome> FindOutcome(std::string_view name) {
+  const auto found = std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name);
+  if (found == kOutcomeNames.end()) return std::nullopt;
+  return static_cast<Outcome>(found - kOutcomeNames.begin());
+}
+
+std::string CheckKeep(const std::string& text) {
+  const std::string outcome = text.ends_with(":*") ? text.substr(0, text.size() - 2) : text;
+  if (FindOutcome(outcome)) return "";
+  return fmt::format("found '{}', expected one of {}, with :* behind it for the whole policy grid", text,
+                     fmt::join(kOutcomeNames, ", "));
+}
+
+int RunMinimize(const MinimizeVerb& o) {
+  ProblemFile file = ReadPlanarProblem(o.file);
+  const Policy policy = ParsePolicy(o.policy);
+  const ExactRun run = RunExact(file.problem, {policy, {}, o.limits});
+  const std::string keep = o.keep.empty() ? std::string(Name(run.verdict.outcome)) : o.keep;
+  const bool whole_grid = keep.ends_with(":*");
+  MinimizeOptions options;
+  options.keep = *FindOutcome(whole_grid ? keep.substr(0, keep.size() - 2) : keep);
+  options.policies = {policy};
+  if (whole_grid) {
+    options.policies = PlanarGrid();
+    std::iter_swap(options.policies.begin(),
+                   std::find(options.policies.begin(), options.policies.end(), policy));
+  }
+  if (o.keep_signature) options.signature = Signature(file.problem, run);
+  options.limits = o.limits;
+  const Simplicity before = SimplicityOf(file.problem);
+  const Minimized minimized = Minimize(file.problem, options);
+  const Simplicity after = SimplicityOf(minimized.problem);
+  file.problem = minimized.problem;
+  file.origin = Json{{"parent", file.name}, {"minimized", true}};
+  if (file.scene) (*file.origin)["scene"] = kSceneOfParent;
+  file.scene.reset();
+  file.name += "-minimized";
+  file.expect = {{whole_grid ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
+  WriteText(o.output, Print(file));
+  const auto size = [](const Simplicity& s) {
+    return Json{{"contacts", s.contacts}, {"rows", s.rows}, {"nonzeros", s.nonzeros}, {"bits", s.bits}};
+  };
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  if (o.json) {
+    out << JsonText({{"keep", keep},
+                     {"before", size(before)},
+                     {"after", size(after)},
+                     {"candidates", minimized.candidates},
+                     {"accepted", minimized.accepted}})
+        << "\n";
+  } else {
+    out << fmt::format("{}: {} contacts, {} nonzeros, {} bits; was {}, {}, {}. Tried {}, took {}.\n", keep,
+                       after.contacts, after.nonzeros, after.bits, before.contacts, before.nonzeros,
+                       before.bits, minimized.candidates, minimized.accepted);
+  }
+  return kExitDone;
+}
+
+int ListPolicies(bool json) {
+  Json rows = Json::array();
+  for (const PolicySwitchRow& row : PolicySwitches()) {
+    Json values = Json::array();
+    for (const PolicyValue& value : row.values)
+      values.push_back({{"value", value.name}, {"meaning", value.meaning}});
+    rows.push_back({{"switch", row.name},
+                    {"question", row.question},
+                    {"reads", row.reads},
+                    {"planar", row.planar},
+                    {"values", values}});
+    if (json) continue;
+    fmt::print("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
+               row.reads);
+    for (const PolicyValue& value : row.values) fmt::print("    {:14} {}\n", value.name, value.meaning);
+  }
+  if (json) {
+    std::cout << JsonText(rows) << "\n";
+  } else {
+    fmt::print("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+               PlanarGrid().size());
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddMinimize(CLI::App& program, Action& action) {
+  auto o = std::make_shared<MinimizeVerb>();
+  CLI::App& verb = *program.add_subcommand("minimize", "A simpler problem with the same certified finding");
+  verb.add_option("FILE", o->file, "stiction-problem file")->required();
+  verb.add_option("-o,--output", o->output, "problem to write; - is standard output")->required();
+  verb.add_option(
+          "--keep", o->keep,
+          "outcome to keep under the policy, e.g. cycle; with :* under every policy of the planar grid; by "
+          "default the outcome under the policy")
+      ->check(CheckKeep);
+  verb.add_flag("--keep-signature", o->keep_signature, "keep the sequence of pivots of the loop as well");
+  AddPolicyOption(verb, o->policy, Grid::kRefused);
+  AddLimits(verb, o->limits);
+  verb.add_flag("--json", o->json, "machine output");
+  verb.callback([o, &action] { action = [o] { return RunMinimize(*o); }; });
+}
+
+void AddPolicies(CLI::App& program, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App& verb = *program.add_subcommand("policies", "List the readings of the published text");
+  verb.add_flag("--json", *json, "machine output");
+  verb.callback([json, &action] { action = [json] { return ListPolicies(*json); }; });
+}
+
+}  // namespace stiction

@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction assemble, simulate, draw: scenes.
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+#include "cli/verbs.h"
+#include "corpus/scene_file.h"
+#include "reports/draw_space.h"
+#include "search/summary.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- assemble --------------------------------------------------------------------------------
+
+struct AssembleCommand {
+  std::string scene, output, level = "forces";
+  bool explain = false, full = false;
+};
+
+// FILE.json of one problem; FILE-1.json, FILE-2.json, ... of several.
+std::string NumberedFile(const std::string& file, std::size_t number, std::size_t count) {
+  if (count == 1 || file == "-") return file;
+  const fs::path path(file);
+  fs::path numbered = path.parent_path() / path.stem();
+  numbered += fmt::format("-{}", number + 1);
+  numbered += path.extension();
+  return numbered.string();
+}
+
+template <class SceneType>
+int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
+  const auto contacts = FindContacts(file.scene);
+  AssembleOptions<Rational> options;
+  options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
+  options.minimal = !o.full;
+  const auto model = Assemble(file.scene, contacts, options);
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  for (const int i : model.colliding) {
+    if (options.level == Level::kForces) {
+      std::cerr << fmt::format(
+          "stiction: {}: contact {} approaches; a collision (--level impulses) comes first\n", o.scene, i + 1);
+    }
+  }
+  if (o.output == "-" && model.islands.size() > 1) {
+    throw InputError(
+        fmt::format("{}: found {} independent problems, expected one to write to standard output "
+                    "(--full keeps them together)",
+                    o.scene, model.islands.size()));
+  }
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    ProblemFile problem;
+    problem.problem = model.Problem(i);
+    problem.name = file.scene.name;
+    if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
+    problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    const std::string name = NumberedFile(o.output, i, model.islands.size());
+    WriteText(name, Print(problem));
+    out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
+                       problem.problem.rows());
+  }
+  if (model.islands.empty()) out << "no contacts and no joints: nothing to solve\n";
+  if (o.explain) {
+    for (const std::string& line : Explain(file.scene, contacts, model, options)) out << line << "\n";
+  }
+  return kExitDone;
+}
+
+// ---- simulate --------------------------------------------------------------------------------
+
+struct SimulateCommand {
+  std::string scene, output, problems;
+  std::optional<double> seconds, step;
+  double rest = 0;
+  int frames_a_second = 30, threads = 0;
+  bool full = false, svg = true;
+};
+
+ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
+  ProblemFile file;
+  file.name = name;
+  file.origin = origin;
+  file.problem.dimension = problem.dimension;
+  for (const auto& contact : problem.contacts) {
+    Contact<Rational> exact;
+    exact.kind = contact.kind;
+    exact.mu = Rational(contact.mu);
+    if (contact.kind == ContactKind::kSliding)
+      exact.slip = ExactDirection<Rational>(MakeVector2<Rational>(contact.slip[0], contact.slip[1]));
+    file.problem.contacts.push_back(exact);
+  }
+  const int rows = problem.rows();
+  file.problem.A.resize(rows, rows);
+  file.problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    file.problem.b[i] = Rational(problem.b[i]);
+    for (int j = 0; j < rows; ++j) file.problem.A(i, j) = Rational(problem.A(i, j));
+  }
+  return file;
+}
+
+void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t frame, const char* level,
+                  const ContactProblem<double>& problem) {
+  const Json origin = {
+      {"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
+  WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
+}
+
+double SumOfNumbers(const RigidBody<double>& body) {
+  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
+         body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() + body.torque;
+}
+
+const auto& CornersOf(const BodyShape<double>& shape) { return shape.polygon; }
+const auto& CornersOf(const ShapeInSpace<double>& shape) { return shape.corners; }
+
+double SumOfNumbers(const BodyInSpace<double>& body) {
+  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
+         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() +
+         body.acceleration.sum() + body.force.sum() + body.torque.sum();
+}
+
+// The finite scene of a file.
+template <class SceneType>
+auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source) {
+  auto scene = Round(file.scene);
+  const auto require = [&source](double sum, const std::string& place) {
+    if (!std::isfinite(sum)) {
+      throw InputError(
+          fmt::format("{}: {}: found a number beyond the range of doubles, expected none", source, place));
+    }
+  };
+  for (const auto& body : scene.bodies) {
+    double sum = SumOfNumbers(body);
+    for (const auto& shape : body.shapes) {
+      sum += shape.center.sum() + shape.radius;
+      for (const auto& corner : CornersOf(shape)) sum += corner.sum();
+    }
+    require(sum, "body " + body.name);
+  }
+  require(scene.gravity.sum() + scene.mu + scene.gap, "gravity, mu, gap");
+  for (const auto& pair : scene.pairs) require(pair.mu.value_or(0), "pairs");
+  for (const auto& joint : scene.joints) require(joint.at_a.sum() + joint.at_b.sum(), "joints");
+  for (const auto& contact : scene.contacts) require(contact.at_a.sum() + contact.at_b.sum(), "contacts");
+  return scene;
+}
+
+// A number of a file that is within what the option of its name takes.
+double Within(const Rational& x, double least, double most, const std::string& place) {
+  const double value = x > Rational(most) ? std::numeric_limits<double>::infinity() : ToDouble(x);
+  if (value >= least && value <= most) return value;
+  throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
+}
+template <class SceneType>
+double StepOf(const SceneFileOf<SceneType>& file, const std::string& source) {
+  return Within(file.step, 1e-9, 1, source + ": step");
+}
+
+// The folder with what a run writes. Tables grow as the run goes; pictures, which share a view, come at its
+// end.
+template <class SceneType>
+class SimulationWriter {
+ public:
+  using Picture = typename DrawingOf<SceneType>::FrameType;
+
+  explicit SimulationWriter(const SimulateCommand& o)
+      : o_(o), energy_file_(fs::path(o.output) / "energy.csv"), drift_file_(fs::path(o.output) / "drift.csv") {
+    MakeFolder(o.output);
+    if (o.svg) MakeFolder(fs::path(o.output) / "frames");
+    if (!o.problems.empty()) MakeFolder(o.problems);
+    RemoveOlder();
+    energy_.open(energy_file_);
+    drift_.open(drift_file_);
+    energy_ << "time_s,kinetic_J,potential_J,total_J\n";
+    drift_ << "time_s,joints_m,overlap_m\n";
+    Flush();
+  }
+
+  void AddState(const SimulationOf<SceneType>& simulation) {
+    const Energy energy = EnergyOf(simulation.scene());
+    const Drift drift = DriftOf(simulation.scene());
+    energy_ << fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
+                           energy.potential, energy.total());
+    drift_ << fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
+    worst_.joints = std::max(worst_.joints, drift.joints);
+    worst_.overlap = std::max(worst_.overlap, drift.overlap);
+  }
+
+  // What has been added reaches the files, up to this picture.
+  void AddPicture(const SceneType& scene, Picture picture) {
+    view_.Include(scene);
+    pictures_.push_back(std::move(picture));
+    Flush();
+  }
+
+  void WritePictures(const SceneType& scene) {
+    const fs::path folder(o_.output);
+    view_.AddMargin();
+    std::vector<double> largest;
+    for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
+    const double newton = ForceScale(view_, std::move(largest));
+    WriteText((folder / "animation.html").string(),
+              DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
+    SceneType moved = scene;
+    for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
+      SetPoses(moved, pictures_[k]);
+      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, pictures_[k].marks, newton));
+    }
+  }
+
+  const Drift& worst() const { return worst_; }
+
+ private:
+  static std::string FrameName(std::size_t k) { return fmt::format("{:05}.svg", k); }
+
+  // What would stand from a run before among the files of this one.
+  void RemoveOlder() const {
+    const fs::path folder(o_.output);
+    fs::remove(folder / "undecided.json");
+    fs::remove(folder / "animation.html");
+    for (std::size_t k = 0; fs::remove(folder / "frames" / FrameName(k)); ++k) continue;
+  }
+
+  static void MakeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  }
+
+  void Flush() {
+    if (!energy_.flush()) throw InputError(fmt::format("{}: cannot be written", energy_file_.string()));
+    if (!drift_.flush()) throw InputError(fmt::format("{}: cannot be written", drift_file_.string()));
+  }
+
+  const SimulateCommand& o_;
+  fs::path energy_file_, drift_file_;
+  std::ofstream energy_, drift_;
+  Drift worst_;
+  typename DrawingOf<SceneType>::ViewType view_;
+  std::vector<Picture> pictures_;
+};
+
+// About twice a second, of runs that take more than that.
+class SimulationProgress {
+ public:
+  void Show(std::int64_t done, std::int64_t steps, double time) {
+    const auto now = Clock::now();
+    if (!bar_.IsShown() || now - shown_ < std::chrono::milliseconds(500)) return;
+    shown_ = now;
+    const double fraction = static_cast<double>(done) / static_cast<double>(steps);
+    const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;
+    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Thousands(done),
+                                    Thousands(steps), left));
+  }
+  ~SimulationProgress() { bar_.Clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ProgressBar bar_;
+  Clock::time_point start_ = Clock::now(), shown_ = start_;
+};
+
+// All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
+// the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
+// before it.
+template <class SceneType>
+void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a_second,
+         const std::atomic<bool>& interrupted, SimulationWriter<SceneType>& writer) {
+  SimulationProgress progress;
+  double next = 0;  // picture, s
+  writer.AddState(simulation);
+  for (std::int64_t k = 0; k < steps && !interrupted; ++k) {
+    const bool shown = simulation.time() >= next - 1e-9;
+    if (shown) next += 1.0 / pictures_a_second;
+    const double time = simulation.time();
+    const std::optional<SceneType> start = shown ? std::optional(simulation.scene()) : std::nullopt;
+    simulation.Step();
+    if (start) writer.AddPicture(*start, Record(*start, time, MarksOf(simulation)));
+    writer.AddState(simulation);
+    progress.Show(k + 1, steps, simulation.time());
+  }
+  writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
+}
+
+void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const std::string& folder) {
+  ForEachField(statistics, [](const char* name, const char* help, std::int64_t value) {
+    fmt::print("{:12} {:>10}   {}\n", name, value, help);
+  });
+  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", worst.joints, worst.overlap,
+             (fs::path(folder) / "animation.html").string());
+}
+
+template <class ExactScene>
+int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    o.threads > 0 ? o.threads : tbb::info::default_concurrency());
+  SimulationOptions options;
+  options.step = o.step ? *o.step : StepOf(file, o.scene);
+  options.rest = o.rest;
+  options.minimal = !o.full;
+  const double seconds = o.seconds ? *o.seconds : Within(file.seconds, 1e-9, 1e6, o.scene + ": seconds");
+  const auto scene = RoundedScene(file, o.scene);
+  using SceneType = std::remove_const_t<decltype(scene)>;
+  SimulationWriter<SceneType> writer(o);
+  std::function<void(const FrameProblem&)> observe;
+  if (!o.problems.empty()) {
+    const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
+    observe = [&o, &file, scene_name, frame = std::int64_t{-1}, number = 0](const FrameProblem& met) mutable {
+      const char* level = kLevelNames[static_cast<int>(met.level)];
+      number = met.frame == frame ? number + 1 : 1;  // a frame can ask for several of one level and island
+      frame = met.frame;
+      const std::string name = fmt::format("{}-{:05}-{:02}-{}.json", scene_name, frame, number, level);
+      WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
+    };
+  }
+  const std::atomic<bool>& interrupted = Interruption();
+  SimulationOf<SceneType> simulation(scene, options, observe);
+  const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
+  try {
+    Run(simulation, steps, o.frames_a_second, interrupted, writer);
+  } catch (const SimulationError& error) {
+    const fs::path at = fs::path(o.output) / "undecided.json";
+    WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
+    auto marks = MarksOf(simulation);
+    marks.forces.clear();  // they are of the step before
+    writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), std::move(marks)));
+    writer.WritePictures(scene);
+    std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
+    return kExitUndecided;
+  }
+  writer.WritePictures(scene);
+  WriteSummary(simulation.statistics(), writer.worst(), o.output);
+  if (interrupted) {
+    fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
+               simulation.time(), seconds);
+  }
+  return kExitDone;
+}
+
+// ---- draw ------------------------------------------------------------------------------------
+
+struct DrawCommand {
+  std::string scene, output;
+};
+
+template <class ExactScene>
+int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
+  const auto scene = RoundedScene(file, o.scene);
+  using SceneType = std::remove_const_t<decltype(scene)>;
+  SimulationOptions options;
+  options.step = StepOf(file, o.scene);
+  SimulationOf<SceneType> simulation(scene, options);
+  decltype(MarksOf(simulation)) marks;
+  try {
+    simulation.Step();
+    marks = MarksOf(simulation);
+  } catch (const SimulationError& error) {
+    std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
+    for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
+  }
+  typename DrawingOf<SceneType>::ViewType view;
+  view.Include(scene);
+  view.AddMargin();
+  WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddAssemble(CLI::App& program, Action& action) {
+  auto o = std::make_shared<AssembleCommand>();
+  CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
+  verb.add_option(
+          "-o,--output", o->output,
+          "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
+          "standard output")
+      ->required();
+  verb.add_option("--level", o->level, "forces at this instant, or impulses of a collision")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"forces", "impulses"}));
+  verb.add_flag("--explain", o->explain, "what was modelled, what was left out, and why that is exact");
+  verb.add_flag("--full", o->full, "one problem, with all rows for every contact, redundant ones too");
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunAssemble(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
+}
+
+void AddSimulate(CLI::App& program, Action& action) {
+  auto o = std::make_shared<SimulateCommand>();
+  CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
+  verb.add_option(
+          "-o,--output", o->output,
+          "folder to write: energy.csv and drift.csv, which grow as the run goes; at its end, or where Ctrl-C "
+          "ends it, animation.html and frames/*.svg; undecided.json where a frame has no answer (exit 3); "
+          "those "
+          "of a run before are replaced")
+      ->required();
+  verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
+  verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));
+  verb.add_option("--rest", o->rest,
+                  "speed up to which a contact counts as at rest, m/s [what gravity makes in one step]")
+      ->check(CLI::Range(1e-15, 1e6));
+  verb.add_option("--frames", o->frames_a_second,
+                  "pictures a second of simulated time; all are kept in memory until the end")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  verb.add_option("--threads", o->threads, "for independent islands; results do not depend on it [all cores]")
+      ->check(CLI::Range(1, 1024));
+  verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
+  verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
+  verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunSimulate(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
+}
+
+void AddDraw(CLI::App& program, Action& action) {
+  auto o = std::make_shared<DrawCommand>();
+  CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
+  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
+      ->required();
+  verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
+  verb.callback([o, &action] {
+    action = [o] {
+      return std::visit([&o](const auto& file) { return RunDraw(*o, file); }, ReadAnyScene(o->scene));
+    };
+  });
+}
+
+}  // namespace stiction

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction search, status, merge, problem, report: campaigns and their stores.
+
+#include "search/search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <thread>
+
+#include "build_id.h"
+#include "cli/verbs.h"
+#include "corpus/json_text.h"
+#include "reports/report.h"
+#include "search/exponential.h"
+#include "search/summary.h"
+#include "search/unit.h"
+
+namespace stiction {
+namespace {
+
+constexpr double kDefaultMinutes = 1;
+constexpr double kLogSeconds = 10;  // between progress lines where standard error is no terminal
+
+struct SearchVerb {
+  std::string campaign;
+  std::string store = "stiction.store";
+  std::vector<std::string> generators, mu, policies;
+  std::vector<int> contacts;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> minutes;
+  std::optional<std::int64_t> problems, audit_every, enumerate_every;
+  std::string shard = "0/1";
+  int threads = 0;
+  bool json = false;
+};
+
+// All of the text as a number.
+template <class Number>
+bool ReadNumber(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+Shard ParseShard(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  if (ReadNumber(std::string_view(text).substr(0, slash), shard.index) &&
+      ReadNumber(std::string_view(text).substr(slash + 1), shard.count) && shard.index >= 0 &&
+      shard.index < shard.count) {
+    return shard;
+  }
+  throw InputError(fmt::format("--shard: found '{}', expected i/N with 0 <= i < N", text));
+}
+
+Campaign CampaignOf(const SearchVerb& o) {
+  Campaign campaign = o.campaign.empty() ? Campaign{} : ReadCampaign(o.campaign);
+  if (o.seed) campaign.seed = *o.seed;
+  if (o.audit_every) campaign.audit_every = *o.audit_every;
+  if (o.enumerate_every) campaign.enumerate_every = *o.enumerate_every;
+  if (!o.contacts.empty()) campaign.contacts = o.contacts;
+  if (!o.generators.empty()) {
+    campaign.generators.clear();
+    for (const std::string& name : o.generators) campaign.generators.push_back(*FindGenerator(name));
+  }
+  if (!o.mu.empty()) {
+    campaign.palette.clear();
+    for (const std::string& text : o.mu) campaign.palette.push_back(ParseMu(text));
+  }
+  if (!o.policies.empty()) {
+    campaign.policies.clear();
+    for (const std::string& text : o.policies) {
+      for (const Policy& policy : PoliciesNamed(text)) {
+        const auto& all = campaign.policies;
+        if (std::find(all.begin(), all.end(), policy) != all.end()) {
+          throw InputError(
+              fmt::format("--policy: found {} twice, expected each policy once", PolicyName(policy)));
+        }
+        campaign.policies.push_back(policy);
+      }
+    }
+  }
+  return campaign;
+}
+
+// ---- Progress on standard error --------------------------------------------------------------
+
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::optional<double> minutes) : minutes_(minutes) {}
+
+  void Show(const SearchProgress& progress) {
+    if (bar_.IsShown()) {
+      bar_.Show(Fraction(progress), Line(progress));
+    } else if (progress.seconds - last_ >= kLogSeconds) {
+      last_ = progress.seconds;
+      fmt::print(stderr, "{}\n", Line(progress));
+      std::fflush(stderr);
+    }
+  }
+  void Finish() const { bar_.Clear(); }
+
+ private:
+  double Fraction(const SearchProgress& progress) const {
+    double fraction = 0;
+    if (minutes_) fraction = progress.seconds / (*minutes_ * 60);
+    if (progress.units_wanted && *progress.units_wanted > 0) {
+      fraction = std::max(
+          fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
+    }
+    return std::min(fraction, 1.0);
+  }
+  std::string Line(const SearchProgress& progress) const {
+    const double fraction = Fraction(progress);
+    const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
+    return fmt::format("{} problems, {} a second, {} findings in {} groups, {} to finish, {:.0f} s left",
+                       Thousands(progress.problems),
+                       Thousands(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
+                                                           std::max(progress.seconds, 1e-9))),
+                       Thousands(progress.findings), Thousands(progress.groups), progress.pending, left);
+  }
+
+  std::optional<double> minutes_;
+  ProgressBar bar_;
+  double last_ = 0;
+};
+
+std::string BuildId() {
+  using namespace build_id;
+  return fmt::format("{} {}, {} {}, {}", kVersion, kCommit, kCompiler, kBuildType, kFlags);
+}
+
+// ---- Verbs -----------------------------------------------------------------------------------
+
+int RunSearchVerb(const SearchVerb& o) {
+  const Campaign campaign = CampaignOf(o);
+  SearchOptions options;
+  options.store = o.store;
+  options.shard = ParseShard(o.shard);
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  options.threads = o.threads > 0 ? o.threads : std::max(1, cores);
+  options.minutes = o.minutes;
+  options.problems = o.problems;
+  if (!o.minutes && !o.problems) options.minutes = kDefaultMinutes;
+  options.interrupted = &Interruption();
+  fmt::print(stderr, "seed {}, {} threads, shard {}, store {}\n", campaign.seed, options.threads, o.shard,
+             o.store);
+  ProgressLine line(options.minutes);
+  const SearchReport report = RunSearch(campaign, IdentityOf(campaign, BuildId()), options,
+                                        [&line](const SearchProgress& progress) { line.Show(progress); });
+  line.Finish();
+  const Store store = Store::OpenToRead(o.store);
+  if (o.json) {
+    std::cout << JsonText(SummaryToJson(store)) << "\n";
+  } else {
+    std::cout << SummaryText(store, o.store);
+  }
+  if (report.end == SearchEnd::kInterrupted) {
+    fmt::print(stderr, "Interrupted; everything done so far is stored. The same command goes on from here.\n");
+  }
+  return kExitDone;
+}
+
+int RunStatus(const std::string& file, bool json) {
+  const Store store = Store::OpenToRead(file);
+  std::cout << (json ? JsonText(SummaryToJson(store)) + "\n" : SummaryText(store, file));
+  return kExitDone;
+}
+
+struct ProblemVerb {
+  std::string store, output = "-";
+  std::optional<std::int64_t> unit, index;
+  std::optional<int> exponential;  // contacts
+  bool scaled = false;
+};
+
+ProblemFile ExponentialFile(int contacts, bool scaled) {
+  ProblemFile file;
+  file.name = fmt::format("exponential-pivots-{}-frictionless{}", contacts, scaled ? "-scaled" : "");
+  file.problem = ExponentialFamily(contacts, scaled);
+  file.origin = {{"family", "exponential"}, {"contacts", contacts}, {"scaled", scaled}};
+  return file;
+}
+
+ProblemFile StoredFile(const ProblemVerb& o) {
+  const Store store = Store::OpenToRead(o.store);
+  const Campaign campaign = CampaignOf(store.identity(), o.store);
+  if (!store.Units().Contains(*o.unit))
+    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), *o.unit));
+  if (*o.index >= problems) {
+    throw InputError(fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, *o.unit,
+                                 problems - 1));
+  }
+  return RegenerateFile(campaign, *o.unit, *o.index);
+}
+
+int RunProblem(const ProblemVerb& o) {
+  const bool stored = !o.store.empty();
+  if (stored == o.exponential.has_value() || stored != o.index.has_value() || (o.scaled && stored))
+    throw InputError("problem: expected either STORE UNIT INDEX, or --exponential N and perhaps --scaled");
+  WriteText(o.output, Print(stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled)));
+  return kExitDone;
+}
+
+int RunMerge(const std::string& out, const std::vector<std::string>& files) {
+  const Store first = Store::OpenToRead(files.front());
+  Store merged(out, first.identity());
+  for (const std::string& file : files) merged.MergeFrom(Store::OpenToRead(file));
+  std::cout << SummaryText(merged, out);
+  return kExitDone;
+}
+
+void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
+  std::vector<std::string> names;
+  for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
+  verb.add_option("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
+  verb.add_option("--generator", o.generators, "only these generators")->check(CLI::IsMember(names));
+  verb.add_option("--contacts", o.contacts, "only these numbers of contacts")
+      ->check(CLI::Range(1, kMaxContacts));
+  verb.add_option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
+  verb.add_option(
+          "--policy", o.policies,
+          "readings to run, as 'stiction policies' lists them, or '*' for the planar grid; default paper")
+      ->check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
+  verb.add_option(
+          "--audit-every", o.audit_every,
+          "run one problem in so many exactly though nothing is suspected, existence included; 1 audits all")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  verb.add_option(
+          "--enumerate-every", o.enumerate_every,
+          "try all contact modes of one in so many problems of at most three contacts that are run exactly")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  verb.add_option("--seed", o.seed, "the one source of randomness; default 1")
+      ->check([](const std::string& text) {
+        std::uint64_t seed = 0;
+        return ReadNumber(text, seed) ? ""
+                                      : fmt::format("found '{}', expected an integer from 0 to 2^64 - 1", text);
+      });
+}
+
+}  // namespace
+
+void AddSearch(CLI::App& program, Action& action) {
+  auto o = std::make_shared<SearchVerb>();
+  CLI::App& verb = *program.add_subcommand("search", "Search for loops of the published algorithm");
+  AddCampaignOptions(verb, *o);
+  verb.add_option("--store", o->store, "SQLite file; a search goes on where its store stopped")
+      ->capture_default_str();
+  verb.add_option("--minutes", o->minutes, "wall clock, everything counted; default 1 without --problems")
+      ->check([](const std::string& text) {
+        constexpr double kMost = 60 * 24 * 366 * 10;  // ten years; what a clock can count to is not much more
+        double minutes = 0;
+        const bool fits = ReadNumber(text, minutes) && minutes > 0 && minutes <= kMost;
+        return fits ? "" : fmt::format("found '{}', expected a number of minutes, above 0 to {}", text, kMost);
+      });
+  verb.add_option("--problems", o->problems, "size of the whole campaign, rounded up to whole units")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  verb.add_option("--shard", o->shard, "i/N: only the units u with u mod N = i")->capture_default_str();
+  verb.add_option("--threads", o->threads, "default: one per core")->check(CLI::Range(1, 1024));
+  verb.add_flag("--json", o->json, "machine output");
+  std::string generators = "Generators:\n";
+  for (const GeneratorRow& row : Generators())
+    generators += fmt::format("  {}: {}\n", row.name, row.distribution);
+  verb.footer(generators);
+  verb.callback([o, &action] { action = [o] { return RunSearchVerb(*o); }; });
+}
+
+void AddStatus(CLI::App& program, Action& action) {
+  auto file = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App& verb = *program.add_subcommand("status", "What a store holds, of a running or a stopped search");
+  verb.add_option("STORE", *file, "store of a search")->required();
+  verb.add_flag("--json", *json, "machine output");
+  verb.callback([=, &action] { action = [=] { return RunStatus(*file, *json); }; });
+}
+
+void AddMerge(CLI::App& program, Action& action) {
+  auto out = std::make_shared<std::string>();
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App& verb = *program.add_subcommand("merge", "Join the stores of one campaign");
+  verb.add_option("OUT", *out, "store to write or to add to")->required();
+  verb.add_option("STORE", *files, "stores to take in")->required();
+  verb.callback([=, &action] { action = [=] { return RunMerge(*out, *files); }; });
+}
+
+void AddProblem(CLI::App& program, Action& action) {
+  auto o = std::make_shared<ProblemVerb>();
+  CLI::App& verb = *program.add_subcommand(
+      "problem",
+      "Write any problem that a search tried, with its scene where it has one, or the worst "
+      "case without friction, as a problem file");
+  verb.add_option("STORE", o->store, "store of a search");
+  verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
+  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--exponential", o->exponential,
+                  "instead: the problem of so many contacts without friction, 1 to 200, on which the published "
+                  "algorithm takes 2^n - 1 pivots")
+      ->check(CLI::Range(1, 200));
+  verb.add_flag("--scaled", o->scaled, "of it the form that does so for scan=most-violated too");
+  verb.add_option("-o,--output", o->output, "file to write; - is standard output")->capture_default_str();
+  verb.callback([o, &action] { action = [o] { return RunProblem(*o); }; });
+}
+
+void AddReport(CLI::App& program, Action& action) {
+  auto store = std::make_shared<std::string>();
+  auto directory = std::make_shared<std::string>();
+  CLI::App& verb =
+      *program.add_subcommand("report", "Write a store as an HTML page, CSV files and problem files");
+  verb.add_option("STORE", *store, "store of a search")->required();
+  verb.add_option("-o,--output", *directory, "folder to write")->required();
+  verb.callback([=, &action] {
+    action = [=] {
+      WriteReport(Store::OpenToRead(*store), *directory);
+      fmt::print("{}/index.html\n", *directory);
+      return kExitDone;
+    };
+  });
+}
+
+}  // namespace stiction

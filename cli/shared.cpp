@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces that several verbs share.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "certify/bounds.h"
+#include "certify/certificate.h"
+#include "certify/hypothesis.h"
+#include "certify/properties.h"
+#include "cli/verbs.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kExactAssumptionRows =
+    60;  // above, exact elimination of numbers as long as doubles takes minutes
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+void OnSignal(int) { interrupted = true; }
+
+template <class Options>
+void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
+  ForEachField(options, [&verb, &group](const NumberRow& row, auto& value) {
+    verb.add_option("--" + std::string(row.name), value, fmt::format("{} [{}]", row.help, row.unit))
+        ->check(CLI::Range(row.min, row.max))
+        ->check([](const std::string& text) {  // Range lets it pass
+          return std::isnan(std::strtod(text.c_str(), nullptr)) ? "found nan, expected a number" : "";
+        })
+        ->capture_default_str()
+        ->group(group);
+  });
+}
+
+// (H), which b in range(A) implies for a symmetric A, decided in the plane.
+void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
+  if (problem.dimension != 2 || HasSlidingContact(problem)) return;
+  const auto hypothesis = DecideHypothesis(problem);
+  const auto* obstacle = std::get_if<HypothesisObstacle>(&hypothesis);
+  if (obstacle == nullptr) return;
+  failed.push_back(
+      {{"assumption", "h"}, {"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
+}
+
+}  // namespace
+
+ProblemFile ReadPlanarProblem(const std::string& file) {
+  ProblemFile problem = ReadProblem(file);
+  if (problem.problem.dimension != 2) {
+    throw InputError(file, "dimension", std::to_string(problem.problem.dimension),
+                     "2: built for the plane only");
+  }
+  return problem;
+}
+
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what) {
+  ProblemFile problem = ReadPlanarProblem(file);
+  for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
+    const ContactKind kind = problem.problem.contacts[i].kind;
+    if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
+    throw InputError(file, fmt::format("contacts[{}].kind", i), std::string(Name(kind)),
+                     fmt::format("frictionless or static: {} is a property of problems of these", what));
+  }
+  return problem;
+}
+
+std::string PolicyError(const std::string& text, Grid grid) {
+  if (text == "*" && grid == Grid::kAllowed) return "";
+  try {
+    ParsePolicy(text);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid) {
+  const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
+  verb.add_option("--policy", policy,
+                  fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
+      ->capture_default_str()
+      ->check([grid](const std::string& text) { return PolicyError(text, grid); });
+}
+
+void AddLimits(CLI::App& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }
+void AddTolerances(CLI::App& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
+
+std::vector<Policy> PoliciesNamed(const std::string& text) {
+  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
+}
+
+std::string Expected(const ProblemFile& file, const Policy& policy) {
+  for (const auto& [name, outcome] : file.expect) {
+    if (name != "*" && ParsePolicy(name) == policy) return outcome;
+  }
+  const auto all = file.expect.find("*");
+  return all == file.expect.end() ? "" : all->second;
+}
+
+void WriteText(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::cout << text;
+    return;
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(fmt::format("{}: cannot be written", file));
+}
+
+const std::atomic<bool>& Interruption() {
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+  return interrupted;
+}
+
+ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressBar::Show(double fraction, const std::string& text) const {
+  constexpr int kWidth = 20;
+  if (!terminal_) return;
+  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
+  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
+  std::fflush(stderr);
+}
+
+void ProgressBar::Clear() const {
+  if (terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
+}
+
+namespace {
+
+Json FailedSemidefinite(const NegativeCurvature& negative) {
+  return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
+}
+
+// What bounds decide of problems too large for exact elimination.
+void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
+  ProblemFile file;
+  file.problem = problem;
+  const SparseProblem sparse = ToSparse(file);
+  const CurvatureBounds curvature = BoundCurvature(sparse);
+  if (curvature.negative) {
+    failed.push_back(FailedSemidefinite(*curvature.negative));
+  } else if (!curvature.least || *curvature.least < 0) {
+    failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
+  }
+  if (!IsRegularModuloPrime(sparse)) {
+    failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
+  }
+}
+
+}  // namespace
+
+Json FailedAssumptions(const ExactProblem& problem) {
+  Json failed = Json::array();
+  if (const auto pair = FindAsymmetry(problem.A)) {
+    failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
+  }
+  if (problem.rows() > kExactAssumptionRows) {
+    AddBoundedAssumptions(problem, failed);
+    return failed;
+  }
+  const auto semidefinite = DecideSemidefinite(problem.A);
+  if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
+    failed.push_back(FailedSemidefinite(*negative));
+  }
+  const auto range = DecideRange(problem.A, problem.b);
+  if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {
+    failed.push_back(
+        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
+    AddFailedHypothesis(problem, failed);
+  }
+  return failed;
+}
+
+}  // namespace stiction

@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction survey: which assumptions of the paper a problem meets, what solves it, and how well.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "certify/bounds.h"
+#include "certify/certificate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
+#include "certify/space.h"
+#include "certify/verify_solution.h"
+#include "cli/verbs.h"
+#include "corpus/formats/formats.h"
+#include "corpus/json_text.h"
+#include "corpus/rounded.h"
+#include "solver/complete/complete.h"
+#include "solver/lemke/lemke.h"
+#include "solver/numeric/coulomb.h"
+#include "solver/numeric/proximal.h"
+#include "solver/problem/check.h"
+#include "solver/problem/reduction.ipp"
+#include "solver/problem/residual.h"
+#include "solver/published/published.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
+constexpr int kExactSpatialContacts = 10;
+constexpr int kPublishedContacts = 32;     // up to here the published algorithm runs over rationals
+constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
+constexpr double kRounding = 1e-2;         // A - A' up to this part of A may be rounding, and is mended
+constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
+
+struct SurveyOptions {
+  std::vector<std::string> paths;
+  int rows = 1500;
+  bool suspicions = false;  // bounds for the assumptions; in the plane, runs over rationals of suspicions only
+  bool json = false;
+  Limits limits;
+};
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// ---- Assumptions -----------------------------------------------------------------------------
+
+Json AsymmetryToJson(const SparseProblem& problem) {
+  const Asymmetry largest = LargestAsymmetry(problem);
+  Rational scale = 0;
+  for (const auto& [at, value] : problem.A) scale = std::max<Rational>(scale, abs(value));
+  const Rational relative = scale == 0 ? scale : Rational(largest.difference / scale);
+  return {{"difference", ToDouble(largest.difference)},
+          {"relative", ToDouble(relative)},
+          {"i", largest.i},
+          {"j", largest.j}};
+}
+
+// x'Ax / x'x.
+Rational RayleighQuotient(const NegativeCurvature& negative) {
+  Rational square = 0;
+  for (const Rational& x : negative.x) square += x * x;
+  return negative.value / square;
+}
+
+// `psd`: true, false, or null for undecided. Bounds are relative to the largest A_ii.
+Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
+  const CurvatureBounds bounds = BoundCurvature(problem);
+  const double scale = bounds.scale > 0 ? bounds.scale : 1;
+  Json json = {{"psd", nullptr}, {"how", "bound"}};
+  if (bounds.least) json["least"] = *bounds.least / scale;
+  if (bounds.negative) json["most"] = bounds.most / scale;
+  if (bounds.least && *bounds.least >= 0) json["psd"] = true;
+  if (bounds.negative) {
+    json["psd"] = false;
+    json["how"] = "exact";
+  } else if (dense) {
+    const auto decision = DecideSemidefinite(dense->A);
+    const auto* negative = std::get_if<NegativeCurvature>(&decision);
+    json["psd"] = negative == nullptr;
+    json["how"] = "exact";
+    if (negative != nullptr) json["most"] = ToDouble(RayleighQuotient(*negative)) / scale;
+  }
+  return json;
+}
+
+// `in-range`: true, false, or null for undecided. `distance` is an upper bound, `rough distance` none
+// (bounds.h).
+Json RangeToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
+  const RangeDistance bound = BoundRangeDistance(problem);
+  Json json = {{"in-range", nullptr}, {"distance", bound.distance}, {"rough distance", bound.rough}};
+  const bool regular = problem.rows() <= kMostDenseRows && IsRegularModuloPrime(problem);
+  if (regular || json["distance"] == 0) {
+    json["in-range"] = true;
+  } else if (dense) {
+    json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(dense->A, dense->b));
+  }
+  json["regular"] = regular;
+  return json;
+}
+
+// All three hold: true; one fails: false; otherwise null.
+Json MeetsAll(const Json& entry) {
+  const Json answers[] = {entry["asymmetry"]["difference"] == 0, entry["curvature"]["psd"],
+                          entry["range"]["in-range"]};
+  if (std::any_of(std::begin(answers), std::end(answers), [](const Json& answer) { return answer == false; })) {
+    return false;
+  }
+  return std::all_of(std::begin(answers), std::end(answers), [](const Json& answer) { return answer == true; })
+             ? Json(true)
+             : Json(nullptr);
+}
+
+// ---- Runs ------------------------------------------------------------------------------------
+
+// The natural residual of f, a double vector, on the exact problem: evaluated over rationals.
+template <class Problem>
+double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
+  const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
+  const ExactVector a = problem.A * exact + problem.b;
+  return ToDouble(NaturalResidual(problem, exact, a));
+}
+
+// A run over doubles that calls itself solved is solved if the residual of its forces says so.
+Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
+  const ContactProblem<double> whole = Rounded<double>(problem);
+  const Stopwatch watch;
+  std::optional<Reduction<double>> reduction;  // bilateral and sliding contacts leave a problem first (4.5, 6)
+  if (Reduction<double>::Concerns(whole)) reduction.emplace(whole);
+  if (reduction && reduction->end() != ReductionEnd::kReduced) {
+    return {{"method", method},
+            {"arithmetic", "double"},
+            {"outcome", Name(Outcome::kSingular)},
+            {"reason", Reason(reduction->end())}};
+  }
+  const ContactProblem<double>& rounded = reduction ? reduction->problem() : whole;
+  Outcome outcome;
+  std::string_view reason;
+  Eigen::VectorXd f;
+  std::int64_t pivots = 0;
+  if (method == "complete") {
+    CompleteOptions options;
+    options.limits = limits;
+    CompleteDriving<double> driving(options);
+    const CompleteVerdict verdict = driving.Run(rounded);
+    outcome = verdict.outcome;
+    reason = verdict.reason;
+    f = driving.state().f;
+    pivots = verdict.statistics.pieces;
+  } else if (method == "baraff") {
+    PublishedAlgorithm<double> algorithm({Policy{}, {}, limits});
+    const Verdict verdict = algorithm.Run(rounded);
+    outcome = verdict.outcome;
+    reason = verdict.reason;
+    f = algorithm.state().f;
+    pivots = verdict.statistics.pivots;
+  } else {
+    LemkeOptions options;
+    options.cover = Cover::kUnits;
+    options.limits = limits;
+    LemkeAlgorithm<double> lemke(options);
+    const Verdict verdict = lemke.Run(rounded);
+    outcome = verdict.outcome;
+    reason = verdict.reason;
+    if (outcome == Outcome::kSolved) f = lemke.f();
+    pivots = verdict.statistics.pivots;
+  }
+  Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["pivots"] = pivots;
+  if (!reason.empty()) run["reason"] = reason;
+  if (reduction && f.size() == rounded.rows()) f = reduction->Forces(f);
+  if (f.size() == problem.rows() && f.allFinite()) run["residual"] = VerifiedResidual(problem, f);
+  if (outcome == Outcome::kSolved && !(run.contains("residual") && run["residual"] <= kWrong)) {
+    run["outcome"] = "wrong";
+  }
+  return run;
+}
+
+// The proximal method, for which A stays sparse.
+Json RunSparse(const SparseProblem& problem) {
+  const SparseContactProblem<double> rounded = InDoubles(problem);
+  const Stopwatch watch;
+  ProximalNewton<double> method;
+  const ProximalVerdict verdict = method.Run(rounded);
+  Json run = {{"method", "proximal"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["factorizations"] = verdict.factorizations;
+  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
+  if (method.f().allFinite()) run["residual"] = VerifiedResidual(OverRationals(problem), method.f());
+  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
+  return run;
+}
+
+// Rows of contacts that A couples, directly or through others. Each group is a problem of its own.
+std::vector<std::vector<int>> UncoupledContacts(const ExactProblem& problem) {
+  const int count = static_cast<int>(problem.contacts.size());
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<int> parent(count);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) {
+      if (problem.A(i, j) != 0) parent[root(layout.ContactOf(i))] = root(layout.ContactOf(j));
+    }
+  }
+  std::map<int, std::vector<int>> groups;
+  for (int i = 0; i < count; ++i) groups[root(i)].push_back(i);
+  std::vector<std::vector<int>> result;
+  for (auto& [unused, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& contacts) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<int> rows;
+  for (const int contact : contacts) {
+    const int normal = layout.NormalRowOf(contact);
+    rows.push_back(normal);
+    if (layout.HasFriction(normal)) rows.push_back(normal + 1);
+  }
+  return rows;
+}
+
+// One group after the other: a solution of the whole consists of theirs, and there is none if one has none.
+struct ExactAnswer {
+  Json certificate;  // of the whole, null if undecided
+  std::string method;
+};
+ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
+                           const Limits& limits) {
+  EnumerationOptions options;
+  options.programs = kPrograms;
+  if (groups.size() == 1) {
+    Existence existence = DecideExistence(problem, limits, options);
+    return {std::move(existence.certificate), std::string(existence.method)};
+  }
+  ExactVector f(problem.rows());
+  std::set<std::string> methods;
+  for (const std::vector<int>& group : groups) {
+    const std::vector<int> rows = RowsOf(problem, group);
+    ExactProblem part;
+    for (const int contact : group) part.contacts.push_back(problem.contacts[contact]);
+    part.A = problem.A(rows, rows);
+    part.b = problem.b(rows);
+    const Existence existence = DecideExistence(part, limits, options);
+    methods.emplace(existence.method);
+    if (existence.certificate.is_null()) return {nullptr, std::string(existence.method)};
+    if (existence.certificate["claim"] != "solution-exists") {
+      return {existence.certificate, std::string(existence.method)};
+    }
+    const Json& forces = existence.certificate["witness"]["f"];
+    for (std::size_t k = 0; k < rows.size(); ++k) f[rows[k]] = *ParseRational(forces[k].get<std::string>());
+  }
+  return {SolutionCertificate(problem, f), fmt::format("{}", fmt::join(methods, "+"))};
+}
+
+Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
+                const Limits& limits) {
+  const Stopwatch watch;
+  const ExactAnswer answer = DecideByGroups(problem, groups, limits);
+  Json run = {{"method", answer.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
+  run["seconds"] = watch.Seconds();
+  if (groups.size() > 1) run["groups"] = groups.size();
+  if (answer.certificate.is_null()) return run;
+  const CheckReport report = CheckCertificate(answer.certificate, "survey");
+  STICTION_CHECK(report.accepted, "a certificate of the survey is rejected: " + report.reason);
+  run["outcome"] = report.claim == "solution-exists" ? "solved" : report.claim;
+  run["certificate"] = report.claim;
+  if (run["outcome"] == "solved") run["residual"] = 0.0;
+  return run;
+}
+
+// The published algorithm as it stands, under the policy `paper`: does it loop?
+Json RunPublished(const ExactProblem& problem, const Limits& limits) {
+  const Stopwatch watch;
+  const ExactRun published = RunExact(problem, {Policy{}, {}, limits});
+  Json run = {{"method", "baraff"}, {"arithmetic", "exact"}, {"outcome", Name(published.verdict.outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["pivots"] = published.verdict.statistics.pivots;
+  if (!published.verdict.reason.empty()) run["reason"] = published.verdict.reason;
+  if (published.verdict.outcome == Outcome::kSolved)
+    run["residual"] = ToDouble(NaturalResidual(problem, published.state.f, published.a));
+  return run;
+}
+
+Json PlanarRuns(const ExactProblem& problem, const SurveyOptions& o) {
+  const Limits& limits = o.limits;
+  Json runs = Json::array();
+  for (const char* method : {"complete", "lemke"}) {
+    runs.push_back(RunInDoubles(problem, method, limits));
+    if (runs.back()["outcome"] == "solved") break;
+  }
+  bool has_solution = false, is_found = false;  // over doubles: by any method, by the published algorithm
+  if (o.suspicions) {
+    has_solution = runs.back()["outcome"] == "solved";
+    runs.push_back(RunInDoubles(problem, "baraff", limits));
+    is_found = runs.back()["outcome"] == "solved";
+  }
+  const std::vector<std::vector<int>> groups = UncoupledContacts(problem);
+  const bool small = std::all_of(groups.begin(), groups.end(),
+                                 [](const auto& group) { return group.size() <= kExactContacts; });
+  if (!is_found && problem.contacts.size() <= kPublishedContacts) runs.push_back(RunPublished(problem, limits));
+  if (!has_solution && small) runs.push_back(RunExactly(problem, groups, limits));
+  return runs;
+}
+
+// Coulomb's law over doubles. The residual of the returned forces is bounded over rationals.
+Json RunCoulomb(const ExactProblem& problem, const Limits& limits) {
+  CoulombOptions options;
+  options.limits = limits;
+  CoulombSolver<double> solver(options);
+  const ContactProblem<double> rounded = Rounded<double>(problem);
+  const Stopwatch watch;
+  const CoulombVerdict verdict = solver.Run(rounded);
+  Json run = {{"method", "fast"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
+  run["seconds"] = watch.Seconds();
+  run["statistics"] = Json::object();
+  ForEachField(verdict.statistics,
+               [&run](const char* name, const char*, std::int64_t value) { run["statistics"][name] = value; });
+  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
+  if (!solver.f().allFinite()) return run;
+  const ExactVector f = solver.f().unaryExpr([](double x) { return Rational(x); });
+  run["residual"] = ToDouble(CoulombResidualBound(problem, f));
+  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= options.residual)) run["outcome"] = "wrong";
+  return run;
+}
+
+// A certificate of Coulomb's law up to a bound.
+Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
+  SpaceOptions options;
+  options.law = FrictionLaw::kCoulomb;
+  options.limits = limits;
+  const Stopwatch watch;
+  const SpaceSolution solution = SolveInSpace(problem, options);
+  Json run = {{"method", "complete"}, {"arithmetic", "exact"}, {"outcome", Name(solution.outcome)}};
+  run["seconds"] = watch.Seconds();
+  if (!solution.reason.empty()) run["reason"] = solution.reason;
+  if (solution.outcome != Outcome::kSolved) return run;
+  if (solution.bound <= 0) {
+    run["outcome"] = Name(Outcome::kUndecided);
+    return run;
+  }
+  const Json certificate = CoulombCertificate(problem, solution.f, solution.bound);
+  const CheckReport report = CheckCertificate(certificate, "survey");
+  STICTION_CHECK(report.accepted, "a certificate of the survey is rejected: " + report.reason);
+  run["certificate"] = report.claim;
+  run["bound"] = ToString(solution.bound);
+  run["cosine gap"] = ToDouble(Rational(1 - solution.bound));
+  run["residual"] = ToDouble(CoulombResidualBound(problem, solution.f));
+  return run;
+}
+
+Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
+  Json runs = Json::array({RunCoulomb(problem, limits)});
+  if (problem.contacts.size() <= kExactSpatialContacts) runs.push_back(CertifyCoulomb(problem, limits));
+  return runs;
+}
+
+Json Runs(const SparseProblem& problem, const std::string& source, const SurveyOptions& o) {
+  const bool planar = problem.dimension == 2;
+  Json runs = Json::array();
+  if (planar && problem.contacts.size() > kExactContacts) runs.push_back(RunSparse(problem));
+  if (problem.rows() <= o.rows) {
+    const ExactProblem dense = ToDense(problem, source).problem;
+    for (Json& run : planar ? PlanarRuns(dense, o) : SpatialRuns(dense, o.limits))
+      runs.push_back(std::move(run));
+  }
+  if (runs.empty())
+    runs.push_back({{"method", "none"}, {"outcome", "not tried"}, {"reason", "more rows than --rows"}});
+  return runs;
+}
+
+// ---- One problem -----------------------------------------------------------------------------
+
+Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions& o) {
+  const bool small = !o.suspicions && problem.contacts.size() <= kExactContacts;
+  const auto dense = [&] { return ToDense(problem, source).problem; };
+  std::optional<ExactProblem> exact;
+  if (small) exact = dense();
+  Json entry = {
+      {"contacts", problem.contacts.size()}, {"dimension", problem.dimension}, {"rows", problem.rows()}};
+  entry["asymmetry"] = AsymmetryToJson(problem);
+  entry["curvature"] = CurvatureToJson(problem, exact);
+  entry["range"] = RangeToJson(problem, exact);
+  entry["meets assumptions"] = MeetsAll(entry);
+  entry["runs"] = Runs(problem, source, o);
+  const double relative = entry["asymmetry"]["relative"].get<double>();
+  const bool far = problem.dimension == 2 && relative > kRounding;
+  if (relative == 0 || far) return entry;
+  Symmetrize(problem);
+  if (small) exact = dense();
+  Json symmetrized = {{"asymmetry", {{"difference", 0.0}}}};
+  symmetrized["curvature"] = CurvatureToJson(problem, exact);
+  symmetrized["range"] = RangeToJson(problem, exact);
+  symmetrized["meets assumptions"] = MeetsAll(symmetrized);
+  symmetrized["runs"] = Runs(problem, source, o);
+  entry["symmetrized"] = symmetrized;
+  return entry;
+}
+
+SparseProblem ReadAny(const std::filesystem::path& file) {
+  return file.extension() == ".json" ? ToSparse(ReadProblem(file)) : ReadPublished(file);
+}
+
+// Files as they are given; of a folder those that look like problems, by name.
+std::vector<std::filesystem::path> FilesOf(const std::vector<std::string>& paths) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path path : paths) {
+    if (!std::filesystem::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+      const std::string extension = entry.path().extension().string();
+      const bool looks_so = extension == ".dat" || extension == ".hdf5" || extension == ".json";
+      if (entry.is_regular_file() && looks_so) found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+// ---- The table -------------------------------------------------------------------------------
+
+std::string Short(double x) { return x == 0 ? "0" : fmt::format("{:.0e}", x); }
+
+std::string CurvatureText(const Json& curvature) {
+  if (curvature["psd"] == true) return "yes";
+  const std::string least = curvature.contains("least") ? Short(curvature["least"].get<double>()) : "?";
+  if (curvature["psd"] == false)
+    return fmt::format("no: {} .. {}", least, Short(curvature["most"].get<double>()));
+  return ">= " + least;
+}
+
+std::string RangeText(const Json& range) {
+  if (range["in-range"] == true) return range["regular"] == true ? "all" : "yes";
+  return (range["in-range"] == false ? "no: " : "<= ") + Short(range["distance"].get<double>());
+}
+
+// Says nothing of an A that is far from symmetric.
+std::string RoughText(const Json& facts) {
+  if (facts["asymmetry"].value("relative", 0.0) > kRounding) return "";
+  return Short(facts["range"]["rough distance"].get<double>());
+}
+
+constexpr const char* kRow = "{:42} {:>7} {:>7}  {:18} {:8} {:>7}  {:16} {:>8} {:>8}  {}\n";
+
+void PrintRow(const std::string& file, const std::string& contacts, const std::string& asymmetry,
+              const Json& facts, const Json& run) {
+  std::string method = run["method"].get<std::string>();
+  if (run.contains("arithmetic")) method += ", " + run["arithmetic"].get<std::string>();
+  std::string outcome = run["outcome"].get<std::string>();
+  if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
+  const bool first = !facts.is_null();
+  fmt::print(kRow, file, contacts, asymmetry, first ? CurvatureText(facts["curvature"]) : "",
+             first ? RangeText(facts["range"]) : "", first ? RoughText(facts) : "", method,
+             run.contains("residual") ? Short(run["residual"].get<double>()) : "",
+             run.contains("seconds") ? fmt::format("{:.3f}", run["seconds"].get<double>()) : "", outcome);
+}
+
+// The facts once, then a line for every run.
+void PrintRuns(const std::string& file, const std::string& contacts, const std::string& asymmetry,
+               const Json& facts) {
+  bool first = true;
+  for (const Json& run : facts["runs"]) {
+    first ? PrintRow(file, contacts, asymmetry, facts, run) : PrintRow("", "", "", nullptr, run);
+    first = false;
+  }
+}
+
+void PrintEntry(const Json& entry) {
+  PrintRuns(std::filesystem::path(entry["file"].get<std::string>()).filename().string(),
+            fmt::format("{} {}D", entry["contacts"].get<int>(), entry["dimension"].get<int>()),
+            Short(entry["asymmetry"]["relative"].get<double>()), entry);
+  if (entry.contains("symmetrized")) PrintRuns("  (A + A')/2", "", "0", entry["symmetrized"]);
+}
+
+// How often each method ended how.
+void PrintCounts(const Json& entries, bool suspicions) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const Json& entry : entries) {
+    for (const Json& run : entry.value("runs", Json::array())) {
+      const std::string method =
+          fmt::format("{}, {}", run["method"].get<std::string>(), run.value("arithmetic", "-"));
+      ++counts[method][run["outcome"].get<std::string>()];
+    }
+  }
+  fmt::print("\n{} problems{}\n", entries.size(), suspicions ? "; exact: those that doubles leave open" : "");
+  for (const auto& [method, outcomes] : counts) {
+    std::vector<std::string> parts;
+    for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
+    fmt::print("{:24} {}\n", method, fmt::join(parts, ", "));
+  }
+}
+
+// A file that cannot be read does not keep the others from being judged.
+int Survey(const SurveyOptions& o) {
+  int exit = kExitDone;
+  Json entries = Json::array();
+  if (!o.json) {
+    fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "residual", "seconds",
+               "outcome");
+  }
+  for (const std::filesystem::path& file : FilesOf(o.paths)) {
+    try {
+      Json entry = Judge(ReadAny(file), file.string(), o);
+      entry["file"] = file.string();
+      if (!o.json) PrintEntry(entry);
+      std::fflush(stdout);
+      entries.push_back(std::move(entry));
+    } catch (const InputError& error) {
+      exit = kExitBadInput;
+      fmt::print(stderr, "stiction: {}\n", error.what());
+      entries.push_back({{"file", file.string()}, {"error", error.what()}});
+    }
+  }
+  if (o.json) std::cout << JsonText(entries) << "\n";
+  if (!o.json && entries.size() > 1) PrintCounts(entries, o.suspicions);
+  return exit;
+}
+
+}  // namespace
+
+void AddSurvey(CLI::App& program, Action& action) {
+  auto o = std::make_shared<SurveyOptions>();
+  CLI::App& verb = *program.add_subcommand(
+      "survey", "Judge problems: the paper's assumptions, what solves them, and how well");
+  verb.footer(
+      "A residual is natural, zero exactly at solutions, and relative. In the plane: to the larger of max |f|\n"
+      "and max |b| / max A_ii. In space it is that of Coulomb's law, the largest\n"
+      "|f - P(f - r (a + mu |aF| e_N))| of a contact, P the nearest point of the cone |fF| <= mu fN,\n"
+      "r = 1 / max A_ii, relative to max |b| / max A_ii alone; `solved` is at most 1e-8 there. Both are those\n"
+      "of the returned doubles, evaluated over rationals on the matrix of the row.");
+  verb.add_option("PATH", o->paths,
+                  "problems in any format that import reads, stiction-problem files, or folders")
+      ->required();
+  verb.add_option("--rows", o->rows, "the most rows for methods that hold A as a dense matrix")
+      ->check(CLI::Range(0, kMostDenseRows))
+      ->capture_default_str();
+  verb.add_flag(
+      "--suspicions", o->suspicions,
+      "in the plane: also the published algorithm over doubles, and over rationals only what no run over "
+      "doubles solves with a residual of at most 1e-6");
+  AddLimits(verb, o->limits);
+  verb.add_flag("--json", o->json, "machine output");
+  verb.callback([o, &action] { action = [o] { return Survey(*o); }; });
+}
+
+}  // namespace stiction

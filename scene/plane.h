@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane over any scalar: vectors, rotations as (cos, sin), unit vectors rounded once.
+
+#ifndef STICTION_SCENE_PLANE_H_
+#define STICTION_SCENE_PLANE_H_
+
+#include <gmpxx.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+
+#include "solver/problem/scalar.h"
+
+namespace stiction {
+
+template <class Scalar>
+using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
+
+template <class Scalar>
+Vector2<Scalar> MakeVector2(const Scalar& x, const Scalar& y) {
+  Vector2<Scalar> v;
+  v[0] = x;
+  v[1] = y;
+  return v;
+}
+
+template <class Scalar>
+Scalar Dot(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
+  return Scalar(a[0] * b[0] + a[1] * b[1]);
+}
+
+// The moment of b at the arm a.
+template <class Scalar>
+Scalar Cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
+  return Scalar(a[0] * b[1] - a[1] * b[0]);
+}
+
+// a turned by a quarter, anticlockwise: the velocity of the point a under the spin 1.
+template <class Scalar>
+Vector2<Scalar> Quarter(const Vector2<Scalar>& a) {
+  return MakeVector2<Scalar>(Scalar(-a[1]), a[0]);
+}
+
+// rotation: (cos, sin).
+template <class Scalar>
+Vector2<Scalar> Rotate(const Vector2<Scalar>& rotation, const Vector2<Scalar>& v) {
+  return MakeVector2<Scalar>(Scalar(rotation[0] * v[0] - rotation[1] * v[1]),
+                             Scalar(rotation[1] * v[0] + rotation[0] * v[1]));
+}
+
+template <class Scalar>
+Vector2<Scalar> RotateBack(const Vector2<Scalar>& rotation, const Vector2<Scalar>& v) {
+  return MakeVector2<Scalar>(Scalar(rotation[0] * v[0] + rotation[1] * v[1]),
+                             Scalar(rotation[0] * v[1] - rotation[1] * v[0]));
+}
+
+// v / abs(v). Over rationals exactly that where abs(v) is rational, otherwise doubles near it: the one rounding
+// of irrational geometry. Requires v /= 0.
+template <class Scalar>
+Vector2<Scalar> UnitVector(const Vector2<Scalar>& v) {
+  const Scalar length = std::hypot(v[0], v[1]);
+  return MakeVector2<Scalar>(v[0] / length, v[1] / length);
+}
+template <>
+Vector2<mpq_class> UnitVector(const Vector2<mpq_class>& v);
+
+// abs(v), rounded where it must be.
+template <class Scalar>
+Scalar Length(const Vector2<Scalar>& v) {
+  return std::hypot(v[0], v[1]);
+}
+template <>
+mpq_class Length(const Vector2<mpq_class>& v);
+
+// The direction of v, v /= 0: over rationals of length 1 exactly and near it, (1 - t^2, 2 t) / (1 + t^2) with
+// the tangent t of half the rounded angle.
+template <class Scalar>
+std::array<Scalar, 2> ExactDirection(const Vector2<Scalar>& v) {
+  const Vector2<Scalar> unit = UnitVector<Scalar>(v);
+  if constexpr (!kIsExact<Scalar>) return {unit[0], unit[1]};
+  const bool right = unit[0] >= 0;  // else of the opposite, so that nothing cancels
+  const Scalar t = unit[1] / (1 + Abs<Scalar>(unit[0]));
+  const Scalar scale = 1 + t * t, cosine = (1 - t * t) / scale, sine = 2 * t / scale;
+  return {right ? cosine : Scalar(-cosine), sine};
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SCENE_PLANE_H_

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// Simulate: a scene over doubles, stepped through time.
+//
+// A step of length h, from a state (x, v):
+//
+//   1 contacts    those that are within the gap, or will be at the end of the step with the present velocities;
+//                 after 3 and 4 also those that the new velocities would close within the step, such as a block
+//                 on another that has just been stopped: then 3, or 4, once more
+//   2 positions   where shapes overlap or joints have come apart by more than kDrift: the level `positions` of
+//                 assemble.h, one linear correction; contacts are found again. Collisions of the contacts
+//                 found first are resolved before, as by 3: moved bodies may show others
+//   3 impulses    where a contact approaches faster than `rest` and would close within the step: the level
+//                 `impulses`, an inelastic collision with restitution 0 and Coulomb's law, v += W J' p
+//   4 forces      the level `forces` with its terms of the step, v += k W (F + J' f); a contact that parts is
+//                 left out, and brought back where it would overlap at the end of the step
+//   5 motion      x += h v, with the new v
+//
+// Velocities are those of the middle of a step, but for the start: v(t + h/2) = v(t - h'/2) + k W (F + J' f),
+// k = (h + h') / 2 with the step h' before (at the start k = h / 2), x(t + h) = x(t) + h v: the leapfrog
+// method. Constraints hold at x(t + h) to second order (assemble.h), as in SHAKE (J.-P. Ryckaert, G. Ciccotti,
+// H. J. C. Berendsen, J. Comput. Phys. 23, 1977, cited from memory). How fast a contact parts, approaches or
+// slides is measured so that what is kept has speed zero: J v - h' bias / 2.
+//
+// At 4 a contact whose tangential speed exceeds `rest` slides, (24). If its tangential velocity would turn
+// round within the step, it comes to rest in it: it counts as static, with b_F += vF / h, and the forces are
+// computed again. Sliding contacts can leave no solution at all (section 6 of [Baraff94] asks for an impulsive
+// force then): the frame is solved with every contact static, that is, by one inelastic step at the level of
+// velocities, which has a solution where bias is in range(A) and no driven bodies close on each other; it is
+// counted.
+//
+// Overlap. Contacts are predicted from the features that are near at the start of a step, to first order: a
+// body that turns fast, an edge that gives way to a face, a corner behind another leave overlap that speeds and
+// steps set. A step that ends deeper than the gap (1 mm in a scene without), and deeper than it began, is taken
+// back and done in two halves, and they likewise, SimulationOptions::halvings times one within the other. So no
+// frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings, and what was left of it
+// was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
+// were taken back too, and all counters but `frames` and `contacts` count them.
+//
+// Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
+// in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
+// f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
+// promised: the answer need not be the solution nearest to f = 0.
+//
+// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
+// or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
+// miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
+// the step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400
+// rows and more stays sparse.
+
+#ifndef STICTION_SCENE_SIMULATE_H_
+#define STICTION_SCENE_SIMULATE_H_
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scene/assemble.h"
+#include "solver/numeric/coulomb.h"
+#include "solver/numeric/fast.h"
+#include "solver/numeric/proximal.h"
+
+namespace stiction {
+
+inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
+
+// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
+// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
+// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
+// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
+// tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
+// is accepted to this one, and counted.
+inline constexpr double kLooseResidual = 1e-5;
+
+inline CoulombOptions WithResidual(double residual) {
+  CoulombOptions options;
+  options.residual = residual;
+  return options;
+}
+
+struct SimulationOptions {
+  double step = 1.0 / 60;  // s
+  // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
+  double rest = 0;
+  bool minimal = true;
+  int halvings = 10;                            // of a step, one within the other; 0: none
+  FastOptions fast;                             // in the plane, and without friction
+  CoulombOptions coulomb = WithResidual(1e-7);  // in space
+};
+
+// Counters since the start.
+struct SimulationStatistics {
+  std::int64_t frames = 0;
+  std::int64_t contacts = 0;
+  std::int64_t problems = 0;
+  std::int64_t rows = 0;
+  std::int64_t collisions = 0;   // frames with impulses
+  std::int64_t corrections = 0;  // frames with corrected positions
+  std::int64_t stopped = 0;      // contacts that came to rest within a step
+  std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
+  std::int64_t fallbacks = 0;    // problems that complete driving solved
+  std::int64_t loose = 0;        // problems solved to kLooseResidual only
+  std::int64_t sparse = 0;       // problems solved with a sparse A, large ones and hard ones
+  std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
+  std::int64_t deep = 0;         // frames that ran out of halvings
+
+  bool operator==(const SimulationStatistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, SimulationStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("frames", "steps", s.frames);
+  visit("contacts", "contacts found, of all frames", s.contacts);
+  visit("problems", "problems solved", s.problems);
+  visit("rows", "their rows", s.rows);
+  visit("collisions", "frames with impulses", s.collisions);
+  visit("corrections", "frames with corrected positions", s.corrections);
+  visit("stopped", "sliding contacts that came to rest within a step", s.stopped);
+  visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
+  visit("fallbacks", "problems that complete driving solved", s.fallbacks);
+  visit("loose", "problems solved to 1e-5 only", s.loose);
+  visit("sparse", "problems solved with a sparse A, large ones and hard ones", s.sparse);
+  visit("halved", "steps that ended too deep and were done in two halves", s.halved);
+  visit("deep", "frames that ran out of halvings", s.deep);
+}
+
+// A problem that a frame met, and where.
+struct FrameProblem {
+  std::int64_t frame = 0;  // from 0
+  Level level = Level::kForces;
+  int island = 0;
+  const ContactProblem<double>& problem;
+};
+
+class SimulationError : public std::runtime_error {
+ public:
+  SimulationError(const std::string& message, ContactProblem<double> problem)
+      : std::runtime_error(message), problem(std::move(problem)) {}
+
+  ContactProblem<double> problem;
+};
+
+// A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
+template <int Dimension>
+struct AppliedForceIn {
+  std::array<int, 2> bodies = {0, 0};
+  Eigen::Matrix<double, Dimension, 1> point, force;
+  bool from_joint = false;
+};
+using AppliedForce = AppliedForceIn<2>;
+
+struct Energy {
+  double kinetic = 0, potential = 0;  // J; potential of gravity, zero at the origin
+  double total() const { return kinetic + potential; }
+};
+
+// How far a state is from what joints and shapes demand.
+struct Drift {
+  double joints = 0;   // m, or the sine of an angle
+  double overlap = 0;  // m
+};
+
+inline constexpr double kProximalAim = 1e-13;  // a residual beyond which points gain nothing
+
+// What solves the problems of a scene: SolveScene(solver, problem, f, fallbacks).
+template <class SceneType>
+struct SolverOf;
+
+template <>
+struct SolverOf<Scene<double>> {
+  explicit SolverOf(const SimulationOptions& options)
+      : fast(options.fast), proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
+  FastSolver<double> fast;
+  ProximalNewton<double> proximal;
+};
+
+template <class SceneType>
+class SimulationOf {
+ public:
+  using Types = SceneTypes<SceneType>;
+  using Touch = typename Types::Touch;
+  using Applied = AppliedForceIn<Types::kDimension>;
+
+  // Requires a finite scene. `observe` sees every problem before it is solved.
+  explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
+                        std::function<void(const FrameProblem&)> observe = {});
+
+  // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
+  // of the part of it that failed, but for corrected positions and impulses.
+  void Step();
+
+  const SceneType& scene() const { return scene_; }
+  double time() const { return static_cast<double>(statistics_.frames) * options_.step; }
+  const SimulationStatistics& statistics() const { return statistics_; }
+  // Of the last step.
+  const std::vector<Applied>& forces() const { return forces_; }
+  const std::vector<Touch>& contacts() const { return contacts_; }
+
+ private:
+  using Model = typename Types::Model;
+  using Forces = std::vector<ContactProblem<double>::Vector>;
+  using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
+
+  void StepBy(double h, int halvings);
+  void TakeStep();
+  double Kick() const { return (step_ + before_) / 2; }  // from the middle of one step to that of the next
+  double Overlap() const;
+  Model AssembleAt(Level level, const std::vector<bool>& held = {},
+                   const std::vector<bool>& closing = {}) const;
+  bool Solve(const Model& model, Level level, Forces& f);
+  [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
+  void FindNear();
+  void FindStepContacts();
+  bool Closes(const Touch& contact, const Changes& accelerations) const;
+  bool AddClosing(const Changes& accelerations);
+  Changes Response(const Model& model, const Forces& f) const;
+  bool HasDrifted() const;
+  bool Collides() const;
+  void CorrectPositions();
+  void ApplyImpulses();
+  Changes Accelerations();
+  int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
+  int KeepClosing(const Model& model, const Changes& accelerations, std::vector<bool>& closing) const;
+  void KeepForces(const Model& model, const Forces& f);
+  void Move(const Changes& accelerations);
+
+  SceneType scene_;
+  SimulationOptions options_;
+  std::function<void(const FrameProblem&)> observe_;
+  tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
+  SimulationStatistics statistics_;
+  double step_ = 0;          // that is being taken: options_.step or a part of it
+  double before_ = 0;        // the step before, of whose middle the velocities are; 0: of the start itself
+  bool exhausted_ = false;   // no halvings are left in this frame
+  std::vector<Touch> near_;  // all that may touch within a step from the present state
+  bool is_near_known_ = false;
+  std::vector<Touch> contacts_;
+  std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
+  std::vector<Applied> forces_;
+  std::size_t failed_ = 0;  // island
+};
+using Simulation = SimulationOf<Scene<double>>;
+extern template class SimulationOf<Scene<double>>;
+
+Energy EnergyOf(const Scene<double>& scene);
+Drift DriftOf(const Scene<double>& scene);
+
+// f of a problem of any kinds after reduction.h, checked by the natural residual of the whole problem. False if
+// there is none to `options.residual`. In order, until one ends in a solution:
+//
+//   FastSolver without complete driving
+//   the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from f = 0: two
+//   contacts of one face give A dependent rows of friction, so that a choice of cells need not determine its
+//   forces; these it does determine, and their accelerations agree with the problem's to rounding
+//   SolveSparse: more proximal points, from large eps to small: counted
+//   FastSolver with complete driving: counted
+bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
+                ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
+
+// The same with a sparse A, in which joints stay: proximal points (proximal.h).
+bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
+                 ContactProblem<double>::Vector& f);
+
+}  // namespace stiction
+
+#endif  // STICTION_SCENE_SIMULATE_H_

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Force direction: how all forces change while one is driven.
+//
+// While f_d changes by df_d = +-1 per unit step, the maintained variables follow:
+//
+//   C         a stays 0:                  daN_i = 0, dfN_i unknown
+//   CF        a stays 0:                  daF_i = 0, dfF_i unknown
+//   NC+, NC-  stays at the limit:         dfF_i = +-mu_i dfN_i
+//   all else  df = 0
+//
+// Source     [Baraff94], procedure fdirection, sections 4.2, 4.3; with friction 5.3 and 5.5.
+// Shapes     df, da: rows x 1; da = A df. Units: df per unit of f_d, da in 1/kg.
+// Singular   With mu A_.F folded into the columns the matrix is not symmetric, and can be singular even
+//            for A positive definite. A consistent singular system takes zero for every unknown whose
+//            column depends on the columns before it (row order); an inconsistent one has no direction.
+// Oriented   Complete driving goes on where the matrix is singular, and backwards where its determinant is
+//            negative: it asks for the null vector of the k x (k + 1) system, driven variable included,
+//            with the orientation of Cramer's rule (complete_driving.md, 4).
+// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, a column
+//            with friction at its limit by the denominator of mu; df and da become fractions at the end.
+// Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart. Over
+//            floating-point scalars and with dynamic sizes, O(k^2) from some number of unknowns on, if few sets
+//            have changed since the call before (updated_system.h).
+
+#ifndef STICTION_SOLVER_LINEAR_DIRECTION_H_
+#define STICTION_SOLVER_LINEAR_DIRECTION_H_
+
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "solver/linear/elimination.h"
+#include "solver/linear/updated_system.h"
+#include "solver/problem/state.h"
+
+namespace stiction {
+
+template <class Scalar, int Rows>
+class DirectionSystem {
+ public:
+  using Problem = ContactProblem<Scalar, Rows>;
+  using Vector = typename Problem::Vector;
+
+  enum class Status { kRegular, kSingular, kInconsistent };
+
+  // Whether systems of many unknowns are updated; what updated() is then.
+  static constexpr bool kUpdates = std::is_floating_point_v<Scalar> && Rows == Eigen::Dynamic;
+  struct NotUpdated {};
+  using Updated = std::conditional_t<kUpdates, UpdatedSystem<Scalar>, NotUpdated>;
+
+  // Takes the problem that is to be solved from now on. Its A must stay as it is. `update_from`: number of
+  // unknowns, at least 1, from which on the system is updated.
+  void Start(const Problem& problem, int update_from = kUpdateFrom);
+
+  // Requires: the driven variable is in neither C nor CF. `sign` is df_d, +1 or -1.
+  Status Solve(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
+               int sign, const Scale<Scalar>& scale);
+
+  // The sign d of the determinant of the reduced matrix; df and da are then the oriented null vector, with
+  // df_d = d * side for the driven variable: at rest for d = 0. Empty if the null vector is not unique.
+  std::optional<int> SolveOriented(const Problem& problem, const RowLayout<Rows>& layout,
+                                   const IndexSets<Rows>& sets, int driven, int side,
+                                   const Scale<Scalar>& scale);
+
+  // df() becomes the forces of the unknowns and of friction at its limits at which a = A f + b rests in C and
+  // CF, all other forces zero; da() becomes a. Allocates where it does not update.
+  Status SolveForces(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
+                     const Scale<Scalar>& scale);
+
+  const Vector& df() const { return df_; }
+  const Vector& da() const { return da_; }
+  const Updated& updated() const { return updated_; }
+
+ private:
+  using Entry = typename Fractions<Scalar>::Integer;
+
+  void TurnRound();
+  void Assemble(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
+                int sign);
+  Entry ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row, int column,
+                    int limit) const;
+  Status Eliminate(const Scale<Scalar>& scale);
+  int SolveHomogeneous();
+  void Spread(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int held,
+              int driven, int sign);
+  void SpreadIntegers(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
+                      int held, int driven, int sign);
+
+  int unknowns_ = 0;
+  RowArray<int, Rows> unknown_;       // row of each unknown
+  Elimination<Scalar, Rows> system_;  // reduced matrix, right side in column unknowns_
+  Vector df_, da_;
+  [[no_unique_address]] Updated updated_;
+
+  // Of fraction-free scalars: A_ij = integer_A_(i, j) / row_scale_[i]; numerators of df.
+  Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> integer_A_;
+  std::vector<Entry> row_scale_, numerator_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_LINEAR_DIRECTION_H_

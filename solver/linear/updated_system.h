@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direction system of many unknowns over floating-point scalars: updated, not solved afresh.
+//
+// From one step to the next a few variables change their sets. The inverse of the reduced matrix M
+// (direction.h) follows them: a new unknown is a row and a column more, a friction that reaches its limit or
+// leaves it changes the column of its normal. The sets are compared with those that the inverse was made for,
+// so that callers say nothing. Rows and columns stand in any order, the same for both, which leaves det(M) as
+// it is.
+//
+// Errors     of the inverse are seen in da = A df, which is needed anyway and should be zero at the unknowns: a
+//            step of refinement mends them; if it does not, M is inverted anew. Where that fails too, or M is
+//            close to singular on the way, the caller has to solve the system afresh.
+// Source     [Baraff94], section 4.5: "the use of an incremental factorization routine".
+// Shapes     df, da: rows x 1, as in direction.h.
+// Cost       O(k^2) per changed set and step for k unknowns, O(rows k) for da. Allocates where M is inverted
+// only.
+
+#ifndef STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_
+#define STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/linear/inverse.h"
+#include "solver/problem/state.h"
+
+namespace stiction {
+
+template <class Scalar>
+class UpdatedSystem {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Layout = RowLayout<Eigen::Dynamic>;
+  using Sets = IndexSets<Eigen::Dynamic>;
+  using Vector = typename Problem::Vector;
+
+  struct Counts {
+    std::int64_t solved = 0;    // directions
+    std::int64_t refined = 0;   // that took a step of refinement
+    std::int64_t inverted = 0;  // times that M was inverted anew
+    std::int64_t refused = 0;   // left to the caller
+  };
+
+  // `least`: unknowns below which nothing is done here.
+  void Start(const Problem& problem, int least);
+
+  // The direction for df_d = 1, where the reduced matrix is regular. Returns false if it was not found; df and
+  // da are then anything.
+  bool Solve(const Problem& problem, const Layout& layout, const Sets& sets, int driven,
+             const Scale<Scalar>& scale, Vector& df, Vector& da);
+
+  // With kLoads for `driven`: df becomes the forces at which a = A df + b rests at the unknowns, da becomes a.
+  static constexpr int kLoads = -1;
+
+  // Of the reduced matrix of the last direction found.
+  int determinant_sign() const { return inverse_.determinant_sign(); }
+
+  // The caller found that the matrix was regular, after all: it is inverted next time.
+  void Forget() { valid_ = false; }
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  bool Follow(const Problem& problem, const Layout& layout, const Sets& sets, const Scale<Scalar>& scale);
+  bool InvertAnew(const Problem& problem, const Layout& layout, const Sets& sets, const Scale<Scalar>& scale);
+  int AppendNew(const Problem& problem, const Layout& layout, const Sets& sets);
+  int ReplaceColumns(const Problem& problem, const Layout& layout, const Sets& sets);
+  int RemoveOld(const Sets& sets);
+  bool FindDirection(const Problem& problem, const Layout& layout, const Sets& sets, int driven, Vector& df,
+                     Vector& da);
+  void Spread(const Problem& problem, const Layout& layout, const Sets& sets, int driven, Vector& df,
+              Vector& da) const;
+  void GatherColumn(const Problem& problem, const Layout& layout, int column, int limit);
+  void GatherRightSide(const Problem& problem, const Layout& layout, const Sets& sets, int driven);
+
+  int least_ = 0;
+  bool valid_ = false;
+  int pause_ = 0;  // directions to come that are refused
+  Scalar largest_ = Scalar(0);
+  Counts counts_;
+  Inverse<Scalar> inverse_;
+  std::vector<int> row_of_, limit_of_;  // by slot, a row and column of M
+  std::vector<int> slot_of_;            // by row, -1: no unknown
+  Vector row_, column_, x_, correction_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_

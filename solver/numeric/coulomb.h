@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coulomb's law in space, with the round cone: friction of a slipping contact is opposite to its acceleration.
+//
+// Four methods take turns, from one start (Improve):
+//
+//   Sweeps    contact by contact the force that solves its law while the others keep theirs (one_contact.h).
+//   Newton    on the map of Alart and Curnier (cited from memory), per static contact with r > 0:
+//               sN = fN - r aN,  sF = fF - r aF,   fN - max(0, sN)  and  fF - P(sF),
+//             P the nearest point of the disc of radius mu max(0, sN), whose zeros are the solutions. It is
+//             piecewise smooth; with a line search it converges near a solution, quadratically.
+//   Path      Newton's method on smoothed laws (smooth_law.h), from f = 0 and a wide m to m = 0, once. A step
+//             may make its map larger: the path has turns where b is a little out of range(A).
+//   Approach  proximal steps (the regularization of Rockafellar, cited from memory): f becomes the solution
+//             of the problem with A + rho / r and b - rho / r f, by Newton's method; rho falls from step to
+//             step, and rises where Newton's method fails. A solution f of the problem is a fixed point.
+//
+// Sweeps cost least and are many; where A is singular, as with more contacts than bodies can tell apart,
+// Newton's steps are long, and the other two lead. The smoothed law keeps the forces of contacts that stick
+// inside their cones; what the others end at are bounds, and near them they slow down. Starts, in this order: f
+// = 0; then the solutions of complete driving on polygons of more and more sides, which exist wherever A is
+// semidefinite and b in range(A). A need not be symmetric.
+//
+// Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
+// CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
+// Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
+// Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
+// Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep. With a sparse A a sparse
+// LU
+//         factorization, and the entries of A.
+
+#ifndef STICTION_SOLVER_NUMERIC_COULOMB_H_
+#define STICTION_SOLVER_NUMERIC_COULOMB_H_
+
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "solver/complete/complete_space.h"
+#include "solver/numeric/contact_slope.h"
+#include "solver/problem/sparse_problem.h"
+
+namespace stiction {
+
+enum class CoulombStart : std::uint8_t {
+  kSweeps,    // from f = 0; complete driving behind it
+  kComplete,  // complete driving at once
+};
+
+struct CoulombOptions {
+  Tolerances tolerances;  // of complete driving
+  Limits limits;
+  double residual = 1e-8;  // relative; see CoulombResidual
+  CoulombStart start = CoulombStart::kSweeps;
+  int sides = 8;          // of the first polygon; 2, 4 and 8 times as many follow; 0: none
+  int sweeps = 20;        // the first time; then four times as many each time
+  int newton_steps = 60;  // at a time
+
+  bool operator==(const CoulombOptions&) const = default;
+};
+
+struct CoulombStatistics {
+  std::int64_t sweeps = 0;
+  std::int64_t newton_steps = 0;
+  std::int64_t starts = 0;
+  std::int64_t polygons = 0;
+  std::int64_t pieces = 0;
+
+  bool operator==(const CoulombStatistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, CoulombStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("sweeps", "sweeps over all contacts", s.sweeps);
+  visit("newton_steps", "steps of Newton's method", s.newton_steps);
+  visit("starts", "points from which it started", s.starts);
+  visit("polygons", "runs of complete driving", s.polygons);
+  visit("pieces", "linear pieces of their paths", s.pieces);
+}
+
+struct CoulombVerdict {
+  Outcome outcome = Outcome::kUndecided;  // solved, undecided
+  std::string_view reason;
+  double residual = 0;  // of the best point found
+  CoulombStatistics statistics;
+};
+
+// Reusable. Memory is kept between runs. Problem: a ContactProblem, or a SparseContactProblem, which complete
+// driving does not take: without polygons.
+template <class Scalar, class ProblemType = ContactProblem<Scalar>>
+class CoulombSolver {
+ public:
+  using Problem = ProblemType;
+  using Vector = typename Problem::Vector;
+
+  explicit CoulombSolver(const CoulombOptions& options = {}) : options_(options) {}
+
+  CoulombOptions& options() { return options_; }
+
+  // With `start` (rows x 1, N) it begins there, with Newton's method.
+  CoulombVerdict Run(const Problem& problem, const Vector* start = nullptr);
+
+  // The best point found.
+  const Vector& f() const { return best_f_; }
+  const Vector& a() const { return best_a_; }
+
+ private:
+  using Matrix = typename Problem::Matrix;
+  using Triple = std::array<Scalar, 3>;
+  using Block = Eigen::Matrix<Scalar, 3, 3>;
+  using Slopes = std::vector<ContactSlope<Scalar>>;
+
+  void Start(const Problem& problem);
+  bool Reached() const;
+  void FromPolygon(int sides);
+  void Improve();
+  void Sweep(int count);
+  Triple ForceOf(int i) const;
+  bool Newton();
+  void Approach();
+  bool LineSearch(const Vector& map, const Vector& step);
+  void FollowPath();
+  Vector SmoothMap(const Vector& f, const Scalar& m, Slopes* slopes) const;
+  bool SmoothStep(const Scalar& m, const Vector& map, const Slopes& slopes);
+  void Note();
+  Vector Answer(const Vector& f) const;
+  Vector Map(const Vector& f, const Vector& a) const;
+  ContactSlope<Scalar> SlopeOf(int i) const;
+
+  CoulombOptions options_;
+  SpatialDriving<Scalar> driving_;
+  const Problem* problem_ = nullptr;
+  std::vector<int> first_row_;
+  std::vector<Scalar> r_;    // by contact
+  std::vector<Block> own_;   // its block of A, in the first entries
+  Scalar free_ = Scalar(0);  // max abs(b) / max A_ii: forces that b asks for
+  Vector weight_;            // by row, 1 / r
+  Scalar rho_ = Scalar(0);
+  Vector center_;  // of a proximal step
+  bool followed_ = false;
+  Matrix regular_;
+  Vector f_, a_;
+  Vector best_f_, best_a_;
+  Scalar best_ = Scalar(0);
+  CoulombStatistics statistics_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_NUMERIC_COULOMB_H_

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fast method: guess the cells of all contacts, verify, and drive completely where guessing fails.
+//
+// For planar problems over floating-point scalars, with contacts of any kind. Cells are those of complete.h; a
+// bilateral contact and a closed sliding one are in the cell 0 (free), where a sliding contact has
+// fF = -mu slip fN, equation (24) of [Baraff94].
+//
+//   sweep     a few projected Gauss-Seidel sweeps from f = 0, or the cells of an earlier solution
+//   exchange  the cells give a linear system M u = -b for the forces that they leave free; every contact
+//             that then violates its cell moves to the next: block pivoting, or a semismooth Newton method.
+//             A closing contact starts at the limit that opposes its tangential acceleration.
+//   active    without friction, A symmetric, where exchanging has not ended or M is singular: the active set
+//             method of Lawson and Hanson; f'Af / 2 + b'f decreases until a >= 0. A contact enters for a
+//             violation above the tolerance only, so that M stays regular where A is singular; M is updated,
+//             not factored.
+//   resweep   with friction, where exchanging has not ended: more sweeps, and again
+//   complete  complete driving, for the kinds that it is built for
+//
+// Whatever is found is called solved only if the natural residual of (f, A f + b), computed from f alone, is
+// at most `residual`; otherwise the outcome is `undecided`. How the cells were found is of no account.
+// Shapes      f, a: rows x 1. Units: f in N, a in m/s^2.
+// Cost        a factorization of the free rows per exchange; typically 1 to 5 of them.
+// Source      exchange: J. J. Judice, F. M. Pires, Computers and Operations Research 21, 1994, 587-596; active:
+//             C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23.
+
+#ifndef STICTION_SOLVER_NUMERIC_FAST_H_
+#define STICTION_SOLVER_NUMERIC_FAST_H_
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "solver/complete/complete.h"
+#include "solver/linear/dense_factor.h"
+
+namespace stiction {
+
+struct FastOptions {
+  Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
+  Limits limits;           // of complete driving; limits.pivots bounds `active` too
+  double residual = 1e-8;  // largest natural residual of an answer that is called solved
+
+  bool operator==(const FastOptions&) const = default;
+};
+
+// Counters of one run.
+struct FastStatistics {
+  std::int64_t sweeps = 0;
+  std::int64_t exchanges = 0;
+  std::int64_t factorizations = 0;
+  std::int64_t updates = 0;
+  std::int64_t fallbacks = 0;
+
+  bool operator==(const FastStatistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, FastStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("sweeps", "Gauss-Seidel sweeps", s.sweeps);
+  visit("exchanges", "guesses of all cells", s.exchanges);
+  visit("factorizations", "reduced matrices factored", s.factorizations);
+  visit("updates", "contacts that entered or left a factored matrix", s.updates);
+  visit("fallbacks", "1 if complete driving was called", s.fallbacks);
+}
+
+struct FastVerdict {
+  Outcome outcome = Outcome::kUndecided;  // solved, limit, undecided
+  std::string_view reason;                // why not solved; static text
+  FastStatistics statistics;
+};
+
+// Whether `problem` is of a dimension that the fast method is built for.
+template <class Problem>
+bool FastHandles(const Problem& problem) {
+  return problem.dimension == 2;
+}
+
+// Reusable: a run of a problem no larger than one before allocates nothing, unless complete driving is called.
+template <class Scalar>
+class FastSolver {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+
+  explicit FastSolver(const FastOptions& options = {}) : options_(options) {}
+
+  FastOptions& options() { return options_; }
+
+  // Requires FastHandles(problem). `guess` holds a cell per contact to start from, such as cells() of a
+  // problem solved before; cells that a contact cannot be in are replaced. Without it, sweeps start.
+  FastVerdict Run(const Problem& problem, std::span<const Cell> guess = {});
+
+  // Forces in which the last run ended, and a = A f + b.
+  const Vector& f() const { return f_; }
+  const Vector& a() const { return a_; }
+  // Cell of every contact; of use after a solved run.
+  const std::vector<Cell>& cells() const { return cells_; }
+  std::string Word() const;
+
+ private:
+  void Start(const Problem& problem);
+  void Guess(std::span<const Cell> guess);
+  bool Find();
+  void FallBack();
+  bool Verify();
+  bool IsSymmetric(Scalar tolerance) const;
+  bool Project();
+  void AddColumn(int row, Scalar factor);
+
+  // Gauss-Seidel.
+  void Sweep(int sweeps);
+  void SweepFriction(const Contact<Scalar>& contact, int row);
+  void Push(int row, Scalar step);
+  void TakeCells();
+
+  // Exchanges.
+  bool ExchangeUntilSettled();
+  bool SolveCells();
+  void ListUnknowns();
+  bool SolveSymmetric();
+  bool SolveGeneral();
+  void SetForces();
+  void SetAccelerations();
+  int ListMoves();
+  Cell NextCell(int contact) const;
+  void Move(bool last_only);
+
+  // Active set of frictionless contacts.
+  bool ActiveSet();
+  bool StartActiveSet();
+  int MostViolated() const;
+  bool Enter(int contact);
+  void Descend();
+  int Blocking(Scalar& step) const;
+  void Leave(int unknown);
+
+  FastOptions options_;
+  const Problem* problem_ = nullptr;
+  FastVerdict verdict_;
+  Vector f_, a_, inverse_;  // inverse_: of the diagonal of A
+  std::vector<Cell> cells_, next_;
+  std::vector<int> row_of_;                                             // normal row by contact
+  bool frictionless_ = false;                                           // one row per contact
+  bool distrust_ = false;                                               // A is not symmetric
+  Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), unit_ = Scalar(0);     // unit_ = 1 / max_A_
+  Scalar pivot_ = Scalar(0), zero_a_ = Scalar(0), zero_f_ = Scalar(0);  // tolerances, relative,
+  Scalar least_a_ = Scalar(0), least_f_ = Scalar(0);                    // and of the last forces
+
+  // The reduced system of the cells.
+  int size_ = 0;
+  std::vector<int> unknowns_;  // rows of A whose force is free; without friction rows, also contacts
+  std::vector<Scalar> limit_;  // fF / fN of a normal whose friction follows it, or 0
+  std::vector<Scalar> u_;      // forces of the unknowns
+  bool symmetric_ = false, dropped_ = false;
+  DenseFactor<Scalar> factor_;
+
+  CompleteDriving<Scalar> driving_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_NUMERIC_FAST_H_

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of the solver, each said once: the policy switches (readings of the published text) and
+// the numbers (tolerances, limits). Command line, JSON, --help, validation and the policy grid all
+// read the two tables of this file.
+
+#ifndef STICTION_SOLVER_PROBLEM_OPTIONS_H_
+#define STICTION_SOLVER_PROBLEM_OPTIONS_H_
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stiction {
+
+// ---- Policy: one reading of the published algorithm (readings.md) ----------------------------
+
+enum class Scan : std::uint8_t { kLowest, kNormalsFirst, kMostViolated, kHighest };
+enum class Resume : std::uint8_t { kRestart, kRound };
+enum class Admit : std::uint8_t { kLazy, kEager };
+enum class File : std::uint8_t { kNo, kYes };
+enum class GiveUp : std::uint8_t { kFirst, kPrevious, kSecond };
+enum class Drop : std::uint8_t { kContact, kVariable };
+enum class Rezero : std::uint8_t { kRescan, kContinue };
+enum class Ties : std::uint8_t { kSets, kContacts };
+enum class Apex : std::uint8_t { kKept, kSuspended };
+enum class Slip : std::uint8_t { kLiteral, kRedirect, kPolygon };
+
+// The defaults are the reference policy, `paper`.
+struct Policy {
+  Scan scan = Scan::kLowest;
+  Resume resume = Resume::kRestart;
+  Admit admit = Admit::kLazy;
+  File file = File::kNo;
+  GiveUp give_up = GiveUp::kFirst;
+  Drop drop = Drop::kContact;
+  Rezero rezero = Rezero::kRescan;
+  Ties ties = Ties::kSets;
+  Apex apex = Apex::kKept;
+  Slip slip = Slip::kLiteral;
+
+  bool operator==(const Policy&) const = default;
+};
+
+// Rows of the table of switches, in the order in which a policy is written.
+enum class PolicySwitch : std::uint8_t {
+  kScan,
+  kResume,
+  kAdmit,
+  kFile,
+  kGiveUp,
+  kDrop,
+  kRezero,
+  kTies,
+  kApex,
+  kSlip,
+};
+inline constexpr int kPolicySwitchCount = 10;
+
+struct PolicyValue {
+  std::string_view name;
+  std::string_view meaning;
+};
+
+struct PolicySwitchRow {
+  PolicySwitch id;
+  std::string_view name;
+  std::string_view question;        // what the text leaves open
+  std::string_view reads;           // where the paper speaks of it
+  std::vector<PolicyValue> values;  // the first is the reference
+  bool planar;                      // part of the grid of planar problems
+  int (*get)(const Policy&);
+  void (*set)(Policy&, int value);
+};
+
+// The table itself (options.cpp).
+const std::array<PolicySwitchRow, kPolicySwitchCount>& PolicySwitches();
+
+// The switches that differ from `paper`, in table order ("give-up=second,ties=contacts"), or "paper".
+std::string PolicyName(const Policy& policy);
+
+// Reads a policy as PolicyName writes it; any order, and explicit defaults, are accepted.
+// Throws std::invalid_argument that names the word and what was expected.
+Policy ParsePolicy(std::string_view text);
+
+// The whole planar grid in table order, the last switch varying fastest: 1536 policies.
+const std::vector<Policy>& PlanarGrid();
+
+// A set of switches as bits.
+using SwitchMask = std::uint16_t;
+inline constexpr SwitchMask Bit(PolicySwitch s) { return static_cast<SwitchMask>(1u << static_cast<int>(s)); }
+
+// Whether two policies have the same values on every switch of the mask.
+bool AgreeOn(SwitchMask mask, const Policy& left, const Policy& right);
+
+// ---- Numbers ---------------------------------------------------------------------------------
+
+// Tolerances of inexact runs, relative to the scale of the problem: accelerations to max abs(b)
+// (m/s^2), forces to max abs(b) / max A_ii (N), pivots to the entries of their column. Exact runs
+// read none of them.
+struct Tolerances {
+  double acceleration = 1e-10;
+  double force = 1e-10;
+  double pivot = 1e-11;
+  double loop_grain = 1e-6;
+
+  bool operator==(const Tolerances&) const = default;
+};
+
+// Budgets; a run that spends one ends in `limit` and says which.
+struct Limits {
+  std::int64_t drives = 10000;
+  std::int64_t pivots = 100000;
+  std::int64_t bits = 100000;
+
+  bool operator==(const Limits&) const = default;
+};
+
+struct NumberRow {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view help;
+  double min;
+  double max;
+};
+
+template <class Visit>
+void ForEachField(Tolerances& t, Visit visit) {
+  visit(NumberRow{"acceleration-tolerance", "of max abs(b)",
+                  "accelerations below this are zero (inexact arithmetics)", 0, 1e-2},
+        t.acceleration);
+  visit(NumberRow{"force-tolerance", "of max abs(b) / max A_ii",
+                  "forces and steps below this are zero (inexact arithmetics)", 0, 1e-2},
+        t.force);
+  visit(NumberRow{"pivot-tolerance", "of the largest entry",
+                  "pivots and rates below this are zero (inexact arithmetics)", 0, 1e-2},
+        t.pivot);
+  visit(NumberRow{"loop-grain", "of max abs(b) / max A_ii",
+                  "forces are rounded to this before states are compared (inexact arithmetics)", 1e-15, 1},
+        t.loop_grain);
+}
+
+template <class Visit>
+void ForEachField(Limits& limits, Visit visit) {
+  visit(NumberRow{"max-drives", "drives", "budget of a run", 1, 1e12}, limits.drives);
+  visit(NumberRow{"max-pivots", "steps", "budget of a run", 1, 1e12}, limits.pivots);
+  visit(NumberRow{"max-bits", "bits", "longest numerator or denominator of an exact force", 1, 1e12},
+        limits.bits);
+}
+
+// Unknowns from which on direction systems are updated, not solved afresh (updated_system.h), >= 1. Eight
+// planar contacts have less.
+inline constexpr int kUpdateFrom = 16;
+
+struct PublishedOptions {
+  Policy policy;
+  Tolerances tolerances;
+  Limits limits;
+  int update_from = kUpdateFrom;
+
+  bool operator==(const PublishedOptions&) const = default;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_OPTIONS_H_

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scalars: what the algorithms ask of a number type.
+//
+// One algorithm runs over float, double, long double and exact rationals. A Scalar has + - * /,
+// comparisons, and construction from int. Branches look at signs only, through Sign(x, tol). Over
+// exact scalars the tolerance is ignored: there it is zero by construction, not by convention.
+
+#ifndef STICTION_SOLVER_PROBLEM_SCALAR_H_
+#define STICTION_SOLVER_PROBLEM_SCALAR_H_
+
+#include <cmath>
+#include <type_traits>
+
+namespace stiction {
+
+// True for number types without rounding. Floating-point types are the only inexact ones.
+template <class Scalar>
+inline constexpr bool kIsExact = !std::is_floating_point_v<Scalar>;
+
+// -1, 0 or 1. Not-a-number has sign 0: callers of inexact runs test for it where it can arise.
+template <class Scalar>
+int Sign(const Scalar& x) {
+  return (x > 0) - (x < 0);
+}
+
+// The sign of x, where abs(x) <= tol counts as zero over inexact scalars.
+template <class Scalar>
+int Sign(const Scalar& x, const Scalar& tol) {
+  if constexpr (kIsExact<Scalar>) {
+    return Sign(x);
+  } else {
+    return (x > tol) - (x < -tol);
+  }
+}
+
+// Whether x is zero and known to be: what may be skipped. Specialised beside a scalar that cannot tell some
+// signs.
+template <class Scalar>
+bool IsSurelyZero(const Scalar& x) {
+  return Sign(x) == 0;
+}
+
+template <class Scalar>
+Scalar Abs(const Scalar& x) {
+  if constexpr (!kIsExact<Scalar>) {
+    return std::abs(x);  // without a branch
+  } else {
+    if (Sign(x) < 0) return Scalar(-x);
+    return x;
+  }
+}
+
+// The integers beneath an exact scalar, for elimination without fractions. Specialised beside the scalar;
+// without that its own divisions are used.
+template <class Scalar>
+struct Fractions {
+  using Integer = Scalar;
+  // The numerator of x over a multiple of its denominator.
+  static const Scalar& Numerator(const Scalar& x, const Scalar&) { return x; }
+  // Makes `multiple` a multiple of the denominator of x.
+  static void Include(Scalar&, const Scalar&) {}
+  static Scalar Quotient(const Scalar& x, const Scalar& y) { return x / y; }
+};
+
+template <class Scalar>
+inline constexpr bool kFractionFree = !std::is_same_v<typename Fractions<Scalar>::Integer, Scalar>;
+
+// A common denominator of the entries of a row or column, 1 where there are no integers.
+template <class Scalar, class Values>
+typename Fractions<Scalar>::Integer CommonDenominator(const Values& values) {
+  typename Fractions<Scalar>::Integer common(1);
+  for (int i = 0; i < values.size(); ++i) Fractions<Scalar>::Include(common, values[i]);
+  return common;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_SCALAR_H_

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run of the published algorithm leaves behind: verdict, statistics, trace.
+
+#ifndef STICTION_SOLVER_PROBLEM_SOLUTION_H_
+#define STICTION_SOLVER_PROBLEM_SOLUTION_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "solver/problem/index_sets.h"
+#include "solver/problem/options.h"
+
+namespace stiction {
+
+enum class Outcome : std::uint8_t { kSolved, kCycle, kStall, kRay, kSingular, kLimit, kUndecided };
+inline constexpr int kOutcomeCount = 7;
+inline constexpr std::array<std::string_view, kOutcomeCount> kOutcomeNames = {
+    "solved", "cycle", "stall", "ray", "singular", "limit", "undecided"};
+
+inline constexpr std::string_view Name(Outcome outcome) { return kOutcomeNames[static_cast<int>(outcome)]; }
+
+// Counters of one run; readings.md, 4.
+struct Statistics {
+  std::int64_t drives = 0;
+  std::int64_t steps = 0;
+  std::int64_t pivots = 0;
+  std::int64_t zero_steps = 0;
+  std::int64_t longest_zero_run = 0;
+  std::int64_t bounces = 0;
+  std::int64_t give_ups = 0;
+  std::int64_t singular_directions = 0;
+  std::int64_t outer_scans = 0;
+
+  bool operator==(const Statistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+void ForEachField(S& s, Visit visit) {
+  visit("drives", "calls of drive-to-zero", s.drives);
+  visit("steps", "turns of its loop", s.steps);
+  visit("pivots", "steps after which a variable changed its set", s.pivots);
+  visit("zero_steps", "steps of length zero", s.zero_steps);
+  visit("longest_zero_run", "most zero steps in a row within a drive", s.longest_zero_run);
+  visit("bounces", "zero steps after which the variable wants back", s.bounces);
+  visit("give_ups", "variables removed from their set", s.give_ups);
+  visit("singular_directions", "direction systems with a singular matrix", s.singular_directions);
+  visit("outer_scans", "scans for a violated condition", s.outer_scans);
+}
+
+// What a drive works toward: the conditions of its variable, or a friction force of zero.
+enum class DriveGoal : std::uint8_t { kEstablish, kZero };
+
+inline constexpr std::string_view Name(DriveGoal goal) {
+  return goal == DriveGoal::kEstablish ? "establish" : "zero";
+}
+
+// One step of a drive and what it did. Variables are named by their row.
+template <class Scalar>
+struct Pivot {
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  int drive = 0;  // counted from 1
+  int driven = 0;
+  DriveGoal goal = DriveGoal::kEstablish;
+  Vector df, da;  // direction per unit step
+  Scalar s = Scalar(0);
+  int limiting = 0;
+  IndexSet from = IndexSet::kNone;  // of the limiting variable
+  IndexSet to = IndexSet::kNone;
+  IndexSet wanted = IndexSet::kNone;  // differs from `to` if it was given up
+  bool gave_up = false;
+  Vector f, a;                 // after the step
+  std::vector<IndexSet> sets;  // after the step
+};
+
+// The history of a run, kept only where asked for.
+template <class Scalar>
+struct Trace {
+  bool keep_pivots = true;
+  std::vector<Pivot<Scalar>> pivots;
+  // Switches whose values would have acted differently somewhere in this run. Policies that agree on
+  // them run alike.
+  SwitchMask consulted = 0;
+};
+
+// How a run ended. start and period: in drives for a cycle, in steps for a stall (readings.md, 2, 3).
+struct Verdict {
+  Outcome outcome = Outcome::kUndecided;
+  std::int64_t start = 0;
+  std::int64_t period = 0;
+  std::string_view reason;  // which limit, or why undecided; static text
+  Statistics statistics;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_SOLUTION_H_

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm in space: section 5.6 of [Baraff94].
+//
+// Solves, for frictionless and static contacts, (15) and the friction conditions of space,
+//
+//   abs(fF) <= mu fN (22),   fF.aF <= 0 (21),   aF = 0 or abs(fF) = mu fN,
+//
+// which leave the direction of slip free. readings.md, 8, fixes every choice that the text leaves open.
+//
+// Frames      Two axes p, q in the tangent plane of each contact are turned so that whatever is driven or kept
+//             at its limit runs along an axis: p is the recorded direction in NCF. There NCF is what NC+ is in
+//             the plane, and the force direction (fdirection) is found by the same system, direction.h. New are
+//             the circle (23), met by a quadratic step, and the direction.
+// Shared      scan order and give-up rule (scan.h), force direction, scales. The loop and the step are this
+//             class's own: a contact's friction has two components, and square roots leave no exact scalar.
+// Loops       Forces are irrational, so a repetition is never proved: over floating-point scalars `cycle` says
+//             that a state stands again after rounding; over intervals that ends the run `undecided`. A stall
+//             cannot happen (readings.md, 8); a drive that does not end would spend its budget.
+// Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C
+//             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
+
+#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
+#define STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/linear/direction.h"
+#include "solver/problem/solution.h"
+#include "solver/published/step_size.h"
+
+namespace stiction {
+
+// A double near x; specialised beside a scalar that does not convert.
+template <class Scalar>
+struct Approximation {
+  static double Of(const Scalar& x) { return static_cast<double>(x); }
+};
+
+// Whether `problem` has kinds and a dimension that the published algorithm handles in space.
+template <class Problem>
+bool PublishedHandlesInSpace(const Problem& problem) {
+  bool handled = problem.dimension == 3;
+  for (const auto& contact : problem.contacts) {
+    handled &= contact.kind == ContactKind::kFrictionless || contact.kind == ContactKind::kStatic;
+  }
+  return handled;
+}
+
+// The readings built for space: file=no, apex=kept, slip=literal or redirect; all values of the other switches.
+inline bool PublishedReadsInSpace(const Policy& policy) {
+  return policy.file == File::kNo && policy.apex == Apex::kKept && policy.slip != Slip::kPolygon;
+}
+
+struct PublishedSpaceVerdict : Verdict {
+  std::int64_t redirects = 0;  // contacts given up because their recorded direction opposes aF no more
+  std::int64_t breaks = 0;     // scans at which every contact is established by its set, yet (21) fails at one
+};
+
+// One step of a drive. Vectors are in the problem's own axes; the driven row and the limiting one stand for the
+// axes that the contact has at the time: df shows along which a friction force is driven. NCF is kAtUpper, on
+// the first tangential row.
+template <class Scalar>
+struct SpacePivot : Pivot<Scalar> {
+  bool turned_away = false;                     // slip=redirect: the limiting contact opposes aF no more
+  std::vector<std::array<Scalar, 2>> recorded;  // by contact: d of those in NCF after the step, otherwise zero
+};
+
+template <class Scalar>
+using SpaceTrace = std::vector<SpacePivot<Scalar>>;
+
+template <class Scalar>
+class PublishedInSpace {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+  using Tangent = std::array<Scalar, 2>;
+
+  explicit PublishedInSpace(const PublishedOptions& options = {}) : options_(options) {}
+
+  PublishedOptions& options() { return options_; }
+
+  // Runs from f = 0. Requires PublishedHandlesInSpace(problem), PublishedReadsInSpace(options().policy). With
+  // `trace`, every step is recorded.
+  PublishedSpaceVerdict Run(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr);
+
+  // Of the last run, also of one that ended in an exception: what it had done. In the problem's own axes.
+  const PublishedSpaceVerdict& verdict() const { return verdict_; }
+  Vector f() const { return InProblemAxes(state_.f); }
+  Vector a() const { return InProblemAxes(state_.a); }
+  // The direction of a ray.
+  Vector ray() const { return InProblemAxes(direction_.df()); }
+
+ private:
+  static constexpr std::string_view kNotFinite = "a number is not finite";
+
+  struct Frame {
+    Tangent p = {Scalar(1), Scalar(0)}, q = {Scalar(0), Scalar(1)};
+  };
+  struct Limit {
+    bool exists = false;
+    Scalar s = Scalar(0);
+    IndexSet wants = IndexSet::kNone;
+  };
+  struct OuterState {
+    std::int64_t drives;
+    std::uint64_t rounded;
+  };
+
+  void Start(const Problem& problem, SpaceTrace<Scalar>* trace);
+  bool Ended() const { return ended_; }
+  void End(Outcome outcome, std::string_view reason = {});
+  void Finish();
+
+  // Main loop (4.3, 5.5).
+  void Sweep();
+  int ScanForViolated();
+  bool NormalHolds(int row) const;
+  bool FrictionHolds(int row) const;
+  bool Violated(int row) const;
+  bool OpposesNoMore(int row) const;
+  void Establish(int row);
+  void EstablishFriction(int row);
+  bool OuterStateRecurs();
+  std::uint64_t RoundedHash() const;
+
+  // One drive (4.1-4.3, 5.2-5.6). `sign`: df of the driven row.
+  void DriveToZero(int driven, DriveGoal goal, int sign);
+  Step<Scalar> FindStep(int driven, DriveGoal goal);
+  int FirstOf(int driven, int nearest, Ties ties) const;
+  static void Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
+                    const Scalar& tolerance);
+  void LimitDriven(int driven, DriveGoal goal);
+  void LimitMaintained(int row);
+  void LimitSticking(Limit& limit, int row) const;
+  void LimitSlipping(Limit& limit, int row) const;
+  void Advance(const Step<Scalar>& step, bool zero);
+  void MeetLimit(int row, IndexSet wants);
+  bool TurnsAway(int row);
+  void Move(int row, IndexSet to);
+  void MoveDriven(int driven, IndexSet wants);
+  void MoveLimiting(int row, IndexSet wants);
+  void GiveUpLimiting(int row, int driven_contact);
+  bool BudgetSpent();
+  void EndUnlessFinite();
+  void RecordDirection(int driven, DriveGoal goal);
+  void RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up);
+
+  // Frames. Friction of a contact is in rows `row`, `row` + 1 of state_, along p and q.
+  void Turn(int contact, const Tangent& p);
+  void Reverse(int row);
+  void AlongForce(int row);
+  void Rebuild(int row);
+  Scalar Entry(int i, int j) const;
+  Tangent FrictionInProblemAxes(const Vector& values, int row) const;
+  Vector InProblemAxes(const Vector& values) const;
+  Scalar Square(const Vector& values, int row) const;
+  Scalar Bound(int row) const;
+  int FrictionOf(int row) const { return layout_.NormalRowOf(layout_.ContactOf(row)) + 1; }
+
+  PublishedOptions options_;
+  const Problem* problem_ = nullptr;
+  Problem turned_;  // the problem in the frames
+  SpaceTrace<Scalar>* trace_ = nullptr;
+  RowLayout<Eigen::Dynamic> layout_;
+  Scale<Scalar> scale_;
+  double inverse_grain_ = 0;  // 1/N
+  DirectionSystem<Scalar, Eigen::Dynamic> direction_;
+  std::vector<Limit> limits_;
+
+  ContactState<Scalar, Eigen::Dynamic> state_;  // in the frames
+  std::vector<Frame> frames_;
+  std::vector<char> given_up_by_turning_;  // by contact: is to be driven anew against its acceleration
+  std::vector<char> on_circle_;            // by contact: abs(fF) = mu fN is known, though it is in CF
+  PublishedSpaceVerdict verdict_;
+  bool ended_ = false;
+  int last_driven_contact_ = -1;
+  IndexSets<Eigen::Dynamic> last_left_;
+  bool last_step_zero_ = false;
+  std::int64_t zero_run_ = 0;
+  std::vector<OuterState> outer_states_;
+};
+
+extern template class PublishedInSpace<float>;
+extern template class PublishedInSpace<double>;
+extern template class PublishedInSpace<long double>;
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_

@@ -1,0 +1,678 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definitions for published_space.h, in the order in which the paper tells them.
+
+#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_
+#define STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solver/linear/direction.ipp"
+#include "solver/problem/weak_residual.h"
+#include "solver/published/published_space.h"
+#include "solver/published/scan.h"
+
+namespace stiction {
+
+// ---- Main loop: 4.3 compute-forces, 5.5 ------------------------------------------------------
+
+template <class Scalar>
+PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, SpaceTrace<Scalar>* trace) {
+  Start(problem, trace);
+  while (!Ended() && !OuterStateRecurs()) {
+    Sweep();
+    const int violated = ScanForViolated();
+    if (violated < 0) {
+      Finish();
+    } else {
+      Establish(violated);
+    }
+  }
+  return verdict_;
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>* trace) {
+  const int rows = problem.rows();
+  problem_ = &problem;
+  turned_ = problem;
+  trace_ = trace;
+  if (trace_ != nullptr) trace_->clear();
+  layout_.Assign(problem.contacts, 3);
+  scale_ = MakeScale(problem, options_.tolerances);
+  double b = 0, A = 0;
+  for (int i = 0; i < rows; ++i) {
+    b = std::max(b, std::abs(Approximation<Scalar>::Of(problem.b[i])));
+    A = std::max(A, std::abs(Approximation<Scalar>::Of(problem.A(i, i))));
+  }
+  inverse_grain_ = b > 0 ? A / (b * options_.tolerances.loop_grain) : 0;
+  direction_.Start(turned_);
+  limits_.assign(rows, {});
+  state_.f = Vector::Constant(rows, Scalar(0));
+  state_.a = problem.b;
+  Reset<IndexSet, Eigen::Dynamic>(state_.sets, rows, IndexSet::kNone);
+  Reset<IndexSet, Eigen::Dynamic>(last_left_, rows, IndexSet::kNone);
+  frames_.assign(problem.contacts.size(), {});
+  given_up_by_turning_.assign(problem.contacts.size(), false);
+  on_circle_.assign(problem.contacts.size(), false);
+  verdict_ = {};
+  ended_ = false;
+  last_driven_contact_ = -1;
+  last_step_zero_ = false;
+  outer_states_.clear();
+  if constexpr (!kIsExact<Scalar>) {
+    Scalar zero = 0;  // x - x is zero for finite x only
+    for (const auto& contact : problem.contacts) zero += contact.mu - contact.mu;
+    for (int i = 0; i < rows; ++i) {
+      zero += problem.b[i] - problem.b[i];
+      for (int j = 0; j < rows; ++j) zero += problem.A(i, j) - problem.A(i, j);
+    }
+    if (zero != 0) End(Outcome::kUndecided, kNotFinite);
+  }
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::End(Outcome outcome, std::string_view reason) {
+  verdict_.outcome = outcome;
+  verdict_.reason = reason;
+  ended_ = true;
+}
+
+// Over intervals the sets prove what the scan does not compare; rounded numbers are held against the problem.
+template <class Scalar>
+void PublishedInSpace<Scalar>::Finish() {
+  if constexpr (!kIsExact<Scalar>) {
+    const Vector forces = f(), answer = problem_->A * forces + problem_->b;
+    const Scalar most = std::max(Scalar(1e-6), 10000 * std::numeric_limits<Scalar>::epsilon());
+    if (!(WeakResidual(*problem_, forces, answer) <= most))
+      return End(Outcome::kUndecided, "rounding: the forces break the conditions");
+  }
+  End(Outcome::kSolved);
+}
+
+template <class Scalar>
+bool PublishedInSpace<Scalar>::NormalHolds(int row) const {  // (15)
+  if (state_.sets[row] != IndexSet::kNone) return true;
+  const int f = Sign(state_.f[row], scale_.force);
+  const int a = Sign(state_.a[row], scale_.acceleration);
+  return f >= 0 && a >= 0 && (f == 0 || a == 0);
+}
+
+// (21), (22) and: aF = 0 or abs(fF) = mu fN.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::FrictionHolds(int row) const {
+  using std::sqrt;
+  const Scalar force = sqrt(Square(state_.f, row));
+  const int slack = Sign(Scalar(Bound(row) - force), scale_.force);
+  if (slack < 0) return false;
+  if (slack > 0) return Sign(Scalar(sqrt(Square(state_.a, row))), scale_.acceleration) == 0;
+  if (IsSurelyZero(force)) return true;
+  const Scalar power = state_.f[row] * state_.a[row] + state_.f[row + 1] * state_.a[row + 1];
+  return Sign(power, Scalar(scale_.acceleration * force)) <= 0;
+}
+
+// A maintained variable is established by its set.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::Violated(int row) const {
+  if (state_.sets[row] != IndexSet::kNone) return false;
+  if (layout_.IsNormal(row)) return !NormalHolds(row);
+  return NormalHolds(row - 1) && !FrictionHolds(row);
+}
+
+// Whether a friction variable in NCF breaks (21); under slip=redirect it never does.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::OpposesNoMore(int row) const {
+  if (layout_.IsNormal(row) || state_.sets[row] != IndexSet::kAtUpper || !NormalHolds(row - 1)) return false;
+  return Sign(state_.f[row], scale_.force) > 0 && Sign(state_.a[row], scale_.acceleration) > 0;
+}
+
+// Satisfied normals that no drive established: switch `admit` (4.1 against 4.3).
+template <class Scalar>
+void PublishedInSpace<Scalar>::Sweep() {
+  if (options_.policy.admit == Admit::kLazy) return;
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    if (state_.sets[row] != IndexSet::kNone || Sign(state_.f[row], scale_.force) != 0) continue;
+    if (Sign(state_.a[row], scale_.acceleration) >= 0) state_.sets[row] = IndexSet::kSeparating;
+  }
+}
+
+// First what no set establishes, then what breaks (21) in NCF.
+template <class Scalar>
+int PublishedInSpace<Scalar>::ScanForViolated() {
+  ++verdict_.statistics.outer_scans;
+  const auto worse = [this](int row, int other) {
+    return layout_.IsNormal(row) ? state_.a[row] < state_.a[other]
+                                 : Square(state_.a, row) > Square(state_.a, other);
+  };
+  const auto pick = [&](const auto& fails) {
+    return PickViolated(layout_, options_.policy.scan, options_.policy.resume, last_driven_contact_, fails,
+                        worse);
+  };
+  const int violated = pick([this](int row) { return Violated(row); });
+  if (violated >= 0 || options_.policy.slip != Slip::kLiteral) return violated;
+  const int broken = pick([this](int row) { return OpposesNoMore(row); });
+  verdict_.breaks += broken >= 0;
+  return broken;
+}
+
+// Establishes the conditions of a violated variable; friction that rests from before it was given up, or that
+// opposes its acceleration no more, is first driven to zero (5.5).
+template <class Scalar>
+void PublishedInSpace<Scalar>::Establish(int row) {
+  if (layout_.IsNormal(row)) return DriveToZero(row, DriveGoal::kEstablish, 1);
+  const Scalar square = Square(state_.f, row);
+  if (IsSurelyZero(square) || Sign(square, Scalar(scale_.force * scale_.force)) == 0)
+    return EstablishFriction(row);
+  state_.sets[row] = IndexSet::kNone;
+  AlongForce(row);
+  DriveToZero(row, DriveGoal::kZero, -1);
+  if (Ended() || options_.policy.rezero == Rezero::kRescan || !Violated(row)) return;
+  EstablishFriction(row);
+}
+
+// "We first increase fx (assuming ax < 0) until either i moves into NCF, or ax reaches zero. If i is in NCF, we
+// are done, otherwise we now adjust fy" (5.6). A contact given up by turning takes the direction opposite to
+// its acceleration for x.
+template <class Scalar>
+void PublishedInSpace<Scalar>::EstablishFriction(int row) {
+  using std::sqrt;
+  const int contact = layout_.ContactOf(row);
+  if (given_up_by_turning_[contact]) {
+    const Scalar size = sqrt(Square(state_.a, row));
+    const Tangent a = FrictionInProblemAxes(state_.a, row);
+    Turn(contact, {Scalar(-a[0] / size), Scalar(-a[1] / size)});
+    state_.a[row] = -size;
+    state_.a[row + 1] = Scalar(0);
+  } else {
+    Turn(contact, {Scalar(1), Scalar(0)});
+  }
+  for (const int component : {row, row + 1}) {
+    const int sign = Sign(state_.a[component], scale_.acceleration);
+    if (sign == 0) {
+      state_.a[component] = Scalar(0);
+      MoveDriven(component, IndexSet::kSticking);
+    } else {
+      if (sign > 0) Reverse(component);
+      DriveToZero(component, DriveGoal::kEstablish, 1);
+    }
+    if (Ended() || state_.sets[row] == IndexSet::kAtUpper || component != row) return;
+    if (!NormalHolds(row - 1)) {
+      state_.sets[row] = IndexSet::kNone;
+      return;
+    }
+  }
+}
+
+// ---- One drive: 4.3 drive-to-zero, 5.2-5.6 ---------------------------------------------------
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign) {
+  Statistics& statistics = verdict_.statistics;
+  ++statistics.drives;
+  last_driven_contact_ = layout_.ContactOf(driven);
+  Reset<IndexSet, Eigen::Dynamic>(last_left_, problem_->rows(), IndexSet::kNone);
+  last_step_zero_ = false;
+  zero_run_ = 0;
+  using System = DirectionSystem<Scalar, Eigen::Dynamic>;
+  while (!BudgetSpent()) {
+    const auto status = direction_.Solve(turned_, layout_, state_.sets, driven, sign, scale_);
+    if (status != System::Status::kRegular) ++statistics.singular_directions;
+    if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
+    const Step<Scalar> step = FindStep(driven, goal);
+    if (step.limiting < 0) return End(Outcome::kRay);
+    const bool zero = Sign(step.s, scale_.force) == 0;
+    RecordDirection(driven, goal);
+    Advance(step, zero);
+    ++statistics.steps;
+    statistics.zero_steps += zero;
+    zero_run_ = zero ? zero_run_ + 1 : 0;
+    statistics.longest_zero_run = std::max(statistics.longest_zero_run, zero_run_);
+    const IndexSet from = state_.sets[step.limiting];
+    const auto sets_before = state_.sets;
+    bool gives_up = false;
+    if (step.limiting == driven) {
+      MoveDriven(driven, step.wants);
+    } else if (!TurnsAway(step.limiting)) {
+      const bool wants_back = step.wants == last_left_[step.limiting];
+      gives_up = GivesUp(options_.policy.give_up, wants_back, zero, last_step_zero_);
+      statistics.bounces += wants_back && zero;
+      statistics.give_ups += gives_up;
+      if (gives_up) {
+        GiveUpLimiting(step.limiting, last_driven_contact_);
+      } else {
+        MoveLimiting(step.limiting, step.wants);
+      }
+    }
+    statistics.pivots += state_.sets != sets_before;
+    last_step_zero_ = zero;
+    RecordStep(step, from, gives_up);
+    if (step.limiting == driven) return;
+  }
+}
+
+// f += s df, a += s da; then the limit that was reached is met exactly, and so is abs(fF) = mu fN in NCF.
+template <class Scalar>
+void PublishedInSpace<Scalar>::Advance(const Step<Scalar>& step, bool zero) {
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
+    if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
+  }
+  if (!zero) on_circle_.assign(on_circle_.size(), false);
+  MeetLimit(step.limiting, step.wants);
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (state_.sets[row] == IndexSet::kAtUpper) state_.f[row] = Bound(row);
+  }
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
+  switch (wants) {
+    case IndexSet::kClamped:
+    case IndexSet::kSticking:
+      state_.a[row] = Scalar(0);
+      if (state_.sets[row] == IndexSet::kAtUpper && options_.policy.slip == Slip::kLiteral)
+        state_.a[row + 1] = Scalar(0);
+      break;
+    case IndexSet::kAtUpper:
+      AlongForce(FrictionOf(row));
+      state_.f[FrictionOf(row)] = Bound(FrictionOf(row));
+      break;
+    default:
+      state_.f[row] = Scalar(0);
+      break;
+  }
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::Move(int row, IndexSet to) {
+  last_left_[row] = state_.sets[row];
+  state_.sets[row] = to;
+  if (layout_.IsNormal(row)) return;
+  state_.sets[row + 1] = to == IndexSet::kSticking ? to : IndexSet::kNone;
+}
+
+// The driven variable joins its set. After x alone that is CF for x, with y in no set.
+template <class Scalar>
+void PublishedInSpace<Scalar>::MoveDriven(int driven, IndexSet wants) {
+  const int contact = layout_.ContactOf(driven);
+  if (wants == IndexSet::kAtUpper) {
+    Move(FrictionOf(driven), wants);
+  } else {
+    state_.sets[driven] = wants;
+  }
+  const bool second = driven > FrictionOf(driven);
+  if (wants == IndexSet::kAtUpper || second) given_up_by_turning_[contact] = false;
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::MoveLimiting(int row, IndexSet wants) {
+  if (wants == IndexSet::kSticking) on_circle_[layout_.ContactOf(row)] = true;
+  Move(row, wants);
+}
+
+// slip=redirect: at d.aF = 0 with aF /= 0 the recorded direction opposes the acceleration no more, and the
+// contact is given up whatever the length of the step.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::TurnsAway(int row) {
+  if (state_.sets[row] != IndexSet::kAtUpper || options_.policy.slip != Slip::kRedirect) return false;
+  if (IsSurelyZero(state_.a[row + 1]) || Sign(state_.a[row + 1], scale_.acceleration) == 0) {
+    state_.a[row + 1] = Scalar(0);
+    return false;
+  }
+  Move(row, IndexSet::kNone);
+  given_up_by_turning_[layout_.ContactOf(row)] = true;
+  ++verdict_.redirects;
+  return true;
+}
+
+// "j is removed from whatever index set it was in" (5.5).
+template <class Scalar>
+void PublishedInSpace<Scalar>::GiveUpLimiting(int row, int driven_contact) {
+  Move(row, IndexSet::kNone);
+  if (!layout_.IsNormal(row) || !layout_.HasFriction(row) || options_.policy.drop == Drop::kVariable) return;
+  if (layout_.ContactOf(row) != driven_contact && state_.sets[row + 1] != IndexSet::kNone)
+    Move(row + 1, IndexSet::kNone);
+}
+
+// ---- Step size: 4.3 maxstep, 5.5, 5.6 --------------------------------------------------------
+
+// The driver's gap shrinks at `rate`; a limit exists if rate > 0.
+template <class Scalar>
+void PublishedInSpace<Scalar>::Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
+                                     const Scalar& tolerance) {
+  if (IsSurelyZero(rate) || Sign(rate, tolerance) <= 0) return;
+  Scalar s = gap / rate;
+  if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
+  if (limit.exists && !(s < limit.s)) return;
+  limit = {true, std::move(s), wants};
+}
+
+template <class Scalar>
+Step<Scalar> PublishedInSpace<Scalar>::FindStep(int driven, DriveGoal goal) {
+  int nearest = -1;
+  const int driven_friction = layout_.IsNormal(driven) ? -1 : FrictionOf(driven);
+  for (int row = 0; row < problem_->rows(); ++row) {
+    limits_[row].exists = false;
+    if (row == driven) {
+      LimitDriven(driven, goal);
+    } else if (row != driven_friction) {
+      LimitMaintained(row);
+    }
+    if (limits_[row].exists && (nearest < 0 || limits_[row].s < limits_[nearest].s)) nearest = row;
+  }
+  if (nearest < 0) return {};
+  const int limiting = FirstOf(driven, nearest, options_.policy.ties);
+  return {limits_[limiting].s, limiting, limits_[limiting].wants, false};
+}
+
+// Of those that limit together with `nearest`. C, NC, CF, NCF: the order of the enumerators.
+template <class Scalar>
+int PublishedInSpace<Scalar>::FirstOf(int driven, int nearest, Ties ties) const {
+  const Scalar reach = limits_[nearest].s + scale_.force;
+  const auto limits = [&](int row) {
+    return row == nearest || (limits_[row].exists && !(limits_[row].s > reach));
+  };
+  if (limits(driven)) return driven;
+  int first = -1;
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (!limits(row)) continue;
+    if (first < 0 || (ties == Ties::kSets && state_.sets[row] < state_.sets[first])) first = row;
+  }
+  return first;
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::LimitDriven(int driven, DriveGoal goal) {
+  Limit& limit = limits_[driven];
+  if (goal == DriveGoal::kZero) return Offer(limit, state_.f[driven], Scalar(1), IndexSet::kNone, Scalar(0));
+  const bool normal = layout_.IsNormal(driven);
+  Offer(limit, Scalar(-state_.a[driven]), direction_.da()[driven],
+        normal ? IndexSet::kClamped : IndexSet::kSticking, scale_.rate);
+  if (!normal) LimitSticking(limit, FrictionOf(driven));
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::LimitMaintained(int row) {
+  Limit& limit = limits_[row];
+  const bool second = !layout_.IsNormal(row) && row > FrictionOf(row);
+  if (second) return;
+  switch (state_.sets[row]) {
+    case IndexSet::kClamped:
+      return Offer(limit, state_.f[row], Scalar(-direction_.df()[row]), IndexSet::kSeparating, scale_.pivot);
+    case IndexSet::kSeparating:
+      return Offer(limit, state_.a[row], Scalar(-direction_.da()[row]), IndexSet::kClamped, scale_.rate);
+    case IndexSet::kSticking:
+      return LimitSticking(limit, row);
+    case IndexSet::kAtUpper:
+      return LimitSlipping(limit, row);
+    default:
+      return;
+  }
+}
+
+// Equation (23). With c = (mu fN)^2 - fF^2 >= 0 the circle is reached where c + 2 B s + K s^2 falls to zero,
+// or, if c = 0, where it falls below.
+template <class Scalar>
+void PublishedInSpace<Scalar>::LimitSticking(Limit& limit, int row) const {
+  using std::sqrt;
+  const Vector& df = direction_.df();
+  const Scalar bound = Bound(row), growth = problem_->contacts[layout_.ContactOf(row)].mu * df[row - 1];
+  const Scalar force = sqrt(Square(state_.f, row));
+  const Scalar B = bound * growth - (state_.f[row] * df[row] + state_.f[row + 1] * df[row + 1]);
+  const Scalar K = growth * growth - Square(df, row);
+  const auto offer = [&](Scalar s) {  // behind aF = 0 of the driven variable if they tie
+    if (!limit.exists || s + scale_.force < limit.s) limit = {true, std::move(s), IndexSet::kAtUpper};
+  };
+  const int K_sign = IsSurelyZero(K) ? 0 : Sign(K, Scalar(scale_.pivot * scale_.pivot));
+  const Scalar slack = bound - force;
+  if (on_circle_[layout_.ContactOf(row)] || IsSurelyZero(slack) || Sign(slack, scale_.force) == 0) {
+    const int B_sign = IsSurelyZero(B) ? 0 : Sign(B, Scalar(scale_.pivot * bound));
+    if (B_sign < 0 || (B_sign == 0 && K_sign < 0)) return offer(Scalar(0));
+    if (B_sign > 0 && K_sign < 0) offer(Scalar(-2 * B / K));
+    return;
+  }
+  const Scalar c = slack * (bound + force);
+  const Scalar D = B * B - K * c;
+  if (K_sign < 0) {
+    const bool outward =
+        Approximation<Scalar>::Of(B) <= 0;  // two forms of one root, each good for one sign of B
+    return offer(outward ? Scalar(c / (sqrt(D) - B)) : Scalar((B + sqrt(D)) / -K));
+  }
+  if (IsSurelyZero(B) || Sign(B, Scalar(scale_.pivot * bound)) >= 0 || Sign(D) < 0) return;
+  offer(Scalar(c / (sqrt(D) - B)));
+}
+
+// Back into CF (5.6): literally at aF = 0, which a generic path misses; under slip=redirect at d.aF = 0.
+template <class Scalar>
+void PublishedInSpace<Scalar>::LimitSlipping(Limit& limit, int row) const {
+  using std::sqrt;
+  const Vector& a = state_.a;
+  const Vector& da = direction_.da();
+  const bool rests = IsSurelyZero(a[row]) && IsSurelyZero(a[row + 1]);
+  if (rests || options_.policy.slip == Slip::kRedirect)
+    return Offer(limit, Scalar(-a[row]), da[row], IndexSet::kSticking, scale_.rate);
+  const Scalar square = Square(da, row);
+  const Scalar aside = a[row] * da[row + 1] - a[row + 1] * da[row];
+  if (!IsSurelyZero(aside) && Sign(aside, Scalar(scale_.acceleration * sqrt(square))) != 0) return;
+  const Scalar approach = -(a[row] * da[row] + a[row + 1] * da[row + 1]);
+  if (IsSurelyZero(approach) || Sign(approach) <= 0) return;
+  Offer(limit, approach, square, IndexSet::kSticking, Scalar(scale_.rate * scale_.rate));
+}
+
+// ---- Frames ----------------------------------------------------------------------------------
+
+// Turns the axes of a contact so that p, a unit vector in the problem's axes, is its first.
+template <class Scalar>
+void PublishedInSpace<Scalar>::Turn(int contact, const Tangent& p) {
+  const int row = layout_.NormalRowOf(contact) + 1;
+  Frame& frame = frames_[contact];
+  const Tangent q = {Scalar(-p[1]), p[0]};
+  const Tangent f = FrictionInProblemAxes(state_.f, row), a = FrictionInProblemAxes(state_.a, row);
+  frame = {p, q};
+  state_.f[row] = p[0] * f[0] + p[1] * f[1];
+  state_.f[row + 1] = q[0] * f[0] + q[1] * f[1];
+  state_.a[row] = p[0] * a[0] + p[1] * a[1];
+  state_.a[row + 1] = q[0] * a[0] + q[1] * a[1];
+  Rebuild(row);
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::Reverse(int row) {
+  Frame& frame = frames_[layout_.ContactOf(row)];
+  Tangent& axis = row == FrictionOf(row) ? frame.p : frame.q;
+  axis = {Scalar(-axis[0]), Scalar(-axis[1])};
+  state_.f[row] = -state_.f[row];
+  state_.a[row] = -state_.a[row];
+  Rebuild(FrictionOf(row));
+}
+
+// p along the friction force: the direction that NCF records, and along which the force is driven to zero. A
+// force of zero has the direction of its change.
+template <class Scalar>
+void PublishedInSpace<Scalar>::AlongForce(int row) {
+  using std::sqrt;
+  const bool rests = IsSurelyZero(state_.f[row]) && IsSurelyZero(state_.f[row + 1]);
+  const Vector& along = rests ? direction_.df() : state_.f;
+  if (!IsSurelyZero(along[row + 1])) {
+    const Scalar size = sqrt(Square(along, row));
+    const Tangent d = FrictionInProblemAxes(along, row);
+    Turn(layout_.ContactOf(row), {Scalar(d[0] / size), Scalar(d[1] / size)});
+    state_.f[row + 1] = Scalar(0);
+    if (!rests) state_.f[row] = size;
+  } else if (!IsSurelyZero(along[row]) && Sign(along[row]) < 0) {
+    Reverse(row);
+  }
+}
+
+// The entries of A in the frames that belong to a contact's friction, from the problem's own.
+template <class Scalar>
+void PublishedInSpace<Scalar>::Rebuild(int row) {
+  for (int i = row; i < row + 2; ++i) {
+    for (int j = 0; j < problem_->rows(); ++j) {
+      turned_.A(i, j) = Entry(i, j);
+      turned_.A(j, i) = Entry(j, i);
+    }
+  }
+}
+
+template <class Scalar>
+Scalar PublishedInSpace<Scalar>::Entry(int i, int j) const {
+  const auto axis = [this](int row) {
+    const Frame& frame = frames_[layout_.ContactOf(row)];
+    return row == FrictionOf(row) ? frame.p : frame.q;
+  };
+  // In the column of the problem's row k.
+  const auto across = [&](int k) -> Scalar {
+    if (layout_.IsNormal(j)) return problem_->A(k, j);
+    const Tangent along = axis(j);
+    return along[0] * problem_->A(k, FrictionOf(j)) + along[1] * problem_->A(k, FrictionOf(j) + 1);
+  };
+  if (layout_.IsNormal(i)) return across(i);
+  const Tangent along = axis(i);
+  return along[0] * across(FrictionOf(i)) + along[1] * across(FrictionOf(i) + 1);
+}
+
+template <class Scalar>
+auto PublishedInSpace<Scalar>::FrictionInProblemAxes(const Vector& values, int row) const -> Tangent {
+  const Frame& frame = frames_[layout_.ContactOf(row)];
+  return {Scalar(values[row] * frame.p[0] + values[row + 1] * frame.q[0]),
+          Scalar(values[row] * frame.p[1] + values[row + 1] * frame.q[1])};
+}
+
+template <class Scalar>
+auto PublishedInSpace<Scalar>::InProblemAxes(const Vector& values) const -> Vector {
+  Vector result = values;
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    if (!layout_.HasFriction(row)) continue;
+    const Tangent friction = FrictionInProblemAxes(values, row + 1);
+    result[row + 1] = friction[0];
+    result[row + 2] = friction[1];
+  }
+  return result;
+}
+
+// The square of the length of a friction force, or of its acceleration.
+template <class Scalar>
+Scalar PublishedInSpace<Scalar>::Square(const Vector& values, int row) const {
+  return values[row] * values[row] + values[row + 1] * values[row + 1];
+}
+
+// mu fN, for a friction row.
+template <class Scalar>
+Scalar PublishedInSpace<Scalar>::Bound(int row) const {
+  return problem_->contacts[layout_.ContactOf(row)].mu * state_.f[row - 1];
+}
+
+// ---- Repeated states and budgets -------------------------------------------------------------
+
+// Sets, forces, recorded directions, and who was given up by turning.
+template <class Scalar>
+std::uint64_t PublishedInSpace<Scalar>::RoundedHash() const {
+  std::uint64_t hash = 0x9e3779b97f4a7c15u;
+  const auto mix = [&hash](std::uint64_t word) {
+    hash = (hash ^ word) * 0xff51afd7ed558ccdu;
+    hash ^= hash >> 32;
+  };
+  const auto mix_rounded = [&mix](const Scalar& x, double inverse_grain) {
+    // The offset keeps numbers that are round in the problem's scale away from the edges of the grains.
+    const double grains = Approximation<Scalar>::Of(x) * inverse_grain + 0.318309886;
+    mix(std::abs(grains) < 9e18 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(grains)))
+                                : 0);
+  };
+  const Vector forces = f();
+  for (int row = 0; row < problem_->rows(); ++row) {
+    mix_rounded(forces[row], inverse_grain_);
+    mix(static_cast<std::uint64_t>(state_.sets[row]));
+    if (state_.sets[row] != IndexSet::kAtUpper) continue;
+    for (const Scalar& component : frames_[layout_.ContactOf(row)].p)
+      mix_rounded(component, 1 / options_.tolerances.loop_grain);
+  }
+  for (const char turning : given_up_by_turning_) mix(static_cast<std::uint64_t>(turning));
+  if (options_.policy.resume == Resume::kRound) mix(static_cast<std::uint64_t>(last_driven_contact_ + 1));
+  return hash;
+}
+
+template <class Scalar>
+bool PublishedInSpace<Scalar>::OuterStateRecurs() {
+  const std::uint64_t rounded = RoundedHash();
+  for (const OuterState& earlier : outer_states_) {
+    if (earlier.rounded != rounded) continue;
+    verdict_.start = earlier.drives;
+    verdict_.period = verdict_.statistics.drives - earlier.drives;
+    if constexpr (kIsExact<Scalar>) {
+      End(Outcome::kUndecided, "a state stands again as far as rounding shows");
+    } else {
+      End(Outcome::kCycle);
+    }
+    return true;
+  }
+  outer_states_.push_back({verdict_.statistics.drives, rounded});
+  return false;
+}
+
+template <class Scalar>
+bool PublishedInSpace<Scalar>::BudgetSpent() {
+  if (verdict_.statistics.drives > options_.limits.drives) {
+    End(Outcome::kLimit, "drives");
+  } else if (verdict_.statistics.steps >= options_.limits.pivots) {
+    End(Outcome::kLimit, "pivots");
+  } else {
+    EndUnlessFinite();
+  }
+  return Ended();
+}
+
+// Ends a run that has met infinity or what is not a number; by the same test.
+template <class Scalar>
+void PublishedInSpace<Scalar>::EndUnlessFinite() {
+  if constexpr (!kIsExact<Scalar>) {
+    Scalar zero = 0;
+    for (int row = 0; row < problem_->rows(); ++row)
+      zero += (state_.f[row] - state_.f[row]) + (state_.a[row] - state_.a[row]);
+    if (zero != 0) End(Outcome::kUndecided, kNotFinite);
+  }
+}
+
+// Before the step, which can turn axes.
+template <class Scalar>
+void PublishedInSpace<Scalar>::RecordDirection(int driven, DriveGoal goal) {
+  if (trace_ == nullptr) return;
+  SpacePivot<Scalar>& pivot = trace_->emplace_back();
+  pivot.drive = static_cast<int>(verdict_.statistics.drives);
+  pivot.driven = driven;
+  pivot.goal = goal;
+  pivot.df = InProblemAxes(direction_.df());
+  pivot.da = InProblemAxes(direction_.da());
+}
+
+template <class Scalar>
+void PublishedInSpace<Scalar>::RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up) {
+  if (trace_ == nullptr) return;
+  SpacePivot<Scalar>& pivot = trace_->back();
+  const int contact = layout_.ContactOf(step.limiting);
+  const bool at_limit = step.wants == IndexSet::kAtUpper && !gave_up;  // NCF stands on the first row
+  pivot.s = step.s;
+  pivot.limiting = step.limiting;
+  pivot.from = from;
+  pivot.to = state_.sets[at_limit ? FrictionOf(step.limiting) : step.limiting];
+  pivot.wanted = step.wants;
+  pivot.gave_up = gave_up;
+  pivot.turned_away = from == IndexSet::kAtUpper && pivot.to == IndexSet::kNone && !gave_up &&
+                      static_cast<bool>(given_up_by_turning_[contact]);
+  pivot.f = f();
+  pivot.a = a();
+  pivot.sets.assign(state_.sets.begin(), state_.sets.end());
+  pivot.recorded.assign(layout_.ContactCount(), {Scalar(0), Scalar(0)});
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (state_.sets[row] == IndexSet::kAtUpper)
+      pivot.recorded[layout_.ContactOf(row)] = frames_[layout_.ContactOf(row)].p;
+  }
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_

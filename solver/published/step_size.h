@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Step size: how far one variable can be driven before the sets must change.
+//
+// While variable d is driven, forces move along a fixed direction and accelerations answer linearly:
+//
+//   f(s) = f + s df,   a(s) = a + s da,   da = A df,   s >= 0
+//
+// StepSize returns the largest s that keeps every maintained variable legal, and the variable that
+// stops it. readings.md, 3, lists the limits; they are equations (10)-(12) and, with friction, 5.2, 5.3.
+//
+// Source      [Baraff94], procedure maxstep, sections 4.2, 4.3, 5.5.
+// Shapes      f, a, df, da: rows x 1. Units: f, s in N (df_d = +-1), a in m/s^2.
+// Ensures     s >= 0. A zero step is a legal answer. No limit at all: limiting = -1, a ray.
+// Ties        the driven variable first, then by Ties. Over inexact scalars steps within the force
+//             tolerance tie, and rates within the pivot tolerance are zero.
+// Exactness   only + - * / and sign tests.
+
+#ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
+#define STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
+
+#include "solver/linear/direction.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+template <class Scalar>
+struct Step {
+  Scalar s = Scalar(0);
+  int limiting = -1;                 // row, -1 for a ray
+  IndexSet wants = IndexSet::kNone;  // the set that the limiting variable wants into
+  bool order_matters = false;        // whether the two values of Ties choose differently
+};
+
+template <class Scalar, int Rows>
+class StepSize {
+ public:
+  using Problem = ContactProblem<Scalar, Rows>;
+  using State = ContactState<Scalar, Rows>;
+
+  void Resize(int rows);
+
+  // Requires: the maintained variables are legal at f, a; aN_d < 0 for a driven normal; for a friction
+  // variable to establish aF_d /= 0 and abs(fF_d) <= mu fN_d; to zero fF_d /= 0.
+  Step<Scalar> Find(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
+                    const DirectionSystem<Scalar, Rows>& direction, int driven, DriveGoal goal, Ties ties,
+                    const Scale<Scalar>& scale);
+
+ private:
+  struct Limit {
+    Scalar s = Scalar(0);
+    IndexSet wants = IndexSet::kNone;
+    bool exists = false;
+  };
+
+  // The driver's gap shrinks at `rate`; a limit exists if rate > 0.
+  static void Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
+                    const Scalar& tolerance);
+  void LimitDriven(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
+                   const DirectionSystem<Scalar, Rows>& direction, int driven, DriveGoal goal,
+                   const Scale<Scalar>& scale);
+  void LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
+                       const DirectionSystem<Scalar, Rows>& direction, int row, const Scale<Scalar>& scale);
+  int FirstOf(const State& state, int driven, Ties ties, const Scalar& reach) const;
+
+  RowArray<Limit, Rows> limits_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_

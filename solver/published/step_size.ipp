@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definitions for step_size.h.
+
+#ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
+#define STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
+
+#include "solver/published/step_size.h"
+
+namespace stiction {
+
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::Resize(int rows) {
+  if constexpr (Rows == Eigen::Dynamic) limits_.resize(rows);
+}
+
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
+                                   const Scalar& tolerance) {
+  if (Sign(rate, tolerance) <= 0) return;
+  Scalar s = gap / rate;
+  if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
+  if (limit.exists && !(s < limit.s)) return;
+  limit.s = std::move(s);
+  limit.wants = wants;
+  limit.exists = true;
+}
+
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::LimitDriven(const Problem& problem, const RowLayout<Rows>& layout,
+                                         const State& state, const DirectionSystem<Scalar, Rows>& direction,
+                                         int driven, DriveGoal goal, const Scale<Scalar>& scale) {
+  Limit& limit = limits_[driven];
+  const auto& df = direction.df();
+  const auto& da = direction.da();
+  if (layout.IsNormal(driven)) {
+    return Offer(limit, Scalar(-state.a[driven]), da[driven], IndexSet::kClamped, scale.rate);
+  }
+  if (goal == DriveGoal::kZero) {
+    return Offer(limit, Abs(state.f[driven]), Scalar(1), IndexSet::kNone, Scalar(0));
+  }
+  // aF = 0 first, so that it wins a tie with the bound. Driving goes against aF: df = -sign(aF).
+  const int sign = Sign(df[driven]);
+  const Scalar toward = sign > 0 ? Scalar(da[driven]) : Scalar(-da[driven]);
+  Offer(limit, Abs(state.a[driven]), toward, IndexSet::kSticking, scale.rate);
+  const Scalar& mu = problem.contacts[layout.ContactOf(driven)].mu;
+  const Scalar bound = mu * state.f[driven - 1];
+  const Scalar gap = sign > 0 ? Scalar(bound - state.f[driven]) : Scalar(bound + state.f[driven]);
+  Offer(limit, gap, Scalar(1 - mu * df[driven - 1]), sign > 0 ? IndexSet::kAtUpper : IndexSet::kAtLower,
+        scale.pivot);
+}
+
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout,
+                                             const State& state, const DirectionSystem<Scalar, Rows>& direction,
+                                             int row, const Scale<Scalar>& scale) {
+  Limit& limit = limits_[row];
+  const auto& df = direction.df();
+  const auto& da = direction.da();
+  switch (state.sets[row]) {
+    case IndexSet::kClamped:
+      return Offer(limit, state.f[row], Scalar(-df[row]), IndexSet::kSeparating, scale.pivot);
+    case IndexSet::kSeparating:
+      return Offer(limit, state.a[row], Scalar(-da[row]), IndexSet::kClamped, scale.rate);
+    case IndexSet::kSticking: {
+      const Scalar& mu = problem.contacts[layout.ContactOf(row)].mu;
+      const Scalar bound = mu * state.f[row - 1];
+      const Scalar growth = mu * df[row - 1];
+      Offer(limit, Scalar(bound - state.f[row]), Scalar(df[row] - growth), IndexSet::kAtUpper, scale.pivot);
+      return Offer(limit, Scalar(bound + state.f[row]), Scalar(-df[row] - growth), IndexSet::kAtLower,
+                   scale.pivot);
+    }
+    case IndexSet::kAtUpper:
+      return Offer(limit, Scalar(-state.a[row]), da[row], IndexSet::kSticking, scale.rate);
+    case IndexSet::kAtLower:
+      return Offer(limit, state.a[row], Scalar(-da[row]), IndexSet::kSticking, scale.rate);
+    case IndexSet::kNone:
+    case IndexSet::kSuspended:
+      return;
+  }
+}
+
+// C, NC, CF, NC-, NC+: the order of the enumerators.
+template <class Scalar, int Rows>
+int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, const Scalar& reach) const {
+  if (limits_[driven].exists && !(limits_[driven].s > reach)) return driven;
+  int first = -1;
+  for (int row = 0; row < static_cast<int>(limits_.size()); ++row) {
+    if (!limits_[row].exists || limits_[row].s > reach) continue;
+    if (first < 0 || (ties == Ties::kSets && state.sets[row] < state.sets[first])) first = row;
+  }
+  return first;
+}
+
+template <class Scalar, int Rows>
+Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayout<Rows>& layout,
+                                          const State& state, const DirectionSystem<Scalar, Rows>& direction,
+                                          int driven, DriveGoal goal, Ties ties, const Scale<Scalar>& scale) {
+  const int rows = problem.rows();
+  int nearest = -1;
+  for (int row = 0; row < rows; ++row) {
+    limits_[row].exists = false;
+    if (row == driven) {
+      LimitDriven(problem, layout, state, direction, driven, goal, scale);
+    } else {
+      LimitMaintained(problem, layout, state, direction, row, scale);
+    }
+    if (limits_[row].exists && (nearest < 0 || limits_[row].s < limits_[nearest].s)) nearest = row;
+  }
+  if (nearest < 0) return {};
+  const Scalar reach = limits_[nearest].s + scale.force;
+  const int limiting = FirstOf(state, driven, ties, reach);
+  const int other = FirstOf(state, driven, ties == Ties::kSets ? Ties::kContacts : Ties::kSets, reach);
+  return {limits_[limiting].s, limiting, limits_[limiting].wants, limiting != other};
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
