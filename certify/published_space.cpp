@@ -69,7 +69,7 @@ class Remainder {
   }
 
   // A pivot in the rows and contacts of the whole problem.
-  SpacePivot<Scalar> Restored(SpacePivot<Scalar> pivot) const {
+  Pivot<Scalar> Restored(Pivot<Scalar> pivot) const {
     pivot.driven = reduction_.row_of()[pivot.driven];
     pivot.limiting = reduction_.row_of()[pivot.limiting];
     pivot.da = AccelerationRates(pivot.df, pivot.da);
@@ -121,9 +121,9 @@ std::vector<double> Doubles(const Vector& values) {
 }
 
 template <class Scalar>
-SpacePivot<double> InDoubles(const SpacePivot<Scalar>& pivot) {
+Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
   const auto vector = [](const auto& values) { return Eigen::VectorXd(values.template cast<double>()); };
-  SpacePivot<double> result;
+  Pivot<double> result;
   result.drive = pivot.drive;
   result.driven = pivot.driven;
   result.goal = pivot.goal;
@@ -160,7 +160,7 @@ RoundedSpaceRun Run(const ExactProblem& problem, Convert convert, const Publishe
     run.verdict = algorithm.Run(remainder.problem(), keep == KeepTrace::kYes ? &trace : nullptr);
     f = remainder.Forces(algorithm.f());
     if (run.verdict.outcome == Outcome::kRay) run.ray = Doubles(remainder.Direction(algorithm.ray()));
-    for (const SpacePivot<Scalar>& pivot : trace) run.trace.push_back(InDoubles(remainder.Restored(pivot)));
+    for (const Pivot<Scalar>& pivot : trace) run.trace.push_back(InDoubles(remainder.Restored(pivot)));
     const Vector rest = Vector::Constant(remainder.problem().rows(), Scalar(0));
     run.initial_f = Doubles(remainder.Forces(rest));
     run.initial_a = Doubles(remainder.Accelerations(rest, remainder.problem().b));

@@ -86,18 +86,18 @@ class SpaceNarrator {
     return Variable(row) + (layout_.IsNormal(row - 1) ? "x" : "y");
   }
 
-  std::string Driven(const SpacePivot<double>& pivot) const {
+  std::string Driven(const Pivot<double>& pivot) const {
     return pivot.goal == DriveGoal::kZero ? Variable(pivot.driven) : Component(pivot.driven);
   }
 
   std::string Line(std::size_t k) const {
-    const SpacePivot<double>& pivot = run_.trace[k];
+    const Pivot<double>& pivot = run_.trace[k];
     return fmt::format("{:>4} {:>5} {:>6} {:>9} {:>14.6g}  {}\n", k + 1, pivot.drive, Driven(pivot),
                        Name(pivot.goal), pivot.s, Event(pivot));
   }
 
   std::string Step(std::size_t k) const {
-    const SpacePivot<double>& pivot = run_.trace[k];
+    const Pivot<double>& pivot = run_.trace[k];
     const bool first = k == 0 || run_.trace[k - 1].drive != pivot.drive;
     std::string text = first ? Start(pivot, k) : "";
     text += fmt::format("  df = {}   da = {}\n  s = {:.6g}: {}\n    f = {}   a = {}\n    {}\n", List(pivot.df),
@@ -105,7 +105,7 @@ class SpaceNarrator {
     return text;
   }
 
-  Json ToJson(const SpacePivot<double>& pivot, bool vectors) const {
+  Json ToJson(const Pivot<double>& pivot, bool vectors) const {
     Json json = {{"drive", pivot.drive},
                  {"driven", Driven(pivot)},
                  {"goal", Name(pivot.goal)},
@@ -131,13 +131,13 @@ class SpaceNarrator {
 
  private:
   // `half`: ax = 0 is kept, and ay is not (readings.md, 8).
-  std::string SetOf(const SpacePivot<double>& pivot, int row) const {
+  std::string SetOf(const Pivot<double>& pivot, int row) const {
     const bool half = !layout_.IsNormal(row) && pivot.sets[row] == IndexSet::kSticking &&
                       pivot.sets[row + 1] != IndexSet::kSticking;
     return half ? "half" : SetName(pivot.sets[row]);
   }
 
-  std::string Sets(const SpacePivot<double>& pivot) const {
+  std::string Sets(const Pivot<double>& pivot) const {
     std::vector<std::string> texts;
     for (const char* set : {"C", "NC", "CF", "NCF", "half"}) {
       std::vector<std::string> members;
@@ -154,7 +154,7 @@ class SpaceNarrator {
     return fmt::format("{}", fmt::join(texts, "  "));
   }
 
-  std::string Start(const SpacePivot<double>& pivot, std::size_t k) const {
+  std::string Start(const Pivot<double>& pivot, std::size_t k) const {
     const int row = pivot.driven;
     const double a = k == 0 ? run_.initial_a[row] : run_.trace[k - 1].a[row];
     std::string text = fmt::format("\nDrive {}: {}", pivot.drive, Driven(pivot));
@@ -169,7 +169,7 @@ class SpaceNarrator {
                               List(std::array<double, 2>{pivot.df[friction], pivot.df[friction + 1]}));
   }
 
-  std::string Reached(const SpacePivot<double>& pivot) const {
+  std::string Reached(const Pivot<double>& pivot) const {
     const std::string name = Variable(pivot.limiting);
     switch (pivot.wanted) {
       case IndexSet::kClamped:
@@ -185,7 +185,7 @@ class SpaceNarrator {
     }
   }
 
-  std::string Event(const SpacePivot<double>& pivot) const {
+  std::string Event(const Pivot<double>& pivot) const {
     const std::string name = Variable(pivot.limiting), reached = Reached(pivot);
     if (pivot.gave_up)
       return fmt::format("{}; {} is in {} and wants back into {}: given up (5.4, 5.5)", reached, name,

@@ -288,11 +288,11 @@ void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a
     const double time = simulation.time();
     const std::optional<SceneType> start = shown ? std::optional(simulation.scene()) : std::nullopt;
     simulation.Step();
-    if (start) writer.AddPicture(*start, Record(*start, time, MarksOf(simulation)));
+    if (start) writer.AddPicture(*start, RecordFrame(*start, time, MarksOf(simulation)));
     writer.AddState(simulation);
     progress.Show(k + 1, steps, simulation.time());
   }
-  writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), MarksOf(simulation)));
+  writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation)));
 }
 
 void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const std::string& folder) {
@@ -336,7 +336,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
     WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
     auto marks = MarksOf(simulation);
     marks.forces.clear();  // they are of the step before
-    writer.AddPicture(simulation.scene(), Record(simulation.scene(), simulation.time(), std::move(marks)));
+    writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), std::move(marks)));
     writer.WritePictures(scene);
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
     return kExitUndecided;

@@ -105,7 +105,7 @@ Marks MarksOf(const Simulation& simulation) {
   return marks;
 }
 
-RecordedFrame Record(const Scene<double>& scene, double time, Marks marks) {
+RecordedFrame RecordFrame(const Scene<double>& scene, double time, Marks marks) {
   RecordedFrame frame;
   frame.time = time;
   for (const auto& body : scene.bodies)

@@ -38,7 +38,7 @@ struct RecordedFrame {
   std::vector<std::array<double, 4>> bodies;  // x, y, cos, sin
   Marks marks;
 };
-RecordedFrame Record(const Scene<double>& scene, double time, Marks marks);
+RecordedFrame RecordFrame(const Scene<double>& scene, double time, Marks marks);
 void SetPoses(Scene<double>& scene, const RecordedFrame& frame);
 
 // The largest force of a contact, N; 0 if there is none.

@@ -253,7 +253,7 @@ MarksInSpace MarksOf(const SimulationInSpace& simulation) {
   return marks;
 }
 
-RecordedFrameInSpace Record(const SceneInSpace<double>& scene, double time, MarksInSpace marks) {
+RecordedFrameInSpace RecordFrame(const SceneInSpace<double>& scene, double time, MarksInSpace marks) {
   RecordedFrameInSpace frame;
   frame.time = time;
   for (const auto& body : scene.bodies) frame.bodies.push_back({body.position, body.rotation});

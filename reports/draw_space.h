@@ -35,7 +35,7 @@ struct RecordedFrameInSpace {
   std::vector<Pose> bodies;
   MarksInSpace marks;
 };
-RecordedFrameInSpace Record(const SceneInSpace<double>& scene, double time, MarksInSpace marks);
+RecordedFrameInSpace RecordFrame(const SceneInSpace<double>& scene, double time, MarksInSpace marks);
 void SetPoses(SceneInSpace<double>& scene, const RecordedFrameInSpace& frame);
 
 std::string DrawSvg(const SceneInSpace<double>& scene, const ViewInSpace& view, const MarksInSpace& marks,

@@ -86,7 +86,6 @@ template <class Scalar>
 struct Piece : Pivot<Scalar> {
   std::vector<IndexSet> cell;  // sets during the piece; Pivot::sets are those after it
   int side = 1;                // of a friction stage
-  int determinant = 0;         // sign of the reduced determinant
 };
 
 template <class Scalar>

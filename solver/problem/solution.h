@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -58,23 +59,41 @@ inline constexpr std::string_view Name(DriveGoal goal) {
   return goal == DriveGoal::kEstablish ? "establish" : "zero";
 }
 
-// One step of a drive and what it did. Variables are named by their row.
+// Why a path of complete driving goes on in another way than forward at a step.
+enum class PathTurn : std::uint8_t { kNone, kFold, kDescent };
+
+// One step of a path method and what it did. Variables are named by their row: the normal of a contact, or the
+// first of its tangential rows. What a method does not have keeps its default.
 template <class Scalar>
 struct Pivot {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  int drive = 0;  // counted from 1
+  int drive = 0;  // drives, stages of complete driving, or pivots of Lemke's method, counted from 1
   int driven = 0;
   DriveGoal goal = DriveGoal::kEstablish;
   Vector df, da;  // direction per unit step
   Scalar s = Scalar(0);
-  int limiting = 0;
+  int limiting = 0;                 // -1: no limit, the step is a ray
   IndexSet from = IndexSet::kNone;  // of the limiting variable
   IndexSet to = IndexSet::kNone;
   IndexSet wanted = IndexSet::kNone;  // differs from `to` if it was given up
   bool gave_up = false;
   Vector f, a;                 // after the step
   std::vector<IndexSet> sets;  // after the step
+
+  // In space (5.6): NCF is kAtUpper, on the first tangential row; the driven and the limiting row stand for the
+  // axes that the contact has at the time, and df shows along which a friction force is driven.
+  bool turned_away = false;                     // slip=redirect: the limiting contact opposes aF no more
+  std::vector<std::array<Scalar, 2>> recorded;  // by contact: d of those in NCF after the step, otherwise zero
+
+  // Complete driving.
+  std::string word;                 // the cell of every contact during the step, with blanks between them
+  int determinant = 0;              // sign of the reduced determinant during the step
+  PathTurn turn = PathTurn::kNone;  // how the path came to this step
+
+  // Lemke's method: components of z and w by name ("fN1", "aN1", "f+1", "z0", ...), and z0 after the step.
+  std::string entering, leaving;
+  Scalar cover = Scalar(0);
 };
 
 // The history of a run, kept only where asked for.

@@ -58,17 +58,8 @@ struct PublishedSpaceVerdict : Verdict {
   std::int64_t breaks = 0;     // scans at which every contact is established by its set, yet (21) fails at one
 };
 
-// One step of a drive. Vectors are in the problem's own axes; the driven row and the limiting one stand for the
-// axes that the contact has at the time: df shows along which a friction force is driven. NCF is kAtUpper, on
-// the first tangential row.
 template <class Scalar>
-struct SpacePivot : Pivot<Scalar> {
-  bool turned_away = false;                     // slip=redirect: the limiting contact opposes aF no more
-  std::vector<std::array<Scalar, 2>> recorded;  // by contact: d of those in NCF after the step, otherwise zero
-};
-
-template <class Scalar>
-using SpaceTrace = std::vector<SpacePivot<Scalar>>;
+using SpaceTrace = std::vector<Pivot<Scalar>>;
 
 template <class Scalar>
 class PublishedInSpace {

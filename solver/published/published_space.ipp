@@ -641,7 +641,7 @@ void PublishedInSpace<Scalar>::EndUnlessFinite() {
 template <class Scalar>
 void PublishedInSpace<Scalar>::RecordDirection(int driven, DriveGoal goal) {
   if (trace_ == nullptr) return;
-  SpacePivot<Scalar>& pivot = trace_->emplace_back();
+  Pivot<Scalar>& pivot = trace_->emplace_back();
   pivot.drive = static_cast<int>(verdict_.statistics.drives);
   pivot.driven = driven;
   pivot.goal = goal;
@@ -652,7 +652,7 @@ void PublishedInSpace<Scalar>::RecordDirection(int driven, DriveGoal goal) {
 template <class Scalar>
 void PublishedInSpace<Scalar>::RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up) {
   if (trace_ == nullptr) return;
-  SpacePivot<Scalar>& pivot = trace_->back();
+  Pivot<Scalar>& pivot = trace_->back();
   const int contact = layout_.ContactOf(step.limiting);
   const bool at_limit = step.wants == IndexSet::kAtUpper && !gave_up;  // NCF stands on the first row
   pivot.s = step.s;

@@ -109,7 +109,7 @@ TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps
   for (const Slip slip : kSlips) {
     const Ended ended = Run(problem, Reading(slip));
     REQUIRE(ended.trace.size() >= 4);
-    const SpacePivot<double>& leaves = ended.trace[ended.trace.size() - 2];
+    const Pivot<double>& leaves = ended.trace[ended.trace.size() - 2];
     CHECK(leaves.limiting == 1);
     CHECK(leaves.from == IndexSet::kSticking);
     CHECK(leaves.to == IndexSet::kAtUpper);
@@ -468,7 +468,7 @@ TEST_CASE("space: bilateral contacts leave the steps of the rest as they are") {
     const Eigen::MatrixXd A = As<double>(bordered).A;
     const Eigen::VectorXd b = As<double>(bordered).b;
     for (std::size_t k = 0; k < run.trace.size(); ++k) {
-      const SpacePivot<double>& pivot = run.trace[k];
+      const Pivot<double>& pivot = run.trace[k];
       CHECK(pivot.s == plain.trace[k].s);
       CHECK(pivot.driven == plain.trace[k].driven + 1);
       CHECK((pivot.a - A * pivot.f - b).norm() < 1e-9);
@@ -492,7 +492,7 @@ TEST_CASE("space: the recorded direction is that of the friction force in NCF") 
     return result;
   }();
   Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(run.initial_f.data(), run.initial_f.size());
-  for (const SpacePivot<double>& pivot : run.trace) {
+  for (const Pivot<double>& pivot : run.trace) {
     f += pivot.s * pivot.df;
     CHECK((pivot.f - f).norm() < 1e-9);
     for (int i = 0; i < layout.ContactCount(); ++i) {
