@@ -82,37 +82,6 @@ struct IpoptProposer::Point {
   int starts = 0;
 };
 
-namespace {
-
-// Multiples of 2^-20, so that their numbers are short; in the units of the problem.
-std::vector<Rational> Rounded(const std::vector<double>& f, const Rational& unit) {
-  std::vector<Rational> rounded;
-  for (const double x : f) rounded.push_back(Rational(std::round(x * 0x1p20) * 0x1p-20) * unit);
-  return rounded;
-}
-
-// The words near one point that were not tried before.
-std::optional<ExactVector> SolveNearbyWords(const ExactProblem& problem, const ScaledProblem& scaled,
-                                            const std::vector<double>& f, int budget, std::set<ModeWord>& tried,
-                                            ProposalStatistics& statistics) {
-  const std::vector<Rational> near = Rounded(f, scaled.force);
-  WordsByRank words(problem, scaled, f);
-  bool first = true;
-  for (int count = 0; count < budget; ++count, first = false) {
-    const auto word = words.Next();
-    if (!word) break;
-    if (!tried.insert(*word).second) continue;
-    ++statistics.words;
-    auto solution = SolveWord(problem, *word, near);
-    if (!solution) continue;
-    statistics.first_words += first;
-    return solution;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 // ---- The proposer --------------------------------------------------------------------------------
 
 IpoptProposer::IpoptProposer(const std::filesystem::path& program)
@@ -175,8 +144,10 @@ std::optional<ExactVector> IpoptProposer::Search(const ExactProblem& problem, co
       throw InputError(
           fmt::format("{}: found {} forces, expected {}", program_.string(), point->f.size(), problem.rows()));
     }
-    auto solution = SolveNearbyWords(problem, scaled, point->f, options.words, tried, statistics);
-    if (solution) return solution;
+    NearbySolution near = SolveNear(problem, scaled, point->f, options.words, tried);
+    statistics.words += near.words;
+    statistics.first_words += near.is_first;
+    if (near.f) return std::move(near.f);
   }
   return std::nullopt;
 }

@@ -185,4 +185,32 @@ std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord
   return std::nullopt;
 }
 
+namespace {
+
+// Multiples of 2^-20, so that their numbers are short; in the units of the problem.
+std::vector<Rational> Shortened(const std::vector<double>& f, const Rational& unit) {
+  std::vector<Rational> rounded;
+  for (const double x : f) rounded.push_back(Rational(std::round(x * 0x1p20) * 0x1p-20) * unit);
+  return rounded;
+}
+
+}  // namespace
+
+NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
+                         int words, std::set<ModeWord>& tried) {
+  const std::vector<Rational> near = Shortened(f, scaled.force);
+  WordsByRank ranked(problem, scaled, f);
+  NearbySolution result;
+  for (int count = 0; count < words; ++count) {
+    const auto word = ranked.Next();
+    if (!word) break;
+    if (!tried.insert(*word).second) continue;
+    ++result.words;
+    result.f = SolveWord(problem, *word, near);
+    result.is_first = result.f && count == 0;
+    if (result.f) break;
+  }
+  return result;
+}
+
 }  // namespace stiction

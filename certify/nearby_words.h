@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <queue>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,16 @@ class WordsByRank {
 // point has room for the others to follow.
 std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord& word,
                                      const std::vector<Rational>& near);
+
+// What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
+// nothing. Words in `tried` are passed over, and the others put there.
+struct NearbySolution {
+  std::optional<ExactVector> f;
+  int words = 0;          // whose equations were solved
+  bool is_first = false;  // the solution is in the nearest word
+};
+NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
+                         int words, std::set<ModeWord>& tried);
 
 }  // namespace stiction
 

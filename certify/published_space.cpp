@@ -41,15 +41,14 @@ Interval Around(const Rational& x) {
 
 // What bilateral and sliding contacts leave of a problem, and the whole from it, over Scalar.
 template <class Scalar>
-class Remainder {
+class EnclosedRemainder {
  public:
   using Problem = ContactProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
   template <class Convert>
-  Remainder(const ExactProblem& problem, Convert convert)
+  EnclosedRemainder(const ExactProblem& problem, Convert convert)
       : reduction_(problem),
-        contacts_(problem.contacts.size()),
         reduced_(Converted<Scalar>(reduction_.problem(), convert)),
         E_(reduction_.E().unaryExpr(convert)),
         AE_(ExactProblem::Matrix(problem.A * reduction_.E()).unaryExpr(convert)),
@@ -66,22 +65,6 @@ class Remainder {
   }
   Vector AccelerationRates(const Vector& dx, const Vector& given) const {
     return WithGiven(Product(AE_, dx), given);
-  }
-
-  // A pivot in the rows and contacts of the whole problem.
-  Pivot<Scalar> Restored(Pivot<Scalar> pivot) const {
-    pivot.driven = reduction_.row_of()[pivot.driven];
-    pivot.limiting = reduction_.row_of()[pivot.limiting];
-    pivot.da = AccelerationRates(pivot.df, pivot.da);
-    pivot.df = Direction(pivot.df);
-    pivot.a = Accelerations(pivot.f, pivot.a);
-    pivot.f = Forces(pivot.f);
-    pivot.sets = reduction_.Spread(pivot.sets, IndexSet::kClamped, IndexSet::kNone);
-    std::vector<std::array<Scalar, 2>> recorded(contacts_, {Scalar(0), Scalar(0)});
-    for (std::size_t i = 0; i < pivot.recorded.size(); ++i)
-      recorded[reduction_.contact_of()[i]] = pivot.recorded[i];
-    pivot.recorded = std::move(recorded);
-    return pivot;
   }
 
  private:
@@ -102,7 +85,6 @@ class Remainder {
   }
 
   Reduction<Rational> reduction_;
-  std::size_t contacts_;
   Problem reduced_;
   typename Problem::Matrix E_, AE_;
   Vector e_, a_;
@@ -115,63 +97,6 @@ PublishedSpaceVerdict Unstarted(ReductionEnd end) {
   return verdict;
 }
 
-template <class Vector>
-std::vector<double> Doubles(const Vector& values) {
-  return {values.begin(), values.end()};
-}
-
-template <class Scalar>
-Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
-  const auto vector = [](const auto& values) { return Eigen::VectorXd(values.template cast<double>()); };
-  Pivot<double> result;
-  result.drive = pivot.drive;
-  result.driven = pivot.driven;
-  result.goal = pivot.goal;
-  result.df = vector(pivot.df);
-  result.da = vector(pivot.da);
-  result.s = static_cast<double>(pivot.s);
-  result.limiting = pivot.limiting;
-  result.from = pivot.from;
-  result.to = pivot.to;
-  result.wanted = pivot.wanted;
-  result.gave_up = pivot.gave_up;
-  result.f = vector(pivot.f);
-  result.a = vector(pivot.a);
-  result.sets = pivot.sets;
-  result.turned_away = pivot.turned_away;
-  for (const auto& d : pivot.recorded)
-    result.recorded.push_back({static_cast<double>(d[0]), static_cast<double>(d[1])});
-  return result;
-}
-
-template <class Scalar, class Convert>
-RoundedSpaceRun Run(const ExactProblem& problem, Convert convert, const PublishedOptions& options,
-                    KeepTrace keep) {
-  using Vector = typename ContactProblem<Scalar>::Vector;
-  const ContactProblem<Scalar> whole = Converted<Scalar>(problem, convert);
-  const Remainder<Scalar> remainder(problem, convert);
-  PublishedInSpace<Scalar> algorithm(options);
-  RoundedSpaceRun run;
-  Vector f = Vector::Constant(problem.rows(), Scalar(0));
-  if (remainder.end() != ReductionEnd::kReduced) {
-    run.verdict = Unstarted(remainder.end());
-  } else {
-    SpaceTrace<Scalar> trace;
-    run.verdict = algorithm.Run(remainder.problem(), keep == KeepTrace::kYes ? &trace : nullptr);
-    f = remainder.Forces(algorithm.f());
-    if (run.verdict.outcome == Outcome::kRay) run.ray = Doubles(remainder.Direction(algorithm.ray()));
-    for (const Pivot<Scalar>& pivot : trace) run.trace.push_back(InDoubles(remainder.Restored(pivot)));
-    const Vector rest = Vector::Constant(remainder.problem().rows(), Scalar(0));
-    run.initial_f = Doubles(remainder.Forces(rest));
-    run.initial_a = Doubles(remainder.Accelerations(rest, remainder.problem().b));
-  }
-  const Vector a = whole.A * f + whole.b;
-  run.f = Doubles(f);
-  run.a = Doubles(a);
-  run.residual = static_cast<double>(WeakResidual(whole, f, a));
-  return run;
-}
-
 std::vector<Enclosure> Enclosures(const ContactProblem<Interval>::Vector& values) {
   std::vector<Enclosure> result;
   for (const Interval& x : values) result.push_back({x.inf(), x.sup()});
@@ -180,28 +105,9 @@ std::vector<Enclosure> Enclosures(const ContactProblem<Interval>::Vector& values
 
 }  // namespace
 
-template <class Scalar>
-RoundedSpaceRun RunRoundedInSpace(const ExactProblem& problem, const PublishedOptions& options,
-                                  KeepTrace keep) {
-  const auto round = [](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); };
-  return Run<Scalar>(problem, round, options, keep);
-}
-
-template <class Scalar>
-RoundedSpaceRun RunSuspicionInSpace(const ExactProblem& problem, const PublishedOptions& options) {
-  const auto round = [](const Rational& x) {
-    return static_cast<long double>(static_cast<Scalar>(ToDouble(x)));
-  };
-  PublishedOptions fine = options;
-  Tolerances& t = fine.tolerances;
-  for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
-  t.loop_grain = std::min(t.loop_grain, 1e-12);
-  return Run<long double>(problem, round, fine, KeepTrace::kNo);
-}
-
 IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options) {
   IntervalSpaceRun run;
-  const Remainder<Interval> remainder(problem, Around);
+  const EnclosedRemainder<Interval> remainder(problem, Around);
   if (remainder.end() != ReductionEnd::kReduced) {
     run.verdict = Unstarted(remainder.end());
     run.f.assign(problem.rows(), {});
@@ -221,13 +127,5 @@ IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const Publishe
   if (run.verdict.outcome == Outcome::kRay) run.ray = Enclosures(remainder.Direction(algorithm.ray()));
   return run;
 }
-
-template RoundedSpaceRun RunRoundedInSpace<float>(const ExactProblem&, const PublishedOptions&, KeepTrace);
-template RoundedSpaceRun RunRoundedInSpace<double>(const ExactProblem&, const PublishedOptions&, KeepTrace);
-template RoundedSpaceRun RunRoundedInSpace<long double>(const ExactProblem&, const PublishedOptions&,
-                                                        KeepTrace);
-template RoundedSpaceRun RunSuspicionInSpace<float>(const ExactProblem&, const PublishedOptions&);
-template RoundedSpaceRun RunSuspicionInSpace<double>(const ExactProblem&, const PublishedOptions&);
-template RoundedSpaceRun RunSuspicionInSpace<long double>(const ExactProblem&, const PublishedOptions&);
 
 }  // namespace stiction

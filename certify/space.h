@@ -24,6 +24,7 @@
 
 #include "certify/properties.h"
 #include "solver/complete/complete_space.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
@@ -41,8 +42,6 @@ struct SpaceRun {
 // Complete driving over rationals; with `path`, every linear piece is recorded.
 SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
                   std::vector<SpacePiece<Rational>>* path = nullptr);
-
-enum class FrictionLaw { kBaraff, kCoulomb };
 
 struct SpaceOptions {
   FrictionLaw law = FrictionLaw::kBaraff;

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction replay: the published algorithm on one problem, pivot by pivot, in the plane exactly.
+// stiction replay: a path method on one problem, step by step, exactly where it is built so.
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iostream>
 
-#include "certify/certificate.h"
-#include "certify/verify_solution.h"
-#include "cli/replay_space.h"
+#include "certify/exact.h"
+#include "certify/solve.h"
+#include "cli/answer_text.h"
+#include "cli/narrate.h"
+#include "cli/narrate_text.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
@@ -18,7 +23,7 @@ struct ReplayOptions {
   std::string file;
   std::string policy = "paper";
   std::string method = "baraff";
-  std::string arithmetic;  // empty: exact, in space double for the published algorithm
+  std::string arithmetic;  // empty: exact where it is built, otherwise double
   int sides = 8;
   bool all_policies = false;
   bool step = false;
@@ -27,197 +32,133 @@ struct ReplayOptions {
   Limits limits;
 };
 
-// ---- The trace for people --------------------------------------------------------------------
+SolveRequest RequestOf(const ReplayOptions& o, const ProblemFile& file, const Policy& policy) {
+  SolveRequest request{.method = o.method, .trace = KeepTrace::kYes};
+  request.options.policy = policy;
+  request.options.limits = o.limits;
+  request.options.sides = o.sides;
+  const int dimension = file.problem.dimension;
+  const bool exact = o.arithmetic.empty() && Refusal(o.method, dimension, Arithmetic::kExact).empty();
+  request.arithmetic = exact                  ? Arithmetic::kExact
+                       : o.arithmetic.empty() ? Arithmetic::kDouble
+                                              : *FindArithmetic(o.arithmetic);
+  const std::string refusal = Refusal(o.method, dimension, request.arithmetic);
+  if (!refusal.empty()) throw InputError(o.file + ": " + refusal);
+  return request;
+}
 
-class Narrator {
- public:
-  Narrator(const ProblemFile& file, const ExactRun& run)
-      : problem_(file.problem), run_(run), names_(VariableNames(file.problem)) {
-    layout_.Assign(problem_.contacts);
+Solution SolveFile(const ReplayOptions& o, const ProblemFile& file, const SolveRequest& request) {
+  try {
+    return SolveIn(file.problem, request);
+  } catch (const RangeError& error) {
+    throw InputError(o.file + ": " + error.what());
   }
+}
 
-  void Table() const {
-    fmt::print("{}", Kinds());
-    fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven", "goal", "length",
-               "what happens");
-    for (std::size_t k = 0; k < run_.trace.pivots.size(); ++k) {
-      const Pivot<Rational>& pivot = run_.trace.pivots[k];
-      fmt::print("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, pivot.drive, names_[pivot.driven],
-                 Name(pivot.goal), ToString(pivot.s), Event(pivot));
-    }
-    Ray();
+// ---- One policy ------------------------------------------------------------------------------
+
+// A row for each path method.
+struct Narrator {
+  std::string_view method;
+  Narration (*exact)(const ProblemFile&, const ExactAnswer&, bool);
+  Narration (*inexact)(const ProblemFile&, const InexactAnswer&, bool);
+
+  Narration operator()(const ProblemFile& file, const ExactAnswer& a, bool all) const {
+    return exact(file, a, all);
   }
-
-  void Steps() const {
-    ExactProblem::Vector a = Accelerations(problem_, run_.initial_f);
-    const std::string kinds = Kinds();
-    if (kinds.empty()) {
-      fmt::print("f = 0, a = b = {}; all sets are empty (4.3).\n", List(a));
-    } else {
-      fmt::print("{}Before the first drive f = {}, a = {}; all other variables are in no set (4.3).\n", kinds,
-                 List(run_.initial_f), List(a));
-    }
-    int drive = 0;
-    for (const Pivot<Rational>& pivot : run_.trace.pivots) {
-      if (pivot.drive != drive) StartDrive(pivot, a);
-      drive = pivot.drive;
-      a = pivot.a;
-      Step(pivot);
-    }
-    fmt::print("\n");
-    Ray();
+  Narration operator()(const ProblemFile& file, const InexactAnswer& a, bool all) const {
+    return inexact(file, a, all);
   }
-
- private:
-  std::string List(const ExactProblem::Vector& values) const {
-    std::vector<std::string> numbers;
-    for (const Rational& value : values) numbers.push_back(ToString(value));
-    return fmt::format("({})", fmt::join(numbers, ", "));
-  }
-
-  // What bilateral and sliding contacts do all the time, one line each.
-  std::string Kinds() const {
-    std::string text;
-    for (int i = 0; i < layout_.ContactCount(); ++i) {
-      const Contact<Rational>& contact = problem_.contacts[i];
-      const int row = layout_.NormalRowOf(i);
-      if (contact.kind == ContactKind::kBilateral)
-        text += fmt::format("Contact {} is bilateral: {} stays in C, a_{} = 0 (4.5).\n", i + 1, names_[row],
-                            names_[row]);
-      if (contact.kind == ContactKind::kSliding) {
-        const Rational factor = -contact.mu * contact.slip[0];
-        text += fmt::format("Contact {} slides: f_{} = {} f_{} (24).\n", i + 1, names_[row + 1],
-                            ToString(factor), names_[row]);
-      }
-    }
-    return text;
-  }
-
-  // The direction without an end; with sliding contacts the impulsive direction of section 6.
-  void Ray() const {
-    if (run_.ray.size() > 0) fmt::print("no limit to the step along df = {}\n", List(run_.ray));
-  }
-
-  // Sets in the paper's names, with their members.
-  std::string Sets(const std::vector<IndexSet>& sets) const {
-    std::string text;
-    for (int set = 1; set < kIndexSetCount; ++set) {
-      std::vector<std::string> members;
-      for (std::size_t row = 0; row < sets.size(); ++row) {
-        if (static_cast<int>(sets[row]) == set) members.push_back(names_[row]);
-      }
-      const bool paper_set = static_cast<IndexSet>(set) != IndexSet::kSuspended;
-      if (!paper_set && members.empty()) continue;
-      text +=
-          fmt::format("{}{} = {{{}}}", text.empty() ? "" : "  ", kIndexSetNames[set], fmt::join(members, " "));
-    }
-    return text;
-  }
-
-  // Why this variable is driven, and toward what.
-  void StartDrive(const Pivot<Rational>& pivot, const ExactProblem::Vector& a) const {
-    const int row = pivot.driven;
-    fmt::print("\nDrive {}: {}", pivot.drive, names_[row]);
-    if (layout_.IsNormal(row)) {
-      fmt::print(". a_{} = {} < 0: increase f_{} until it is 0 (4.1).\n", names_[row], ToString(a[row]),
-                 names_[row]);
-    } else if (pivot.goal == DriveGoal::kZero) {
-      fmt::print(". Its friction was given up earlier: first drive f_{} to zero (5.5).\n", names_[row]);
-    } else {
-      const bool up = pivot.df[row] > 0;
-      fmt::print(". a_{} = {}: {} f_{} until a_{} = 0 or f_{} = {}mu f_{} (5.2).\n", names_[row],
-                 ToString(a[row]), up ? "increase" : "decrease", names_[row], names_[row], names_[row],
-                 up ? "" : "-", names_[row - 1]);
-    }
-  }
-
-  void Step(const Pivot<Rational>& pivot) const {
-    fmt::print("  df = {}   da = {}\n", List(pivot.df), List(pivot.da));
-    fmt::print("  s = {}: {}\n", ToString(pivot.s), Event(pivot));
-    fmt::print("    f = {}   a = {}\n", List(pivot.f), List(pivot.a));
-    fmt::print("    {}\n", Sets(pivot.sets));
-  }
-
-  std::string Reached(const Pivot<Rational>& pivot) const {
-    const std::string& name = names_[pivot.limiting];
-    switch (pivot.wanted) {
-      case IndexSet::kClamped:
-      case IndexSet::kSticking:
-        return fmt::format("a_{} = 0", name);
-      case IndexSet::kAtUpper:
-        return fmt::format("f_{} = mu f_{}", name, names_[pivot.limiting - 1]);
-      case IndexSet::kAtLower:
-        return fmt::format("f_{} = -mu f_{}", name, names_[pivot.limiting - 1]);
-      default:
-        return fmt::format("f_{} = 0", name);
-    }
-  }
-
-  std::string Event(const Pivot<Rational>& pivot) const {
-    const std::string& name = names_[pivot.limiting];
-    if (pivot.gave_up) {
-      return fmt::format("{}; {} is in {} and wants back into {}: given up (5.4, 5.5)", Reached(pivot), name,
-                         Name(pivot.from), Name(pivot.wanted));
-    }
-    if (pivot.limiting != pivot.driven) {
-      return fmt::format("{}; {} moves from {} to {}", Reached(pivot), name, Name(pivot.from), Name(pivot.to));
-    }
-    if (pivot.to == IndexSet::kNone)
-      return fmt::format("{}; the drive ends, {} is in no set", Reached(pivot), name);
-    return fmt::format("{}; the drive ends, {} joins {}", Reached(pivot), name, Name(pivot.to));
-  }
-
-  const ExactProblem& problem_;
-  const ExactRun& run_;
-  std::vector<std::string> names_;
-  RowLayout<Eigen::Dynamic> layout_;
 };
 
-// ---- One policy, or all ----------------------------------------------------------------------
+constexpr std::array kNarrators = {
+    Narrator{"baraff", &NarrateBaraff<Rational>, &NarrateBaraff<double>},
+    Narrator{"complete", &NarrateComplete<Rational>, &NarrateComplete<double>},
+    Narrator{"lemke", &NarrateLemke<Rational>, &NarrateLemke<double>},
+};
+
+Narration Narrate(const ReplayOptions& o, const ProblemFile& file, const Solution& solution) {
+  const auto narrator =
+      std::find_if(kNarrators.begin(), kNarrators.end(), [&o](auto& n) { return n.method == o.method; });
+  return std::visit([&](const auto& answer) { return (*narrator)(file, answer, o.step || !o.json); },
+                    solution.answer);
+}
+
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+template <class End>
+std::string EndText(const End& end, bool proved) {
+  Verdict verdict;
+  verdict.outcome = end.outcome;
+  verdict.start = end.start;
+  verdict.period = end.period;
+  verdict.reason = end.reason;
+  if (proved || end.outcome != Outcome::kCycle) return Describe(verdict);
+  return fmt::format("cycle: after rounding, the state after {} drives stands again {} drives later", end.start,
+                     end.period);
+}
+
+template <class Scalar>
+void PrintEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
+  const bool proved = kIsExact<Scalar>;
+  if (solution.suspected)
+    fmt::print("{}\nrun again{}: ", EndText(*solution.suspected, false),
+               proved ? ", exactly" : " in long double, with finer tolerances");
+  fmt::print("{}\n", EndText(answer, proved));
+  if (!proved && answer.outcome == Outcome::kCycle) fmt::print("({})\n", kNoProof);
+  if (!answer.word.empty()) fmt::print("cells {}\n", answer.word);
+}
+
+void PrintForPeople(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
+                    const Narration& narration) {
+  std::visit(
+      [&](const auto& answer) {
+        const std::string reading = o.method == "baraff" ? "policy " + o.policy : "method " + o.method;
+        fmt::print("{}: {} contacts{}, {}, {}\n{}", file.name, file.problem.contacts.size(),
+                   file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
+                   o.step ? narration.steps : narration.table);
+        PrintEnd(answer, solution);
+      },
+      solution.answer);
+}
+
+Json ReplayToJson(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
+                  Narration narration) {
+  Json json = SolutionToJson(solution, file.problem.dimension);
+  if (!json.contains("start")) json["start"] = json["period"] = 0;
+  json["method"] = o.method;
+  if (o.method == "baraff") json["policy"] = PolicyName(ParsePolicy(o.policy));
+  const auto first = [&file](const auto& answer) {
+    return Json{{"f", ListJson(answer.first_f)}, {"a", ListJson(FirstAccelerations(file.problem, answer))}};
+  };
+  if (o.step) json["initial"] = std::visit(first, solution.answer);
+  json["pivots"] = std::move(narration.pivots);
+  return json;
+}
+
+int ExitOf(Outcome outcome, const std::string& expected) {
+  if (Name(outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
+    return kExitDone;
+  const bool open = outcome == Outcome::kLimit || outcome == Outcome::kUndecided;
+  return open ? kExitUndecided : kExitNotSo;
+}
 
 int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
   const Policy policy = ParsePolicy(o.policy);
-  const ExactRun run = RunExact(file.problem, {policy, {}, o.limits});
-  const std::string expected = Expected(file, policy);
+  const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
+  const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
+  Narration narration = Narrate(o, file, solution);
   if (o.json) {
-    Json pivots = Json::array();
-    for (const Pivot<Rational>& pivot : run.trace.pivots) {
-      pivots.push_back(PivotToJson(pivot, VariableNames(file.problem)));
-      if (o.step) {
-        pivots.back()["df"] = VectorToJson(pivot.df);
-        pivots.back()["f"] = VectorToJson(pivot.f);
-        pivots.back()["a"] = VectorToJson(pivot.a);
-      }
-    }
-    Json result = {{"outcome", Name(run.verdict.outcome)},
-                   {"start", run.verdict.start},
-                   {"period", run.verdict.period},
-                   {"policy", PolicyName(policy)},
-                   {"expected", expected},
-                   {"statistics", StatisticsToJson(run.verdict.statistics)},
-                   {"f", VectorToJson(run.state.f)},
-                   {"pivots", pivots}};
-    if (!run.verdict.reason.empty()) result["reason"] = run.verdict.reason;
-    if (run.ray.size() > 0) result["ray"] = VectorToJson(run.ray);
-    if (o.step)
-      result["initial"] = {{"f", VectorToJson(run.initial_f)},
-                           {"a", VectorToJson(Accelerations(file.problem, run.initial_f))}};
-    std::cout << JsonText(result) << "\n";
+    Json json = ReplayToJson(o, file, solution, std::move(narration));
+    json["expected"] = expected;
+    std::cout << JsonText(json) << "\n";
   } else {
-    fmt::print("{}: {} contacts, policy {}\n", file.name, file.problem.contacts.size(), PolicyName(policy));
-    const Narrator narrator(file, run);
-    if (o.step) {
-      narrator.Steps();
-    } else {
-      narrator.Table();
-    }
-    fmt::print("{}\n", Describe(run.verdict));
-    if (!expected.empty() && expected != Name(run.verdict.outcome)) fmt::print("expected: {}\n", expected);
+    PrintForPeople(o, file, solution, narration);
+    if (!expected.empty() && expected != Name(solution.outcome())) fmt::print("expected: {}\n", expected);
   }
-  const std::string_view wanted = expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected);
-  if (Name(run.verdict.outcome) == wanted) return kExitDone;
-  return run.verdict.outcome == Outcome::kLimit ? kExitUndecided : kExitNotSo;
+  return ExitOf(solution.outcome(), expected);
 }
+
+// ---- All policies ----------------------------------------------------------------------------
 
 // `expect` for the whole grid: the most frequent outcome as "*", the policies that differ by name.
 std::map<std::string, std::string> ExpectFrom(const Json& outcomes, const Json& counts) {
@@ -235,12 +176,24 @@ std::map<std::string, std::string> ExpectFrom(const Json& outcomes, const Json& 
 // Outcomes by the names of the policies.
 using Outcomes = std::map<std::string, Json>;
 
-Json OutcomeToJson(const Verdict& verdict) {
-  Json entry = {{"outcome", Name(verdict.outcome)}};
-  if (IsLoop(verdict.outcome)) {
-    entry["start"] = verdict.start;
-    entry["period"] = verdict.period;
+// The policies that are built for space: the planar grid with file=no and apex=kept, for each reading of
+// `slip`.
+std::vector<Policy> GridInSpace() {
+  std::vector<Policy> grid;
+  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
+    for (Policy policy : PlanarGrid()) {
+      policy.slip = slip;
+      if (PublishedReadsInSpace(policy)) grid.push_back(policy);
+    }
   }
+  return grid;
+}
+
+// Without the reason, which is a run's own.
+template <class End>
+Json OutcomeToJson(const End& end) {
+  Json entry = EndToJson(end);
+  entry.erase("reason");
   return entry;
 }
 
@@ -252,18 +205,20 @@ Outcomes RunGrid(const ReplayOptions& o, const ExactProblem& problem) {
   return outcomes;
 }
 
-Outcomes RunGridInSpace(const ReplayOptions& o, const ExactProblem& problem) {
+Outcomes RunGridInSpace(const ReplayOptions& o, const ProblemFile& file) {
   Outcomes outcomes;
   for (const Policy& policy : GridInSpace()) {
-    const PublishedOptions options{policy, {}, o.limits};
-    outcomes[PolicyName(policy)] = OutcomeToJson(DecideRounded(problem, options, o.arithmetic));
+    SolveRequest request = RequestOf(o, file, policy);
+    request.trace = KeepTrace::kNo;
+    outcomes[PolicyName(policy)] = std::visit([](const auto& answer) { return OutcomeToJson(answer); },
+                                              SolveFile(o, file, request).answer);
   }
   return outcomes;
 }
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   const bool in_space = file.problem.dimension == 3;
-  const Outcomes by_name = in_space ? RunGridInSpace(o, file.problem) : RunGrid(o, file.problem);
+  const Outcomes by_name = in_space ? RunGridInSpace(o, file) : RunGrid(o, file.problem);
   Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
   for (const Policy& policy : in_space ? GridInSpace() : PlanarGrid()) {
     const std::string name = PolicyName(policy);
@@ -286,49 +241,30 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
       fmt::print("{:10} {}\n", entry["outcome"].get<std::string>(), name);
     }
     for (const auto& [outcome, count] : counts.items()) fmt::print("{}: {} policies\n", outcome, count.dump());
-    if (!unexpected.empty()) fmt::print("not as expected: {} policies\n", unexpected.size());
+    if (!unexpected.empty())
+      fmt::print("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
+                 unexpected.size());
   }
   return unexpected.empty() ? kExitDone : kExitNotSo;
 }
 
-// In space, by one method: from f = 0 through its pivots, or its pieces.
-int ReplayInSpace(const ReplayOptions& o, const ProblemFile& file) {
-  const std::string expected = o.method == "baraff" ? Expected(file, ParsePolicy(o.policy)) : "";
-  SpaceReplay replay =
-      o.method == "complete"
-          ? ReplayComplete(file, o.sides, o.limits)
-          : ReplayPublishedInSpace(file, {ParsePolicy(o.policy), {}, o.limits}, o.arithmetic, o.step);
-  if (o.json) {
-    replay.json["expected"] = expected;
-    std::cout << JsonText(replay.json) << "\n";
-  } else {
-    fmt::print("{}", o.step ? replay.steps : replay.table);
-    if (!expected.empty() && expected != Name(replay.outcome)) fmt::print("expected: {}\n", expected);
-  }
-  if (Name(replay.outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
-    return kExitDone;
-  const bool open = replay.outcome == Outcome::kLimit || replay.outcome == Outcome::kUndecided;
-  return open ? kExitUndecided : kExitNotSo;
+int Replay(const ReplayOptions& o) {
+  const ProblemFile file = ReadProblem(o.file);
+  if (!o.all_policies) return ReplayOne(o, file);
+  if (o.method != "baraff") throw InputError("--all-policies: expected --method baraff");
+  const bool exact = o.arithmetic.empty() || o.arithmetic == "exact";
+  if (file.problem.dimension == 2 && !exact)
+    throw InputError(
+        fmt::format("--arithmetic {}: expected exact for all policies in the plane", o.arithmetic));
+  return ReplayAll(o, file);
 }
 
-int Replay(const ReplayOptions& given) {
-  ReplayOptions o = given;
-  const ProblemFile file = ReadProblem(o.file);
-  const bool in_space = file.problem.dimension == 3, published = o.method == "baraff";
-  if (!in_space && !published) {
-    throw InputError(o.file, "dimension", "2", "3: in the plane only method baraff is replayed");
+std::vector<std::string> PathMethodNames() {
+  std::vector<std::string> names;
+  for (const MethodFacts& facts : AllMethods()) {
+    if (facts.has_path) names.emplace_back(facts.name);
   }
-  if (!published && o.all_policies) throw InputError("--all-policies: expected --method baraff");
-  if (o.arithmetic.empty()) o.arithmetic = in_space && published ? "double" : "exact";
-  if (in_space && published && o.arithmetic == "exact") {
-    throw InputError(
-        "--arithmetic exact: expected float, double or long-double for the published algorithm in space, "
-        "which takes square roots");
-  }
-  if (!(in_space && published) && o.arithmetic != "exact")
-    throw InputError(fmt::format("--arithmetic {}: expected exact", o.arithmetic));
-  if (o.all_policies) return ReplayAll(o, file);
-  return in_space ? ReplayInSpace(o, file) : ReplayOne(o, file);
+  return names;
 }
 
 }  // namespace
@@ -336,26 +272,21 @@ int Replay(const ReplayOptions& given) {
 void AddReplay(CLI::App& program, Action& action) {
   auto o = std::make_shared<ReplayOptions>();
   CLI::App& verb =
-      *program.add_subcommand("replay", "Follow the published algorithm pivot by pivot; in the plane exactly");
+      *program.add_subcommand("replay", "Follow a path method step by step, exactly where it can be");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   CLI::Option* all =
       verb.add_flag("--all-policies", o->all_policies,
                     "the outcome under every policy of the planar grid, or of those that are built for space");
   verb.add_option("--record", o->record, "write the problem with what happened as its `expect`")->needs(all);
-  verb.add_option("--method", o->method,
-                  "baraff: the published algorithm; complete: complete driving on polygons, in space only")
+  verb.add_option("--method", o->method, "one that follows a path: see 'stiction methods'")
       ->capture_default_str()
-      ->check(CLI::IsMember({"baraff", "complete"}));
-  verb.add_option("--arithmetic", o->arithmetic,
-                  "exact; for the published algorithm in space float, double (its default) or long-double")
+      ->check(CLI::IsMember(PathMethodNames()));
+  verb.add_option("--arithmetic", o->arithmetic, "exact where it is built, otherwise double, by default")
       ->check(CLI::IsMember({"exact", "float", "double", "long-double"}));
-  verb.add_option("--sides", o->sides, "sides of the friction polygons of --method complete, a multiple of 4")
+  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
       ->capture_default_str()
-      ->check([](const std::string& text) {
-        const int sides = std::atoi(text.c_str());
-        return sides >= 4 && sides % 4 == 0 ? "" : "expected a multiple of 4, at least 4";
-      });
+      ->check(CheckSides);
   verb.add_flag("--step", o->step, "directions, forces and sets at every step");
   verb.add_flag("--json", o->json, "machine output");
   AddLimits(verb, o->limits);

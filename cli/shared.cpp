@@ -94,6 +94,11 @@ void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid) {
 void AddLimits(CLI::App& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }
 void AddTolerances(CLI::App& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
 
+std::string CheckSides(const std::string& text) {
+  const int sides = std::atoi(text.c_str());
+  return sides >= 4 && sides % 4 == 0 ? "" : "expected a multiple of 4, at least 4";
+}
+
 std::vector<Policy> PoliciesNamed(const std::string& text) {
   return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
 }

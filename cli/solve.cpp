@@ -1,247 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction solve: one problem, one method, one arithmetic.
+// stiction solve: one problem, one method, one arithmetic, one answer.
+
+#include "certify/solve.h"
 
 #include <fmt/format.h>
 
 #include <iostream>
 
-#include "certify/certificate.h"
-#include "certify/existence.h"
-#include "certify/feasibility_nlp.h"
-#include "certify/verify_solution.h"
-#include "cli/solve_published_space.h"
-#include "cli/solve_space.h"
+#include "cli/answer_text.h"
+#include "cli/stop_after.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
-#include "corpus/rounded.h"
-#include "solver/numeric/fast.h"
-#include "solver/problem/reduction.ipp"
-#include "solver/problem/residual.h"
 
 namespace stiction {
 namespace {
 
-struct SolveOptions {
+struct SolveVerb {
   std::string file;
-  std::string method = "baraff";
-  std::string arithmetic;  // empty: exact; double for method fast; interval for method baraff in space
+  std::string method{kAutomatic};
+  std::string arithmetic;  // empty: the usual one
   std::string policy = "paper";
   std::string law = "baraff";
-  int sides = 8;
-  Limits limits;
-  Tolerances tolerances;
+  SolveOptions options;
+  double seconds = 0;
   bool json = false;
 };
-
-// What came out, in the terms of JSON.
-struct Solved {
-  Verdict verdict;
-  Json f, a, ray;
-  Json residual;
-  Json statistics;
-  Json word;
-};
-
-// What a method says of a problem.
-template <class Scalar>
-struct Answer {
-  using Vector = typename ContactProblem<Scalar>::Vector;
-
-  Verdict verdict;
-  Vector f, ray;  // empty where there is none
-  Json statistics;
-  Json word;  // cells, one letter per contact
-};
-
-Json RunToJson(const Verdict& verdict) {
-  Json json = {{"outcome", Name(verdict.outcome)}};
-  if (!verdict.reason.empty()) json["reason"] = verdict.reason;
-  if (verdict.outcome == Outcome::kCycle || verdict.outcome == Outcome::kStall) {
-    json["start"] = verdict.start;
-    json["period"] = verdict.period;
-  }
-  return json;
-}
-
-template <class Scalar>
-Answer<Scalar> AnswerOf(Outcome outcome, std::string_view reason) {
-  Answer<Scalar> answer;
-  answer.verdict.outcome = outcome;
-  answer.verdict.reason = reason;
-  return answer;
-}
-
-// ---- Exact arithmetic ------------------------------------------------------------------------
-
-Answer<Rational> RunPublished(const ExactProblem& problem, const PublishedOptions& options) {
-  const ExactRun run = RunExact(problem, options);
-  return {run.verdict, run.state.f, run.ray, StatisticsToJson(run.verdict.statistics), {}};
-}
-
-Answer<Rational> RunComplete(const ExactProblem& problem, const PublishedOptions& options) {
-  const CompleteRun run = RunComplete(problem, options.limits);
-  auto answer = AnswerOf<Rational>(run.verdict.outcome, run.verdict.reason);
-  answer.f = run.f;
-  answer.ray = run.ray;
-  answer.statistics = StatisticsToJson(run.verdict.statistics);
-  answer.word = run.word;
-  return answer;
-}
-
-Answer<Rational> RunLemke(const ExactProblem& problem, const PublishedOptions& options) {
-  const LemkeRun run = RunLemke(problem, options.limits);
-  return {run.verdict, run.f, run.ray, {{"pivots", run.verdict.statistics.pivots}}, {}};
-}
-
-// The first solution in the order of the mode words. That there is none is a claim of `certify`.
-Answer<Rational> RunModes(const ExactProblem& problem) {
-  EnumerationOptions options;
-  options.first_solution_only = true;
-  const Enumeration modes = EnumerateModes(problem, options);
-  auto answer = AnswerOf<Rational>(modes.solutions.empty() ? Outcome::kUndecided : Outcome::kSolved, "");
-  if (modes.ProvesNoSolution()) answer.verdict.reason = "no mode has a solution; see certify";
-  if (!modes.solutions.empty()) answer.f = modes.solutions.front().f;
-  answer.statistics = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
-  return answer;
-}
-
-// Ipopt proposes, exact arithmetic decides.
-Answer<Rational> RunIpopt(const ExactProblem& problem) {
-  IpoptProposer proposer;
-  ProposalStatistics statistics;
-  const auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
-  auto answer = AnswerOf<Rational>(f ? Outcome::kSolved : Outcome::kUndecided,
-                                   f ? "" : "no point that Ipopt proposed led to a solution");
-  if (f) answer.f = *f;
-  answer.statistics = {
-      {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
-  return answer;
-}
-
-Answer<Rational> RunMethod(const std::string& method, const ExactProblem& problem,
-                           const PublishedOptions& options) {
-  if (method == "complete") return RunComplete(problem, options);
-  if (method == "lemke") return RunLemke(problem, options);
-  if (method == "enumerate") return RunModes(problem);
-  if (method == "ipopt") return RunIpopt(problem);
-  return RunPublished(problem, options);
-}
-
-// ---- Inexact arithmetics ---------------------------------------------------------------------
-
-template <class Scalar>
-Answer<Scalar> RunMethod(const std::string& method, const ContactProblem<Scalar>& problem,
-                         const PublishedOptions& options) {
-  Answer<Scalar> answer;
-  if (method == "complete") {
-    CompleteOptions complete;
-    complete.tolerances = options.tolerances;
-    complete.limits = options.limits;
-    CompleteDriving<Scalar> driving(complete);
-    const CompleteVerdict verdict = driving.Run(problem);
-    answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
-    answer.statistics = StatisticsToJson(verdict.statistics);
-    answer.word = driving.Word();
-    answer.f = driving.state().f;
-  } else if (method == "lemke") {
-    LemkeOptions lemke;
-    lemke.cover = Cover::kUnits;
-    lemke.tolerances = options.tolerances;
-    lemke.limits = options.limits;
-    LemkeAlgorithm<Scalar> algorithm(lemke);
-    answer.verdict = algorithm.Run(problem);
-    answer.statistics = {{"pivots", answer.verdict.statistics.pivots}};
-    if (answer.verdict.outcome == Outcome::kSolved) answer.f = algorithm.f();
-  } else if (method == "fast") {
-    FastOptions fast;
-    fast.tolerances = options.tolerances;
-    fast.limits = options.limits;
-    FastSolver<Scalar> solver(fast);
-    const FastVerdict verdict = solver.Run(problem);
-    answer = AnswerOf<Scalar>(verdict.outcome, verdict.reason);
-    answer.statistics = StatisticsToJson(verdict.statistics);
-    if (verdict.outcome == Outcome::kSolved) answer.word = solver.Word();
-    answer.f = solver.f();
-  } else {
-    PublishedAlgorithm<Scalar> algorithm(options);
-    answer.verdict = algorithm.Run(problem);
-    answer.statistics = StatisticsToJson(answer.verdict.statistics);
-    answer.f = algorithm.state().f;
-  }
-  return answer;
-}
-
-// ---- Bilateral constraints and sliding contacts (4.5, 6) ---------------------------------------
-
-// The letters of all contacts; a bilateral one is always held.
-template <class Scalar>
-std::string FullWord(const ContactProblem<Scalar>& problem, const std::string& word) {
-  std::string full;
-  std::size_t next = 0;
-  for (const auto& contact : problem.contacts)
-    full += contact.kind == ContactKind::kBilateral ? '=' : word.at(next++);
-  return full;
-}
-
-// Runs a method for frictionless and static contacts on what remains of any planar problem.
-template <class Scalar>
-Answer<Scalar> RunReduced(const std::string& method, const ContactProblem<Scalar>& problem,
-                          const PublishedOptions& options) {
-  if (!Reduction<Scalar>::Concerns(problem)) return RunMethod(method, problem, options);
-  const Reduction<Scalar> reduction(problem, options.tolerances);
-  if (reduction.end() != ReductionEnd::kReduced)
-    return AnswerOf<Scalar>(Outcome::kSingular, Reason(reduction.end()));
-  Answer<Scalar> answer = RunMethod(method, reduction.problem(), options);
-  const auto rows = reduction.problem().rows();
-  if (answer.f.size() == rows) answer.f = reduction.Forces(answer.f);
-  if (rows > 0 && answer.ray.size() == rows) answer.ray = reduction.Direction(answer.ray);
-  if (answer.word.is_string()) answer.word = FullWord(problem, answer.word.template get<std::string>());
-  return answer;
-}
-
-Solved SolveExactly(const std::string& method, const ExactProblem& problem, const PublishedOptions& options) {
-  const bool any_kind = method == "enumerate" || method == "ipopt";
-  const Answer<Rational> answer =
-      any_kind ? RunMethod(method, problem, options) : RunReduced<Rational>(method, problem, options);
-  Solved solved;
-  solved.verdict = answer.verdict;
-  if (answer.f.size() == problem.rows()) {
-    solved.f = VectorToJson(answer.f);
-    solved.a = VectorToJson(Accelerations(problem, answer.f));
-  }
-  if (answer.ray.size() > 0) solved.ray = VectorToJson(answer.ray);
-  solved.statistics = answer.statistics;
-  solved.word = answer.word;
-  return solved;
-}
-
-// `rounded`: the problem that was solved, exactly.
-template <class Scalar>
-Solved SolveRounded(const std::string& method, const ExactProblem& problem, const PublishedOptions& options,
-                    ExactProblem& rounded) {
-  const ContactProblem<Scalar> inexact = Rounded<Scalar>(problem);
-  rounded = Converted<Rational>(inexact, [](Scalar x) { return Rational(static_cast<double>(x)); });
-  const Answer<Scalar> answer = RunReduced<Scalar>(method, inexact, options);
-  Solved solved;
-  solved.verdict = answer.verdict;
-  solved.statistics = answer.statistics;
-  solved.word = answer.word;
-  if (answer.f.size() != inexact.rows()) return solved;
-  const typename ContactProblem<Scalar>::Vector a = inexact.A * answer.f + inexact.b;
-  solved.f = NumbersToJson(answer.f);
-  solved.a = NumbersToJson(a);
-  if (answer.verdict.outcome == Outcome::kSolved)
-    solved.residual = static_cast<double>(NaturalResidual(inexact, answer.f, a));
-  return solved;
-}
-
-Solved SolveIn(const std::string& method, const std::string& arithmetic, const ExactProblem& problem,
-               const PublishedOptions& options, ExactProblem& rounded) {
-  if (arithmetic == "float") return SolveRounded<float>(method, problem, options, rounded);
-  if (arithmetic == "double") return SolveRounded<double>(method, problem, options, rounded);
-  if (arithmetic == "long-double") return SolveRounded<long double>(method, problem, options, rounded);
-  return SolveExactly(method, problem, options);
-}
 
 int ExitOf(Outcome outcome) {
   if (outcome == Outcome::kSolved) return kExitDone;
@@ -259,124 +42,96 @@ void PrintForPeople(const Json& result) {
   }
 }
 
-int Show(const Json& result, bool json, Outcome outcome) {
-  if (json) {
+// What is asked for, checked against the table.
+SolveRequest RequestOf(const SolveVerb& o, const ExactProblem& problem) {
+  const int dimension = problem.dimension;
+  SolveRequest request{.method = o.method, .options = o.options};
+  request.options.policy = ParsePolicy(o.policy);
+  request.options.law = o.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
+  if (dimension == 2 && o.law != "baraff")
+    throw InputError(o.file, "dimension", "2", "3: --law chooses a law of friction in space");
+  const bool polygon = o.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
+  if (dimension == 3 && polygon) request.method = "complete";  // which that reading is
+  request.arithmetic =
+      o.arithmetic.empty() ? UsualArithmetic(request.method, problem) : *FindArithmetic(o.arithmetic);
+  const std::string refusal = Refusal(request.method, dimension, request.arithmetic);
+  if (!refusal.empty()) throw InputError(o.file + ": " + refusal);
+  return request;
+}
+
+Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest& request) {
+  const StopAfter stop(o.seconds);
+  request.options.limits.stop = stop.flag();
+  try {
+    return SolveIn(problem, request);
+  } catch (const RangeError& error) {
+    throw InputError(o.file + ": " + error.what());
+  }
+}
+
+int RunSolve(const SolveVerb& o) {
+  const ProblemFile file = ReadProblem(o.file);
+  SolveRequest request = RequestOf(o, file.problem);
+  const Solution solution = SolveFile(o, file.problem, request);
+  Json result = SolutionToJson(solution, file.problem.dimension);
+  if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
+  result["assumptions"] = FailedAssumptions(file.problem);
+  if (o.json) {
     std::cout << JsonText(result) << "\n";
   } else {
     PrintForPeople(result);
   }
-  return ExitOf(outcome);
+  return ExitOf(solution.outcome());
 }
 
-int SolveByPublishedInSpace(const SolveOptions& o, const ExactProblem& problem) {
-  PublishedSpaceAnswer answer =
-      SolvePublishedInSpace(problem, o.arithmetic, {ParsePolicy(o.policy), o.tolerances, o.limits});
-  answer.result["assumptions"] = FailedAssumptions(problem);
-  return Show(answer.result, o.json, answer.outcome);
+std::string MethodHelp() {
+  std::string help = "auto: one that ends, the answer names it";
+  for (const MethodFacts& facts : AllMethods()) help += fmt::format("; {}: {}", facts.name, facts.title);
+  return help;
 }
 
-// `polygon`: asked for as a reading of the published algorithm.
-int SolveIn3D(const SolveOptions& o, bool polygon, const ExactProblem& problem) {
-  SolvedInSpace solved =
-      SolveSpace(problem, {o.file, o.method, o.arithmetic, o.law, o.sides, o.limits, o.tolerances});
-  if (polygon) solved.result["policy"] = "slip=polygon";
-  solved.result["assumptions"] = FailedAssumptions(problem);
-  return Show(solved.result, o.json, solved.outcome);
-}
-
-int Solve(const SolveOptions& given) {
-  SolveOptions o = given;
-  const bool in_space = ReadProblem(o.file).problem.dimension == 3;
-  const bool polygon = in_space && o.method == "baraff" && ParsePolicy(o.policy) == ParsePolicy("slip=polygon");
-  if (polygon) o.method = "complete";  // which that reading is
-  if (in_space && o.method == "baraff") {
-    return SolveByPublishedInSpace(o, ReadProblem(o.file).problem);
-  }
-  const bool fast = o.method == "fast";
-  if (o.arithmetic.empty()) o.arithmetic = fast ? "double" : "exact";
-  if (o.arithmetic == "interval") {
-    throw InputError(
-        "arithmetic 'interval' is not built but for the published algorithm in space; expected one "
-        "of float, double, long-double, exact");
-  }
-  if (in_space) return SolveIn3D(o, polygon, ReadProblem(o.file).problem);
-  const bool any_kind = o.method == "enumerate" || o.method == "ipopt";
-  if (any_kind && o.arithmetic != "exact") {
-    throw InputError(fmt::format("--method {}: expected --arithmetic exact", o.method));
-  }
-  if (fast && o.arithmetic == "exact") {
-    throw InputError("--method fast: expected --arithmetic float, double or long-double");
-  }
-  const ProblemFile file = ReadPlanarProblem(o.file);
-  const PublishedOptions options{ParsePolicy(o.policy), o.tolerances, o.limits};
-  ExactProblem rounded;
-  const Solved solved = SolveIn(o.method, o.arithmetic, file.problem, options, rounded);
-  Json result = RunToJson(solved.verdict);
-  Outcome outcome = solved.verdict.outcome;
-  // What rounded numbers suspect is run again exactly, on the problem that they solved, before it is claimed.
-  if (o.arithmetic != "exact" && outcome != Outcome::kSolved && !fast) {
-    const Json suspected = result;
-    const Solved exact = SolveExactly(o.method, rounded, options);
-    outcome = exact.verdict.outcome;
-    result = RunToJson(exact.verdict);
-    result["suspected"] = suspected;
-  }
-  result["method"] = o.method;
-  result["arithmetic"] = o.arithmetic;
-  if (o.method == "baraff") result["policy"] = PolicyName(options.policy);
-  if (!solved.word.is_null()) result["word"] = solved.word;
-  result["f"] = solved.f;
-  result["a"] = solved.a;
-  if (!solved.ray.is_null()) result["ray"] = solved.ray;
-  if (!solved.residual.is_null()) result["residual"] = solved.residual;
-  result["assumptions"] = FailedAssumptions(file.problem);
-  result["statistics"] = solved.statistics;
-  return Show(result, o.json, outcome);
-}
-
-// Refuses what the specification names and this build does not have.
-std::string OnlyBuilt(const std::string& text, const std::vector<std::string>& built, const char* what) {
-  if (std::find(built.begin(), built.end(), text) != built.end()) return "";
-  return fmt::format("{} '{}' is not built; expected one of {}", what, text, fmt::join(built, ", "));
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names = {std::string(kAutomatic)};
+  for (const MethodFacts& facts : AllMethods()) names.emplace_back(facts.name);
+  return names;
 }
 
 }  // namespace
 
 void AddSolve(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SolveOptions>();
+  auto o = std::make_shared<SolveVerb>();
   CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
   verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("--method", o->method,
-                  "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
-                  "Lemke's method, "
-                  "lexicographic; fast: cells guessed and verified, in space Newton's method, complete driving "
-                  "behind it (inexact "
-                  "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
+  verb.add_option("--method", o->method, MethodHelp())
       ->capture_default_str()
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
-      });
-  verb.add_option(
-          "--arithmetic", o->arithmetic,
-          "float, double, long-double, exact (rational; the default), interval (the published algorithm in "
-          "space only, and its default); the default of method fast is double")
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
-      });
+      ->check(CLI::IsMember(MethodNames()));
+  verb.add_option("--arithmetic", o->arithmetic,
+                  "of the method: see 'stiction methods'; by default exact where it is built, double for "
+                  "method fast and for large problems")
+      ->check(CLI::IsMember(std::vector<std::string>(kArithmeticNames.begin(), kArithmeticNames.end())));
   AddPolicyOption(verb, o->policy, Grid::kRefused);
   verb.add_option(
           "--law", o->law,
           "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
-          "free; exact. coulomb: friction opposite to the acceleration; exact arithmetic gives a proved "
-          "bound on the angle. Inexact arithmetics solve coulomb, which implies baraff")
+          "free; coulomb: friction opposite to the acceleration, over exact arithmetic up to a proved bound. "
+          "Inexact answers but those of method baraff obey coulomb, which implies baraff")
       ->capture_default_str()
       ->check(CLI::IsMember({"baraff", "coulomb"}));
-  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
-      ->capture_default_str();
-  AddLimits(verb, o->limits);
-  AddTolerances(verb, o->tolerances);
+  verb.add_option("--sides", o->options.sides, "sides of the friction polygons in space, a multiple of 4")
+      ->capture_default_str()
+      ->check(CheckSides);
+  verb.add_option("--residual", o->options.residual,
+                  "largest relative residual of inexact forces that are called solved; 0: 1e-6 over float, "
+                  "1e-8 over wider numbers")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  verb.add_option("--seconds", o->seconds, "after so long the best forces so far are told, undecided; 0: never")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+  AddLimits(verb, o->options.limits);
+  AddTolerances(verb, o->options.tolerances);
   verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
+  verb.callback([o, &action] { action = [o] { return RunSolve(*o); }; });
 }
 
 }  // namespace stiction

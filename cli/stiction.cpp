@@ -37,6 +37,7 @@ int Main(int argc, char** argv) {
   AddSimulate(program, action);
   AddDraw(program, action);
   AddPolicies(program, action);
+  AddMethods(program, action);
   AddBench(program, action);
   try {
     program.parse(argc, argv);

@@ -36,6 +36,7 @@ void AddAssemble(CLI::App& program, Action& action);
 void AddSimulate(CLI::App& program, Action& action);
 void AddDraw(CLI::App& program, Action& action);
 void AddPolicies(CLI::App& program, Action& action);
+void AddMethods(CLI::App& program, Action& action);
 
 // ---- Shared pieces ---------------------------------------------------------------------------
 
@@ -54,6 +55,9 @@ void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid);
 // Limits and tolerances from their tables.
 void AddLimits(CLI::App& verb, Limits& limits);
 void AddTolerances(CLI::App& verb, Tolerances& tolerances);
+
+// Of --sides: empty, or what is wrong with the text.
+std::string CheckSides(const std::string& text);
 
 // "paper" -> one policy, "*" -> the planar grid.
 std::vector<Policy> PoliciesNamed(const std::string& text);

@@ -4,6 +4,10 @@
 #ifndef STICTION_CORPUS_ROUNDED_H_
 #define STICTION_CORPUS_ROUNDED_H_
 
+#include <string>
+#include <string_view>
+
+#include "corpus/input_error.h"
 #include "corpus/problem_file.h"
 
 namespace stiction {
@@ -22,10 +26,25 @@ ContactProblem<To> Converted(const ContactProblem<From>& problem, Convert conver
   return result;
 }
 
-// Every number at its nearest double, and that at its nearest Scalar.
+// A number of a problem that a scalar does not hold: too large, or so small that it would lose its digits.
+class RangeError : public InputError {
+ public:
+  RangeError(const std::string& path, const Rational& found, std::string_view arithmetic);
+};
+
+// Every number at its nearest double, and that at its nearest Scalar. RangeError, which names the first of
+// them, where one becomes infinite, or underflows: its rounding is not relative to it.
 template <class Scalar>
-ContactProblem<Scalar> Rounded(const ExactProblem& problem) {
-  return Converted<Scalar>(problem, [](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); });
+ContactProblem<Scalar> Rounded(const ExactProblem& problem);
+
+extern template ContactProblem<float> Rounded(const ExactProblem&);
+extern template ContactProblem<double> Rounded(const ExactProblem&);
+extern template ContactProblem<long double> Rounded(const ExactProblem&);
+
+// The rational problem that a rounded one is. Doubles and narrower; a long double must hold a double.
+template <class Scalar>
+ExactProblem Unrounded(const ContactProblem<Scalar>& problem) {
+  return Converted<Rational>(problem, [](Scalar x) { return Rational(static_cast<double>(x)); });
 }
 
 }  // namespace stiction

@@ -25,6 +25,7 @@ template class LemkeAlgorithm<float>;
 template class LemkeAlgorithm<double>;
 template class LemkeAlgorithm<long double>;
 
+template class ProximalNewton<float>;
 template class ProximalNewton<double>;
 template class ProximalNewton<long double>;
 

@@ -113,6 +113,7 @@ class CoulombSolver {
 
   void Start(const Problem& problem);
   bool Reached() const;
+  bool Done() const;
   void FromPolygon(int sides);
   void Improve();
   void Sweep(int count);

@@ -27,13 +27,13 @@ CoulombVerdict CoulombSolver<Scalar, ProblemType>::Run(const Problem& problem, c
     Sweep(options_.sweeps);
     Improve();
   }
-  for (int factor = 1; factor <= 8 && options_.sides > 0 && !Reached(); factor *= 2)
+  for (int factor = 1; factor <= 8 && options_.sides > 0 && !Done(); factor *= 2)
     FromPolygon(factor * options_.sides);
   CoulombVerdict verdict;
   verdict.statistics = statistics_;
   verdict.residual = static_cast<double>(best_);
   verdict.outcome = Reached() ? Outcome::kSolved : Outcome::kUndecided;
-  if (!Reached()) verdict.reason = "the residual is above the tolerance";
+  if (!Reached()) verdict.reason = options_.limits.Stopped() ? kStopped : "the residual is above the tolerance";
   return verdict;
 }
 
@@ -74,6 +74,11 @@ bool CoulombSolver<Scalar, ProblemType>::Reached() const {
 }
 
 template <class Scalar, class ProblemType>
+bool CoulombSolver<Scalar, ProblemType>::Done() const {
+  return Reached() || options_.limits.Stopped();
+}
+
+template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::FromPolygon(int sides) {
   if constexpr (std::is_same_v<Problem, ContactProblem<Scalar>>) {
     driving_.options().tolerances = options_.tolerances;
@@ -96,23 +101,23 @@ void CoulombSolver<Scalar, ProblemType>::Improve() {
   if (problem_->rows() == 0) return;
   Newton();
   int count = options_.sweeps;
-  for (int round = 0; round < kRounds && !Reached(); ++round, count *= 4) {
+  for (int round = 0; round < kRounds && !Done(); ++round, count *= 4) {
     if (count > problem_->rows()) {
       FollowPath();
       Approach();
     }
-    if (Reached()) return;
+    if (Done()) return;
     Sweep(count);
     Newton();
   }
-  if (!Reached()) Approach();
+  if (!Done()) Approach();
 }
 
 // Ends early where only roundings move.
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Sweep(int count) {
   a_ = problem_->A * f_ + problem_->b;
-  for (; count > 0; --count) {
+  for (; count > 0 && !options_.limits.Stopped(); --count) {
     ++statistics_.sweeps;
     bool moved = false;
     for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -189,6 +194,7 @@ bool CoulombSolver<Scalar, ProblemType>::Newton() {
   int idle = 0;
   for (int step = 0; step < options_.newton_steps && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
     if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
+    if (options_.limits.Stopped()) return false;
     ++statistics_.newton_steps;
     for (std::size_t i = 0; i < r_.size(); ++i) slopes[i] = SlopeOf(static_cast<int>(i));
     const auto improves = [&] {
@@ -215,7 +221,7 @@ template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Approach() {
   constexpr int kMostSteps = 30, kMostFailures = 4;
   rho_ = Scalar(0.01);
-  for (int step = 0, failures = 0; step < kMostSteps && failures <= kMostFailures && !Reached(); ++step) {
+  for (int step = 0, failures = 0; step < kMostSteps && failures <= kMostFailures && !Done(); ++step) {
     center_ = f_;
     if (Newton()) {
       rho_ /= 3;
@@ -240,13 +246,13 @@ void CoulombSolver<Scalar, ProblemType>::FollowPath() {
   Slopes slopes;
   for (Scalar m = free_ / 10; m > Scalar(1e-9) * free_ && statistics_.newton_steps < end;) {
     int steps = 0;
-    for (; steps < kStepsEach && !Reached(); ++steps) {
+    for (; steps < kStepsEach && !Done(); ++steps) {
       const Vector map = SmoothMap(f_, m, &slopes);
       if (map.norm() <= m / 1000) break;
       if (!SmoothStep(m, map, slopes)) break;
       Note();
     }
-    if (Reached()) break;
+    if (Done()) break;
     m /= steps <= kFew ? 4 : 2;
   }
   f_ = best_f_;

@@ -35,8 +35,9 @@ struct ProximalOptions {
   double residual = 1e-8;  // largest natural residual of an answer that is called solved, relative to b
   double aim = 1e-8;       // residual at which it ends; between the two it ends when points gain nothing
   double first_eps = 0.1;
-  int points = 200;  // proximal problems tried
-  int newton = 12;   // steps of Newton's method for each of them
+  int points = 200;    // proximal problems tried
+  int newton = 12;     // steps of Newton's method for each of them
+  Limits limits = {};  // of which only `stop` is read
 };
 
 struct ProximalVerdict {

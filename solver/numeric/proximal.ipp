@@ -27,6 +27,10 @@ ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
       verdict_.reason = eps > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
     }
+    if (options_.limits.Stopped()) {
+      verdict_.reason = kStopped;
+      return verdict_;
+    }
     ++verdict_.points;
     ++idle;
     Regularize(eps);

@@ -7,6 +7,7 @@
 #define STICTION_SOLVER_PROBLEM_OPTIONS_H_
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -113,7 +114,10 @@ struct Limits {
   std::int64_t drives = 10000;
   std::int64_t pivots = 100000;
   std::int64_t bits = 100000;
+  // Set by somebody who no longer waits: the run ends `undecided`, soon. No part of what a run is.
+  const std::atomic<bool>* stop = nullptr;
 
+  bool Stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
   bool operator==(const Limits&) const = default;
 };
 
@@ -152,6 +156,9 @@ void ForEachField(Limits& limits, Visit visit) {
 // Unknowns from which on direction systems are updated, not solved afresh (updated_system.h), >= 1. Eight
 // planar contacts have less.
 inline constexpr int kUpdateFrom = 16;
+
+// Why a run that was stopped (Limits::stop) is undecided.
+inline constexpr std::string_view kStopped = "stopped";
 
 struct PublishedOptions {
   Policy policy;

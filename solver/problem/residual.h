@@ -39,21 +39,44 @@ template <class Scalar>
 struct Residual {
   Scalar worst = Scalar(0), scale = Scalar(0);
   Scalar b_scale = Scalar(0);  // max abs(b) / max A_ii
+  Scalar r = Scalar(1);        // 1 / max A_ii
+  bool is_finite = true;       // otherwise nothing else is meant
+
+  Scalar Relative() const { return Over(scale); }
+  Scalar RelativeToB() const { return Over(b_scale); }
+
+ private:
+  Scalar Over(const Scalar& size) const { return size > 0 ? Scalar(worst / size) : worst; }
 };
 
-// Problem: a ContactProblem, or one with a sparse A.
+// All but `worst`. Problem: a ContactProblem, or one with a sparse A; numbers of f and a may be wider than its.
 template <class Problem, class Vector>
-auto MeasureResidual(const Problem& problem, const Vector& f, const Vector& a) {
-  using Scalar = typename Problem::Vector::Scalar;
-  Scalar max_A(0), max_b(0), max_f(0), worst(0), zero(0);
+auto MeasureScale(const Problem& problem, const Vector& f, const Vector& a) {
+  using Scalar = typename Vector::Scalar;
+  Scalar max_A(0), max_b(0), max_f(0), zero(0);
   for (int i = 0; i < problem.rows(); ++i) {
-    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
+    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only; maxima pass over what is not a number
     max_A = std::max<Scalar>(max_A, problem.A.coeff(i, i));
     max_b = std::max<Scalar>(max_b, Abs(problem.b[i]));
     max_f = std::max<Scalar>(max_f, Abs(f[i]));
   }
-  if (zero != 0) return Residual<Scalar>{zero, zero, zero};  // maxima pass over what is not a number
-  const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
+  Residual<Scalar> residual;
+  residual.is_finite = zero == 0;
+  if (!residual.is_finite) residual.worst = residual.scale = residual.b_scale = zero;
+  if (!residual.is_finite) return residual;
+  if (max_A > 0) residual.r = 1 / max_A;
+  residual.b_scale = max_b * residual.r;
+  residual.scale = std::max<Scalar>(max_f, residual.b_scale);
+  return residual;
+}
+
+template <class Problem, class Vector>
+auto MeasureResidual(const Problem& problem, const Vector& f, const Vector& a) {
+  using Scalar = typename Vector::Scalar;
+  Residual<Scalar> residual = MeasureScale(problem, f, a);
+  if (!residual.is_finite) return residual;
+  const Scalar& r = residual.r;
+  Scalar& worst = residual.worst;
   int row = 0;
   for (const auto& contact : problem.contacts) {
     // f - max(0, f - r a) is the smaller of f and r a, which rounding cannot cancel; likewise for friction.
@@ -62,24 +85,20 @@ auto MeasureResidual(const Problem& problem, const Vector& f, const Vector& a) {
     worst = std::max<Scalar>(worst, Abs(bilateral ? shift : std::min<Scalar>(f[row], shift)));
     if (contact.kind == ContactKind::kSliding) {
       worst = std::max<Scalar>(worst, Abs(Scalar(f[row + 1] + contact.mu * contact.slip[0] * f[row])));
-      ++row;
     } else if (contact.HasFrictionRows()) {
       const Scalar bound = contact.mu * std::max<Scalar>(Scalar(0), f[row]);
       const Scalar least = f[row + 1] - bound, most = f[row + 1] + bound;
       const Scalar gap = std::min<Scalar>(most, std::max<Scalar>(least, r * a[row + 1]));
       worst = std::max<Scalar>(worst, Abs(gap));
-      ++row;
     }
-    ++row;
+    row += contact.HasFrictionRows() ? 2 : 1;
   }
-  return Residual<Scalar>{worst, std::max<Scalar>(max_f, max_b * r), max_b * r};
+  return residual;
 }
 
 template <class Problem, class Vector>
-typename Problem::Vector::Scalar NaturalResidual(const Problem& problem, const Vector& f, const Vector& a) {
-  using Scalar = typename Problem::Vector::Scalar;
-  const Residual<Scalar> residual = MeasureResidual(problem, f, a);
-  return residual.scale > 0 ? Scalar(residual.worst / residual.scale) : residual.worst;
+typename Vector::Scalar NaturalResidual(const Problem& problem, const Vector& f, const Vector& a) {
+  return MeasureResidual(problem, f, a).Relative();
 }
 
 // The nearest point of the cone of forces (fN, fF) in space with abs(fF) <= mu fN, mu >= 0.
@@ -94,38 +113,39 @@ std::array<Scalar, 3> ProjectOnCone(const std::array<Scalar, 3>& x, const Scalar
   return {normal, along * x[1], along * x[2]};
 }
 
-// Requires dimension 3 and a floating-point Scalar. Problem: as above.
+// Requires dimension 3 and floating-point scalars. Problem: as above.
 template <class Problem, class Vector>
-typename Problem::Vector::Scalar CoulombResidual(const Problem& problem, const Vector& f, const Vector& a) {
+auto MeasureCoulomb(const Problem& problem, const Vector& f, const Vector& a) {
   using std::hypot;
-  using Scalar = typename Problem::Vector::Scalar;
-  Scalar max_A = 0, max_b = 0, worst = 0, zero = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-    max_A = std::max<Scalar>(max_A, problem.A.coeff(i, i));
-    max_b = std::max(max_b, Abs(problem.b[i]));
-  }
-  if (zero != 0) return zero;
-  const Scalar r = max_A > 0 ? 1 / max_A : Scalar(1);
+  using Scalar = typename Vector::Scalar;
+  Residual<Scalar> residual = MeasureScale(problem, f, a);
+  if (!residual.is_finite) return residual;
+  const Scalar& r = residual.r;
   int row = 0;
   for (const auto& contact : problem.contacts) {
+    const Scalar mu = contact.mu;
     Scalar gap = Abs(Scalar(r * a[row]));
     if (contact.kind == ContactKind::kFrictionless || contact.kind == ContactKind::kSliding)
       gap = Abs(Scalar(f[row] - std::max(Scalar(0), f[row] - r * a[row])));
     if (contact.kind == ContactKind::kSliding) {
-      const Scalar limit = contact.mu * f[row];
+      const Scalar limit = mu * f[row];
       gap = hypot(gap, hypot(f[row + 1] + limit * contact.slip[0], f[row + 2] + limit * contact.slip[1]));
     }
     if (contact.kind == ContactKind::kStatic) {
-      const Scalar shifted = a[row] + contact.mu * hypot(a[row + 1], a[row + 2]);
+      const Scalar shifted = a[row] + mu * hypot(a[row + 1], a[row + 2]);
       const std::array<Scalar, 3> wanted = ProjectOnCone<Scalar>(
-          {f[row] - r * shifted, f[row + 1] - r * a[row + 1], f[row + 2] - r * a[row + 2]}, contact.mu);
+          {f[row] - r * shifted, f[row + 1] - r * a[row + 1], f[row + 2] - r * a[row + 2]}, mu);
       gap = hypot(f[row] - wanted[0], hypot(f[row + 1] - wanted[1], f[row + 2] - wanted[2]));
     }
-    worst = std::max(worst, gap);
+    residual.worst = std::max(residual.worst, gap);
     row += contact.HasFrictionRows() ? 3 : 1;
   }
-  return max_b > 0 ? worst / (max_b * r) : worst;
+  return residual;
+}
+
+template <class Problem, class Vector>
+typename Vector::Scalar CoulombResidual(const Problem& problem, const Vector& f, const Vector& a) {
+  return MeasureCoulomb(problem, f, a).RelativeToB();
 }
 
 }  // namespace stiction

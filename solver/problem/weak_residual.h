@@ -19,42 +19,43 @@
 #include <cmath>
 
 #include "solver/problem/problem.h"
+#include "solver/problem/residual.h"
 #include "solver/problem/scalar.h"
 
 namespace stiction {
 
 template <class Scalar, class Vector>
-Scalar WeakResidual(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
+auto MeasureWeak(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
   using std::hypot;
-  Scalar max_A = 0, max_b = 0, max_f = 0, worst = 0, zero = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-    max_A = std::max(max_A, problem.A(i, i));
-    max_b = std::max(max_b, Abs(problem.b[i]));
-    max_f = std::max(max_f, Abs(Scalar(f[i])));
-  }
-  if (zero != 0) return zero;  // maxima pass over what is not a number
-  const Scalar r = max_A > 0 ? 1 / max_A : Scalar(1);
+  using Wide = typename Vector::Scalar;
+  Residual<Wide> residual = MeasureScale(problem, f, a);
+  if (!residual.is_finite) return residual;
+  const Wide& r = residual.r;
+  Wide& worst = residual.worst;
   int row = 0;
   for (const auto& contact : problem.contacts) {
-    const Scalar fN = f[row];
+    const Wide fN = f[row], mu = contact.mu;
     const bool bilateral = contact.kind == ContactKind::kBilateral;
-    worst = std::max(
-        worst, Abs(bilateral ? Scalar(r * a[row]) : Scalar(fN - std::max(Scalar(0), Scalar(fN - r * a[row])))));
+    worst = std::max(worst,
+                     Abs(bilateral ? Wide(r * a[row]) : Wide(fN - std::max(Wide(0), Wide(fN - r * a[row])))));
     if (contact.kind == ContactKind::kSliding) {
-      const Scalar limit = contact.mu * fN;
+      const Wide limit = mu * fN;
       worst =
           std::max(worst, hypot(f[row + 1] + limit * contact.slip[0], f[row + 2] + limit * contact.slip[1]));
     } else if (contact.kind == ContactKind::kStatic) {
-      const Scalar force = hypot(f[row + 1], f[row + 2]), answer = hypot(a[row + 1], a[row + 2]);
-      const Scalar slack = contact.mu * fN - force;
+      const Wide force = hypot(f[row + 1], f[row + 2]), answer = hypot(a[row + 1], a[row + 2]);
+      const Wide slack = mu * fN - force;
       worst = std::max({worst, -slack, std::min(r * answer, slack)});
       if (force > 0) worst = std::max(worst, r * (f[row + 1] * a[row + 1] + f[row + 2] * a[row + 2]) / force);
     }
     row += contact.HasFrictionRows() ? 3 : 1;
   }
-  const Scalar scale = std::max(max_f, max_b * r);
-  return scale > 0 ? worst / scale : worst;
+  return residual;
+}
+
+template <class Scalar, class Vector>
+typename Vector::Scalar WeakResidual(const ContactProblem<Scalar>& problem, const Vector& f, const Vector& a) {
+  return MeasureWeak(problem, f, a).Relative();
 }
 
 }  // namespace stiction

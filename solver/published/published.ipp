@@ -404,6 +404,8 @@ bool PublishedAlgorithm<Scalar, Rows>::BudgetSpent() {
     End(Outcome::kLimit, "drives");
   } else if (verdict_.statistics.steps >= limits.pivots) {
     End(Outcome::kLimit, "pivots");
+  } else if (limits.Stopped()) {
+    End(Outcome::kUndecided, kStopped);
   } else if constexpr (kIsExact<Scalar>) {
     for (int row = 0; row < problem_->rows(); ++row) {
       if (BitLength<Scalar>::Of(state_.f[row]) > limits.bits) End(Outcome::kLimit, "bits");

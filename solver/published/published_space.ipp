@@ -620,6 +620,8 @@ bool PublishedInSpace<Scalar>::BudgetSpent() {
     End(Outcome::kLimit, "drives");
   } else if (verdict_.statistics.steps >= options_.limits.pivots) {
     End(Outcome::kLimit, "pivots");
+  } else if (options_.limits.Stopped()) {
+    End(Outcome::kUndecided, kStopped);
   } else {
     EndUnlessFinite();
   }

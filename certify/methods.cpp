@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of methods over rationals, and all of it. A new exact method is a row here and its run.
+
+#include <algorithm>
+
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/feasibility_nlp.h"
+#include "certify/nearby_words.h"
+#include "certify/solve.h"
+#include "certify/space.h"
+#include "corpus/rounded.h"
+#include "solver/problem/reduction.ipp"
+#include "solver/solve.ipp"
+
+namespace stiction {
+namespace {
+
+using ExactMethod = Method<Rational>;
+using ExactTrace = Trace<Rational>;
+
+constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `auto` leaves a problem open
+
+// ---- Runs ------------------------------------------------------------------------------------
+
+Answer<Rational> RunCompleteInSpace(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  SpaceOptions space;
+  space.law = options.law;
+  space.sides = options.sides;
+  space.limits = options.limits;
+  SpaceSolution solution = SolveInSpace(problem, space);
+  Answer<Rational> answer;
+  answer.outcome = solution.outcome;
+  answer.reason = solution.reason;
+  answer.law = options.law;
+  if (answer.Solved()) answer.f = std::move(solution.f);
+  if (answer.Solved() && options.law == FrictionLaw::kCoulomb) answer.bound = ToString(solution.bound);
+  answer.ray = std::move(solution.ray);
+  answer.word = Name(solution.word);
+  answer.counters = CountersOf(solution.statistics);
+  answer.counters.push_back({"refinements", solution.refinements});
+  return answer;
+}
+
+// The first solution in the order of the mode words. That there is none is a claim of `certify`.
+Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  EnumerationOptions enumeration;
+  enumeration.first_solution_only = true;
+  enumeration.programs = std::min(options.limits.pivots, kAutomaticPrograms);
+  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  const Enumeration modes = EnumerateModes(problem, enumeration);
+  Answer<Rational> answer;
+  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  if (!modes.solutions.empty()) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = modes.solutions.front().f;
+  } else if (modes.ProvesNoSolution()) {
+    answer.reason = "no mode has a solution; see certify";
+  } else if (modes.end == EnumerationEnd::kLimit) {
+    answer.outcome = Outcome::kLimit;
+    answer.reason = "programs";
+  } else {
+    answer.reason = kStopped;
+  }
+  return answer;
+}
+
+// Ipopt proposes, exact arithmetic decides.
+Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
+  IpoptProposer proposer;
+  ProposalStatistics statistics;
+  auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
+  Answer<Rational> answer;
+  answer.counters = {
+      {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
+  if (f) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = *std::move(f);
+  } else {
+    answer.reason = "no point that Ipopt proposed led to a solution";
+  }
+  return answer;
+}
+
+// Cells found over doubles, their equations solved over rationals; complete driving where that fails.
+Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  constexpr int kWords = 16;
+  const Answer<double> guess = Solve(Rounded<double>(problem), "fast", {.limits = options.limits});
+  const ScaledProblem scaled = MakeScaled(problem);
+  std::vector<double> point;
+  for (const double x : guess.f) point.push_back(x / ToDouble(scaled.force));
+  std::set<ModeWord> tried;
+  NearbySolution near;
+  if (guess.f.allFinite()) near = SolveNear(problem, scaled, point, kWords, tried);
+  Answer<Rational> answer;
+  if (!near.f) answer = Solve(problem, "complete", options);
+  if (near.f) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = *std::move(near.f);
+  }
+  answer.counters = {{"words", near.words}, {"fallbacks", !near.f}};
+  return answer;
+}
+
+// ---- The table ---------------------------------------------------------------------------------
+
+constexpr std::string_view kExactEnd = "a solution, verified; nothing where it finds none";
+
+ExactMethod EnumerateRow() {
+  return {.name = "enumerate",
+          .title = "all words of contact modes, an exact linear program each",
+          .source = "certify/enumerate.h",
+          .ends = "a solution, or that there is none",
+          .automatic = true,
+          .has_path = false,
+          .plane = {&RunEnumeration, true},
+          .space = {}};
+}
+
+ExactMethod IpoptRow() {
+  return {.name = "ipopt",
+          .title = "feasibility problem (17), (18) by Ipopt, its modes solved exactly",
+          .source = "[Baraff94] 5.1; certify/feasibility_nlp.h",
+          .ends = kExactEnd,
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunIpopt, true},
+          .space = {}};
+}
+
+ExactMethod FastRow() {
+  return {.name = "fast",
+          .title = "projected Gauss-Seidel, then block pivoting over doubles; its cells solved exactly",
+          .source = "solver/numeric/fast.h",
+          .ends = kExactEnd,
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunFastExactly, true},
+          .space = {}};
+}
+
+}  // namespace
+
+template <>
+std::span<const ExactMethod> Methods<Rational>() {
+  static const std::array rows = {
+      CompleteRow<Rational>({&RunCompleteInSpace, true}),
+      LemkeRow<Rational>({}),
+      EnumerateRow(),
+      FastRow(),
+      IpoptRow(),
+      BaraffRow<Rational>({}),
+  };
+  return rows;
+}
+
+template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template const ExactMethod* FindMethod(std::string_view);
+
+// ---- All arithmetics ---------------------------------------------------------------------------
+
+namespace {
+
+class FactsList {
+ public:
+  template <class Scalar>
+  void Add() {
+    for (const Method<Scalar>& method : Methods<Scalar>()) {
+      MethodFacts& facts = RowOf(method);
+      for (const int dimension : {2, 3})
+        Mark(facts, dimension, kArithmeticOf<Scalar>, method.IsBuilt(dimension));
+    }
+  }
+
+  // What is decided exactly can be told in floating-point numbers, too.
+  void AddToldExactly() {
+    for (MethodFacts& facts : rows_) {
+      for (const Arithmetic told : {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble})
+        Mark(facts, 2, told, facts.IsBuilt(2, Arithmetic::kExact));
+    }
+  }
+
+  static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
+    facts.built[dimension - 2][static_cast<int>(arithmetic)] |= built;
+  }
+
+  std::vector<MethodFacts> Take() { return std::move(rows_); }
+  std::vector<MethodFacts>& rows() { return rows_; }
+
+ private:
+  template <class Scalar>
+  MethodFacts& RowOf(const Method<Scalar>& method) {
+    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
+    if (known != rows_.end()) return *known;
+    return rows_.emplace_back(
+        MethodFacts{method.name, method.title, method.source, method.ends, method.has_path, {}});
+  }
+
+  std::vector<MethodFacts> rows_;
+};
+
+std::vector<MethodFacts> MakeFacts() {
+  FactsList list;
+  list.Add<Rational>();
+  list.AddToldExactly();
+  list.Add<float>();
+  list.Add<double>();
+  list.Add<long double>();
+  for (MethodFacts& facts : list.rows())
+    FactsList::Mark(facts, 3, Arithmetic::kInterval, facts.name == "baraff");
+  return list.Take();
+}
+
+}  // namespace
+
+const std::vector<MethodFacts>& AllMethods() {
+  static const std::vector<MethodFacts> facts = MakeFacts();
+  return facts;
+}
+
+const MethodFacts* FindMethodFacts(std::string_view name) {
+  const auto& all = AllMethods();
+  const auto row = std::find_if(all.begin(), all.end(), [name](auto& m) { return m.name == name; });
+  return row == all.end() ? nullptr : &*row;
+}
+
+}  // namespace stiction

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// An answer in JSON, over any arithmetic.
+
+#ifndef STICTION_CLI_ANSWER_TEXT_H_
+#define STICTION_CLI_ANSWER_TEXT_H_
+
+#include "certify/solve.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+
+// {"outcome", "method", "arithmetic", "word", "f", "a", "ray", "residual", "statistics", "suspected", ...}:
+// exact numbers are strings, inexact ones numbers, enclosures pairs. What a method does not have is left out.
+Json SolutionToJson(const Solution& solution, int dimension);
+
+// {"outcome", "reason", "start", "period"} of an answer or a suspicion.
+template <class End>
+Json EndToJson(const End& end) {
+  Json json = {{"outcome", Name(end.outcome)}};
+  if (!end.reason.empty()) json["reason"] = end.reason;
+  if (end.outcome == Outcome::kCycle || end.outcome == Outcome::kStall) {
+    json["start"] = end.start;
+    json["period"] = end.period;
+  }
+  return json;
+}
+
+// Why a cycle over rounded numbers in space is no proof.
+inline constexpr std::string_view kNoProof =
+    "a state stands again after rounding: forces are irrational, and this is no proof";
+
+Json CountersToJson(const std::vector<Counter>& counters);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_ANSWER_TEXT_H_

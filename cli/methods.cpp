@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction methods: the table of methods, as the program reads it.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "certify/solve.h"
+#include "cli/verbs.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::array kShown = {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble,
+                               Arithmetic::kInterval, Arithmetic::kExact};
+
+// "plane space", "plane", "space" or "-".
+std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
+  const bool plane = facts.IsBuilt(2, arithmetic), space = facts.IsBuilt(3, arithmetic);
+  if (plane && space) return "plane, space";
+  return plane ? "plane" : space ? "space" : "-";
+}
+
+std::string Row(const std::vector<std::string>& cells) {
+  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+// In Markdown, as it stands in solver/README.md.
+std::string Table() {
+  std::vector<std::string> head = {"method"};
+  for (const Arithmetic arithmetic : kShown) head.emplace_back(Name(arithmetic));
+  std::string text = Row(head) + Row(std::vector<std::string>(head.size(), "---"));
+  int refused = 0;
+  for (const MethodFacts& facts : AllMethods()) {
+    std::vector<std::string> cells = {fmt::format("`{}`", facts.name)};
+    for (const Arithmetic arithmetic : kShown) {
+      cells.push_back(WhereBuilt(facts, arithmetic));
+      for (const int dimension : {2, 3}) refused += !facts.IsBuilt(dimension, arithmetic);
+    }
+    text += Row(cells);
+  }
+  const auto all = 2 * kShown.size() * AllMethods().size();
+  return text + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
+}
+
+std::string Facts() {
+  std::string text;
+  for (const MethodFacts& facts : AllMethods())
+    text += fmt::format("\n{}\n  {}\n  source: {}\n  what its end proves: {}\n", facts.name, facts.title,
+                        facts.source, facts.ends);
+  return text;
+}
+
+Json InJson() {
+  Json json = Json::array();
+  for (const MethodFacts& facts : AllMethods()) {
+    Json row = {{"name", facts.name},    {"title", facts.title},   {"source", facts.source},
+                {"ends", facts.ends},    {"path", facts.has_path}, {"plane", Json::array()},
+                {"space", Json::array()}};
+    for (const Arithmetic arithmetic : kShown) {
+      if (facts.IsBuilt(2, arithmetic)) row["plane"].push_back(Name(arithmetic));
+      if (facts.IsBuilt(3, arithmetic)) row["space"].push_back(Name(arithmetic));
+    }
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
+}  // namespace
+
+void AddMethods(CLI::App& program, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App& verb =
+      *program.add_subcommand("methods", "The methods, what their ends prove, and where they are built");
+  verb.add_flag("--json", *json, "machine output");
+  verb.callback([json, &action] {
+    action = [json] {
+      std::cout << (*json ? JsonText(InJson()) + "\n" : Table() + Facts());
+      return kExitDone;
+    };
+  });
+}
+
+}  // namespace stiction

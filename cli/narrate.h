@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of a path method for people and for programs: a line for each step, or all of its numbers.
+
+#ifndef STICTION_CLI_NARRATE_H_
+#define STICTION_CLI_NARRATE_H_
+
+#include <string>
+
+#include "certify/solve.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+
+struct Narration {
+  std::string table;  // a line for each step
+  std::string steps;  // directions, forces, accelerations and sets as well
+  Json pivots;        // an object for each step
+};
+
+// `file` must outlive the call. Scalar: Rational or double. `vectors`: whether the objects have them, too.
+template <class Scalar>
+Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+// In the plane over rationals it is told, too, where the published algorithm gives up at a fold.
+template <class Scalar>
+Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+template <class Scalar>
+Narration NarrateLemke(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATE_H_

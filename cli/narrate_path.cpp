@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Complete driving and Lemke's method, piece by piece.
+
+#include <sstream>
+
+#include "certify/exact.h"
+#include "cli/narrate.h"
+#include "cli/narrate_text.h"
+
+namespace stiction {
+namespace {
+
+// The cell of every contact, from a word of the plane (a letter each) or of space (with blanks between them).
+std::vector<std::string> CellsOf(const std::string& word, bool in_space) {
+  std::vector<std::string> cells;
+  if (in_space) {
+    std::istringstream words(word);
+    for (std::string cell; words >> cell;) cells.push_back(cell);
+  } else {
+    for (const char cell : word) {
+      if (cell != ' ') cells.emplace_back(1, cell);
+    }
+  }
+  return cells;
+}
+
+const char* SignText(int sign) { return sign > 0 ? "> 0" : sign < 0 ? "< 0" : "0"; }
+
+// ---- Complete driving ----------------------------------------------------------------------------
+
+template <class Scalar>
+class CompleteNarrator {
+ public:
+  using Step = Pivot<Scalar>;
+
+  CompleteNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer)
+      : answer_(answer), names_(file.problem) {
+    if constexpr (kIsExact<Scalar>) {
+      if (!names_.in_space()) published_ = RunExact(file.problem, {}).trace.pivots;
+    }
+  }
+
+  Narration Tell(bool vectors) const {
+    Narration narration;
+    narration.table = fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", "piece", "driven", "det", "length",
+                                  "cells", "what happens");
+    narration.steps = fmt::format("Before the first piece f = {}.\n", ListText(answer_.first_f));
+    narration.pivots = Json::array();
+    for (std::size_t k = 0; k < answer_.pivots.size(); ++k) Add(k, vectors, narration);
+    return narration;
+  }
+
+ private:
+  void Add(std::size_t k, bool vectors, Narration& narration) const {
+    const Step& step = answer_.pivots[k];
+    const std::string event = Event(k), driven = names_.Variable(step.driven);
+    narration.pivots.push_back(ToJson(step, event, vectors));
+    narration.table += fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", k + 1, driven, step.determinant,
+                                   Text(step.s), step.word, event);
+    narration.steps += fmt::format(
+        "\nPiece {}: {} is driven{}, cells {}, determinant {}\n  df = {}   da = {}\n  s = {}: {}\n"
+        "    f = {}   a = {}\n",
+        k + 1, driven, step.determinant < 0 ? " backward" : "", step.word, SignText(step.determinant),
+        ListText(step.df), ListText(step.da), Text(step.s), event, ListText(step.f), ListText(step.a));
+  }
+
+  std::string Event(std::size_t k) const {
+    const Step& step = answer_.pivots[k];
+    const bool last = k + 1 == answer_.pivots.size();
+    if (last) return End(step);
+    const Step& next = answer_.pivots[k + 1];
+    std::string text = next.drive == step.drive ? Changes(step, next) : End(step);
+    if (next.turn == PathTurn::kDescent)
+      text = fmt::format("f_{} is back at zero: a descent", names_.Variable(step.driven));
+    if (next.turn == PathTurn::kFold) text += "; a fold: the driven force turns back" + GivenUpAt(step);
+    return text;
+  }
+
+  std::string End(const Step& step) const {
+    if (step.limiting < 0) return "no facet ahead";
+    return fmt::format("the stage of {} ends", names_.Variable(step.driven));
+  }
+
+  // The contacts that enter another cell.
+  std::string Changes(const Step& step, const Step& next) const {
+    const auto from = CellsOf(step.word, names_.in_space()), to = CellsOf(next.word, names_.in_space());
+    std::string text;
+    for (std::size_t i = 0; i < from.size() && i < to.size(); ++i) {
+      if (from[i] != to[i])
+        text += fmt::format("{}contact {} from {} to {}", text.empty() ? "" : ", ", i + 1, from[i], to[i]);
+    }
+    return text;
+  }
+
+  // Where the published algorithm, under `paper`, gives a variable up at the very forces of a fold.
+  std::string GivenUpAt(const Step& fold) const {
+    for (std::size_t k = 0; k < published_.size(); ++k) {
+      const Step& step = published_[k];
+      if (step.gave_up && step.f == fold.f)
+        return fmt::format(". Here, at step {}, the published algorithm gives {} up (5.4, 5.5)", k + 1,
+                           names_.Variable(step.limiting));
+    }
+    return "";
+  }
+
+  Json ToJson(const Step& step, const std::string& event, bool vectors) const {
+    Json json = {{"drive", step.drive},    {"driven", names_.Variable(step.driven)},
+                 {"word", step.word},      {"determinant", step.determinant},
+                 {"step", InJson(step.s)}, {"event", event}};
+    if (!vectors) return json;
+    json["df"] = ListJson(step.df);
+    json["f"] = ListJson(step.f);
+    json["a"] = ListJson(step.a);
+    return json;
+  }
+
+  const TracedAnswer<Scalar>& answer_;
+  VariableTexts names_;
+  std::vector<Step> published_;  // the published algorithm, in the plane over rationals
+};
+
+// ---- Lemke's method ------------------------------------------------------------------------------
+
+template <class Scalar>
+Json LemkePivotToJson(const Pivot<Scalar>& pivot, bool vectors) {
+  Json json = {{"pivot", pivot.drive},
+               {"entering", pivot.entering},
+               {"leaving", pivot.leaving},
+               {"step", InJson(pivot.s)},
+               {"z0", InJson(pivot.cover)}};
+  if (!vectors) return json;
+  json["f"] = ListJson(pivot.f);
+  json["a"] = ListJson(pivot.a);
+  return json;
+}
+
+}  // namespace
+
+template <class Scalar>
+Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors) {
+  return CompleteNarrator<Scalar>(file, answer).Tell(vectors);
+}
+
+template <class Scalar>
+Narration NarrateLemke(const ProblemFile&, const TracedAnswer<Scalar>& answer, bool vectors) {
+  Narration narration;
+  narration.table =
+      fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", "pivot", "enters", "leaves", "length", "z0");
+  narration.pivots = Json::array();
+  for (const Pivot<Scalar>& pivot : answer.pivots) {
+    const std::string leaving = pivot.leaving.empty() ? "(ray)" : pivot.leaving;
+    narration.pivots.push_back(LemkePivotToJson(pivot, vectors));
+    narration.table += fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", pivot.drive, pivot.entering, leaving,
+                                   Text(pivot.s), Text(pivot.cover));
+    narration.steps += fmt::format("\nPivot {}: {} enters, by {}; {} leaves\n    z0 = {}   f = {}   a = {}\n",
+                                   pivot.drive, pivot.entering, Text(pivot.s), leaving, Text(pivot.cover),
+                                   ListText(pivot.f), ListText(pivot.a));
+  }
+  return narration;
+}
+
+template Narration NarrateComplete(const ProblemFile&, const ExactAnswer&, bool);
+template Narration NarrateComplete(const ProblemFile&, const InexactAnswer&, bool);
+template Narration NarrateLemke(const ProblemFile&, const ExactAnswer&, bool);
+template Narration NarrateLemke(const ProblemFile&, const InexactAnswer&, bool);
+
+}  // namespace stiction

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the narrations of all path methods need: numbers, names of variables, kinds of contacts.
+
+#ifndef STICTION_CLI_NARRATE_TEXT_H_
+#define STICTION_CLI_NARRATE_TEXT_H_
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "certify/certificate.h"
+#include "cli/verbs.h"
+#include "corpus/problem_file.h"
+#include "solver/problem/answer.h"
+
+namespace stiction {
+
+inline std::string Text(const Rational& x) { return ToString(x); }
+inline std::string Text(double x) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
+
+// "(1, -2/3)".
+template <class Numbers>
+std::string ListText(const Numbers& numbers) {
+  std::string text;
+  for (const auto& x : numbers) text += (text.empty() ? "" : ", ") + Text(x);
+  return "(" + text + ")";
+}
+
+inline Json InJson(const Rational& x) { return ToString(x); }
+inline Json InJson(double x) { return NumberToJson(x); }
+template <class Numbers>
+Json ListJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(InJson(x));
+  return json;
+}
+
+// Names of the variables of a problem, by row.
+class VariableTexts {
+ public:
+  explicit VariableTexts(const ExactProblem& problem) : dimension_(problem.dimension) {
+    layout_.Assign(problem.contacts, problem.dimension);
+  }
+
+  const RowLayout<Eigen::Dynamic>& layout() const { return layout_; }
+  bool in_space() const { return dimension_ == 3; }
+  bool IsNormal(int row) const { return layout_.IsNormal(row); }
+  // Whether a row stands for a variable: in space the second tangential row does not.
+  bool IsVariable(int row) const { return IsNormal(row) || IsNormal(row - 1); }
+  int Normal(int row) const { return layout_.NormalRowOf(layout_.ContactOf(row)); }
+
+  // "N1"; "F1", in space of both components of friction.
+  std::string Variable(int row) const {
+    return (IsNormal(row) ? "N" : "F") + std::to_string(layout_.ContactOf(row) + 1);
+  }
+  // In space "F1x" or "F1y", along the axes that the contact has at the time.
+  std::string Component(int row) const {
+    if (!in_space() || IsNormal(row)) return Variable(row);
+    return Variable(row) + (IsNormal(row - 1) ? "x" : "y");
+  }
+
+ private:
+  int dimension_;
+  RowLayout<Eigen::Dynamic> layout_;
+};
+
+// A f + b before the first step, in the numbers of the answer.
+template <class Scalar>
+typename Answer<Scalar>::Vector FirstAccelerations(const ExactProblem& problem, const Answer<Scalar>& answer) {
+  const ExactVector f = answer.first_f.unaryExpr([](const Scalar& x) { return Rational(x); });
+  const ExactVector a = problem.A * f + problem.b;
+  if constexpr (kIsExact<Scalar>) {
+    return a;
+  } else {
+    return a.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  }
+}
+
+// What bilateral and sliding contacts do all the time, a line each.
+std::string KindsText(const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATE_TEXT_H_

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answer: what one method says of one problem, over any scalar.
+
+#ifndef STICTION_SOLVER_PROBLEM_ANSWER_H_
+#define STICTION_SOLVER_PROBLEM_ANSWER_H_
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/problem/problem.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+enum class Arithmetic : std::uint8_t { kFloat, kDouble, kLongDouble, kQuad, kInterval, kFiltered, kExact };
+inline constexpr int kArithmeticCount = 7;
+inline constexpr std::array<std::string_view, kArithmeticCount> kArithmeticNames = {
+    "float", "double", "long-double", "quad", "interval", "filtered", "exact"};
+
+inline constexpr std::string_view Name(Arithmetic arithmetic) {
+  return kArithmeticNames[static_cast<int>(arithmetic)];
+}
+
+template <class Scalar>
+inline constexpr Arithmetic kArithmeticOf = Arithmetic::kExact;
+template <>
+inline constexpr Arithmetic kArithmeticOf<float> = Arithmetic::kFloat;
+template <>
+inline constexpr Arithmetic kArithmeticOf<double> = Arithmetic::kDouble;
+template <>
+inline constexpr Arithmetic kArithmeticOf<long double> = Arithmetic::kLongDouble;
+
+// Friction in space. kBaraff: (21), (22), which leave the direction of slip free. kCoulomb: friction opposite
+// to the acceleration, which implies them. In the plane they are the same.
+enum class FrictionLaw : std::uint8_t { kBaraff, kCoulomb };
+inline constexpr std::string_view Name(FrictionLaw law) {
+  return law == FrictionLaw::kBaraff ? "baraff" : "coulomb";
+}
+
+// A counter of a method by the name that its table of statistics gives it.
+struct Counter {
+  std::string_view name;
+  std::int64_t value = 0;
+
+  bool operator==(const Counter&) const = default;
+};
+
+// S: what has a table of counters, ForEachField(statistics, visit(name, help, value)).
+template <class S>
+std::vector<Counter> CountersOf(const S& statistics) {
+  std::vector<Counter> counters;
+  ForEachField(statistics, [&counters](const char* name, const char*, std::int64_t value) {
+    counters.push_back({name, value});
+  });
+  return counters;
+}
+
+// Rows and contacts are those of the whole problem. Vectors that a method does not have are empty.
+template <class Scalar>
+struct Answer {
+  using Vector = typename ContactProblem<Scalar>::Vector;
+
+  Outcome outcome = Outcome::kUndecided;
+  std::string reason;      // which limit, or why not decided
+  std::int64_t start = 0;  // of a loop, in drives
+  std::int64_t period = 0;
+  std::string_view method;  // that gave the answer, by its name in the table
+  Arithmetic arithmetic = kArithmeticOf<Scalar>;
+  FrictionLaw law = FrictionLaw::kBaraff;  // that f is meant to obey
+  Vector f, a;                             // where the run ended; a = A f + b
+  Vector ray;            // the direction of a step without limit; impulsive where contacts slide (6)
+  Vector first_f;        // before the first step: zero but for bilateral contacts
+  double residual = -1;  // of f, by the law that the answer is for; -1: not measured
+  std::string bound;     // exact, Coulomb's law in space: proved cosine of fF and -aF, a fraction
+  std::string word;      // the cell of every contact
+  std::vector<Counter> counters;
+
+  bool Solved() const { return outcome == Outcome::kSolved; }
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_ANSWER_H_

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gate: an upper bound of the relative residual of forces, by which alone they are called a solution.
+//
+// Accelerations are computed anew in long double, where no product of two doubles leaves the range. Their
+// rounding is bounded entry by entry,
+//
+//   abs(error of a_i) <= (rows + 2) u (sum_j abs(A_ij f_j) + abs(b_i)),   u = 2^-64,
+//
+// and added to the residual (residual.h, weak_residual.h) times its slope: the residuals move by at most r = 1
+// / max A_ii times the change of a; in space, where a normal's shift has mu abs(aF) in it, by at most 3 (1 +
+// mu) r times the largest change of an entry. N. J. Higham, Accuracy and Stability of Numerical Algorithms,
+// 2002, section 3.1.
+
+#ifndef STICTION_SOLVER_PROBLEM_GATE_H_
+#define STICTION_SOLVER_PROBLEM_GATE_H_
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/problem/answer.h"
+#include "solver/problem/residual.h"
+#include "solver/problem/weak_residual.h"
+
+namespace stiction {
+
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+template <class Scalar>
+long double MostFriction(const ContactProblem<Scalar>& problem) {
+  long double most = 0;
+  if (problem.dimension == 2) return most;
+  for (const auto& contact : problem.contacts) most = std::max<long double>(most, contact.mu);
+  return most;
+}
+
+// Accelerations, and the largest bound of their errors.
+struct CheckedAccelerations {
+  LongVector a;
+  long double error = 0;
+};
+
+template <class Scalar>
+CheckedAccelerations Recompute(const ContactProblem<Scalar>& problem, const LongVector& f) {
+  const int rows = problem.rows();
+  const long double unit = (rows + 2) * std::numeric_limits<long double>::epsilon() / 2;
+  CheckedAccelerations checked{LongVector(rows), 0};
+  for (int i = 0; i < rows; ++i) {
+    long double sum = problem.b[i], size = std::abs(sum);
+    for (int j = 0; j < rows; ++j) {
+      const long double product = static_cast<long double>(problem.A(i, j)) * f[j];
+      sum += product;
+      size += std::abs(product);
+    }
+    checked.a[i] = sum;
+    checked.error = std::max(checked.error, unit * size);
+  }
+  return checked;
+}
+
+// Relative as residual.h and weak_residual.h say for the law; infinite if a number is not finite.
+template <class Scalar>
+long double ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law, const LongVector& f) {
+  const CheckedAccelerations checked = Recompute(problem, f);
+  const bool round = problem.dimension == 3 && law == FrictionLaw::kCoulomb;
+  Residual<long double> residual = problem.dimension == 2 ? MeasureResidual(problem, f, checked.a)
+                                   : round                ? MeasureCoulomb(problem, f, checked.a)
+                                                          : MeasureWeak(problem, f, checked.a);
+  if (!residual.is_finite) return std::numeric_limits<long double>::infinity();
+  residual.worst += 3 * residual.r * checked.error * (1 + MostFriction(problem));
+  return round ? residual.RelativeToB() : residual.Relative();
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_GATE_H_

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solve: one problem, one method, one answer. Entry of the library.
+//
+// Methods() is the table of all that this library has over a scalar; whatever chooses or names a method reads
+// it. Solve() does what every call needs:
+//
+//   scale     A and b by powers of two where their products could leave the range of the scalar (exact)
+//   reduce    bilateral and sliding contacts leave the problem, for methods that do not take them (4.5, 6)
+//   run       the method
+//   restore   rows, contacts and units of the whole problem
+//   gate      `solved` is said of forces whose own residual, with a = A f + b computed anew and its rounding
+//             bounded, is at most the stated bound; whatever else claims to be solved is `undecided`
+//
+// Over exact scalars nothing is scaled, and the gate is the verification of certify.
+//
+//   ContactProblem<double> problem = ...;
+//   const Answer<double> answer = Solve(problem);
+//   if (answer.Solved()) use(answer.f);
+
+#ifndef STICTION_SOLVER_SOLVE_H_
+#define STICTION_SOLVER_SOLVE_H_
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "solver/problem/answer.h"
+#include "solver/problem/options.h"
+#include "solver/problem/problem.h"
+
+namespace stiction {
+
+struct SolveOptions {
+  Policy policy;          // of the published algorithm
+  Tolerances tolerances;  // of inexact arithmetics
+  Limits limits;
+  FrictionLaw law = FrictionLaw::kBaraff;  // in space; inexact answers of methods that know it obey kCoulomb
+  int sides = 8;                           // of friction polygons in space, a multiple of 4
+  double residual = 0;                     // of an answer that is called solved; 0: that of the arithmetic
+
+  bool operator==(const SolveOptions&) const = default;
+};
+
+// Relative residual up to which forces of a scalar are called a solution, where nobody asks for another.
+template <class Scalar>
+inline constexpr double kSolvedResidual = 1e-8;
+template <>
+inline constexpr double kSolvedResidual<float> = 1e-6;
+
+template <class Scalar>
+using MethodRun = Answer<Scalar> (*)(const ContactProblem<Scalar>&, const SolveOptions&, Trace<Scalar>*);
+
+// A method as it is built for one dimension; `run` is null where it is not.
+template <class Scalar>
+struct MethodIn {
+  MethodRun<Scalar> run = nullptr;
+  bool takes_all_kinds = false;  // otherwise bilateral and sliding contacts leave a problem first
+};
+
+// A row of the table.
+template <class Scalar>
+struct Method {
+  std::string_view name;    // in --method
+  std::string_view title;   // what the field calls it
+  std::string_view source;  // section of the paper, or reference
+  std::string_view ends;    // what its end proves
+  bool automatic = false;   // `auto` tries these in the order of the table until one solves
+  bool has_path = false;    // records a trace
+  MethodIn<Scalar> plane;
+  MethodIn<Scalar> space;
+
+  const MethodIn<Scalar>& In(int dimension) const { return dimension == 2 ? plane : space; }
+  bool IsBuilt(int dimension) const { return In(dimension).run != nullptr; }
+};
+
+// The methods over a scalar: here float, double, long double; exact ones in certify.
+template <class Scalar>
+std::span<const Method<Scalar>> Methods();
+
+inline constexpr std::string_view kAutomatic = "auto";
+
+// The row of that name; null if the table has none.
+template <class Scalar>
+const Method<Scalar>* FindMethod(std::string_view name);
+
+// Runs the method of that name, or kAutomatic. Shapes: all vectors rows x 1; f in N, a in m/s^2. Outcomes are
+// never exceptions; std::invalid_argument for a method that is not in the table or not built for the dimension.
+// With `trace`, a path method records its steps.
+template <class Scalar>
+Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, std::string_view method = kAutomatic,
+                     const SolveOptions& options = {}, Trace<Scalar>* trace = nullptr);
+
+// The same for one row.
+template <class Scalar>
+Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
+                       const SolveOptions& options, Trace<Scalar>* trace = nullptr);
+
+// The gate. Floating-point scalars. Sets answer.a and answer.residual; an answer that calls itself solved and
+// whose forces are not finite or do not meet the bound becomes undecided.
+template <class Scalar>
+void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer);
+
+extern template Answer<float> Solve(const ContactProblem<float>&, std::string_view, const SolveOptions&,
+                                    Trace<float>*);
+extern template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
+                                     Trace<double>*);
+extern template Answer<long double> Solve(const ContactProblem<long double>&, std::string_view,
+                                          const SolveOptions&, Trace<long double>*);
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SOLVE_H_

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definitions for solve.h, and the rows of the table. A new method is a row and its run.
+
+#ifndef STICTION_SOLVER_SOLVE_IPP_
+#define STICTION_SOLVER_SOLVE_IPP_
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/complete/complete.h"
+#include "solver/lemke/lemke.h"
+#include "solver/problem/gate.h"
+#include "solver/problem/remainder.h"
+#include "solver/published/published.h"
+#include "solver/solve.h"
+
+namespace stiction {
+
+template <class Scalar, class SomeVerdict>
+Answer<Scalar> AnswerOf(const SomeVerdict& verdict) {
+  Answer<Scalar> answer;
+  answer.outcome = verdict.outcome;
+  answer.reason = verdict.reason;
+  answer.counters = CountersOf(verdict.statistics);
+  return answer;
+}
+
+// ---- Runs of path methods in the plane, over any scalar ------------------------------------------
+
+template <class Scalar>
+Answer<Scalar> RunBaraff(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                         Trace<Scalar>* trace) {
+  PublishedAlgorithm<Scalar> algorithm({options.policy, options.tolerances, options.limits});
+  const Verdict verdict = algorithm.Run(problem, trace);
+  auto answer = AnswerOf<Scalar>(verdict);
+  answer.start = verdict.start;
+  answer.period = verdict.period;
+  answer.f = algorithm.state().f;
+  if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
+  return answer;
+}
+
+inline CompleteOptions CompleteOptionsOf(const SolveOptions& options) {
+  CompleteOptions complete;
+  complete.tolerances = options.tolerances;
+  complete.limits = options.limits;
+  return complete;
+}
+
+template <class Scalar>
+Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                                  Trace<Scalar>*) {
+  CompleteDriving<Scalar> driving(CompleteOptionsOf(options));
+  auto answer = AnswerOf<Scalar>(driving.Run(problem));
+  answer.f = driving.state().f;
+  if (answer.outcome == Outcome::kRay) answer.ray = driving.ray();
+  answer.word = driving.Word();
+  return answer;
+}
+
+// Units of the problem at hand steady the ratio tests of rounded numbers; ones are the classical cover.
+template <class Scalar>
+Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                              Trace<Scalar>*) {
+  LemkeOptions lemke;
+  lemke.cover = kIsExact<Scalar> ? Cover::kOnes : Cover::kUnits;
+  lemke.tolerances = options.tolerances;
+  lemke.limits = options.limits;
+  LemkeAlgorithm<Scalar> algorithm(lemke);
+  const Verdict verdict = algorithm.Run(problem);
+  auto answer = AnswerOf<Scalar>(verdict);
+  answer.counters = {{"pivots", verdict.statistics.pivots}};
+  if (verdict.outcome == Outcome::kSolved) answer.f = algorithm.f();
+  if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+  return answer;
+}
+
+// The rows that every scalar has; `space` by the caller.
+template <class Scalar>
+Method<Scalar> BaraffRow(MethodIn<Scalar> space) {
+  return {.name = "baraff",
+          .title = "the published pivoting algorithm, under a policy",
+          .source = "[Baraff94] 4.3, 5.2-5.6",
+          .ends = "nothing: it can cycle, and in space take an infinite step",
+          .has_path = true,
+          .plane = {&RunBaraff<Scalar>},
+          .space = space};
+}
+
+template <class Scalar>
+Method<Scalar> CompleteRow(MethodIn<Scalar> space) {
+  return {.name = "complete",
+          .title = "complete driving: Baraff's path followed through folds and descents",
+          .source = "solver/complete/complete_driving.md",
+          .ends = "a solution wherever A is symmetric positive semidefinite and b in its range",
+          .automatic = true,
+          .has_path = true,
+          .plane = {&RunCompleteDriving<Scalar>},
+          .space = space};
+}
+
+template <class Scalar>
+Method<Scalar> LemkeRow(MethodIn<Scalar> space) {
+  return {.name = "lemke",
+          .title = "Lemke's complementary pivoting, lexicographic",
+          .source = "Cottle, Pang and Stone 1992, 4.4",
+          .ends = "a solution wherever A is symmetric positive semidefinite and b in its range",
+          .automatic = kIsExact<Scalar>,
+          .has_path = true,
+          .plane = {&RunLemkeMethod<Scalar>},
+          .space = space};
+}
+
+// ---- The call --------------------------------------------------------------------------------
+
+// A and b are divided by powers of two, which rounds nothing, where a product of three of their numbers could
+// leave the range of the scalar.
+struct BinaryScale {
+  int A = 0, b = 0;
+
+  int f() const { return b - A; }
+  bool IsOne() const { return A == 0 && b == 0; }
+};
+
+template <class Numbers>
+int ExponentOf(const Numbers& numbers) {
+  if (numbers.size() == 0) return 0;
+  const auto most = numbers.cwiseAbs().maxCoeff();
+  return most > 0 ? std::ilogb(most) : 0;
+}
+
+template <class Scalar>
+BinaryScale FindScale(const ContactProblem<Scalar>& problem) {
+  constexpr int kSafe = std::numeric_limits<Scalar>::max_exponent / 8;
+  const BinaryScale scale{ExponentOf(problem.A), ExponentOf(problem.b)};
+  const bool is_safe = std::abs(scale.A) < kSafe && std::abs(scale.b) < kSafe;
+  return is_safe ? BinaryScale{} : scale;
+}
+
+template <class Values>
+void ScaleBy(Values& values, int exponent) {
+  for (auto& x : values.reshaped()) x = std::ldexp(x, exponent);
+}
+
+template <class Scalar>
+ContactProblem<Scalar> Scaled(ContactProblem<Scalar> problem, const BinaryScale& scale) {
+  ScaleBy(problem.A, -scale.A);
+  ScaleBy(problem.b, -scale.b);
+  return problem;
+}
+
+template <class Scalar>
+void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const BinaryScale& scale) {
+  ScaleBy(answer.f, scale.f());
+  ScaleBy(answer.first_f, scale.f());
+  if (trace == nullptr) return;
+  for (Pivot<Scalar>& pivot : trace->pivots) {
+    ScaleBy(pivot.f, scale.f());
+    ScaleBy(pivot.a, scale.b);
+    ScaleBy(pivot.da, scale.A);
+    pivot.s = std::ldexp(pivot.s, scale.f());
+  }
+}
+
+// Whether all numbers of a problem are finite.
+template <class Scalar>
+bool IsFinite(const ContactProblem<Scalar>& problem) {
+  return problem.A.allFinite() && problem.b.allFinite() &&
+         std::all_of(problem.contacts.begin(), problem.contacts.end(),
+                     [](const auto& contact) { return std::isfinite(contact.mu); });
+}
+
+template <class Scalar>
+Answer<Scalar> Unstarted(const ContactProblem<Scalar>& problem, Outcome outcome, std::string_view reason) {
+  Answer<Scalar> answer;
+  answer.outcome = outcome;
+  answer.reason = reason;
+  answer.first_f = ContactProblem<Scalar>::Vector::Constant(problem.rows(), Scalar(0));
+  return answer;
+}
+
+// Reduces, runs, restores.
+template <class Scalar>
+Answer<Scalar> RunOnRemainder(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
+                              const SolveOptions& options, Trace<Scalar>* trace) {
+  using Vector = typename ContactProblem<Scalar>::Vector;
+  const Remainder<Scalar> remainder(problem, options.tolerances);
+  if (!remainder.Obstacle().empty()) return Unstarted(problem, Outcome::kSingular, remainder.Obstacle());
+  Answer<Scalar> answer = method.In(problem.dimension).run(remainder.problem(), options, trace);
+  const auto rows = remainder.problem().rows();
+  if (answer.f.size() == rows) answer.f = remainder.Forces(answer.f);
+  if (rows > 0 && answer.ray.size() == rows) answer.ray = remainder.Direction(answer.ray);
+  answer.first_f = remainder.Forces(Vector::Constant(rows, Scalar(0)));
+  answer.word = remainder.Word(answer.word);
+  if (trace != nullptr)
+    for (Pivot<Scalar>& pivot : trace->pivots) pivot = remainder.Restored(std::move(pivot));
+  return answer;
+}
+
+template <class Scalar>
+Answer<Scalar> RunAsIs(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
+                       const SolveOptions& options, Trace<Scalar>* trace) {
+  if (!method.In(problem.dimension).takes_all_kinds) return RunOnRemainder(method, problem, options, trace);
+  Answer<Scalar> answer = method.In(problem.dimension).run(problem, options, trace);
+  if (answer.first_f.size() == 0)
+    answer.first_f = ContactProblem<Scalar>::Vector::Constant(problem.rows(), Scalar(0));
+  return answer;
+}
+
+template <class Scalar>
+void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer) {
+  if (answer.f.size() != problem.rows()) {
+    if (answer.Solved()) answer.outcome = Outcome::kUndecided;
+    return;
+  }
+  answer.a = problem.A * answer.f + problem.b;
+  const LongVector f = answer.f.template cast<long double>();
+  const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
+  answer.residual = static_cast<double>(ResidualBound(problem, answer.law, f));
+  if (!answer.Solved() || (is_finite && answer.residual <= bound)) return;
+  answer.outcome = Outcome::kUndecided;
+  answer.reason = is_finite ? "the residual is above the bound" : "a number is not finite";
+}
+
+template <class Scalar>
+Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
+                       const SolveOptions& options, Trace<Scalar>* trace) {
+  if (trace != nullptr) trace->pivots.clear();
+  Answer<Scalar> answer;
+  if constexpr (kIsExact<Scalar>) {
+    answer = RunAsIs(method, problem, options, trace);
+    if (answer.f.size() == problem.rows()) answer.a = problem.A * answer.f + problem.b;
+  } else {
+    const double bound = options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
+    const BinaryScale scale = FindScale(problem);
+    if (!IsFinite(problem)) {
+      answer = Unstarted(problem, Outcome::kUndecided, "a number is not finite");
+    } else if (scale.IsOne()) {
+      answer = RunAsIs(method, problem, options, trace);
+    } else {
+      answer = RunAsIs(method, Scaled(problem, scale), options, trace);
+      Unscale(answer, trace, scale);
+    }
+    JudgeAnswer(problem, bound, answer);
+  }
+  answer.method = method.name;
+  return answer;
+}
+
+template <class Scalar>
+const Method<Scalar>* FindMethod(std::string_view name) {
+  const auto methods = Methods<Scalar>();
+  const auto row = std::find_if(methods.begin(), methods.end(), [name](auto& m) { return m.name == name; });
+  return row == methods.end() ? nullptr : &*row;
+}
+
+// The methods that the table marks, until one solves; the first answer where none does.
+template <class Scalar>
+Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                                  Trace<Scalar>* trace) {
+  std::optional<Answer<Scalar>> first;
+  for (const Method<Scalar>& method : Methods<Scalar>()) {
+    if (!method.automatic || !method.IsBuilt(problem.dimension)) continue;
+    Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
+    if (answer.Solved()) return answer;
+    if (!first) first = std::move(answer);
+  }
+  return first ? *std::move(first) : Unstarted(problem, Outcome::kUndecided, "no method is built for it");
+}
+
+template <class Scalar>
+Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, std::string_view method,
+                     const SolveOptions& options, Trace<Scalar>* trace) {
+  if (method == kAutomatic) return SolveAutomatically(problem, options, trace);
+  const Method<Scalar>* row = FindMethod<Scalar>(method);
+  if (row == nullptr || !row->IsBuilt(problem.dimension))
+    throw std::invalid_argument("method " + std::string(method) + " is not built for dimension " +
+                                std::to_string(problem.dimension) + " over " +
+                                std::string(Name(kArithmeticOf<Scalar>)));
+  return SolveBy(*row, problem, options, trace);
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_SOLVE_IPP_
