@@ -8,6 +8,7 @@
 #include "certify/certificate.h"
 #include "certify/verify_solution.h"
 #include "cli/replay_space.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 
@@ -333,33 +334,28 @@ int Replay(const ReplayOptions& given) {
 
 }  // namespace
 
-void AddReplay(CLI::App& program, Action& action) {
-  auto o = std::make_shared<ReplayOptions>();
-  CLI::App& verb =
-      *program.add_subcommand("replay", "Follow the published algorithm pivot by pivot; in the plane exactly");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  AddPolicyOption(verb, o->policy, Grid::kRefused);
-  CLI::Option* all =
-      verb.add_flag("--all-policies", o->all_policies,
-                    "the outcome under every policy of the planar grid, or of those that are built for space");
-  verb.add_option("--record", o->record, "write the problem with what happened as its `expect`")->needs(all);
-  verb.add_option("--method", o->method,
-                  "baraff: the published algorithm; complete: complete driving on polygons, in space only")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"baraff", "complete"}));
-  verb.add_option("--arithmetic", o->arithmetic,
-                  "exact; for the published algorithm in space float, double (its default) or long-double")
-      ->check(CLI::IsMember({"exact", "float", "double", "long-double"}));
-  verb.add_option("--sides", o->sides, "sides of the friction polygons of --method complete, a multiple of 4")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
+void AddReplay(CommandLine& program) {
+  auto [verb, o] =
+      program.Add("replay", "Follow the published algorithm pivot by pivot; in the plane exactly", Replay);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  AddPolicyOption(verb, o.policy, Grid::kRefused);
+  verb.Flag("--all-policies", o.all_policies,
+            "the outcome under every policy of the planar grid, or of those that are built for space");
+  verb.Option("--record", o.record, "write the problem with what happened as its `expect`")
+      .Needs("--all-policies");
+  verb.Option("--method", o.method, "what to follow")
+      .Choices(
+          {{"baraff", "the published algorithm"}, {"complete", "complete driving on polygons, in space only"}});
+  verb.Option("--arithmetic", o.arithmetic, "exact; for the published algorithm in space double by default")
+      .OneOf({"exact", "float", "double", "long-double"});
+  verb.Option("--sides", o.sides, "sides of the friction polygons of --method complete, a multiple of 4")
+      .Check([](const std::string& text) {
         const int sides = std::atoi(text.c_str());
         return sides >= 4 && sides % 4 == 0 ? "" : "expected a multiple of 4, at least 4";
       });
-  verb.add_flag("--step", o->step, "directions, forces and sets at every step");
-  verb.add_flag("--json", o->json, "machine output");
-  AddLimits(verb, o->limits);
-  verb.callback([o, &action] { action = [o] { return Replay(*o); }; });
+  verb.Flag("--step", o.step, "directions, forces and sets at every step");
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
 }
 
 }  // namespace stiction

@@ -8,7 +8,7 @@
 #include "certify/certificate.h"
 #include "certify/published_space.h"
 #include "certify/space.h"
-#include "cli/verbs.h"
+#include "cli/shared.h"
 
 namespace stiction {
 namespace {

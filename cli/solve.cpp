@@ -9,6 +9,7 @@
 #include "certify/existence.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
+#include "cli/shared.h"
 #include "cli/solve_published_space.h"
 #include "cli/solve_space.h"
 #include "cli/verbs.h"
@@ -335,48 +336,35 @@ int Solve(const SolveOptions& given) {
 }
 
 // Refuses what the specification names and this build does not have.
-std::string OnlyBuilt(const std::string& text, const std::vector<std::string>& built, const char* what) {
-  if (std::find(built.begin(), built.end(), text) != built.end()) return "";
-  return fmt::format("{} '{}' is not built; expected one of {}", what, text, fmt::join(built, ", "));
-}
-
 }  // namespace
 
-void AddSolve(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SolveOptions>();
-  CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("--method", o->method,
-                  "baraff: the published algorithm; complete: complete driving, which always ends; lemke: "
-                  "Lemke's method, "
-                  "lexicographic; fast: cells guessed and verified, in space Newton's method, complete driving "
-                  "behind it (inexact "
-                  "arithmetics); enumerate: all contact modes; ipopt: proposed by Ipopt, decided exactly")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"baraff", "complete", "lemke", "fast", "enumerate", "ipopt"}, "method");
-      });
-  verb.add_option(
-          "--arithmetic", o->arithmetic,
-          "float, double, long-double, exact (rational; the default), interval (the published algorithm in "
-          "space only, and its default); the default of method fast is double")
-      ->check([](const std::string& text) {
-        return OnlyBuilt(text, {"float", "double", "long-double", "exact", "interval"}, "arithmetic");
-      });
-  AddPolicyOption(verb, o->policy, Grid::kRefused);
-  verb.add_option(
-          "--law", o->law,
-          "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
-          "free; exact. coulomb: friction opposite to the acceleration; exact arithmetic gives a proved "
-          "bound on the angle. Inexact arithmetics solve coulomb, which implies baraff")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"baraff", "coulomb"}));
-  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
-      ->capture_default_str();
-  AddLimits(verb, o->limits);
-  AddTolerances(verb, o->tolerances);
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return Solve(*o); }; });
+void AddSolve(CommandLine& program) {
+  auto [verb, o] = program.Add("solve", "Solve one problem", Solve);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Option("--method", o.method, "what solves it")
+      .Choices({{"baraff", "the published algorithm"},
+                {"complete", "complete driving, which always ends"},
+                {"lemke", "Lemke's method, lexicographic"},
+                {"fast",
+                 "cells guessed and verified, in space Newton's method, complete driving behind it (inexact "
+                 "arithmetics)"},
+                {"enumerate", "all contact modes"},
+                {"ipopt", "proposed by Ipopt, decided exactly"}});
+  verb.Option("--arithmetic", o.arithmetic, "what it computes with")
+      .Choices({{"float", ""},
+                {"double", "the default of method fast"},
+                {"long-double", ""},
+                {"exact", "rational; the default"},
+                {"interval", "the published algorithm in space only, and its default"}});
+  AddPolicyOption(verb, o.policy, Grid::kRefused);
+  verb.Option("--law", o.law, "friction in space; inexact arithmetics solve coulomb, which implies baraff")
+      .Choices({{"baraff", "the paper's conditions (21), (22), which leave the direction of slip free; exact"},
+                {"coulomb",
+                 "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
+  verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4");
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
+  AddTolerances(verb, o.tolerances);
 }
 
 }  // namespace stiction

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "certify/published_space.h"
-#include "cli/verbs.h"
+#include "cli/shared.h"
 #include "corpus/input_error.h"
 
 namespace stiction {

@@ -5,7 +5,7 @@
 
 #include "certify/certificate.h"
 #include "certify/space.h"
-#include "cli/verbs.h"
+#include "cli/shared.h"
 #include "corpus/input_error.h"
 #include "corpus/rounded.h"
 #include "solver/numeric/coulomb.h"
