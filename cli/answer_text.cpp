@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "certify/certificate.h"
-#include "cli/verbs.h"
+#include "cli/shared.h"
 
 namespace stiction {
 namespace {

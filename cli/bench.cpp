@@ -9,13 +9,19 @@
 #include <filesystem>
 
 #include "cli/verbs.h"
+#include "corpus/input_error.h"
 
 namespace stiction {
 namespace {
 
-int BecomeBench(std::vector<std::string> words) {
+struct BenchCommand {
+  std::vector<std::string> words;
+};
+
+int BecomeBench(const BenchCommand& o) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-bench";
-  words.insert(words.begin(), program.string());
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), o.words.begin(), o.words.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -27,11 +33,9 @@ int BecomeBench(std::vector<std::string> words) {
 
 }  // namespace
 
-void AddBench(CLI::App& program, Action& action) {
-  CLI::App& verb = *program.add_subcommand("bench", "Benchmark tables");
-  verb.set_help_flag();
-  verb.prefix_command();
-  verb.callback([&verb, &action] { action = [&verb] { return BecomeBench(verb.remaining()); }; });
+void AddBench(CommandLine& program) {
+  auto [verb, o] = program.Add("bench", "Benchmark tables", BecomeBench);
+  verb.rest = &o.words;
 }
 
 }  // namespace stiction

@@ -12,6 +12,7 @@
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
 #include "certify/space.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 
@@ -186,36 +187,32 @@ int RunCheck(const CheckOptions& o) {
 
 }  // namespace
 
-void AddCertify(CLI::App& program, Action& action) {
-  auto o = std::make_shared<CertifyOptions>();
-  CLI::App& verb = *program.add_subcommand("certify", "Write a certificate: a claim with an exact witness");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("-o,--output", o->output, "certificate to write; - is standard output");
-  verb.add_option(
-          "--claim", o->claim,
-          "what to certify, or its negation if that holds: solution-exists, coulomb-solution (in space), "
-          "symmetric, psd, in-range, h (b'v >= 0 for all v in the friction cones with A v = 0), safe, "
-          "cycle, stall")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"solution-exists", "coulomb-solution", "symmetric", "psd", "in-range", "h", "safe",
-                             "cycle", "stall"}));
-  verb.add_flag(
-      "--safe", o->safe,
-      "the friction coefficient below which A is safe for the published algorithm (see certify/README.md), and "
-      "with -o a certificate whether the problem is");
-  verb.add_flag("--all", o->all, "list all contact modes that have solutions; writes no certificate");
-  AddPolicyOption(verb, o->policy, Grid::kAllowed);
-  AddLimits(verb, o->limits);
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return RunCertify(*o); }; });
+void AddCertify(CommandLine& program) {
+  auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
+  verb.Option("--claim", o.claim, "what to certify, or its negation if that holds")
+      .Choices({{"solution-exists", "forces that meet all conditions"},
+                {"coulomb-solution", "the same for Coulomb's law, in space"},
+                {"symmetric", "A = A'"},
+                {"psd", "A is positive semidefinite"},
+                {"in-range", "b is in the range of A"},
+                {"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
+                {"safe", "A is safe for the published algorithm"},
+                {"cycle", "the published algorithm repeats a state of its outer loop"},
+                {"stall", "it repeats a state of one drive"}});
+  verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
+      .Details("See certify/README.md; with -o a certificate whether the problem is");
+  verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
+  AddPolicyOption(verb, o.policy, Grid::kAllowed);
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
 }
 
-void AddCheck(CLI::App& program, Action& action) {
-  auto o = std::make_shared<CheckOptions>();
-  CLI::App& verb = *program.add_subcommand("check", "Verify certificates");
-  verb.add_option("CERT", o->files, "stiction-certificate files")->required();
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return RunCheck(*o); }; });
+void AddCheck(CommandLine& program) {
+  auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
+  verb.Positional("CERT", o.files, "stiction-certificate files").Required();
+  verb.Flag("--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -7,6 +7,7 @@
 
 #include <iostream>
 
+#include "cli/shared.h"
 #include "cli/verbs.h"
 
 namespace stiction {
@@ -60,30 +61,24 @@ int Export(const ExportOptions& o) {
 
 }  // namespace
 
-void AddImport(CLI::App& program, Action& action) {
-  auto o = std::make_shared<ImportOptions>();
-  CLI::App& verb = *program.add_subcommand("import", "Read a problem in the format of another program");
-  verb.add_option("FILE", o->file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
-      ->required();
-  verb.add_option("-o,--output", o->output, "stiction-problem to write; - is standard output")->required();
-  verb.add_option("--format", o->format, "the format of the file; by default its content decides")
-      ->check(CLI::IsMember(FormatNames()));
-  verb.add_flag("--symmetrize", o->symmetrize,
-                "replace A by (A + A')/2; `origin` keeps the largest difference");
-  verb.callback([o, &action] { action = [o] { return Import(*o); }; });
+void AddImport(CommandLine& program) {
+  auto [verb, o] = program.Add("import", "Read a problem in the format of another program", Import);
+  verb.Positional("FILE", o.file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
+      .Required();
+  verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
+  verb.Option("--format", o.format, "the format of the file; by default its content decides")
+      .OneOf(FormatNames());
+  verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
 }
 
-void AddExport(CLI::App& program, Action& action) {
-  auto o = std::make_shared<ExportOptions>();
-  CLI::App& verb = *program.add_subcommand("export", "Write a problem in the format of another program");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("-o,--output", o->output, "file to write")->required();
-  verb.add_option("--format", o->format, "the format to write")
-      ->required()
-      ->check(CLI::IsMember(FormatNames()));
-  verb.add_option("--storage", o->storage, "how the matrix is stored; " + StoragesText() + " [the first]");
-  verb.add_flag("--round", o->round, "write the nearest double for a number that is none");
-  verb.callback([o, &action] { action = [o] { return Export(*o); }; });
+void AddExport(CommandLine& program) {
+  auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Option("-o,--output", o.output, "file to write").Required();
+  verb.Option("--format", o.format, "the format to write").Required().OneOf(FormatNames());
+  verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
+      .Details(StoragesText());
+  verb.Flag("--round", o.round, "write the nearest double for a number that is none");
 }
 
 }  // namespace stiction

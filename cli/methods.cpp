@@ -7,6 +7,7 @@
 
 #include "certify/solve.h"
 #include "cli/verbs.h"
+#include "corpus/exit_code.h"
 #include "corpus/json_text.h"
 
 namespace stiction {
@@ -67,19 +68,20 @@ Json InJson() {
   return json;
 }
 
+struct MethodsOptions {
+  bool json = false;
+};
+
+int List(const MethodsOptions& o) {
+  std::cout << (o.json ? JsonText(InJson()) + "\n" : Table() + Facts());
+  return kExitDone;
+}
+
 }  // namespace
 
-void AddMethods(CLI::App& program, Action& action) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App& verb =
-      *program.add_subcommand("methods", "The methods, what their ends prove, and where they are built");
-  verb.add_flag("--json", *json, "machine output");
-  verb.callback([json, &action] {
-    action = [json] {
-      std::cout << (*json ? JsonText(InJson()) + "\n" : Table() + Facts());
-      return kExitDone;
-    };
-  });
+void AddMethods(CommandLine& program) {
+  auto [verb, o] = program.Add("methods", "The methods, what their ends prove, and where they are built", List);
+  verb.Flag("--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "certify/exact.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 #include "search/finish.h"
@@ -85,7 +86,11 @@ int RunMinimize(const MinimizeVerb& o) {
   return kExitDone;
 }
 
-int ListPolicies(bool json) {
+struct PoliciesVerb {
+  bool json = false;
+};
+
+int ListPolicies(const PoliciesVerb& o) {
   Json rows = Json::array();
   for (const PolicySwitchRow& row : PolicySwitches()) {
     Json values = Json::array();
@@ -96,12 +101,12 @@ int ListPolicies(bool json) {
                     {"reads", row.reads},
                     {"planar", row.planar},
                     {"values", values}});
-    if (json) continue;
+    if (o.json) continue;
     fmt::print("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
                row.reads);
     for (const PolicyValue& value : row.values) fmt::print("    {:14} {}\n", value.name, value.meaning);
   }
-  if (json) {
+  if (o.json) {
     std::cout << JsonText(rows) << "\n";
   } else {
     fmt::print("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
@@ -112,28 +117,22 @@ int ListPolicies(bool json) {
 
 }  // namespace
 
-void AddMinimize(CLI::App& program, Action& action) {
-  auto o = std::make_shared<MinimizeVerb>();
-  CLI::App& verb = *program.add_subcommand("minimize", "A simpler problem with the same certified finding");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("-o,--output", o->output, "problem to write; - is standard output")->required();
-  verb.add_option(
-          "--keep", o->keep,
-          "outcome to keep under the policy, e.g. cycle; with :* under every policy of the planar grid; by "
-          "default the outcome under the policy")
-      ->check(CheckKeep);
-  verb.add_flag("--keep-signature", o->keep_signature, "keep the sequence of pivots of the loop as well");
-  AddPolicyOption(verb, o->policy, Grid::kRefused);
-  AddLimits(verb, o->limits);
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return RunMinimize(*o); }; });
+void AddMinimize(CommandLine& program) {
+  auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Option("-o,--output", o.output, "problem to write; - is standard output").Required();
+  verb.Option("--keep", o.keep, "outcome to keep, e.g. cycle; by default the outcome under the policy")
+      .Details("With :* behind it under every policy of the planar grid")
+      .Check(CheckKeep);
+  verb.Flag("--keep-signature", o.keep_signature, "keep the sequence of pivots of the loop as well");
+  AddPolicyOption(verb, o.policy, Grid::kRefused);
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
 }
 
-void AddPolicies(CLI::App& program, Action& action) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App& verb = *program.add_subcommand("policies", "List the readings of the published text");
-  verb.add_flag("--json", *json, "machine output");
-  verb.callback([json, &action] { action = [json] { return ListPolicies(*json); }; });
+void AddPolicies(CommandLine& program) {
+  auto [verb, o] = program.Add("policies", "List the readings of the published text", ListPolicies);
+  verb.Flag("--json", o.json, "machine output");
 }
 
 }  // namespace stiction

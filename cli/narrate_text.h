@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "certify/certificate.h"
-#include "cli/verbs.h"
+#include "cli/shared.h"
 #include "corpus/problem_file.h"
 #include "solver/problem/answer.h"
 

@@ -11,6 +11,7 @@
 #include "cli/answer_text.h"
 #include "cli/narrate.h"
 #include "cli/narrate_text.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
@@ -259,38 +260,31 @@ int Replay(const ReplayOptions& o) {
   return ReplayAll(o, file);
 }
 
-std::vector<std::string> PathMethodNames() {
-  std::vector<std::string> names;
+std::vector<Choice> PathMethodChoices() {
+  std::vector<Choice> choices;
   for (const MethodFacts& facts : AllMethods()) {
-    if (facts.has_path) names.emplace_back(facts.name);
+    if (facts.has_path) choices.push_back({std::string(facts.name), std::string(facts.title)});
   }
-  return names;
+  return choices;
 }
 
 }  // namespace
 
-void AddReplay(CLI::App& program, Action& action) {
-  auto o = std::make_shared<ReplayOptions>();
-  CLI::App& verb =
-      *program.add_subcommand("replay", "Follow a path method step by step, exactly where it can be");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  AddPolicyOption(verb, o->policy, Grid::kRefused);
-  CLI::Option* all =
-      verb.add_flag("--all-policies", o->all_policies,
-                    "the outcome under every policy of the planar grid, or of those that are built for space");
-  verb.add_option("--record", o->record, "write the problem with what happened as its `expect`")->needs(all);
-  verb.add_option("--method", o->method, "one that follows a path: see 'stiction methods'")
-      ->capture_default_str()
-      ->check(CLI::IsMember(PathMethodNames()));
-  verb.add_option("--arithmetic", o->arithmetic, "exact where it is built, otherwise double, by default")
-      ->check(CLI::IsMember({"exact", "float", "double", "long-double"}));
-  verb.add_option("--sides", o->sides, "sides of the friction polygons in space, a multiple of 4")
-      ->capture_default_str()
-      ->check(CheckSides);
-  verb.add_flag("--step", o->step, "directions, forces and sets at every step");
-  verb.add_flag("--json", o->json, "machine output");
-  AddLimits(verb, o->limits);
-  verb.callback([o, &action] { action = [o] { return Replay(*o); }; });
+void AddReplay(CommandLine& program) {
+  auto [verb, o] = program.Add("replay", "Follow a path method step by step, exactly where it can be", Replay);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  AddPolicyOption(verb, o.policy, Grid::kRefused);
+  verb.Flag("--all-policies", o.all_policies,
+            "the outcome under every policy of the planar grid, or of those that are built for space");
+  verb.Option("--record", o.record, "write the problem with what happened as its `expect`")
+      .Needs("--all-policies");
+  verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
+  verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
+      .OneOf({"exact", "float", "double", "long-double"});
+  verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4").Check(CheckSides);
+  verb.Flag("--step", o.step, "directions, forces and sets at every step");
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
 }
 
 }  // namespace stiction

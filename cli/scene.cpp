@@ -13,6 +13,7 @@
 #include <iostream>
 #include <set>
 
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/scene_file.h"
 #include "reports/draw_space.h"
@@ -292,7 +293,8 @@ void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a
     writer.AddState(simulation);
     progress.Show(k + 1, steps, simulation.time());
   }
-  writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation)));
+  writer.AddPicture(simulation.scene(),
+                    RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation)));
 }
 
 void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const std::string& folder) {
@@ -378,74 +380,61 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
   return kExitDone;
 }
 
+constexpr const char* kSceneHelp = "stiction-scene file, or a stiction-problem file with a scene";
+
+int RunAssembleVerb(const AssembleCommand& o) {
+  return std::visit([&o](const auto& file) { return RunAssemble(o, file); }, ReadAnyScene(o.scene));
+}
+int RunSimulateVerb(const SimulateCommand& o) {
+  return std::visit([&o](const auto& file) { return RunSimulate(o, file); }, ReadAnyScene(o.scene));
+}
+int RunDrawVerb(const DrawCommand& o) {
+  return std::visit([&o](const auto& file) { return RunDraw(o, file); }, ReadAnyScene(o.scene));
+}
+
 }  // namespace
 
-void AddAssemble(CLI::App& program, Action& action) {
-  auto o = std::make_shared<AssembleCommand>();
-  CLI::App& verb = *program.add_subcommand("assemble", "The contact problems of a scene, over rationals");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
-      ->required();
-  verb.add_option(
-          "-o,--output", o->output,
-          "stiction-problem to write; NAME-1.json, NAME-2.json, ... where there are independent problems; - is "
-          "standard output")
-      ->required();
-  verb.add_option("--level", o->level, "forces at this instant, or impulses of a collision")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"forces", "impulses"}));
-  verb.add_flag("--explain", o->explain, "what was modelled, what was left out, and why that is exact");
-  verb.add_flag("--full", o->full, "one problem, with all rows for every contact, redundant ones too");
-  verb.callback([o, &action] {
-    action = [o] {
-      return std::visit([&o](const auto& file) { return RunAssemble(*o, file); }, ReadAnyScene(o->scene));
-    };
-  });
+void AddAssemble(CommandLine& program) {
+  auto [verb, o] = program.Add("assemble", "The contact problems of a scene, over rationals", RunAssembleVerb);
+  verb.Positional("SCENE", o.scene, kSceneHelp).Required();
+  verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output")
+      .Required()
+      .Details("NAME-1.json, NAME-2.json, ... where there are independent problems");
+  verb.Option("--level", o.level, "forces at this instant, or impulses of a collision")
+      .OneOf({"forces", "impulses"});
+  verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
+  verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
 }
 
-void AddSimulate(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SimulateCommand>();
-  CLI::App& verb = *program.add_subcommand("simulate", "Step a scene through time, over doubles");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
-      ->required();
-  verb.add_option(
-          "-o,--output", o->output,
-          "folder to write: energy.csv and drift.csv, which grow as the run goes; at its end, or where Ctrl-C "
-          "ends it, animation.html and frames/*.svg; undecided.json where a frame has no answer (exit 3); "
-          "those "
-          "of a run before are replaced")
-      ->required();
-  verb.add_option("--seconds", o->seconds, "simulated time, s [the scene's]")->check(CLI::Range(1e-9, 1e6));
-  verb.add_option("--step", o->step, "length of a step, s [the scene's]")->check(CLI::Range(1e-9, 1.0));
-  verb.add_option("--rest", o->rest,
-                  "speed up to which a contact counts as at rest, m/s [what gravity makes in one step]")
-      ->check(CLI::Range(1e-15, 1e6));
-  verb.add_option("--frames", o->frames_a_second,
-                  "pictures a second of simulated time; all are kept in memory until the end")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  verb.add_option("--threads", o->threads, "for independent islands; results do not depend on it [all cores]")
-      ->check(CLI::Range(1, 1024));
-  verb.add_option("--problems", o->problems, "folder for every problem met, as stiction-problem files");
-  verb.add_flag("--full", o->full, "leave out nothing that the scene does not require");
-  verb.add_flag("!--no-svg", o->svg, "no frames/*.svg");
-  verb.callback([o, &action] {
-    action = [o] {
-      return std::visit([&o](const auto& file) { return RunSimulate(*o, file); }, ReadAnyScene(o->scene));
-    };
-  });
+void AddSimulate(CommandLine& program) {
+  auto [verb, o] = program.Add("simulate", "Step a scene through time, over doubles", RunSimulateVerb);
+  verb.Positional("SCENE", o.scene, kSceneHelp).Required();
+  verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
+      .Required()
+      .Details(
+          "energy.csv and drift.csv grow as the run goes; at its end, or where Ctrl-C ends it, animation.html "
+          "and frames/*.svg; undecided.json where a frame has no answer (exit 3)");
+  verb.Option("--seconds", o.seconds, "simulated time; by default the scene's").Unit("s").Range(1e-9, 1e6);
+  verb.Option("--step", o.step, "length of a step; by default the scene's").Unit("s").Range(1e-9, 1);
+  verb.Option("--rest", o.rest,
+              "speed up to which a contact counts as at rest; by default what gravity makes in one step")
+      .Unit("m/s")
+      .Range(1e-15, 1e6);
+  verb.Option("--frames", o.frames_a_second,
+              "pictures a second of simulated time; all are kept in memory until the end")
+      .Range(1, 100000);
+  verb.Option("--threads", o.threads,
+              "for independent islands; results do not depend on it; by default one per core")
+      .Range(1, 1024);
+  verb.Option("--problems", o.problems, "folder for every problem met, as stiction-problem files");
+  verb.Flag("--full", o.full, "leave out nothing that the scene does not require");
+  verb.Flag("--no-svg", o.svg, "no frames/*.svg");
 }
 
-void AddDraw(CLI::App& program, Action& action) {
-  auto o = std::make_shared<DrawCommand>();
-  CLI::App& verb = *program.add_subcommand("draw", "A scene as an SVG, with its contacts and forces");
-  verb.add_option("SCENE", o->scene, "stiction-scene file, or a stiction-problem file with a scene")
-      ->required();
-  verb.add_option("-o,--output", o->output, "SVG to write; - is standard output")->required();
-  verb.callback([o, &action] {
-    action = [o] {
-      return std::visit([&o](const auto& file) { return RunDraw(*o, file); }, ReadAnyScene(o->scene));
-    };
-  });
+void AddDraw(CommandLine& program) {
+  auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
+  verb.Positional("SCENE", o.scene, kSceneHelp).Required();
+  verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
 }
 
 }  // namespace stiction

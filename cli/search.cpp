@@ -10,8 +10,9 @@
 #include <iostream>
 #include <thread>
 
-#include "build_id.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 #include "corpus/json_text.h"
 #include "reports/report.h"
 #include "search/exponential.h"
@@ -127,11 +128,6 @@ class ProgressLine {
   double last_ = 0;
 };
 
-std::string BuildId() {
-  using namespace build_id;
-  return fmt::format("{} {}, {} {}, {}", kVersion, kCommit, kCompiler, kBuildType, kFlags);
-}
-
 // ---- Verbs -----------------------------------------------------------------------------------
 
 int RunSearchVerb(const SearchVerb& o) {
@@ -163,9 +159,14 @@ int RunSearchVerb(const SearchVerb& o) {
   return kExitDone;
 }
 
-int RunStatus(const std::string& file, bool json) {
-  const Store store = Store::OpenToRead(file);
-  std::cout << (json ? JsonText(SummaryToJson(store)) + "\n" : SummaryText(store, file));
+struct StatusVerb {
+  std::string store;
+  bool json = false;
+};
+
+int RunStatus(const StatusVerb& o) {
+  const Store store = Store::OpenToRead(o.store);
+  std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryText(store, o.store));
   return kExitDone;
 }
 
@@ -205,120 +206,105 @@ int RunProblem(const ProblemVerb& o) {
   return kExitDone;
 }
 
-int RunMerge(const std::string& out, const std::vector<std::string>& files) {
-  const Store first = Store::OpenToRead(files.front());
-  Store merged(out, first.identity());
-  for (const std::string& file : files) merged.MergeFrom(Store::OpenToRead(file));
-  std::cout << SummaryText(merged, out);
+struct MergeVerb {
+  std::string out;
+  std::vector<std::string> stores;
+};
+
+int RunMerge(const MergeVerb& o) {
+  const Store first = Store::OpenToRead(o.stores.front());
+  Store merged(o.out, first.identity());
+  for (const std::string& file : o.stores) merged.MergeFrom(Store::OpenToRead(file));
+  std::cout << SummaryText(merged, o.out);
   return kExitDone;
 }
 
-void AddCampaignOptions(CLI::App& verb, SearchVerb& o) {
+struct ReportVerb {
+  std::string store, folder;
+};
+
+int RunReport(const ReportVerb& o) {
+  WriteReport(Store::OpenToRead(o.store), o.folder);
+  fmt::print("{}/index.html\n", o.folder);
+  return kExitDone;
+}
+
+// ---- Options ---------------------------------------------------------------------------------
+
+std::string MinutesError(const std::string& text) {
+  constexpr double kMost = 60 * 24 * 366 * 10;  // ten years; what a clock can count to is not much more
+  double minutes = 0;
+  const bool fits = ReadNumber(text, minutes) && minutes > 0 && minutes <= kMost;
+  return fits ? "" : fmt::format("found '{}', expected a number of minutes, above 0 to {}", text, kMost);
+}
+
+void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   std::vector<std::string> names;
   for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
-  verb.add_option("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
-  verb.add_option("--generator", o.generators, "only these generators")->check(CLI::IsMember(names));
-  verb.add_option("--contacts", o.contacts, "only these numbers of contacts")
-      ->check(CLI::Range(1, kMaxContacts));
-  verb.add_option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
-  verb.add_option(
-          "--policy", o.policies,
-          "readings to run, as 'stiction policies' lists them, or '*' for the planar grid; default paper")
-      ->check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
-  verb.add_option(
-          "--audit-every", o.audit_every,
-          "run one problem in so many exactly though nothing is suspected, existence included; 1 audits all")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
-  verb.add_option(
-          "--enumerate-every", o.enumerate_every,
-          "try all contact modes of one in so many problems of at most three contacts that are run exactly")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
-  verb.add_option("--seed", o.seed, "the one source of randomness; default 1")
-      ->check([](const std::string& text) {
-        std::uint64_t seed = 0;
-        return ReadNumber(text, seed) ? ""
-                                      : fmt::format("found '{}', expected an integer from 0 to 2^64 - 1", text);
-      });
+  verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
+  verb.Option("--generator", o.generators, "only these generators").OneOf(names);
+  verb.Option("--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
+  verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
+  verb.Option("--policy", o.policies, "readings to run, as 'stiction policies' lists them; by default paper")
+      .Details("'*' is the planar grid")
+      .Check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
+  verb.Option("--audit-every", o.audit_every, "run one problem in so many exactly though nothing is suspected")
+      .AtLeast(1)
+      .Details("Existence included; 1 audits all");
+  verb.Option("--enumerate-every", o.enumerate_every, "try all contact modes of one problem in so many")
+      .AtLeast(1)
+      .Details("Of those of at most three contacts that are run exactly");
+  verb.Option("--seed", o.seed, "the one source of randomness; by default 1");
 }
 
 }  // namespace
 
-void AddSearch(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SearchVerb>();
-  CLI::App& verb = *program.add_subcommand("search", "Search for loops of the published algorithm");
-  AddCampaignOptions(verb, *o);
-  verb.add_option("--store", o->store, "SQLite file; a search goes on where its store stopped")
-      ->capture_default_str();
-  verb.add_option("--minutes", o->minutes, "wall clock, everything counted; default 1 without --problems")
-      ->check([](const std::string& text) {
-        constexpr double kMost = 60 * 24 * 366 * 10;  // ten years; what a clock can count to is not much more
-        double minutes = 0;
-        const bool fits = ReadNumber(text, minutes) && minutes > 0 && minutes <= kMost;
-        return fits ? "" : fmt::format("found '{}', expected a number of minutes, above 0 to {}", text, kMost);
-      });
-  verb.add_option("--problems", o->problems, "size of the whole campaign, rounded up to whole units")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
-  verb.add_option("--shard", o->shard, "i/N: only the units u with u mod N = i")->capture_default_str();
-  verb.add_option("--threads", o->threads, "default: one per core")->check(CLI::Range(1, 1024));
-  verb.add_flag("--json", o->json, "machine output");
-  std::string generators = "Generators:\n";
+void AddSearch(CommandLine& program) {
+  auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
+  AddCampaignOptions(verb, o);
+  verb.Option("--store", o.store, "SQLite file; a search goes on where its store stopped");
+  verb.Option("--minutes", o.minutes, "wall clock, everything counted; by default 1 without --problems")
+      .Check(MinutesError);
+  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
+  verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i");
+  verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
+  verb.Flag("--json", o.json, "machine output");
+  verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
-    generators += fmt::format("  {}: {}\n", row.name, row.distribution);
-  verb.footer(generators);
-  verb.callback([o, &action] { action = [o] { return RunSearchVerb(*o); }; });
+    verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
 }
 
-void AddStatus(CLI::App& program, Action& action) {
-  auto file = std::make_shared<std::string>();
-  auto json = std::make_shared<bool>(false);
-  CLI::App& verb = *program.add_subcommand("status", "What a store holds, of a running or a stopped search");
-  verb.add_option("STORE", *file, "store of a search")->required();
-  verb.add_flag("--json", *json, "machine output");
-  verb.callback([=, &action] { action = [=] { return RunStatus(*file, *json); }; });
+void AddStatus(CommandLine& program) {
+  auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
+  verb.Positional("STORE", o.store, "store of a search").Required();
+  verb.Flag("--json", o.json, "machine output");
 }
 
-void AddMerge(CLI::App& program, Action& action) {
-  auto out = std::make_shared<std::string>();
-  auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App& verb = *program.add_subcommand("merge", "Join the stores of one campaign");
-  verb.add_option("OUT", *out, "store to write or to add to")->required();
-  verb.add_option("STORE", *files, "stores to take in")->required();
-  verb.callback([=, &action] { action = [=] { return RunMerge(*out, *files); }; });
+void AddMerge(CommandLine& program) {
+  auto [verb, o] = program.Add("merge", "Join the stores of one campaign", RunMerge);
+  verb.Positional("OUT", o.out, "store to write or to add to").Required();
+  verb.Positional("STORE", o.stores, "stores to take in").Required();
 }
 
-void AddProblem(CLI::App& program, Action& action) {
-  auto o = std::make_shared<ProblemVerb>();
-  CLI::App& verb = *program.add_subcommand(
-      "problem",
-      "Write any problem that a search tried, with its scene where it has one, or the worst "
-      "case without friction, as a problem file");
-  verb.add_option("STORE", o->store, "store of a search");
-  verb.add_option("UNIT", o->unit, "number of the unit")->check(CLI::NonNegativeNumber);
-  verb.add_option("INDEX", o->index, "number of the problem in its unit, from 0")
-      ->check(CLI::NonNegativeNumber);
-  verb.add_option("--exponential", o->exponential,
-                  "instead: the problem of so many contacts without friction, 1 to 200, on which the published "
-                  "algorithm takes 2^n - 1 pivots")
-      ->check(CLI::Range(1, 200));
-  verb.add_flag("--scaled", o->scaled, "of it the form that does so for scan=most-violated too");
-  verb.add_option("-o,--output", o->output, "file to write; - is standard output")->capture_default_str();
-  verb.callback([o, &action] { action = [o] { return RunProblem(*o); }; });
+void AddProblem(CommandLine& program) {
+  auto [verb, o] =
+      program.Add("problem", "Write any problem that a search tried as a problem file", RunProblem);
+  verb.footer =
+      "With its scene where it has one. Or the worst case without friction, on which the published algorithm "
+      "takes 2^n - 1 pivots.";
+  verb.Positional("STORE", o.store, "store of a search");
+  verb.Positional("UNIT", o.unit, "number of the unit").AtLeast(0);
+  verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
+  verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
+  verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
+  verb.Option("-o,--output", o.output, "file to write; - is standard output");
 }
 
-void AddReport(CLI::App& program, Action& action) {
-  auto store = std::make_shared<std::string>();
-  auto directory = std::make_shared<std::string>();
-  CLI::App& verb =
-      *program.add_subcommand("report", "Write a store as an HTML page, CSV files and problem files");
-  verb.add_option("STORE", *store, "store of a search")->required();
-  verb.add_option("-o,--output", *directory, "folder to write")->required();
-  verb.callback([=, &action] {
-    action = [=] {
-      WriteReport(Store::OpenToRead(*store), *directory);
-      fmt::print("{}/index.html\n", *directory);
-      return kExitDone;
-    };
-  });
+void AddReport(CommandLine& program) {
+  auto [verb, o] =
+      program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
+  verb.Positional("STORE", o.store, "store of a search").Required();
+  verb.Option("-o,--output", o.folder, "folder to write").Required();
 }
 
 }  // namespace stiction

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces that several verbs share.
+#include "cli/shared.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -15,7 +14,6 @@
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
-#include "cli/verbs.h"
 
 namespace stiction {
 namespace {
@@ -29,15 +27,12 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it"
 void OnSignal(int) { interrupted = true; }
 
 template <class Options>
-void AddNumbers(CLI::App& verb, Options& options, const std::string& group) {
-  ForEachField(options, [&verb, &group](const NumberRow& row, auto& value) {
-    verb.add_option("--" + std::string(row.name), value, fmt::format("{} [{}]", row.help, row.unit))
-        ->check(CLI::Range(row.min, row.max))
-        ->check([](const std::string& text) {  // Range lets it pass
-          return std::isnan(std::strtod(text.c_str(), nullptr)) ? "found nan, expected a number" : "";
-        })
-        ->capture_default_str()
-        ->group(group);
+void AddNumbers(Verb& verb, Options& options, const char* group) {
+  ForEachField(options, [&verb, group](const NumberRow& row, auto& value) {
+    verb.Option("--" + std::string(row.name), value, row.help)
+        .Unit(row.unit)
+        .Range(row.min, row.max)
+        .Group(group);
   });
 }
 
@@ -83,16 +78,15 @@ std::string PolicyError(const std::string& text, Grid grid) {
   }
 }
 
-void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid) {
+void AddPolicyOption(Verb& verb, std::string& policy, Grid grid) {
   const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
-  verb.add_option("--policy", policy,
-                  fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
-      ->capture_default_str()
-      ->check([grid](const std::string& text) { return PolicyError(text, grid); });
+  verb.Option("--policy", policy,
+              fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
+      .Check([grid](const std::string& text) { return PolicyError(text, grid); });
 }
 
-void AddLimits(CLI::App& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }
-void AddTolerances(CLI::App& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
+void AddLimits(Verb& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets"); }
+void AddTolerances(Verb& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
 
 std::string CheckSides(const std::string& text) {
   const int sides = std::atoi(text.c_str());

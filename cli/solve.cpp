@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "cli/answer_text.h"
+#include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
@@ -84,54 +85,39 @@ int RunSolve(const SolveVerb& o) {
   return ExitOf(solution.outcome());
 }
 
-std::string MethodHelp() {
-  std::string help = "auto: one that ends, the answer names it";
-  for (const MethodFacts& facts : AllMethods()) help += fmt::format("; {}: {}", facts.name, facts.title);
-  return help;
-}
-
-std::vector<std::string> MethodNames() {
-  std::vector<std::string> names = {std::string(kAutomatic)};
-  for (const MethodFacts& facts : AllMethods()) names.emplace_back(facts.name);
-  return names;
+std::vector<Choice> MethodChoices() {
+  std::vector<Choice> choices = {{std::string(kAutomatic), "one that ends; the answer names it"}};
+  for (const MethodFacts& facts : AllMethods())
+    choices.push_back({std::string(facts.name), std::string(facts.title)});
+  return choices;
 }
 
 }  // namespace
 
-void AddSolve(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SolveVerb>();
-  CLI::App& verb = *program.add_subcommand("solve", "Solve one problem");
-  verb.add_option("FILE", o->file, "stiction-problem file")->required();
-  verb.add_option("--method", o->method, MethodHelp())
-      ->capture_default_str()
-      ->check(CLI::IsMember(MethodNames()));
-  verb.add_option("--arithmetic", o->arithmetic,
-                  "of the method: see 'stiction methods'; by default exact where it is built, double for "
-                  "method fast and for large problems")
-      ->check(CLI::IsMember(std::vector<std::string>(kArithmeticNames.begin(), kArithmeticNames.end())));
-  AddPolicyOption(verb, o->policy, Grid::kRefused);
-  verb.add_option(
-          "--law", o->law,
-          "friction in space. baraff: the paper's conditions (21), (22), which leave the direction of slip "
-          "free; coulomb: friction opposite to the acceleration, over exact arithmetic up to a proved bound. "
-          "Inexact answers but those of method baraff obey coulomb, which implies baraff")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"baraff", "coulomb"}));
-  verb.add_option("--sides", o->options.sides, "sides of the friction polygons in space, a multiple of 4")
-      ->capture_default_str()
-      ->check(CheckSides);
-  verb.add_option("--residual", o->options.residual,
-                  "largest relative residual of inexact forces that are called solved; 0: 1e-6 over float, "
-                  "1e-8 over wider numbers")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
-  verb.add_option("--seconds", o->seconds, "after so long the best forces so far are told, undecided; 0: never")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
-  AddLimits(verb, o->options.limits);
-  AddTolerances(verb, o->options.tolerances);
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return RunSolve(*o); }; });
+void AddSolve(CommandLine& program) {
+  auto [verb, o] = program.Add("solve", "Solve one problem", RunSolve);
+  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Option("--method", o.method, "what solves it").Choices(MethodChoices());
+  verb.Option("--arithmetic", o.arithmetic, "what it computes with")
+      .OneOf({kArithmeticNames.begin(), kArithmeticNames.end()})
+      .Details(
+          "By default exact where the method is built so, double for method fast and for large problems. "
+          "'stiction methods' has the table of what is built.");
+  AddPolicyOption(verb, o.policy, Grid::kRefused);
+  verb.Option("--law", o.law, "friction in space; inexact answers but those of baraff obey coulomb")
+      .Choices({{"baraff", "the paper's conditions (21), (22), which leave the direction of slip free; exact"},
+                {"coulomb",
+                 "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
+  verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
+      .Check(CheckSides);
+  verb.Option("--residual", o.options.residual, "largest relative residual of inexact forces called solved")
+      .Range(0, 1)
+      .Details("0, the default: 1e-6 over float, 1e-8 over wider numbers.");
+  verb.Option("--seconds", o.seconds, "after so long the best forces so far are told, undecided; 0: never")
+      .Range(0, 1e9);
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.options.limits);
+  AddTolerances(verb, o.options.tolerances);
 }
 
 }  // namespace stiction

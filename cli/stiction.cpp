@@ -6,7 +6,9 @@
 #include <iostream>
 
 #include "cli/verbs.h"
-#include "solver/problem/check.h"
+#include "cli/version.h"
+#include "corpus/exit_code.h"
+#include "corpus/input_error.h"
 
 namespace {
 
@@ -15,36 +17,29 @@ constexpr const char* kFooter =
     "70 a bug.";
 
 int Main(int argc, char** argv) {
-  CLI::App program{"stiction: does Baraff's algorithm for contact forces with static friction always end?"};
-  program.require_subcommand(1);
-  program.footer(kFooter);
-  stiction::Action action;
   using namespace stiction;
-  AddSearch(program, action);
-  AddReplay(program, action);
-  AddReport(program, action);
-  AddSolve(program, action);
-  AddCertify(program, action);
-  AddCheck(program, action);
-  AddMinimize(program, action);
-  AddStatus(program, action);
-  AddMerge(program, action);
-  AddProblem(program, action);
-  AddImport(program, action);
-  AddExport(program, action);
-  AddSurvey(program, action);
-  AddAssemble(program, action);
-  AddSimulate(program, action);
-  AddDraw(program, action);
-  AddPolicies(program, action);
-  AddMethods(program, action);
-  AddBench(program, action);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kExitDone : kExitBadInput;
-  }
-  return action();
+  CommandLine program("stiction: does Baraff's algorithm for contact forces with static friction always end?",
+                      "stiction " + BuildId(), kFooter);
+  AddSearch(program);
+  AddReplay(program);
+  AddReport(program);
+  AddSolve(program);
+  AddCertify(program);
+  AddCheck(program);
+  AddMinimize(program);
+  AddStatus(program);
+  AddMerge(program);
+  AddProblem(program);
+  AddImport(program);
+  AddExport(program);
+  AddSurvey(program);
+  AddAssemble(program);
+  AddSimulate(program);
+  AddDraw(program);
+  AddPolicies(program);
+  AddMethods(program);
+  AddBench(program);
+  return program.Run(argc, argv);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "certify/existence.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
+#include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
@@ -543,29 +544,24 @@ int Survey(const SurveyOptions& o) {
 
 }  // namespace
 
-void AddSurvey(CLI::App& program, Action& action) {
-  auto o = std::make_shared<SurveyOptions>();
-  CLI::App& verb = *program.add_subcommand(
-      "survey", "Judge problems: the paper's assumptions, what solves them, and how well");
-  verb.footer(
-      "A residual is natural, zero exactly at solutions, and relative. In the plane: to the larger of max |f|\n"
-      "and max |b| / max A_ii. In space it is that of Coulomb's law, the largest\n"
-      "|f - P(f - r (a + mu |aF| e_N))| of a contact, P the nearest point of the cone |fF| <= mu fN,\n"
-      "r = 1 / max A_ii, relative to max |b| / max A_ii alone; `solved` is at most 1e-8 there. Both are those\n"
-      "of the returned doubles, evaluated over rationals on the matrix of the row.");
-  verb.add_option("PATH", o->paths,
+void AddSurvey(CommandLine& program) {
+  auto [verb, o] =
+      program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
+  verb.footer =
+      "A residual is natural, zero exactly at solutions, and relative. In the plane: to the larger of max |f| "
+      "and max |b| / max A_ii. In space it is that of Coulomb's law, the largest "
+      "|f - P(f - r (a + mu |aF| e_N))| of a contact, P the nearest point of the cone |fF| <= mu fN, "
+      "r = 1 / max A_ii, relative to max |b| / max A_ii alone; `solved` is at most 1e-8 there. Both are those "
+      "of the returned doubles, evaluated over rationals on the matrix of the row.";
+  verb.Positional("PATH", o.paths,
                   "problems in any format that import reads, stiction-problem files, or folders")
-      ->required();
-  verb.add_option("--rows", o->rows, "the most rows for methods that hold A as a dense matrix")
-      ->check(CLI::Range(0, kMostDenseRows))
-      ->capture_default_str();
-  verb.add_flag(
-      "--suspicions", o->suspicions,
-      "in the plane: also the published algorithm over doubles, and over rationals only what no run over "
-      "doubles solves with a residual of at most 1e-6");
-  AddLimits(verb, o->limits);
-  verb.add_flag("--json", o->json, "machine output");
-  verb.callback([o, &action] { action = [o] { return Survey(*o); }; });
+      .Required();
+  verb.Option("--rows", o.rows, "the most rows for methods that hold A as a dense matrix")
+      .Range(0, kMostDenseRows);
+  verb.Flag("--suspicions", o.suspicions, "in the plane: also the published algorithm over doubles")
+      .Details("Over rationals only what no run over doubles solves with a residual of at most 1e-6");
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
 }
 
 }  // namespace stiction

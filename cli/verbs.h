@@ -1,112 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the program: each adds its subcommand, and says how it ended by an exit code.
+// The verbs of the program: each adds itself to the command line, and says how it ended by an exit code.
 
 #ifndef STICTION_CLI_VERBS_H_
 #define STICTION_CLI_VERBS_H_
 
-#include <CLI/CLI.hpp>
-#include <atomic>
-#include <functional>
-#include <string>
-
-#include "corpus/exit_code.h"
-#include "corpus/problem_file.h"
-#include "solver/problem/options.h"
+#include "cli/command_line.h"
 
 namespace stiction {
 
-// What the chosen verb does; set while the command line is parsed.
-using Action = std::function<int()>;
-
-void AddSolve(CLI::App& program, Action& action);
-void AddReplay(CLI::App& program, Action& action);
-void AddCertify(CLI::App& program, Action& action);
-void AddCheck(CLI::App& program, Action& action);
-void AddMinimize(CLI::App& program, Action& action);
-void AddSearch(CLI::App& program, Action& action);
-void AddStatus(CLI::App& program, Action& action);
-void AddMerge(CLI::App& program, Action& action);
-void AddProblem(CLI::App& program, Action& action);
-void AddReport(CLI::App& program, Action& action);
-void AddBench(CLI::App& program, Action& action);
-void AddImport(CLI::App& program, Action& action);
-void AddExport(CLI::App& program, Action& action);
-void AddSurvey(CLI::App& program, Action& action);
-void AddAssemble(CLI::App& program, Action& action);
-void AddSimulate(CLI::App& program, Action& action);
-void AddDraw(CLI::App& program, Action& action);
-void AddPolicies(CLI::App& program, Action& action);
-void AddMethods(CLI::App& program, Action& action);
-
-// ---- Shared pieces ---------------------------------------------------------------------------
-
-// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
-// the contact otherwise.
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
-
-// A planar problem of any kinds; InputError otherwise.
-ProblemFile ReadPlanarProblem(const std::string& file);
-
-// --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
-enum class Grid { kRefused, kAllowed };
-// Empty, or what is wrong with the text.
-std::string PolicyError(const std::string& text, Grid grid);
-void AddPolicyOption(CLI::App& verb, std::string& policy, Grid grid);
-// Limits and tolerances from their tables.
-void AddLimits(CLI::App& verb, Limits& limits);
-void AddTolerances(CLI::App& verb, Tolerances& tolerances);
-
-// Of --sides: empty, or what is wrong with the text.
-std::string CheckSides(const std::string& text);
-
-// "paper" -> one policy, "*" -> the planar grid.
-std::vector<Policy> PoliciesNamed(const std::string& text);
-
-// What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
-std::string Expected(const ProblemFile& file, const Policy& policy);
-
-// Writes a text file; "-" is standard output.
-void WriteText(const std::string& file, const std::string& text);
-
-// From the first call on SIGINT and SIGTERM set what it returns, and do nothing else: the verb ends by itself.
-const std::atomic<bool>& Interruption();
-
-// A bar on standard error, where that is a terminal.
-class ProgressBar {
- public:
-  ProgressBar();
-  bool IsShown() const { return terminal_; }
-  // `fraction`: of what is to be done, 0 to 1.
-  void Show(double fraction, const std::string& text) const;
-  void Clear() const;
-
- private:
-  bool terminal_;
-};
-
-// What has a table of counters (ForEachField), by their names.
-template <class S>
-Json StatisticsToJson(const S& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
-
-// A number that is not finite becomes text.
-Json NumberToJson(double x);
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
-  return json;
-}
-
-inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
-std::string Describe(const Verdict& verdict);
-
-// The assumptions of the paper that fail, each with its exact witness.
-Json FailedAssumptions(const ExactProblem& problem);
+void AddSolve(CommandLine& program);
+void AddReplay(CommandLine& program);
+void AddCertify(CommandLine& program);
+void AddCheck(CommandLine& program);
+void AddMinimize(CommandLine& program);
+void AddSearch(CommandLine& program);
+void AddStatus(CommandLine& program);
+void AddMerge(CommandLine& program);
+void AddProblem(CommandLine& program);
+void AddReport(CommandLine& program);
+void AddBench(CommandLine& program);
+void AddImport(CommandLine& program);
+void AddExport(CommandLine& program);
+void AddSurvey(CommandLine& program);
+void AddAssemble(CommandLine& program);
+void AddSimulate(CommandLine& program);
+void AddDraw(CommandLine& program);
+void AddPolicies(CommandLine& program);
+void AddMethods(CommandLine& program);
 
 }  // namespace stiction
 

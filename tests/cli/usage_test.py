@@ -6,7 +6,8 @@ import subprocess
 
 import cli
 
-VERBS = ["search", "replay", "report", "solve", "certify", "check", "minimize", "status", "merge", "policies", "bench"]
+VERBS = ["search", "replay", "report", "solve", "certify", "check", "minimize", "status", "merge", "problem", "import",
+         "export", "survey", "assemble", "simulate", "draw", "policies", "bench"]
 
 # The first value is the reference policy.
 SWITCHES = {
@@ -38,6 +39,34 @@ class Usage(cli.TestCase):
                 self.assertIn("Usage:", done.out)
                 self.assertEqual(done.err, "")
                 self.assertEqual(self.succeeds(verb, "-h").out, done.out)
+
+    def test_no_line_of_a_help_is_wider_than_a_terminal(self):
+        for verb in [(), *((verb,) for verb in VERBS if verb != "bench")]:
+            for line in self.succeeds(*verb, "--help").out.splitlines():
+                self.assertLessEqual(len(line), 80, f"{verb}: {line}")
+
+    def test_help_says_range_unit_default_and_choices(self):
+        text = " ".join(self.succeeds("solve", "--help").out.split())
+        self.assertIn("--max-pivots INTEGER budget of a run (steps; 1 to 1e+12; default 100000)", text)
+        self.assertIn("complete: complete driving, which always ends", text)
+        self.assertIn("-o, --output TEXT certificate to write", " ".join(self.succeeds("certify", "--help").out.split()))
+
+    def test_version(self):
+        self.assertRegex(self.succeeds("--version").out, r"^stiction \d+\.\d+\.\d+ [0-9a-z-]+, .+\n$")
+
+    def test_a_mistyped_word_is_named_with_the_nearest_one(self):
+        for arguments, says in [(("serch",), "did you mean search?"), (("minimise", "x"), "minimize"), (("status", "x", "--jsn"), "--json"),
+                                (("search", "--minuets", 1), "--minutes"), (("status", "x", "y"), "'y'")]:
+            with self.subTest(arguments=arguments):
+                self.refuses(*arguments, says=[f"found '{arguments[0]}'" if len(arguments) == 1 else "found", says])
+        self.assertNotIn("did you mean", self.refuses("xyzzy").err)
+        self.assertNotIn("did you mean", self.refuses("status", "x", "--entirely-else").err)
+
+    def test_a_number_that_is_none_or_out_of_range(self):
+        for option, value, says in [("--max-drives", "0", "from 1 to 1e+12"), ("--max-bits", "7x", "an integer"),
+                                    ("--force-tolerance", "1", "a number from 0 to 0.01"), ("--sides", "1.5", "an integer")]:
+            with self.subTest(option=option, value=value):
+                self.refuses("solve", "x", option, value, says=[option, f"found '{value}'", says])
 
     def test_bad_usage(self):
         problem = self.file("problem.json", cli.SOLVED)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only unit that knows CLI11, which is expensive to compile.
+
+#include "cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/help.h"
+#include "corpus/exit_code.h"
+#include "corpus/input_error.h"
+
+namespace stiction {
+namespace {
+
+void AddRow(CLI::App& app, const OptionRow& row) {
+  if (row.kind == RowKind::kFlag) {
+    bool* const field = std::get<bool*>(row.field);
+    const bool turned = !*field;
+    app.add_flag_function(row.name, [field, turned](std::int64_t count) { *field = turned == (count > 0); });
+    return;
+  }
+  CLI::Option* option = app.add_option(row.name, [&row](const CLI::results_t& words) {
+    const std::string error = Take(row, words);
+    if (!error.empty()) throw CLI::ValidationError(row.name, error);
+    return true;
+  });
+  option->required(row.required);
+  if (!row.needs.empty()) option->needs(app.get_option(row.needs));
+  if (row.IsRepeated()) option->expected(CLI::detail::expected_max_vector_size);
+}
+
+void AddVerb(CLI::App& app, const Verb& verb) {
+  CLI::App& added = *app.add_subcommand(verb.name, verb.purpose);
+  added.formatter_fn([&verb](const CLI::App*, std::string, CLI::AppFormatMode) { return HelpOf(verb); });
+  if (verb.rest != nullptr) {
+    added.set_help_flag();
+    added.prefix_command();
+    return;
+  }
+  added.allow_extras();
+  for (const OptionRow& row : verb.rows) AddRow(added, row);
+}
+
+std::string Suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const std::string nearest = Nearest(word, names);
+  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+std::vector<std::string> OptionNames(const Verb& verb) {
+  std::vector<std::string> names = {"--help"};
+  for (const OptionRow& row : verb.rows) {
+    const std::size_t comma = row.name.find(',');
+    if (row.kind != RowKind::kPositional) names.push_back(row.name.substr(comma + 1));  // npos + 1 is 0
+  }
+  return names;
+}
+
+void RefuseUnknownVerb(const CommandLine& program, const std::string& word) {
+  std::vector<std::string> names;
+  for (const Verb& verb : program.verbs) {
+    if (verb.name == word) return;
+    names.push_back(verb.name);
+  }
+  throw InputError(fmt::format("found '{}', expected a verb{}", word, Suggestion(word, names)));
+}
+
+void RefuseUnknownWord(const Verb& verb, const std::string& word) {
+  if (!word.starts_with("-"))
+    throw InputError(fmt::format("{}: found '{}', expected nothing more", verb.name, word));
+  const std::string name = word.substr(0, word.find('='));
+  throw InputError(fmt::format("{}: found {}, which is none of its options{}", verb.name, name,
+                               Suggestion(name, OptionNames(verb))));
+}
+
+}  // namespace
+
+int CommandLine::Run(int argc, char** argv) const {
+  CLI::App app;
+  app.formatter_fn([this](const CLI::App*, std::string, CLI::AppFormatMode) { return HelpOf(*this); });
+  app.set_version_flag("--version", version);
+  app.require_subcommand(1);
+  for (const Verb& verb : verbs) AddVerb(app, verb);
+  if (argc < 2) throw InputError("expected a verb; --help lists them");
+  const std::string word = argv[1];
+  if (word != "-h" && word != "--help" && word != "--version") RefuseUnknownVerb(*this, word);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+  for (const Verb& verb : verbs) {
+    const CLI::App& chosen = *app.get_subcommand(verb.name);
+    if (!chosen.parsed()) continue;
+    const std::vector<std::string> words = chosen.remaining();
+    if (verb.rest != nullptr) {
+      *verb.rest = words;
+    } else if (!words.empty()) {
+      RefuseUnknownWord(verb, words.front());
+    }
+    return verb.run();
+  }
+  return kExitDone;
+}
+
+}  // namespace stiction

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of the program: its verbs (cli/verb.h), and which of them is meant.
+
+#ifndef STICTION_CLI_COMMAND_LINE_H_
+#define STICTION_CLI_COMMAND_LINE_H_
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "cli/verb.h"
+
+namespace stiction {
+
+class CommandLine {
+ public:
+  CommandLine(std::string purpose, std::string version, std::string footer)
+      : purpose(std::move(purpose)), version(std::move(version)), footer(std::move(footer)) {}
+
+  // A new verb, and the options that `run` is called with; both live as long as the command line.
+  template <class Options>
+  struct Added {
+    Verb& verb;
+    Options& options;
+  };
+  template <class Options>
+  Added<Options> Add(std::string name, std::string help, int (*run)(const Options&)) {
+    auto options = std::make_shared<Options>();
+    Verb& verb = verbs.emplace_back(std::move(name), std::move(help));
+    verb.run = [options, run] { return run(*options); };
+    return {verb, *options};
+  }
+
+  // Reads the command line and runs the verb; its exit code, or 2 with what is wrong on standard error.
+  int Run(int argc, char** argv) const;
+
+  std::string purpose;  // one line
+  std::string version;
+  std::string footer;
+  std::deque<Verb> verbs;  // a reference to a verb stays good
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_COMMAND_LINE_H_

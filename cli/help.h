@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What --help says, from the rows of the verbs.
+
+#ifndef STICTION_CLI_HELP_H_
+#define STICTION_CLI_HELP_H_
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/command_line.h"
+
+namespace stiction {
+
+std::string HelpOf(const CommandLine& program);
+std::string HelpOf(const Verb& verb);
+
+// The name that a mistyped word stands for; empty where none is near.
+std::string Nearest(std::string_view word, const std::vector<std::string>& names);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_HELP_H_

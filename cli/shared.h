@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces that several verbs share.
+
+#ifndef STICTION_CLI_SHARED_H_
+#define STICTION_CLI_SHARED_H_
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "cli/verb.h"
+#include "corpus/exit_code.h"
+#include "corpus/problem_file.h"
+#include "solver/problem/options.h"
+
+namespace stiction {
+
+// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
+// the contact otherwise.
+ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
+
+// A planar problem of any kinds; InputError otherwise.
+ProblemFile ReadPlanarProblem(const std::string& file);
+
+// --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
+enum class Grid { kRefused, kAllowed };
+// Empty, or what is wrong with the text.
+std::string PolicyError(const std::string& text, Grid grid);
+void AddPolicyOption(Verb& verb, std::string& policy, Grid grid);
+// Limits and tolerances from their tables.
+void AddLimits(Verb& verb, Limits& limits);
+void AddTolerances(Verb& verb, Tolerances& tolerances);
+
+// Of --sides: empty, or what is wrong with the text.
+std::string CheckSides(const std::string& text);
+
+// "paper" -> one policy, "*" -> the planar grid.
+std::vector<Policy> PoliciesNamed(const std::string& text);
+
+// What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
+std::string Expected(const ProblemFile& file, const Policy& policy);
+
+// Writes a text file; "-" is standard output.
+void WriteText(const std::string& file, const std::string& text);
+
+// From the first call on SIGINT and SIGTERM set what it returns, and do nothing else: the verb ends by itself.
+const std::atomic<bool>& Interruption();
+
+// A bar on standard error, where that is a terminal.
+class ProgressBar {
+ public:
+  ProgressBar();
+  bool IsShown() const { return terminal_; }
+  // `fraction`: of what is to be done, 0 to 1.
+  void Show(double fraction, const std::string& text) const;
+  void Clear() const;
+
+ private:
+  bool terminal_;
+};
+
+// What has a table of counters (ForEachField), by their names.
+template <class S>
+Json StatisticsToJson(const S& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
+
+inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
+
+// The assumptions of the paper that fail, each with its exact witness.
+Json FailedAssumptions(const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_SHARED_H_

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <type_traits>
+
+namespace stiction {
+namespace {
+
+// What one word is read as.
+template <class T>
+struct WordOf {
+  using Type = T;
+};
+template <class T>
+struct WordOf<std::optional<T>> {
+  using Type = T;
+};
+template <class T>
+struct WordOf<std::vector<T>> {
+  using Type = T;
+};
+
+// All of the word as a number, in decimal.
+template <class Number>
+bool Read(const std::string& word, Number& number) {
+  const char* const last = word.data() + word.size();
+  const auto [end, error] = std::from_chars(word.data(), last, number);
+  return error == std::errc() && end == last;
+}
+
+bool Read(const std::string& word, std::string& text) {
+  text = word;
+  return true;
+}
+
+template <class T>
+void Set(T& field, T value) {
+  field = std::move(value);
+}
+template <class T>
+void Set(std::optional<T>& field, T value) {
+  field = std::move(value);
+}
+template <class T>
+void Set(std::vector<T>& field, T value) {
+  field.push_back(std::move(value));
+}
+
+std::string DefaultOf(const std::string& field) { return field; }
+template <class Number>
+std::string DefaultOf(const Number& field) {
+  return field == Number(0) ? "" : fmt::format("{}", field);
+}
+template <class T>
+std::string DefaultOf(const std::optional<T>&) {
+  return "";
+}
+template <class T>
+std::string DefaultOf(const std::vector<T>& field) {
+  return fmt::format("{}", fmt::join(field, " "));
+}
+
+// "an integer from 1 to 1024"
+std::string ExpectedNumber(const OptionRow& row) {
+  const std::string number = row.TypeName() == "INTEGER" ? "an integer" : "a number";
+  if (std::holds_alternative<std::optional<std::uint64_t>*>(row.field)) return number + " from 0 to 2^64 - 1";
+  if (row.min == -std::numeric_limits<double>::infinity()) return number;
+  return fmt::format("{} from {:g} to {}", number, row.min,
+                     row.max == kMostInteger ? "2^53" : fmt::format("{:g}", row.max));
+}
+
+std::string ErrorOf(const OptionRow& row, const std::string& word) {
+  if (!row.choices.empty()) {
+    std::vector<std::string_view> names;
+    for (const Choice& choice : row.choices) names.push_back(choice.name);
+    if (std::find(names.begin(), names.end(), word) == names.end())
+      return fmt::format("found '{}', expected one of {}", word, fmt::join(names, ", "));
+  }
+  return row.check ? row.check(word) : "";
+}
+
+template <class T>
+std::string TakeWord(const OptionRow& row, const std::string& word, T& field) {
+  typename WordOf<T>::Type value{};
+  bool good = Read(word, value);
+  if constexpr (std::is_arithmetic_v<typename WordOf<T>::Type>) {
+    const double number = static_cast<double>(value);
+    good = good && row.min <= number && number <= row.max;  // not so of nan
+  }
+  if (!good) return fmt::format("found '{}', expected {}", word, ExpectedNumber(row));
+  std::string error = ErrorOf(row, word);
+  if (error.empty()) Set(field, std::move(value));
+  return error;
+}
+
+}  // namespace
+
+OptionRow& OptionRow::OneOf(const std::vector<std::string>& names) {
+  for (const std::string& choice : names) choices.push_back({choice, ""});
+  return *this;
+}
+
+bool OptionRow::IsRepeated() const {
+  return std::holds_alternative<std::vector<int>*>(field) ||
+         std::holds_alternative<std::vector<std::string>*>(field);
+}
+
+std::string_view OptionRow::TypeName() const {
+  return std::visit(
+      [](const auto* bound) -> std::string_view {
+        using Word = typename WordOf<std::remove_cvref_t<decltype(*bound)>>::Type;
+        if constexpr (std::is_same_v<Word, bool>) return "";
+        if constexpr (std::is_integral_v<Word>) return "INTEGER";
+        return std::is_floating_point_v<Word> ? "NUMBER" : "TEXT";
+      },
+      field);
+}
+
+std::string Take(const OptionRow& row, const std::vector<std::string>& words) {
+  return std::visit(
+      [&row, &words](auto* bound) -> std::string {
+        using T = std::remove_pointer_t<decltype(bound)>;
+        if constexpr (!std::is_same_v<T, bool>) {
+          for (const std::string& word : words) {
+            std::string error = TakeWord(row, word, *bound);
+            if (!error.empty()) return error;
+          }
+        }
+        return "";
+      },
+      row.field);
+}
+
+OptionRow& Verb::Add(RowKind kind, std::string_view name, Field field, std::string_view help) {
+  OptionRow& row = rows.emplace_back();
+  row.kind = kind;
+  row.name = name;
+  row.field = field;
+  row.help = help;
+  if (kind != RowKind::kFlag)
+    row.default_value = std::visit([](const auto* bound) { return DefaultOf(*bound); }, field);
+  return row;
+}
+
+}  // namespace stiction
