@@ -117,10 +117,6 @@ InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem
   return result;
 }
 
-Suspicion SuspicionOf(const InexactAnswer& answer) {
-  return {answer.outcome, answer.reason, answer.start, answer.period, answer.arithmetic, answer.residual};
-}
-
 // The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
 InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
   Tolerances& t = request.options.tolerances;
@@ -242,6 +238,11 @@ std::vector<std::string_view> MethodsOf(int dimension, Arithmetic arithmetic) {
 }
 
 }  // namespace
+
+Suspicion SuspicionOf(const InexactAnswer& answer) {
+  return {answer.outcome,    answer.reason,   answer.start,   answer.period,
+          answer.arithmetic, answer.residual, answer.counters};
+}
 
 std::optional<Arithmetic> FindArithmetic(std::string_view name) {
   const auto at = std::find(kArithmeticNames.begin(), kArithmeticNames.end(), name);

@@ -58,7 +58,7 @@ enum class KeepTrace { kNo, kYes };
 struct SolveRequest {
   std::string method{kAutomatic};
   Arithmetic arithmetic = Arithmetic::kExact;
-  SolveOptions options;
+  SolveOptions options = {};
   KeepTrace trace = KeepTrace::kNo;  // of path methods
   bool confirm = true;               // whether suspicions are run again
 };
@@ -84,7 +84,9 @@ struct Suspicion {
   std::int64_t start = 0, period = 0;
   Arithmetic arithmetic = Arithmetic::kDouble;
   double residual = -1;
+  std::vector<Counter> counters;
 };
+Suspicion SuspicionOf(const InexactAnswer& answer);
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;

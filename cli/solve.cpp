@@ -12,6 +12,7 @@
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
 
 namespace stiction {
 namespace {

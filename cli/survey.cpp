@@ -14,21 +14,17 @@
 #include "certify/certificate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/solve.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
+#include "cli/answer_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
-#include "corpus/rounded.h"
-#include "solver/complete/complete.h"
-#include "solver/lemke/lemke.h"
-#include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
-#include "solver/problem/reduction.ipp"
 #include "solver/problem/residual.h"
-#include "solver/published/published.h"
 
 namespace stiction {
 namespace {
@@ -128,67 +124,30 @@ Json MeetsAll(const Json& entry) {
 
 // ---- Runs ------------------------------------------------------------------------------------
 
-// The natural residual of f, a double vector, on the exact problem: evaluated over rationals.
+// The residual of f, a double vector, on the exact problem: evaluated over rationals, in space bounded.
 template <class Problem>
 double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
   const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
+  if constexpr (std::is_same_v<Problem, ExactProblem>) {
+    if (problem.dimension == 3) return ToDouble(CoulombResidualBound(problem, exact));
+  }
   const ExactVector a = problem.A * exact + problem.b;
   return ToDouble(NaturalResidual(problem, exact, a));
 }
 
-// A run over doubles that calls itself solved is solved if the residual of its forces says so.
+// What solves over doubles, judged on the problem as it is given: its rounding is the method's, too.
 Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
-  const ContactProblem<double> whole = Rounded<double>(problem);
+  const SolveRequest request{
+      .method = method, .arithmetic = Arithmetic::kDouble, .options = {.limits = limits}, .confirm = false};
   const Stopwatch watch;
-  std::optional<Reduction<double>> reduction;  // bilateral and sliding contacts leave a problem first (4.5, 6)
-  if (Reduction<double>::Concerns(whole)) reduction.emplace(whole);
-  if (reduction && reduction->end() != ReductionEnd::kReduced) {
-    return {{"method", method},
-            {"arithmetic", "double"},
-            {"outcome", Name(Outcome::kSingular)},
-            {"reason", Reason(reduction->end())}};
-  }
-  const ContactProblem<double>& rounded = reduction ? reduction->problem() : whole;
-  Outcome outcome;
-  std::string_view reason;
-  Eigen::VectorXd f;
-  std::int64_t pivots = 0;
-  if (method == "complete") {
-    CompleteOptions options;
-    options.limits = limits;
-    CompleteDriving<double> driving(options);
-    const CompleteVerdict verdict = driving.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    f = driving.state().f;
-    pivots = verdict.statistics.pieces;
-  } else if (method == "baraff") {
-    PublishedAlgorithm<double> algorithm({Policy{}, {}, limits});
-    const Verdict verdict = algorithm.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    f = algorithm.state().f;
-    pivots = verdict.statistics.pivots;
-  } else {
-    LemkeOptions options;
-    options.cover = Cover::kUnits;
-    options.limits = limits;
-    LemkeAlgorithm<double> lemke(options);
-    const Verdict verdict = lemke.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    if (outcome == Outcome::kSolved) f = lemke.f();
-    pivots = verdict.statistics.pivots;
-  }
-  Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(outcome)}};
+  const InexactAnswer answer = std::get<InexactAnswer>(SolveIn(problem, request).answer);
+  Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(answer.outcome)}};
   run["seconds"] = watch.Seconds();
-  run["pivots"] = pivots;
-  if (!reason.empty()) run["reason"] = reason;
-  if (reduction && f.size() == rounded.rows()) f = reduction->Forces(f);
-  if (f.size() == problem.rows() && f.allFinite()) run["residual"] = VerifiedResidual(problem, f);
-  if (outcome == Outcome::kSolved && !(run.contains("residual") && run["residual"] <= kWrong)) {
-    run["outcome"] = "wrong";
-  }
+  run["statistics"] = CountersToJson(answer.counters);
+  if (!answer.reason.empty()) run["reason"] = answer.reason;
+  if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return run;
+  run["residual"] = VerifiedResidual(problem, answer.f);
+  if (answer.Solved() && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
   return run;
 }
 
@@ -325,27 +284,6 @@ Json PlanarRuns(const ExactProblem& problem, const SurveyOptions& o) {
   return runs;
 }
 
-// Coulomb's law over doubles. The residual of the returned forces is bounded over rationals.
-Json RunCoulomb(const ExactProblem& problem, const Limits& limits) {
-  CoulombOptions options;
-  options.limits = limits;
-  CoulombSolver<double> solver(options);
-  const ContactProblem<double> rounded = Rounded<double>(problem);
-  const Stopwatch watch;
-  const CoulombVerdict verdict = solver.Run(rounded);
-  Json run = {{"method", "fast"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
-  run["seconds"] = watch.Seconds();
-  run["statistics"] = Json::object();
-  ForEachField(verdict.statistics,
-               [&run](const char* name, const char*, std::int64_t value) { run["statistics"][name] = value; });
-  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
-  if (!solver.f().allFinite()) return run;
-  const ExactVector f = solver.f().unaryExpr([](double x) { return Rational(x); });
-  run["residual"] = ToDouble(CoulombResidualBound(problem, f));
-  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= options.residual)) run["outcome"] = "wrong";
-  return run;
-}
-
 // A certificate of Coulomb's law up to a bound.
 Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   SpaceOptions options;
@@ -372,7 +310,7 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
 }
 
 Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
-  Json runs = Json::array({RunCoulomb(problem, limits)});
+  Json runs = Json::array({RunInDoubles(problem, "fast", limits)});
   if (problem.contacts.size() <= kExactSpatialContacts) runs.push_back(CertifyCoulomb(problem, limits));
   return runs;
 }
