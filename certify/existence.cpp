@@ -2,9 +2,10 @@
 #include "certify/existence.h"
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/no_solution.h"
 #include "certify/space.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 
 namespace stiction {
 

@@ -26,7 +26,7 @@
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/problem/residual.h"
 #include "solver/published/published.h"
 
