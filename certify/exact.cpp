@@ -16,6 +16,7 @@ namespace stiction {
 
 static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
 
+template class Reduction<Rational>;
 template class PublishedAlgorithm<Rational>;
 template class CompleteDriving<Rational>;
 template class LemkeAlgorithm<Rational>;

@@ -2,6 +2,7 @@
 #include "certify/existence.h"
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/no_solution.h"
 #include "certify/solve.h"
 

@@ -10,7 +10,7 @@
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "corpus/rounded.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/solve.ipp"
 
 namespace stiction {

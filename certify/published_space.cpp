@@ -22,8 +22,9 @@ bool IsSurelyZero(const Interval& x) {
 
 }  // namespace stiction
 
+#include "certify/exact.h"
 #include "corpus/rounded.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/published/published_space.ipp"
 
 namespace stiction {

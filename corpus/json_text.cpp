@@ -15,6 +15,8 @@
 
 #include "solver/problem/check.h"
 
+template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace stiction {
 namespace {
 

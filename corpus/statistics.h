@@ -4,6 +4,7 @@
 #ifndef STICTION_CORPUS_STATISTICS_H_
 #define STICTION_CORPUS_STATISTICS_H_
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <concepts>

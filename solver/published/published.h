@@ -25,12 +25,6 @@
 
 namespace stiction {
 
-// Longest numerator or denominator of an exact scalar, in bits; specialised beside the scalar.
-template <class Scalar>
-struct BitLength {
-  static std::int64_t Of(const Scalar&) { return 0; }
-};
-
 // Whether `problem` has kinds and a dimension that the published algorithm handles here.
 template <class Problem>
 bool PublishedHandles(const Problem& problem) {

@@ -29,7 +29,7 @@ def static(mu, A, b):
             "contacts": [{"kind": "static", "mu": m} for m in mu], "A": A, "b": b}
 
 
-class Solve(cli.Case):
+class Solve(cli.TestCase):
     def methods(self, dimension="plane"):
         for method in self.succeeds("methods", "--json").json():
             for arithmetic in method[dimension]:
