@@ -15,6 +15,7 @@
 
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/output_error.h"
 #include "corpus/scene_file.h"
 #include "reports/draw_space.h"
 #include "search/summary.h"
@@ -86,7 +87,7 @@ struct SimulateCommand {
   std::optional<double> seconds, step;
   double rest = 0;
   int frames_a_second = 30, threads = 0;
-  bool full = false, svg = true;
+  bool full = false, svg = true, replace = false;
 };
 
 ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
@@ -169,21 +170,17 @@ double StepOf(const SceneFileOf<SceneType>& file, const std::string& source) {
   return Within(file.step, 1e-9, 1, source + ": step");
 }
 
-// The folder with what a run writes. Tables grow as the run goes; pictures, which share a view, come at its
-// end.
+// The folder with what a run writes: tables as the run goes, pictures, which share a view, at its end.
 template <class SceneType>
 class SimulationWriter {
  public:
   using Picture = typename DrawingOf<SceneType>::FrameType;
 
   explicit SimulationWriter(const SimulateCommand& o)
-      : o_(o), energy_file_(fs::path(o.output) / "energy.csv"), drift_file_(fs::path(o.output) / "drift.csv") {
-    MakeFolder(o.output);
-    if (o.svg) MakeFolder(fs::path(o.output) / "frames");
-    if (!o.problems.empty()) MakeFolder(o.problems);
-    RemoveOlder();
-    energy_.open(energy_file_);
-    drift_.open(drift_file_);
+      : o_(o), folder_(o.output, "simulate", OccupiedIf(o.replace)) {
+    if (!o.problems.empty()) MakeFolder(Place(o.problems));
+    energy_.open(Place(fs::path(o.output) / "energy.csv"));
+    drift_.open(Place(fs::path(o.output) / "drift.csv"));
     energy_ << "time_s,kinetic_J,potential_J,total_J\n";
     drift_ << "time_s,joints_m,overlap_m\n";
     Flush();
@@ -206,48 +203,47 @@ class SimulationWriter {
     Flush();
   }
 
+  // Where a file is while the folder of the output is not whole.
+  fs::path Place(const fs::path& path) const { return folder_.Place(path); }
+
   void WritePictures(const SceneType& scene) {
-    const fs::path folder(o_.output);
     view_.AddMargin();
     std::vector<double> largest;
     for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
     const double newton = ForceScale(view_, std::move(largest));
-    WriteText((folder / "animation.html").string(),
-              DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
+    folder_.Write("animation.html",
+                  DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
     SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
       SetPoses(moved, pictures_[k]);
-      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, pictures_[k].marks, newton));
+      folder_.Write(fmt::format("frames/{:05}.svg", k), DrawSvg(moved, view_, pictures_[k].marks, newton));
     }
+  }
+
+  void Commit() {
+    energy_.close();
+    drift_.close();
+    Flush();
+    TellAside(folder_.Commit());
   }
 
   const Drift& worst() const { return worst_; }
 
  private:
-  static std::string FrameName(std::size_t k) { return fmt::format("{:05}.svg", k); }
-
-  // What would stand from a run before among the files of this one.
-  void RemoveOlder() const {
-    const fs::path folder(o_.output);
-    fs::remove(folder / "undecided.json");
-    fs::remove(folder / "animation.html");
-    for (std::size_t k = 0; fs::remove(folder / "frames" / FrameName(k)); ++k) continue;
-  }
-
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error)
-      throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+    if (error) RefuseOutput(folder, error.value());
   }
 
   void Flush() {
-    if (!energy_.flush()) throw InputError(fmt::format("{}: cannot be written", energy_file_.string()));
-    if (!drift_.flush()) throw InputError(fmt::format("{}: cannot be written", drift_file_.string()));
+    for (std::ofstream* table : {&energy_, &drift_}) {
+      if (!table->flush()) throw OutputError(o_.output + ": its tables cannot be written");
+    }
   }
 
   const SimulateCommand& o_;
-  fs::path energy_file_, drift_file_;
+  WholeFolder folder_;
   std::ofstream energy_, drift_;
   Drift worst_;
   typename DrawingOf<SceneType>::ViewType view_;
@@ -320,12 +316,13 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
     const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
-    observe = [&o, &file, scene_name, frame = std::int64_t{-1}, number = 0](const FrameProblem& met) mutable {
+    observe = [&o, &file, &writer, scene_name, frame = std::int64_t{-1},
+               number = 0](const FrameProblem& met) mutable {
       const char* level = kLevelNames[static_cast<int>(met.level)];
       number = met.frame == frame ? number + 1 : 1;  // a frame can ask for several of one level and island
       frame = met.frame;
       const std::string name = fmt::format("{}-{:05}-{:02}-{}.json", scene_name, frame, number, level);
-      WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
+      WriteProblem(writer.Place(fs::path(o.problems) / name), file.scene.name, met.frame, level, met.problem);
     };
   }
   const std::atomic<bool>& interrupted = Interruption();
@@ -335,15 +332,17 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
     Run(simulation, steps, o.frames_a_second, interrupted, writer);
   } catch (const SimulationError& error) {
     const fs::path at = fs::path(o.output) / "undecided.json";
-    WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
+    WriteProblem(writer.Place(at), file.scene.name, simulation.statistics().frames, "undecided", error.problem);
     auto marks = MarksOf(simulation);
     marks.forces.clear();  // they are of the step before
     writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), std::move(marks)));
     writer.WritePictures(scene);
+    writer.Commit();
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
     return kExitUndecided;
   }
   writer.WritePictures(scene);
+  writer.Commit();
   WriteSummary(simulation.statistics(), writer.worst(), o.output);
   if (interrupted) {
     fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
@@ -412,8 +411,9 @@ void AddSimulate(CommandLine& program) {
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
       .Required()
       .Details(
-          "energy.csv and drift.csv grow as the run goes; at its end, or where Ctrl-C ends it, animation.html "
-          "and frames/*.svg; undecided.json where a frame has no answer (exit 3)");
+          "Whole, when the run or Ctrl-C ends: energy.csv, drift.csv, animation.html and frames/*.svg; "
+          "undecided.json where a frame has no answer (exit 3)");
+  AddReplace(verb, o.replace);
   verb.Option("--seconds", o.seconds, "simulated time; by default the scene's").Unit("s").Range(1e-9, 1e6);
   verb.Option("--step", o.step, "length of a step; by default the scene's").Unit("s").Range(1e-9, 1);
   verb.Option("--rest", o.rest,

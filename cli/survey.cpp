@@ -358,7 +358,8 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
 }
 
 SparseProblem ReadAny(const std::filesystem::path& file) {
-  return file.extension() == ".json" ? ToSparse(ReadProblem(file)) : ReadPublished(file);
+  const bool is_json = file == "-" ? ReadText(file).starts_with("{") : file.extension() == ".json";
+  return is_json ? ToSparse(ReadProblem(file)) : ReadPublished(file);
 }
 
 // Files as they are given; of a folder those that look like problems, by name.

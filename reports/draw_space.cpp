@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "corpus/json_text.h"
 #include "reports/draw_page.h"
 
 namespace stiction {
@@ -281,7 +282,8 @@ std::string DrawAnimation(const SceneInSpace<double>& scene, const ViewInSpace& 
   std::string data;
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    data += fmt::format("[{:.9g},\"{}\"],\n", frame.time, Picture(moved, screen, frame.marks, newton));
+    const Json picture = Picture(moved, screen, frame.marks, newton);
+    data += fmt::format("[{:.9g},{}],\n", frame.time, JsonText(picture));
   }
   return PageHead(scene.name) + Head(screen) + "<g id=\"picture\"></g>\n</svg>\n" + PageTail(data, rate, kShow);
 }

@@ -733,7 +733,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 7 + 5);
+  CHECK(contents.size() == 7 + 5 + 1)  // and the list of them;
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));
@@ -749,12 +749,15 @@ TEST_CASE("report: a directory that cannot be written is an input error that nam
   CHECK_THROWS_AS(WriteReport(store, scratch / "out"), InputError);
 }
 
-TEST_CASE("report: files of others in the directory stay") {
+TEST_CASE("report: files of others in the directory are refused by name, or kept in another directory") {
   const Scratch scratch;
+  const Store store = SampleStore(scratch / "s");
   fs::create_directories(scratch / "out/findings");
   std::ofstream(scratch / "out/findings/notes.json") << "mine";
-  WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  CHECK(ReadText(scratch / "out/findings/notes.json") == "mine");
+  CHECK_THROWS_WITH(WriteReport(store, scratch / "out"), Catch::Contains("found 'findings"));
+  CHECK(WriteReport(store, scratch / "out", Occupied::kSetAside) == scratch / "out.old");
+  CHECK(ReadText(scratch / "out.old/findings/notes.json") == "mine");
+  CHECK_FALSE(fs::exists(scratch / "out/findings/notes.json"));
 }
 
 // ---- Building blocks ----
