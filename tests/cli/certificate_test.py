@@ -84,9 +84,12 @@ class Certificates(cli.TestCase):
 
     def test_a_certificate_that_cannot_be_written(self):
         file = self.file("p.json", cli.SOLVED)
-        for out in [self.folder / "no/such/c.json", self.folder, "/dev/full"]:
-            self.refuses("certify", file, "-o", out, says=[out, "cannot be written"])
-            self.refuses("minimize", file, "-o", out, says=[out, "cannot be written"])
+        for verb in ("certify", "minimize"):
+            for out in [self.folder / "no/such/c.json", self.folder]:
+                self.refuses(verb, file, "-o", out, says=[out, "cannot be written"])
+            done = cli.run(verb, file, "-o", "/dev/full")
+            self.assertEqual(done.code, 74, done.err)
+            self.assertIn("/dev/full: cannot be written", done.err)
 
     def test_an_asymmetric_matrix_is_not_called_semidefinite(self):
         file = self.file("p.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})

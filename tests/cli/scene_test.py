@@ -4,9 +4,7 @@
 import csv
 import json
 import math
-import shutil
 import subprocess
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 import cli
@@ -110,7 +108,6 @@ class Scenes(cli.TestCase):
         done = cli.run("draw", path, "-o", self.folder / "huge.svg")
         self.assertEqual((done.code, done.out), (2, ""), done.err)
 
-    @unittest.skipUnless(shutil.which("node"), "needs node")
     def test_the_page_of_an_animation_runs(self):
         self.succeeds("simulate", FOLDER / "gears.json", "-o", self.folder / "gears", "--seconds", "0.5", "--no-svg")
         done = subprocess.run(["node", "-e", PAGE, self.folder / "gears" / "animation.html"], text=True,

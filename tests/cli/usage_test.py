@@ -131,7 +131,7 @@ class Usage(cli.TestCase):
             with self.subTest(arguments=arguments):
                 with open("/dev/full", "w") as full:
                     done = subprocess.run([cli.program, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE)
-                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.returncode, 74, done.stderr)
                 self.assertIn(b"output", done.stderr)
 
     def test_a_reader_that_goes_away_is_no_internal_error(self):
