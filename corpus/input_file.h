@@ -10,7 +10,8 @@
 
 namespace stiction {
 
-// More is refused wherever a file is read (ReadText). The largest dense problem that is read has some 70 million numbers.
+// More is refused wherever a file is read (ReadText). The largest dense problem that is read has some 70
+// million numbers.
 inline constexpr std::size_t kMostInputBytes = std::size_t{1} << 30;
 
 // The bytes of a file. "-", /dev/stdin and /dev/fd/N may be pipes; standard input is read once, and gives the

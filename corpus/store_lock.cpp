@@ -93,8 +93,11 @@ StoreLock::StoreLock(const std::filesystem::path& store, const Shard& shard) : f
   const int line = FreeLine(store, shard);
   const std::string text = LineOf(shard);
   if (pwrite(lock_.number(), text.data(), text.size(), Start(line)) != kLine ||
-      SetLock(lock_.number(), line, F_WRLCK, F_OFD_SETLK) != 0)
-    RefuseOutput(file_, errno);
+      SetLock(lock_.number(), line, F_WRLCK, F_OFD_SETLK) != 0) {
+    const int error = errno;
+    Leave();
+    RefuseOutput(file_, error);
+  }
   SetLock(lock_.number(), 0, F_UNLCK, F_OFD_SETLK);
 }
 
@@ -121,7 +124,9 @@ int StoreLock::FreeLine(const std::filesystem::path& store, const Shard& shard) 
   return free > 0 ? free : line;
 }
 
-StoreLock::~StoreLock() {
+StoreLock::~StoreLock() { Leave(); }
+
+void StoreLock::Leave() const {
   if (!lock_.valid() || SetLock(lock_.number(), 0, F_WRLCK, F_OFD_SETLKW) != 0) return;
   bool alone = true;
   for (int line = 1; ReadLine(lock_.number(), line); ++line) alone &= !IsHeldByAnother(lock_.number(), line);

@@ -28,6 +28,7 @@ class StoreLock {
 
  private:
   void Open();
+  void Leave() const;  // removes the file if nobody else works on the store
   int FreeLine(const std::filesystem::path& store, const Shard& shard) const;
 
   std::filesystem::path file_;

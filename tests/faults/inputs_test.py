@@ -43,7 +43,7 @@ class Inputs(cli.TestCase):
         done = cli.run("survey", self.folder / "pipe.json", self.file("p.json", cli.SOLVED), timeout=SECONDS)
         self.assertEqual(done.code, 2)
         self.assertIn("pipe.json", done.err)
-        self.assertIn("one-contact", done.out)
+        self.assertIn("p.json", done.out)
 
     def from_standard_input(self, text, *arguments):
         done = subprocess.run([cli.program, *map(str, arguments)], input=text, capture_output=True, text=True,
@@ -55,11 +55,13 @@ class Inputs(cli.TestCase):
         problem = self.file("p.json", cli.SOLVED)
         self.succeeds("certify", problem, "-o", certificate)
         scene = (cli.ROOT / "corpus/scenes/stack.json").read_text()
+        lcp = self.succeeds("export", cli.ROOT / "corpus/exponential-pivots-5-frictionless.json", "-o", "-",
+                            "--format", "siconos-lcp").out
         calls = [(problem.read_text(), call) for call in (
             ("solve", "-", "--json"), ("replay", "-", "--json"), ("certify", "-", "-o", "-"), ("survey", "-"),
             ("certify", "-", "--all"), ("solve", "/dev/stdin", "--json"))]
         calls += [(certificate.read_text(), ("check", "-")), (scene, ("draw", "-", "-o", "-")),
-                  ("1\n2\n-1\n", ("import", "-", "-o", "-")),
+                  (lcp, ("import", "-", "-o", "-")),
                   (json.dumps(cli.REFERENCE), ("minimize", "-", "-o", "-"))]
         for text, arguments in calls:
             with self.subTest(arguments=arguments):
