@@ -63,31 +63,7 @@ Eigen::VectorXd InDoubles(const Vector& values) {
 
 template <class Scalar>
 Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
-  Pivot<double> result{.drive = pivot.drive,
-                       .driven = pivot.driven,
-                       .goal = pivot.goal,
-                       .df = InDoubles(pivot.df),
-                       .da = InDoubles(pivot.da),
-                       .s = static_cast<double>(pivot.s),
-                       .limiting = pivot.limiting,
-                       .from = pivot.from,
-                       .to = pivot.to,
-                       .wanted = pivot.wanted,
-                       .gave_up = pivot.gave_up,
-                       .f = InDoubles(pivot.f),
-                       .a = InDoubles(pivot.a),
-                       .sets = pivot.sets,
-                       .turned_away = pivot.turned_away,
-                       .recorded = {},
-                       .word = pivot.word,
-                       .determinant = pivot.determinant,
-                       .turn = pivot.turn,
-                       .entering = pivot.entering,
-                       .leaving = pivot.leaving,
-                       .cover = static_cast<double>(pivot.cover)};
-  for (const auto& d : pivot.recorded)
-    result.recorded.push_back({static_cast<double>(d[0]), static_cast<double>(d[1])});
-  return result;
+  return Converted<double>(pivot, [](const Scalar& x) { return static_cast<double>(x); });
 }
 
 // Forces of long double are rounded to what is told of them before they are judged.

@@ -155,7 +155,6 @@ class SpatialDriving {
   void Solved();
   bool SolveLastWord();
   void ComputeAccelerations();
-  Scalar Residual() const;
   void Unlimited();
   void Impossible(const char* what);
 

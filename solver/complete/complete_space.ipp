@@ -12,6 +12,7 @@
 #include "solver/complete/complete_space.h"
 #include "solver/complete/complete_space_cells.ipp"
 #include "solver/complete/complete_space_ties.ipp"
+#include "solver/complete/polygon_residual.h"
 
 namespace stiction {
 
@@ -112,11 +113,12 @@ void SpatialDriving<Scalar>::Solved() {
   if constexpr (!kIsExact<Scalar>) {
     const Vector path_end = f_;
     const Scalar tolerance = std::max(Scalar(options_.residual), 8 * std::numeric_limits<Scalar>::epsilon());
-    if (!SolveLastWord() || !(Residual() <= tolerance)) {
+    if (!SolveLastWord() || !(PolygonResidual(*problem_, *polygons_, f_, a_) <= tolerance)) {
       f_ = path_end;
       ComputeAccelerations();
     }
-    if (!(Residual() <= tolerance)) return End(Outcome::kUndecided, "the residual is above the tolerance");
+    if (!(PolygonResidual(*problem_, *polygons_, f_, a_) <= tolerance))
+      return End(Outcome::kUndecided, "the residual is above the tolerance");
   }
   End(Outcome::kSolved);
 }
@@ -150,38 +152,6 @@ void SpatialDriving<Scalar>::ComputeAccelerations() {
   for (int i = 0; i < problem_->rows(); ++i) {
     for (int j = 0; j < problem_->rows(); ++j) a_[i] += problem_->A(i, j) * f_[j];
   }
-}
-
-// The natural residual of planar contacts (residual.h), friction with the polygon in place of the interval;
-// relative to max abs(b) / max A_ii.
-template <class Scalar>
-Scalar SpatialDriving<Scalar>::Residual() const {
-  const Scalar nothing(0);
-  Scalar max_A(0), max_b(0), worst(0);
-  for (int i = 0; i < problem_->rows(); ++i) {
-    max_A = std::max<Scalar>(max_A, problem_->A(i, i));
-    max_b = std::max<Scalar>(max_b, Abs(problem_->b[i]));
-  }
-  const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
-  for (std::size_t i = 0; i < word_.size(); ++i) {
-    const auto& contact = problem_->contacts[i];
-    const int row = first_row_[i];
-    if (contact.kind == ContactKind::kBilateral) {
-      worst = std::max<Scalar>(worst, Abs(Scalar(r * a_[row])));
-      continue;
-    }
-    worst = std::max<Scalar>(worst, Abs(Scalar(f_[row] - std::max<Scalar>(nothing, f_[row] - r * a_[row]))));
-    if (!contact.HasFrictionRows()) continue;
-    const Triple free = FreeColumn(static_cast<int>(i));
-    Planar<Scalar> wanted = {Scalar(free[1] * f_[row]), Scalar(free[2] * f_[row])};
-    if (HasFriction(static_cast<int>(i))) {
-      const Planar<Scalar> target = {Scalar(f_[row + 1] - r * a_[row + 1]),
-                                     Scalar(f_[row + 2] - r * a_[row + 2])};
-      wanted = (*polygons_)[i].Project(target, Scalar(contact.mu * std::max<Scalar>(nothing, f_[row])));
-    }
-    for (int c = 0; c < 2; ++c) worst = std::max<Scalar>(worst, Abs(Scalar(f_[row + 1 + c] - wanted[c])));
-  }
-  return max_b > 0 ? Scalar(worst / (max_b * r)) : worst;
 }
 
 // What the theory excludes is an internal error over exact scalars, and rounding over inexact ones.

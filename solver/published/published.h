@@ -10,7 +10,8 @@
 // readings.md fixes every choice that the text leaves open; `Policy` names the readings. The algorithm
 // can fail to end: a repeated outer state is the outcome `cycle`, a repeated state inside a drive `stall`.
 //
-// Over exact scalars a repetition is a proof. Over inexact ones it is a suspicion: forces are compared
+// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, and what the
+// ends do not decide throws. Over inexact ones it is a suspicion: forces are compared
 // after rounding, and callers run the problem again exactly before they claim anything.
 
 #ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_

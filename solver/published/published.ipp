@@ -138,6 +138,7 @@ bool PublishedAlgorithm<Scalar, Rows>::FrictionHolds(int row) const {  // (16)
 
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::Violated(int row) const {
+  if (kEncloses<Scalar> && state_.sets[row] != IndexSet::kNone) return false;  // by its set
   if (layout_.IsNormal(row)) return !NormalHolds(row);
   return NormalHolds(row - 1) && !FrictionHolds(row);
 }
@@ -243,6 +244,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     if (step.limiting < 0) return End(Outcome::kRay);
     if (step.order_matters) Consult(PolicySwitch::kTies);
     const bool zero = Sign(step.s, scale_.force) == 0;
+    if (kEncloses<Scalar> && !zero) step_size_.LeaveBounds();
     Advance(step.s, step.limiting, step.wants, driven);
     ++statistics.steps;
     statistics.zero_steps += zero;
@@ -266,7 +268,8 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
   }
 }
 
-// f += s df, a += s da. Over inexact scalars the limit that was reached is then met exactly.
+// f += s df, a += s da. Over inexact scalars and enclosures the limit that was reached is then met exactly;
+// over enclosures all friction at a limit is, which where fN = 0 is zero.
 template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, IndexSet wants, int driven) {
   (void)driven;
@@ -274,7 +277,7 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
     state_.f[row] += s * direction_.df()[row];
     state_.a[row] += s * direction_.da()[row];
   }
-  if constexpr (!kIsExact<Scalar>) {
+  if constexpr (kMeetsLimits<Scalar>) {
     Scalar& f = state_.f[limiting];
     switch (wants) {
       case IndexSet::kClamped:
@@ -294,6 +297,7 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
         break;
     }
   }
+  if constexpr (kEncloses<Scalar>) FollowLimits(*problem_, layout_, state_.sets, state_.f);
 }
 
 template <class Scalar, int Rows>
@@ -305,6 +309,9 @@ void PublishedAlgorithm<Scalar, Rows>::Move(int row, IndexSet to) {
 // The limiting variable changes its set, and its partner with it where the contact opens or closes.
 template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::MoveLimiting(int row, IndexSet wants) {
+  if constexpr (kEncloses<Scalar>) {
+    if (wants == IndexSet::kSticking) step_size_.MeetBound(row, LimitSign(state_.sets[row]));
+  }
   Move(row, wants);
   if (!layout_.IsNormal(row) || !layout_.HasFriction(row)) return;
   const int friction = row + 1;
