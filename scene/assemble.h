@@ -65,7 +65,7 @@ struct Omission {
   OmissionReason reason = OmissionReason::kSeparating;
 };
 
-template <class Scalar, int Dof>
+template <class Scalar, int Dof = 3>
 struct SceneModel {
   std::vector<BodyDynamics<Scalar, Dof>> bodies;
   std::vector<Constraint<Scalar, Dof>> constraints;  // that the problems hold

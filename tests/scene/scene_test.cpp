@@ -81,7 +81,7 @@ RigidBody<double> Polygon(const std::string& name, std::vector<Vector2<double>> 
                           double angle = 0) {
   RigidBody<double> body;
   body.name = name;
-  body.shapes.push_back({std::move(corners), {0, 0}, 0});
+  body.shapes.push_back({{}, std::move(corners), {0, 0}, 0});
   body.position = {x, y};
   body.rotation = {std::cos(angle), std::sin(angle)};
   return body;
@@ -93,7 +93,7 @@ RigidBody<double> Box(double w, double h, double x, double y, double angle = 0) 
 
 RigidBody<double> Disc(double r, double x, double y) {
   RigidBody<double> body;
-  body.shapes.push_back({{}, {0, 0}, r});
+  body.shapes.push_back({{}, {}, {0, 0}, r});
   body.position = {x, y};
   return body;
 }

@@ -208,7 +208,7 @@ TEST_CASE("simulate in space: falling bodies lose energy, overlap by no more tha
 Eigen::Matrix<double, 6, 1> MomentaOf(const SceneInSpace<double>& at) {
   Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
   for (const auto& body : at.bodies) {
-    const Vector p = body.mass * body.velocity, L = body.WorldInertia() * body.spin;
+    const Vector p = body.mass * body.velocity, L = WorldInertia(body) * body.spin;
     sum.head<3>() += p;
     sum.tail<3>() += CrossProduct<double>(body.position, p) + L;
   }

@@ -211,7 +211,7 @@ Scene<double> Arch(double thickness, int count) {
   scene.gap = 1e-3;
   RigidBody<double> floor;
   floor.fixed = true;
-  floor.shapes.push_back({{{-3, -1}, {3, -1}, {3, 0}, {-3, 0}}, {0, 0}, 0});
+  floor.shapes.push_back({{}, {{-3, -1}, {3, -1}, {3, 0}, {-3, 0}}, {0, 0}, 0});
   scene.bodies.push_back(floor);
   const double angle = std::acos(-1.0) / count, inner = 1 - thickness / 2, outer = 1 + thickness / 2;
   for (int i = 0; i < count; ++i) {
@@ -296,7 +296,7 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
     body.fixed = x != 0;
     body.position = {x, 0};
     body.velocity = {-x, 0};
-    body.shapes.push_back({{{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}}, {0, 0}, 0});
+    body.shapes.push_back({{}, {{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}}, {0, 0}, 0});
     scene.bodies.push_back(body);
   }
   Simulation simulation(scene);
@@ -392,14 +392,14 @@ Scene<double> Wall(int courses) {
   RigidBody<double> floor;
   floor.fixed = true;
   floor.position = {0, -1};
-  floor.shapes.push_back({{{-100, -1}, {100, -1}, {100, 1}, {-100, 1}}, {0, 0}, 0});
+  floor.shapes.push_back({{}, {{-100, -1}, {100, -1}, {100, 1}, {-100, 1}}, {0, 0}, 0});
   scene.bodies.push_back(floor);
   for (int course = 0; course < courses; ++course) {
     for (int k = 0; k < courses - course % 2; ++k) {
       RigidBody<double> brick;
       brick.inertia = (0.95 * 0.95 + 0.5 * 0.5) / 12;
       brick.position = {k + 0.5 * (course % 2), 0.25 + 0.5 * course};
-      brick.shapes.push_back({{{-0.475, -0.25}, {0.475, -0.25}, {0.475, 0.25}, {-0.475, 0.25}}, {0, 0}, 0});
+      brick.shapes.push_back({{}, {{-0.475, -0.25}, {0.475, -0.25}, {0.475, 0.25}, {-0.475, 0.25}}, {0, 0}, 0});
       scene.bodies.push_back(brick);
     }
   }
@@ -417,8 +417,8 @@ TEST_CASE("simulate: a block on the wall of a turning drum presses with m w^2 r,
   block.velocity = {0, 5};
   block.spin = drum.spin = 5;
   block.inertia = 1.0 / 6;
-  drum.shapes.push_back({{{1.5, -2}, {2, -2}, {2, 2}, {1.5, 2}}, {0, 0}, 0});
-  block.shapes.push_back({{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {0, 0}, 0});
+  drum.shapes.push_back({{}, {{1.5, -2}, {2, -2}, {2, 2}, {1.5, 2}}, {0, 0}, 0});
+  block.shapes.push_back({{}, {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {0, 0}, 0});
   SimulationOptions options;
   options.step = 1.0 / 240;
   Simulation simulation(scene, options);
