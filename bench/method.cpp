@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "bench/stopwatch.h"
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
+#include "corpus/stopwatch.h"
 #include "solver/problem/residual.h"
 
 namespace stiction {

@@ -6,7 +6,7 @@
 #define STICTION_CERTIFY_ENCLOSED_REMAINDER_H_
 
 #include "corpus/rounded.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

@@ -3,7 +3,7 @@
 
 #include "certify/exact.h"
 #include "certify/verify_solution.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 
 namespace stiction {
 namespace {

@@ -15,10 +15,10 @@
 
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/grouped.h"
 #include "corpus/output_error.h"
 #include "corpus/scene_file.h"
-#include "reports/draw_space.h"
-#include "search/summary.h"
+#include "reports/draw.h"
 
 namespace stiction {
 namespace {
@@ -42,8 +42,8 @@ std::string NumberedFile(const std::string& file, std::size_t number, std::size_
   return numbered.string();
 }
 
-template <class SceneType>
-int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
+template <class Kind>
+int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto contacts = FindContacts(file.scene);
   AssembleOptions<Rational> options;
   options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
@@ -120,24 +120,25 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
 
-double SumOfNumbers(const RigidBody<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
-         body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() + body.torque;
+double SumOf(double x) { return x; }
+template <class Numbers>
+double SumOf(const Numbers& numbers) {
+  return numbers.sum();
 }
+double SumOfInertia(double inertia) { return inertia + 1 / inertia; }
+double SumOfInertia(const Matrix3<double>& inertia) { return inertia.sum() + Inverse3<double>(inertia).sum(); }
 
-const auto& CornersOf(const BodyShape<double>& shape) { return shape.polygon; }
-const auto& CornersOf(const ShapeInSpace<double>& shape) { return shape.corners; }
-
-double SumOfNumbers(const BodyInSpace<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
-         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() +
-         body.acceleration.sum() + body.force.sum() + body.torque.sum();
+template <class Kind>
+double SumOfNumbers(const BodyIn<Kind, double>& body) {
+  return body.mass + 1 / body.mass + SumOfInertia(body.inertia) + body.position.sum() + body.rotation.sum() +
+         body.velocity.sum() + SumOf(body.spin) + body.acceleration.sum() + body.force.sum() +
+         SumOf(body.torque);
 }
 
 // The finite scene of a file.
-template <class SceneType>
-auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source) {
-  auto scene = Round(file.scene);
+template <class Kind>
+SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::string& source) {
+  SceneIn<Kind, double> scene = Round(file.scene);
   const auto require = [&source](double sum, const std::string& place) {
     if (!std::isfinite(sum)) {
       throw InputError(
@@ -148,7 +149,7 @@ auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source)
     double sum = SumOfNumbers(body);
     for (const auto& shape : body.shapes) {
       sum += shape.center.sum() + shape.radius;
-      for (const auto& corner : CornersOf(shape)) sum += corner.sum();
+      for (const auto& corner : shape.corners) sum += corner.sum();
     }
     require(sum, "body " + body.name);
   }
@@ -165,16 +166,17 @@ double Within(const Rational& x, double least, double most, const std::string& p
   if (value >= least && value <= most) return value;
   throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
 }
-template <class SceneType>
-double StepOf(const SceneFileOf<SceneType>& file, const std::string& source) {
+template <class Kind>
+double StepOf(const SceneFileIn<Kind>& file, const std::string& source) {
   return Within(file.step, 1e-9, 1, source + ": step");
 }
 
 // The folder with what a run writes: tables as the run goes, pictures, which share a view, at its end.
-template <class SceneType>
+template <class Kind>
 class SimulationWriter {
  public:
-  using Picture = typename DrawingOf<SceneType>::FrameType;
+  using SceneType = SceneIn<Kind, double>;
+  using Picture = FrameIn<Kind>;
 
   explicit SimulationWriter(const SimulateCommand& o)
       : o_(o), folder_(o.output, "simulate", OccupiedIf(o.replace)) {
@@ -186,7 +188,7 @@ class SimulationWriter {
     Flush();
   }
 
-  void AddState(const SimulationOf<SceneType>& simulation) {
+  void AddState(const SimulationIn<Kind>& simulation) {
     const Energy energy = EnergyOf(simulation.scene());
     const Drift drift = DriftOf(simulation.scene());
     energy_ << fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
@@ -246,7 +248,7 @@ class SimulationWriter {
   WholeFolder folder_;
   std::ofstream energy_, drift_;
   Drift worst_;
-  typename DrawingOf<SceneType>::ViewType view_;
+  View view_;
   std::vector<Picture> pictures_;
 };
 
@@ -259,8 +261,8 @@ class SimulationProgress {
     shown_ = now;
     const double fraction = static_cast<double>(done) / static_cast<double>(steps);
     const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;
-    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Thousands(done),
-                                    Thousands(steps), left));
+    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Grouped(done),
+                                    Grouped(steps), left));
   }
   ~SimulationProgress() { bar_.Clear(); }
 
@@ -273,9 +275,9 @@ class SimulationProgress {
 // All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
 // the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
 // before it.
-template <class SceneType>
-void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a_second,
-         const std::atomic<bool>& interrupted, SimulationWriter<SceneType>& writer) {
+template <class Kind>
+void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_second,
+         const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
   SimulationProgress progress;
   double next = 0;  // picture, s
   writer.AddState(simulation);
@@ -283,7 +285,7 @@ void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a
     const bool shown = simulation.time() >= next - 1e-9;
     if (shown) next += 1.0 / pictures_a_second;
     const double time = simulation.time();
-    const std::optional<SceneType> start = shown ? std::optional(simulation.scene()) : std::nullopt;
+    const auto start = shown ? std::optional(simulation.scene()) : std::nullopt;
     simulation.Step();
     if (start) writer.AddPicture(*start, RecordFrame(*start, time, MarksOf(simulation)));
     writer.AddState(simulation);
@@ -301,8 +303,8 @@ void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, co
              (fs::path(folder) / "animation.html").string());
 }
 
-template <class ExactScene>
-int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
+template <class Kind>
+int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     o.threads > 0 ? o.threads : tbb::info::default_concurrency());
   SimulationOptions options;
@@ -310,9 +312,8 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   options.rest = o.rest;
   options.minimal = !o.full;
   const double seconds = o.seconds ? *o.seconds : Within(file.seconds, 1e-9, 1e6, o.scene + ": seconds");
-  const auto scene = RoundedScene(file, o.scene);
-  using SceneType = std::remove_const_t<decltype(scene)>;
-  SimulationWriter<SceneType> writer(o);
+  const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
+  SimulationWriter<Kind> writer(o);
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
     const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
@@ -326,7 +327,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
     };
   }
   const std::atomic<bool>& interrupted = Interruption();
-  SimulationOf<SceneType> simulation(scene, options, observe);
+  SimulationIn<Kind> simulation(scene, options, observe);
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
   try {
     Run(simulation, steps, o.frames_a_second, interrupted, writer);
@@ -357,14 +358,13 @@ struct DrawCommand {
   std::string scene, output;
 };
 
-template <class ExactScene>
-int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
-  const auto scene = RoundedScene(file, o.scene);
-  using SceneType = std::remove_const_t<decltype(scene)>;
+template <class Kind>
+int RunDraw(const DrawCommand& o, const SceneFileIn<Kind>& file) {
+  const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationOptions options;
   options.step = StepOf(file, o.scene);
-  SimulationOf<SceneType> simulation(scene, options);
-  decltype(MarksOf(simulation)) marks;
+  SimulationIn<Kind> simulation(scene, options);
+  MarksIn<Kind> marks;
   try {
     simulation.Step();
     marks = MarksOf(simulation);
@@ -372,7 +372,7 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
     std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
     for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
   }
-  typename DrawingOf<SceneType>::ViewType view;
+  View view;
   view.Include(scene);
   view.AddMargin();
   WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));

@@ -13,6 +13,7 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
+#include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "corpus/store_lock.h"
@@ -119,10 +120,10 @@ class ProgressLine {
     const double fraction = Fraction(progress);
     const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
     return fmt::format("{} problems, {} a second, {} findings in {} groups, {} to finish, {:.0f} s left",
-                       Thousands(progress.problems),
-                       Thousands(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
-                                                           std::max(progress.seconds, 1e-9))),
-                       Thousands(progress.findings), Thousands(progress.groups), progress.pending, left);
+                       Grouped(progress.problems),
+                       Grouped(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
+                                                         std::max(progress.seconds, 1e-9))),
+                       Grouped(progress.findings), Grouped(progress.groups), progress.pending, left);
   }
 
   std::optional<double> minutes_;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -22,6 +21,7 @@
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
 #include "solver/problem/residual.h"
@@ -42,16 +42,6 @@ struct SurveyOptions {
   bool suspicions = false;  // bounds for the assumptions; in the plane, runs over rationals of suspicions only
   bool json = false;
   Limits limits;
-};
-
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // ---- Assumptions -----------------------------------------------------------------------------
@@ -139,7 +129,7 @@ double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
 Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
   const SolveRequest request{
       .method = method, .arithmetic = Arithmetic::kDouble, .options = {.limits = limits}, .confirm = false};
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const InexactAnswer answer = std::get<InexactAnswer>(SolveIn(problem, request).answer);
   Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(answer.outcome)}};
   run["seconds"] = watch.Seconds();
@@ -154,7 +144,7 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
 // The proximal method, for which A stays sparse.
 Json RunSparse(const SparseProblem& problem) {
   const SparseContactProblem<double> rounded = InDoubles(problem);
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   ProximalNewton<double> method;
   const ProximalVerdict verdict = method.Run(rounded);
   Json run = {{"method", "proximal"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
@@ -236,7 +226,7 @@ ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::v
 
 Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
                 const Limits& limits) {
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const ExactAnswer answer = DecideByGroups(problem, groups, limits);
   Json run = {{"method", answer.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
   run["seconds"] = watch.Seconds();
@@ -252,7 +242,7 @@ Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>
 
 // The published algorithm as it stands, under the policy `paper`: does it loop?
 Json RunPublished(const ExactProblem& problem, const Limits& limits) {
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const ExactRun published = RunExact(problem, {Policy{}, {}, limits});
   Json run = {{"method", "baraff"}, {"arithmetic", "exact"}, {"outcome", Name(published.verdict.outcome)}};
   run["seconds"] = watch.Seconds();
@@ -289,7 +279,7 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   SpaceOptions options;
   options.law = FrictionLaw::kCoulomb;
   options.limits = limits;
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const SpaceSolution solution = SolveInSpace(problem, options);
   Json run = {{"method", "complete"}, {"arithmetic", "exact"}, {"outcome", Name(solution.outcome)}};
   run["seconds"] = watch.Seconds();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time that other programs do not lengthen: the less of wall-clock and processor time.
+// Time that other programs do not lengthen: the less of wall-clock and processor time. Where other threads or
+// processes do the work, Stopwatch(CLOCK_MONOTONIC) is wall-clock time alone.
 
-#ifndef STICTION_BENCH_STOPWATCH_H_
-#define STICTION_BENCH_STOPWATCH_H_
+#ifndef STICTION_CORPUS_STOPWATCH_H_
+#define STICTION_CORPUS_STOPWATCH_H_
 
 #include <time.h>
 
@@ -36,4 +37,4 @@ class Stopwatch {
 
 }  // namespace stiction
 
-#endif  // STICTION_BENCH_STOPWATCH_H_
+#endif  // STICTION_CORPUS_STOPWATCH_H_

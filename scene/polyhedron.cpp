@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_space.h"
+#include "scene/polyhedron.h"
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -9,10 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
-
-#include "scene/rounding.h"
 
 namespace stiction {
 namespace {
@@ -23,8 +20,6 @@ using Point = Kernel::Point_3;
 using Vector = Vector3<Exact>;
 
 Point ToPoint(const Vector& v) { return {v[0], v[1], v[2]}; }
-
-Vector3<double> NearestVector(const Vector& v) { return {Nearest(v[0]), Nearest(v[1]), Nearest(v[2])}; }
 
 // ---- Polyhedra -------------------------------------------------------------------------------
 
@@ -72,7 +67,7 @@ void AddFaces(ShapeInSpace<Exact>& shape) {
     const auto across = CGAL::cross_product(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const auto normal = MakeVector3<Exact>(across.x(), across.y(), across.z());
     shape.faces.push_back(Loop(shape.corners, members, normal));
-    shape.normals.push_back(UnitVector3<Exact>(normal));
+    shape.normals.push_back(UnitVector(normal));
   }
 }
 
@@ -106,8 +101,8 @@ bool AllInOnePlane(const std::vector<Vector>& corners) {
 // Sums of volume, of first and of second moments, with a density of 1.
 struct Moments {
   Exact volume = 0;
-  Vector first = Zero3<Exact>();
-  Matrix3<Exact> second = Matrix3<Exact>::Constant(Exact(0));
+  Vector first = Zero<Vector>();
+  Matrix3<Exact> second = Zero<Matrix3<Exact>>();
 };
 
 // Tetrahedra from the origin, with sign.
@@ -140,24 +135,6 @@ void AddBall(Moments& sum, const ShapeInSpace<Exact>& ball) {
 
 }  // namespace
 
-template <>
-Exact Length3(const Vector& v) {
-  const Exact square = v.squaredNorm();
-  if (const auto root = RationalRoot(square)) return *root;
-  return Exact(std::sqrt(Nearest(square)));
-}
-
-template <>
-Vector UnitVector3(const Vector& v) {
-  if (const auto root = RationalRoot(Exact(v.squaredNorm())))
-    return MakeVector3<Exact>(v[0] / *root, v[1] / *root, v[2] / *root);
-  Exact scale(0);  // so that nothing overflows
-  for (int i = 0; i < 3; ++i) scale = std::max<Exact>(scale, abs(v[i]));
-  const Vector3<double> unit =
-      UnitVector3<double>(NearestVector(MakeVector3<Exact>(v[0] / scale, v[1] / scale, v[2] / scale)));
-  return MakeVector3<Exact>(unit[0], unit[1], unit[2]);
-}
-
 Polyhedron MakePolyhedron(std::vector<Vector> corners) {
   Polyhedron polyhedron;
   if (corners.size() < 4) {
@@ -182,83 +159,23 @@ Polyhedron MakePolyhedron(std::vector<Vector> corners) {
   return polyhedron;
 }
 
-MassPropertiesInSpace MassPropertiesOf(const std::vector<ShapeInSpace<Exact>>& shapes) {
+MassPropertiesIn<Space> MassPropertiesOf(const std::vector<ShapeInSpace<Exact>>& shapes) {
   Moments sum;
   for (const auto& shape : shapes) {
-    if (shape.IsBall()) {
+    if (shape.IsRound()) {
       AddBall(sum, shape);
     } else {
       AddPolyhedron(sum, shape);
     }
   }
-  MassPropertiesInSpace properties;
-  properties.volume = sum.volume;
+  MassPropertiesIn<Space> properties;
+  properties.mass = sum.volume;
   const Exact trace = sum.second.trace();
   for (int k = 0; k < 3; ++k) {
     if (sum.volume != 0) properties.center[k] = sum.first[k] / sum.volume;
     for (int l = 0; l < 3; ++l) properties.inertia(k, l) = (k == l ? trace : Exact(0)) - sum.second(k, l);
   }
   return properties;
-}
-
-namespace {
-
-ShapeInSpace<double> Round(const ShapeInSpace<Exact>& shape) {
-  ShapeInSpace<double> rounded;
-  for (const auto& corner : shape.corners) rounded.corners.push_back(NearestVector(corner));
-  for (const auto& normal : shape.normals) rounded.normals.push_back(NearestVector(normal));
-  rounded.faces = shape.faces;
-  rounded.edges = shape.edges;
-  rounded.center = NearestVector(shape.center);
-  rounded.radius = Nearest(shape.radius);
-  return rounded;
-}
-
-Quaternion<double> NearestRotation(const Quaternion<Exact>& rotation) {
-  Quaternion<double> nearest;
-  for (int i = 0; i < 4; ++i) nearest[i] = Nearest(rotation[i]);
-  return nearest.normalized();
-}
-
-BodyInSpace<double> Round(const BodyInSpace<Exact>& body) {
-  BodyInSpace<double> rounded;
-  rounded.name = body.name;
-  rounded.fixed = body.fixed;
-  rounded.mass = Nearest(body.mass);
-  for (int i = 0; i < 9; ++i) rounded.inertia(i % 3, i / 3) = Nearest(body.inertia(i % 3, i / 3));
-  rounded.position = NearestVector(body.position);
-  rounded.rotation = NearestRotation(body.rotation);
-  rounded.velocity = NearestVector(body.velocity);
-  rounded.spin = NearestVector(body.spin);
-  rounded.acceleration = NearestVector(body.acceleration);
-  rounded.force = NearestVector(body.force);
-  rounded.torque = NearestVector(body.torque);
-  rounded.level = body.level;
-  for (const auto& shape : body.shapes) rounded.shapes.push_back(Round(shape));
-  return rounded;
-}
-
-}  // namespace
-
-SceneInSpace<double> Round(const SceneInSpace<Exact>& scene) {
-  SceneInSpace<double> rounded;
-  rounded.name = scene.name;
-  rounded.gravity = NearestVector(scene.gravity);
-  rounded.mu = Nearest(scene.mu);
-  rounded.gap = Nearest(scene.gap);
-  rounded.rest = Nearest(scene.rest);
-  for (const auto& body : scene.bodies) rounded.bodies.push_back(Round(body));
-  for (const auto& joint : scene.joints) {
-    rounded.joints.push_back({joint.kind, joint.a, joint.b, NearestVector(joint.at_a),
-                              NearestVector(joint.at_b), NearestVector(joint.direction),
-                              NearestRotation(joint.relative_rotation)});
-  }
-  for (const auto& given : scene.contacts) {
-    rounded.contacts.push_back(
-        {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});
-  }
-  for (const auto& pair : scene.pairs) rounded.pairs.push_back(Round(pair));
-  return rounded;
 }
 
 }  // namespace stiction
