@@ -12,6 +12,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
 #include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 
