@@ -15,6 +15,7 @@
 #include "corpus/problem_file.h"
 #include "corpus/whole_folder.h"
 #include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 
