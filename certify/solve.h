@@ -43,6 +43,9 @@ const std::vector<MethodFacts>& AllMethods();
 // The row of that name; null if there is none.
 const MethodFacts* FindMethodFacts(std::string_view name);
 
+// What runs over doubles in a process of its own.
+std::span<const Method<double>> MethodsByProcess();
+
 // The arithmetic of that name; empty if there is none.
 std::optional<Arithmetic> FindArithmetic(std::string_view name);
 
@@ -87,6 +90,16 @@ struct Suspicion {
   std::vector<Counter> counters;
 };
 Suspicion SuspicionOf(const InexactAnswer& answer);
+
+struct IntervalRun;
+
+// A method over intervals, in one dimension.
+struct IntervalMethod {
+  std::string_view name;
+  int dimension;
+  IntervalRun (*run)(const ExactProblem&, const SolveOptions&, KeepTrace);
+};
+std::span<const IntervalMethod> IntervalMethods();
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;

@@ -104,6 +104,8 @@ extern template Answer<float> Solve(const ContactProblem<float>&, std::string_vi
                                     Trace<float>*);
 extern template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
                                      Trace<double>*);
+extern template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&,
+                                       const SolveOptions&, Trace<double>*);
 extern template Answer<long double> Solve(const ContactProblem<long double>&, std::string_view,
                                           const SolveOptions&, Trace<long double>*);
 

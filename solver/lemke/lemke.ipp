@@ -202,7 +202,7 @@ Outcome LemkeAlgorithm<Scalar, Rows>::Follow() {
     }
     if (trace_ != nullptr) RecordPoint(row);
     if (leaving == Artificial()) return Outcome::kSolved;
-    if (BudgetSpent()) return Outcome::kLimit;
+    if (BudgetSpent()) return verdict_.reason == kStopped ? Outcome::kUndecided : Outcome::kLimit;
     entering = leaving < size_ ? leaving + size_ : leaving - size_;  // the complement of what has left
     ComputeColumn(entering);
     row = Leaving(entering);
@@ -372,6 +372,8 @@ template <class Scalar, int Rows>
 bool LemkeAlgorithm<Scalar, Rows>::BudgetSpent() {
   if (verdict_.statistics.pivots >= options_.limits.pivots) {
     verdict_.reason = "pivots";
+  } else if (options_.limits.Stopped()) {
+    verdict_.reason = kStopped;
   } else {
     for (int i = 0; i < size_; ++i) {
       if (BitLength<Scalar>::Of(T_(i, 0)) > options_.limits.bits) verdict_.reason = "bits";
