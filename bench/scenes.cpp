@@ -64,7 +64,7 @@ struct Pair {
 };
 
 template <class Kind>
-Pair Measure(const SceneFileIn<Kind>& file, const std::array<Way, 2>& ways, int repeat) {
+Pair MeasureScene(const SceneFileIn<Kind>& file, const std::array<Way, 2>& ways, int repeat) {
   Pair pair;
   for (int run = 0; run < repeat; ++run) {
     RunOnce(file, ways[0], pair.first);
@@ -126,7 +126,7 @@ int BenchScenes(const BenchOptions& o) {
   for (const auto& path : files) {
     const auto file = ReadAnyScene(path);
     const auto name = std::visit([](const auto& of) { return of.scene.name; }, file);
-    const Pair pair = std::visit([&](const auto& of) { return Measure(of, ways, o.repeat); }, file);
+    const Pair pair = std::visit([&](const auto& of) { return MeasureScene(of, ways, o.repeat); }, file);
     rows.push_back({{"scene", name},
                     {ways[0].name, ToJson(pair.first)},
                     {ways[1].name, ToJson(pair.second)},

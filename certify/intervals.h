@@ -27,6 +27,7 @@ struct IntervalRun {
   std::vector<Enclosure> f, a;        // by row, where the run ended; empty where it could not begin
   std::vector<Enclosure> ray;         // the direction of a ray, otherwise empty
   std::vector<Pivot<double>> pivots;  // where asked for: numbers in the middle of their ends
+  std::vector<Counter> more;          // than the verdict's own
 };
 
 // All require dimension 2.

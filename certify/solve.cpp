@@ -188,7 +188,8 @@ Eigen::VectorXd MiddleOf(const std::vector<Enclosure>& values) {
 IntervalRun RunBaraffInSpace(const ExactProblem& problem, const SolveOptions& options, KeepTrace) {
   const IntervalSpaceRun run =
       RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
-  return {run.verdict, run.f, run.a, run.ray, {}};
+  return {run.verdict, run.f, run.a,
+          run.ray,     {},    {{"redirects", run.verdict.redirects}, {"breaks", run.verdict.breaks}}};
 }
 
 IntervalRun RunBaraff(const ExactProblem& problem, const SolveOptions& options, KeepTrace keep) {
@@ -217,6 +218,7 @@ Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& req
   answer.ray = MiddleOf(run.ray);
   answer.first_f = Eigen::VectorXd::Zero(problem.rows());
   answer.counters = CountersOf(run.verdict.statistics);
+  answer.counters.insert(answer.counters.end(), run.more.begin(), run.more.end());
   if (answer.Solved()) JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
   answer.a = MiddleOf(run.a);
   answer.pivots = std::move(run.pivots);
@@ -281,8 +283,10 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
       facts == nullptr ? std::vector<std::string_view>() : ArithmeticsOf(*facts, dimension);
   if (!arithmetics.empty()) return text + fmt::format("; expected one of {}", fmt::join(arithmetics, ", "));
   const auto methods = MethodsOf(dimension, arithmetic);
-  return text + fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic),
-                            methods.empty() ? "none" : fmt::format("{}", fmt::join(methods, ", ")));
+  if (!methods.empty())
+    return text +
+           fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic), fmt::join(methods, ", "));
+  return text + "; expected one of float, double, long-double, exact";
 }
 
 Arithmetic UsualArithmetic(std::string_view method, const ExactProblem& problem) {

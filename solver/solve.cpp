@@ -110,7 +110,7 @@ Method<Scalar> FastRow() {
           .source = "solver/numeric/fast.h, solver/numeric/coulomb.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
           .automatic = true,
-          .plane = {&RunFast<Scalar>, true},
+          .plane = {&RunFast<Scalar>},
           .space = {&RunCoulomb<Scalar, CoulombStart::kSweeps>, true}};
 }
 

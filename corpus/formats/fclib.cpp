@@ -33,6 +33,9 @@ class Handle {
 
 void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+// HDF5 wants a name, of no file that exists.
+constexpr const char* kNoFile = "/dev/null/in-memory";
+
 // A file that is never one: it begins as `text`, if there is any.
 Handle InMemory(std::string* text) {
   constexpr std::size_t kGrowth = 1 << 16;  // bytes
@@ -61,7 +64,7 @@ class FclibReader {
   FclibReader(std::string text, const std::string& source)
       : source_(source),
         text_(std::move(text)),
-        file_(H5Fopen(source.c_str(), H5F_ACC_RDONLY, InMemory(&text_).id()), H5Fclose) {
+        file_(H5Fopen(kNoFile, H5F_ACC_RDONLY, InMemory(&text_).id()), H5Fclose) {
     if (!file_.valid()) throw InputError(source, "/", "no HDF5 file that can be read", "one");
   }
 

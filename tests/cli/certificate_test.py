@@ -110,7 +110,7 @@ class Minimize(cli.TestCase):
         self.assertGreater(done["accepted"], 0)
         self.assertEqual(json.loads(out.read_text())["expect"], {"paper": "cycle"})
         self.succeeds("replay", out)
-        self.assertEqual(self.succeeds("solve", out, "--json", code=1).json()["assumptions"], [])
+        self.assertEqual(self.succeeds("solve", out, "--json", "--method", "baraff", code=1).json()["assumptions"], [])
 
     def test_minimizing_again_changes_nothing(self):
         out, done = self.minimize(cli.REFERENCE)
@@ -123,7 +123,7 @@ class Minimize(cli.TestCase):
 
     def test_another_policy_and_outcome(self):
         policy = "give-up=second"
-        outcome = cli.run("solve", self.file("p.json", cli.REFERENCE), "--json", "--policy", policy).json()["outcome"]
+        outcome = cli.run("solve", self.file("p.json", cli.REFERENCE), "--json", "--method", "baraff", "--policy", policy).json()["outcome"]
         out, done = self.minimize(cli.REFERENCE, "--policy", policy)
         self.assertEqual(done["keep"], outcome)
         self.succeeds("replay", out, "--policy", policy)

@@ -25,7 +25,7 @@ def natural_residual(problem, f):
 
 
 def static(mu, A, b):
-    return {"format": "stiction-problem", "version": 1, "dimension": 2,
+    return {"format": "stiction-problem", "version": 1, "name": "p", "dimension": 2,
             "contacts": [{"kind": "static", "mu": m} for m in mu], "A": A, "b": b}
 
 
