@@ -166,7 +166,8 @@ class Simulations(Background):
             with self.subTest(signal=signal_number):
                 folder, again = self.folder / signal_number.name, self.folder / "again"
                 simulation = self.start(folder, "--seconds", 1e5)
-                self.wait_until(lambda: len(self.rows(folder / "energy.csv")) > 1000)  # they grow as it goes
+                building = folder.with_name(f".{folder.name}.stiction")  # until it is whole
+                self.wait_until(lambda: len(self.rows(building / "energy.csv")) > 1000)  # they grow as it goes
                 simulation.send_signal(signal_number)
                 done = self.finish(simulation)
                 self.assertEqual(done.code, 0, done.err)

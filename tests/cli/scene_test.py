@@ -110,7 +110,7 @@ class Scenes(cli.TestCase):
         self.assertEqual((done.code, done.out), (2, ""), done.err)
 
     def test_the_page_of_an_animation_runs(self):
-        for scene, bodies, drawn in (("gears", 3, None), ("space/slider-crank", 0, None), ("stack", 5, [10, 10, 0])):
+        for scene, bodies, drawn in (("gears", 3, None), ("space/slider-crank", 0, None), ("stack", 6, [10, 10, 0])):
             folder = self.folder / scene
             self.succeeds("simulate", FOLDER / f"{scene}.json", "-o", folder, "--seconds", "0.5", "--no-svg")
             done = subprocess.run(["node", "-e", PAGE, folder / "animation.html"], text=True,

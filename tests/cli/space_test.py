@@ -133,7 +133,7 @@ class Space(cli.TestCase):
         out = self.folder / "c.json"
         for method in ("enumerate", "ipopt"):
             self.refuses("solve", problem, "--method", method, says=[method, "in space", "not built", "complete"])
-        self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says="--arithmetic")
+        self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says=["fast", "exact", "in space"])
         self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
         self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
         self.refuses("certify", problem, "--all", says=["dimension", "3"])

@@ -22,7 +22,7 @@ ROOMS = {
     "linear": ["problem"],
     "published": ["linear", "problem"],
     "complete": ["published", "linear", "problem"],
-    "lemke": ["published", "linear", "problem"],
+    "lemke": ["complete", "published", "linear", "problem"],
     "numeric": ["complete", "lemke", "published", "linear", "problem"],
 }
 MOST_LEVELS = 10
