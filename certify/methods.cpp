@@ -86,21 +86,32 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, Exac
   return answer;
 }
 
-// Cells found over doubles, their equations solved over rationals; complete driving where that fails.
-Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+// The solution in the cells that the fast method finds over doubles; none where doubles do not hold the
+// problem.
+NearbySolution SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
-  const Answer<double> guess = Solve(Rounded<double>(problem), "fast", {.limits = options.limits});
-  const ScaledProblem scaled = MakeScaled(problem);
   std::vector<double> point;
-  for (const double x : guess.f) point.push_back(x / ToDouble(scaled.force));
+  const ScaledProblem scaled = MakeScaled(problem);
+  try {
+    const double unit = ToDouble(scaled.force);
+    for (const double x : Solve(Rounded<double>(problem), "fast", {.limits = limits}).f)
+      point.push_back(x / unit);
+  } catch (const RangeError&) {
+    return {};
+  }
   std::set<ModeWord> tried;
-  NearbySolution near;
-  if (guess.f.allFinite()) near = SolveNear(problem, scaled, point, kWords, tried);
+  return SolveNear(problem, scaled, point, kWords, tried);
+}
+
+// Complete driving where the cells of doubles are none.
+Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  NearbySolution near = SolveNearDoubles(problem, options.limits);
   Answer<Rational> answer;
-  if (!near.f) answer = Solve(problem, "complete", options);
   if (near.f) {
     answer.outcome = Outcome::kSolved;
     answer.f = *std::move(near.f);
+  } else {
+    answer = Solve(problem, "complete", options);
   }
   answer.counters = {{"words", near.words}, {"fallbacks", !near.f}};
   return answer;

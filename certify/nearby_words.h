@@ -56,7 +56,7 @@ std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord
                                      const std::vector<Rational>& near);
 
 // What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
-// nothing. Words in `tried` are passed over, and the others put there.
+// nothing, as near a point that is not finite. Words in `tried` are passed over, and the others put there.
 struct NearbySolution {
   std::optional<ExactVector> f;
   int words = 0;          // whose equations were solved

@@ -79,6 +79,12 @@ class Solve(cli.TestCase):
         A = [[str(Fraction(sum(Fraction(x) * y for x, y in zip(p, q)))) for q in J] for p in J]
         self.solve_everywhere(static(["1/2", "1/2"], A, ["-1", "1/3", "-1", "1/3"]))
 
+    def test_units_that_leave_the_range_of_doubles(self):
+        for power in (-300, -150, 150, 300):
+            A = [[str(Fraction(x) * Fraction(10) ** power) for x in row] for row in cli.REFERENCE["A"]]
+            b = [str(Fraction(x) / Fraction(10) ** power) for x in cli.REFERENCE["b"]]
+            self.solve_everywhere(static(["1", "1"], A, b), judge=abs(power) < 300)
+
     def test_numbers_beyond_the_arithmetic_are_refused_by_name(self):
         for place, value, arithmetics in [("A", "1e309", ["float", "double", "long-double"]), ("A", "1e39", ["float"]),
                                           ("b", "1e309", ["float", "double", "long-double"]), ("mu", "1e309", ["double"]),
