@@ -160,7 +160,7 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
     const CompleteVerdict verdict = driving.Run(rounded);
     outcome = verdict.outcome;
     reason = verdict.reason;
-    f = driving.state().f;
+    f = driving.f();
     pivots = verdict.statistics.pieces;
   } else if (method == "baraff") {
     PublishedAlgorithm<double> algorithm({Policy{}, {}, limits});

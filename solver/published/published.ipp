@@ -87,7 +87,8 @@ bool PublishedAlgorithm<Scalar, Rows>::Adopt(std::span<const IndexSet> guess) {
   using System = DirectionSystem<Scalar, Rows>;
   std::copy(guess.begin(), guess.end(), state_.sets.begin());
   do {
-    const auto status = direction_.SolveForces(*problem_, layout_, state_.sets, scale_);
+    const auto status =
+        direction_.SolveForces(*problem_, SetUnknowns<Scalar, Rows>{*problem_, layout_, state_.sets}, scale_);
     if (status == System::Status::kInconsistent) return false;
     state_.f = direction_.df();
     state_.a = direction_.da();
