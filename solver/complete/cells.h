@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "solver/problem/index_sets.h"
@@ -138,6 +139,10 @@ struct Facet {
   }
   bool OfNormal() const { return kind == Kind::kForce || kind == Kind::kAcceleration; }
 };
+
+// A kind that is known where the program is compiled.
+template <Facet::Kind kind>
+using KindIs = std::integral_constant<Facet::Kind, kind>;
 
 }  // namespace stiction
 

@@ -168,12 +168,13 @@ class CompleteDriving {
   void SetCell(int contact, const LawCell& cell);
   void SetUnknowns(int contact, const LawCell& cell);
   void SetDriven();
-  void SetFacets(int contact, const LawCell& cell);
-  void SetCornerFacets(int contact, int k);
-  RowCombination<Scalar> FreeForce(int contact) const;
-  RowCombination<Scalar> CornerForce(int contact, int k) const;
-  RowCombination<Scalar> Tangential(int contact, const Planar<Scalar>& v) const;
-  RowCombination<Scalar> Radial(int contact, int k) const;
+  void SetFreeForce(int contact, RowCombination<Scalar>& force) const;
+  void SetCornerForce(int contact, int k, RowCombination<Scalar>& force) const;
+  void SetRadial(int contact, int k, RowCombination<Scalar>& force) const;
+  template <class Visit>
+  void ForEachFacet(int contact, Visit visit) const;
+  template <class Visit>
+  void ForEachCornerFacet(int contact, int k, Visit visit) const;
 
   // Nodes: between stages.
   void Up();
@@ -190,6 +191,8 @@ class CompleteDriving {
   void TraceStage(Facet entry);
   int Direction();
   void CollectFacets();
+  template <class OfKind>
+  void Offer(OfKind kind, const Facet& facet);
   int Nearest(const Facet& entry);
   void Advance(const Scalar& s);
   void Snap(const Facet& reached);
@@ -205,7 +208,13 @@ class CompleteDriving {
   // Values of facet functions, and their signs under the perturbation.
   template <class Force, class Acceleration>
   Scalar Evaluate(const Facet& facet, Force f, Acceleration a, const Scalar& radius) const;
-  Scalar Value(const Facet& facet, const Vector& f, const Vector& a, const Scalar& radius) const;
+  Scalar Value(const Facet& facet, const Vector& f, const Vector& a, const Scalar& radius) const {
+    return InSpace() ? SpatialValue(facet, f, a, radius) : PlanarValue(facet.kind, facet, f, a, radius);
+  }
+  Scalar SpatialValue(const Facet& facet, const Vector& f, const Vector& a, const Scalar& radius) const;
+  template <class OfKind>
+  Scalar PlanarValue(OfKind kind, const Facet& facet, const Vector& f, const Vector& a,
+                     const Scalar& radius) const;
   Scalar Present(const Facet& facet) const { return Value(facet, f_, a_, rho_); }
   template <class At>
   Scalar Outward(int contact, int k, At at) const;
@@ -229,7 +238,6 @@ class CompleteDriving {
   Scalar rate_ = Scalar(0);  // of the driven amount, fN or rho, along the direction
   CellWord word_;
   ListedUnknowns<Scalar, Rows> unknowns_;
-  std::vector<std::vector<Facet>> facets_;  // by contact
 
   CompleteVerdict verdict_;
   std::int64_t most_pieces_ = 0;

@@ -62,9 +62,7 @@ void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, const Polygons
   a_ = problem.b;
   rho_ = Scalar(0);
   word_.assign(layout_.ContactCount(), {});
-  unknowns_.Clear(problem.rows());
-  facets_.resize(word_.size());
-  for (auto& facets : facets_) facets.clear();
+  unknowns_.Start(problem);
   verdict_ = {};
   most_pieces_ = MostPieces();
   ended_ = false;
@@ -155,7 +153,7 @@ void CompleteDriving<Scalar, Rows>::Up() {
   if (stage_ == Stage::kFriction) {
     const int corner = CornerAt(driven_, DrivenAmount());
     if (Ended()) return;
-    SetCell(driven_, {Law::kCorner, corner});
+    if (corner != word_[driven_].side) SetCell(driven_, {Law::kCorner, corner});
     return TraceStage(DrivenAmount());
   }
   EnterNormal();
@@ -273,15 +271,21 @@ int CompleteDriving<Scalar, Rows>::Direction() {
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::CollectFacets() {
   candidates_.clear();
-  for (const auto& facets : facets_) {
-    for (const Facet& facet : facets) {
-      Scalar rate = -Value(facet, direction_.df(), direction_.da(), rate_);
-      if (Sign(rate, facet.OfAcceleration() ? scale_.rate : scale_.pivot) <= 0) continue;
-      Scalar s = Present(facet) / rate;
-      if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // by rounding only
-      candidates_.push_back({facet, std::move(rate), std::move(s)});
-    }
-  }
+  for (int i = 0; i <= driven_; ++i)
+    ForEachFacet(i, [this](auto kind, const Facet& facet) { Offer(kind, facet); });
+}
+
+template <class Scalar, int Rows>
+template <class OfKind>
+void CompleteDriving<Scalar, Rows>::Offer(OfKind kind, const Facet& facet) {
+  const auto value = [&](const Vector& f, const Vector& a, const Scalar& radius) {
+    return InSpace() ? SpatialValue(facet, f, a, radius) : PlanarValue(kind, facet, f, a, radius);
+  };
+  Scalar rate = -value(direction_.df(), direction_.da(), rate_);
+  if (Sign(rate, facet.OfAcceleration() ? scale_.rate : scale_.pivot) <= 0) return;
+  Scalar s = value(f_, a_, rho_) / rate;
+  if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // by rounding only
+  candidates_.push_back({facet, std::move(rate), std::move(s)});
 }
 
 // The candidate that is reached first. Ties are told by the parts of the distances in the infinitesimals.
@@ -347,17 +351,16 @@ void CompleteDriving<Scalar, Rows>::SnapToCells() {
   for (int row = 0; row < problem_->rows(); ++row) {
     if (unknowns_.Rests(row)) a_[row] = Scalar(0);
   }
-  const auto follow = [this](const RowCombination<Scalar>& force, int first, const Scalar& amount) {
-    for (int r = first; r < force.size; ++r)
-      f_[force.row + r] = force.unit ? amount : Scalar(force.factors[r] * amount);
-  };
-  const int contacts = static_cast<int>(word_.size());
-  for (int i = 0; i < contacts && i <= driven_; ++i) {
+  for (int i = 0; i <= driven_; ++i) {
     const Law law = word_[i].law;
     if (law != Law::kCorner && law != Law::kFree) continue;
-    const RowCombination<Scalar>& force = unknowns_.Force(RowOf(i));
-    follow(force, 1, f_[RowOf(i)]);
-    if (FrictionIsDriven(i)) follow(unknowns_.Driven(), 0, rho_);
+    const int row = RowOf(i);
+    const RowCombination<Scalar>& force = unknowns_.Force(row);
+    for (int r = 1; r < force.size; ++r) f_[row + r] = force.factors[r] * f_[row];
+    if (!FrictionIsDriven(i)) continue;
+    const RowCombination<Scalar>& radial = unknowns_.Driven();
+    for (int r = 0; r < radial.size; ++r)
+      f_[radial.row + r] = radial.unit ? rho_ : Scalar(radial.factors[r] * rho_);
   }
 }
 
@@ -379,11 +382,16 @@ auto CompleteDriving<Scalar, Rows>::Cross(const Facet& reached) -> Facet {
   LawCell to = reached.cell;
   if (reached.beyond == Beyond::kCorners) to = {Law::kCorner, CornerAt(contact, reached)};
   SetCell(contact, to);
-  for (const Facet& facet : facets_[contact]) {
-    if (facet.beyond == Beyond::kCorners || (facet.beyond == Beyond::kCell && facet.cell == from)) return facet;
-  }
-  Impossible("a facet has one side only");
-  return reached;
+  Facet entry = reached;
+  bool found = false;
+  ForEachFacet(contact, [&](auto, const Facet& facet) {
+    const bool back = facet.beyond == Beyond::kCell && facet.cell == from;
+    if (found || !(back || facet.beyond == Beyond::kCorners)) return;
+    found = true;
+    entry = facet;
+  });
+  if (!found) Impossible("a facet has one side only");
+  return entry;
 }
 
 template <class Scalar, int Rows>

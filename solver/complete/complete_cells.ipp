@@ -4,6 +4,8 @@
 #ifndef STICTION_SOLVER_COMPLETE_COMPLETE_CELLS_IPP_
 #define STICTION_SOLVER_COMPLETE_COMPLETE_CELLS_IPP_
 
+#include <utility>
+
 #include "solver/complete/complete.h"
 
 namespace stiction {
@@ -20,10 +22,9 @@ bool CompleteDriving<Scalar, Rows>::HasFriction(int contact) const {
 
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::SetCell(int contact, const LawCell& cell) {
-  word_[contact] = cell;
-  SetUnknowns(contact, cell);
+  const Law from = std::exchange(word_[contact], cell).law;
+  if (from != Law::kNone || cell.law != Law::kNone) SetUnknowns(contact, cell);
   if (contact == driven_) SetDriven();
-  SetFacets(contact, cell);
 }
 
 // ---- Unknowns --------------------------------------------------------------------------------
@@ -31,26 +32,31 @@ void CompleteDriving<Scalar, Rows>::SetCell(int contact, const LawCell& cell) {
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::SetUnknowns(int contact, const LawCell& cell) {
   const int row = RowOf(contact), size = Size(contact);
-  const auto unit = [](int r) { return RowCombination<Scalar>::Unit(r); };
-  for (int r = 0; r < size; ++r) unknowns_.rests[row + r].size = 0;
+  auto& forces = unknowns_.forces;
+  auto& rests = unknowns_.rests;
+  for (int r = 0; r < size; ++r) rests[row + r].size = 0;
+  const int resting = cell.law == Law::kInside ? size : cell.law <= Law::kBreak ? 0 : 1;
+  for (int r = 0; r < resting; ++r) rests[row + r].SetUnit(row + r);
   switch (cell.law) {
     case Law::kNone:
     case Law::kBreak:
       return;
     case Law::kHold:
-      if (cell.side == 0) unknowns_.Add(row, unit(row), unit(row));
+      forces[row].SetUnit(row);
+      if (cell.side != 0) rests[row].size = 0;
       return;
     case Law::kFree:
-      return unknowns_.Add(row, FreeForce(contact), unit(row));
+      return SetFreeForce(contact, forces[row]);
     case Law::kEdge: {
-      const RowCombination<Scalar> edge = Tangential(contact, (*polygons_)[contact].edge(cell.side));
-      unknowns_.Add(row + 1, edge, edge);
+      const Planar<Scalar>& edge = (*polygons_)[contact].edge(cell.side);
+      forces[row + 1].Set(row + 1, edge[0], edge[1]);
+      rests[row + 1].Set(row + 1, edge[0], edge[1]);
       [[fallthrough]];
     }
     case Law::kCorner:
-      return unknowns_.Add(row, CornerForce(contact, cell.side), unit(row));
+      return SetCornerForce(contact, cell.side, forces[row]);
     case Law::kInside:
-      for (int r = 0; r < size; ++r) unknowns_.Add(row + r, unit(row + r), unit(row + r));
+      for (int r = 0; r < size; ++r) forces[row + r].SetUnit(row + r);
   }
 }
 
@@ -59,46 +65,40 @@ template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::SetDriven() {
   const LawCell& cell = word_[driven_];
   if (stage_ == Stage::kNormal) {
-    unknowns_.driven = FreeForce(driven_);
+    SetFreeForce(driven_, unknowns_.driven);
   } else if (cell.law == Law::kInside) {
-    unknowns_.driven = {};
+    unknowns_.driven.Set(0);
   } else {
-    unknowns_.driven = Radial(driven_, cell.side);
+    SetRadial(driven_, cell.side, unknowns_.driven);
   }
 }
 
 // The force of a contact per unit of its normal force, where that alone determines it: (24).
 template <class Scalar, int Rows>
-RowCombination<Scalar> CompleteDriving<Scalar, Rows>::FreeForce(int contact) const {
+void CompleteDriving<Scalar, Rows>::SetFreeForce(int contact, RowCombination<Scalar>& force) const {
   const auto& law = problem_->contacts[contact];
-  if (law.kind != ContactKind::kSliding) return RowCombination<Scalar>::Unit(RowOf(contact));
-  return {RowOf(contact),
-          Size(contact),
-          false,
-          {Scalar(1), Scalar(-law.mu * law.slip[0]), Scalar(-law.mu * law.slip[1])}};
+  if (law.kind != ContactKind::kSliding) return force.SetUnit(RowOf(contact));
+  force.Set(RowOf(contact), Scalar(1), Scalar(-law.mu * law.slip[0]), Scalar(-law.mu * law.slip[1]));
 }
 
 // The force of a corner per unit of fN; while friction is driven, fN alone.
 template <class Scalar, int Rows>
-RowCombination<Scalar> CompleteDriving<Scalar, Rows>::CornerForce(int contact, int k) const {
+void CompleteDriving<Scalar, Rows>::SetCornerForce(int contact, int k, RowCombination<Scalar>& force) const {
   const int row = RowOf(contact);
-  if (FrictionIsDriven(contact)) return RowCombination<Scalar>::Unit(row);
+  if (FrictionIsDriven(contact)) return force.SetUnit(row);
   const Scalar& mu = problem_->contacts[contact].mu;
-  if (!InSpace()) return {row, 2, false, {Scalar(1), k == 0 ? mu : Scalar(-mu)}};
+  if (!InSpace()) return force.Set(row, Scalar(1), k == 0 ? mu : Scalar(-mu));
   const Planar<Scalar>& corner = (*polygons_)[contact].corner(k);
-  return {row, 3, false, {Scalar(1), Scalar(mu * corner[0]), Scalar(mu * corner[1])}};
+  force.Set(row, Scalar(1), Scalar(mu * corner[0]), Scalar(mu * corner[1]));
 }
 
+// Friction in a corner, per unit of the radius.
 template <class Scalar, int Rows>
-RowCombination<Scalar> CompleteDriving<Scalar, Rows>::Tangential(int contact, const Planar<Scalar>& v) const {
-  return {RowOf(contact) + 1, 2, false, {v[0], v[1]}};
-}
-
-template <class Scalar, int Rows>
-RowCombination<Scalar> CompleteDriving<Scalar, Rows>::Radial(int contact, int k) const {
-  if (InSpace()) return Tangential(contact, (*polygons_)[contact].corner(k));
-  if (k == 0) return RowCombination<Scalar>::Unit(RowOf(contact) + 1);
-  return {RowOf(contact) + 1, 1, false, {Scalar(-1)}};
+void CompleteDriving<Scalar, Rows>::SetRadial(int contact, int k, RowCombination<Scalar>& force) const {
+  const int row = RowOf(contact) + 1;
+  if (!InSpace()) return k == 0 ? force.SetUnit(row) : force.Set(row, Scalar(-1));
+  const Planar<Scalar>& corner = (*polygons_)[contact].corner(k);
+  force.Set(row, corner[0], corner[1]);
 }
 
 // ---- Facets ----------------------------------------------------------------------------------
@@ -117,61 +117,62 @@ auto CompleteDriving<Scalar, Rows>::StageEnd() const -> Facet {
   return {Kind::kAcceleration, driven_, 0, -1, Beyond::kEnd, {Law::kFree, 0}};
 }
 
+// visit(kind, facet) for those of the present cell. The kinds of the plane are KindIs.
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::SetFacets(int contact, const LawCell& cell) {
-  using enum Facet::Kind;
-  auto& facets = facets_[contact];
-  facets.clear();
-  const auto add = [&](Kind kind, int k, const LawCell& to) {
-    facets.push_back({kind, contact, k, 1, Beyond::kCell, to});
-  };
+template <class Visit>
+void CompleteDriving<Scalar, Rows>::ForEachFacet(int contact, Visit visit) const {
+  const LawCell& cell = word_[contact];
   const int k = cell.side;
+  const auto add = [&](auto kind, int k, const LawCell& to) {
+    visit(kind, Facet(kind, contact, k, 1, Beyond::kCell, to));
+  };
   switch (cell.law) {
     case Law::kNone:
-      if (contact == driven_) facets = {DrivenAmount(), StageEnd()};
-      return;
+      if (contact != driven_) return;
+      visit(KindIs<Kind::kForce>(), DrivenAmount());
+      return visit(KindIs<Kind::kAcceleration>(), StageEnd());
     case Law::kHold:
       return;
-    case Law::kBreak:
-      add(kAcceleration, 0, {Law::kFree, 0});
-      if (HasFriction(contact)) facets.back().beyond = Beyond::kCorners;
-      return;
-    case Law::kFree:
-      return add(kForce, 0, {Law::kBreak, 0});
-    case Law::kCorner:
-      SetCornerFacets(contact, k);
-      break;
-    case Law::kEdge: {
-      add(kFromCorner, k, {Law::kCorner, k});
-      add(kToCorner, k, {Law::kCorner, (*polygons_)[contact].Wrap(k + 1)});
-      add(kOpposed, k, {Law::kInside, 0});
-      break;
+    case Law::kBreak: {
+      const KindIs<Kind::kAcceleration> kind;
+      const Beyond beyond = HasFriction(contact) ? Beyond::kCorners : Beyond::kCell;
+      return visit(kind, Facet(kind, contact, 0, 1, beyond, {Law::kFree, 0}));
     }
+    case Law::kFree:
+      return add(KindIs<Kind::kForce>(), 0, {Law::kBreak, 0});
+    case Law::kCorner:
+      ForEachCornerFacet(contact, k, visit);
+      break;
+    case Law::kEdge:
+      add(Kind::kFromCorner, k, {Law::kCorner, k});
+      add(Kind::kToCorner, k, {Law::kCorner, (*polygons_)[contact].Wrap(k + 1)});
+      add(Kind::kOpposed, k, {Law::kInside, 0});
+      break;
     case Law::kInside: {
       const int sides = InSpace() ? (*polygons_)[contact].sides() : 2;
-      for (int j = 0; j < sides; ++j) add(kBound, j, {InSpace() ? Law::kEdge : Law::kCorner, j});
+      for (int j = 0; j < sides; ++j)
+        add(KindIs<Kind::kBound>(), j, {InSpace() ? Law::kEdge : Law::kCorner, j});
     }
   }
-  if (FrictionIsDriven(contact)) facets.push_back(StageEnd());
+  if (FrictionIsDriven(contact)) visit(KindIs<Kind::kRest>(), StageEnd());
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::SetCornerFacets(int contact, int k) {
-  auto& facets = facets_[contact];
+template <class Visit>
+void CompleteDriving<Scalar, Rows>::ForEachCornerFacet(int contact, int k, Visit visit) const {
   const bool driven = FrictionIsDriven(contact);
   if (driven) {
-    facets.push_back(DrivenAmount());
+    visit(KindIs<Kind::kRadius>(), DrivenAmount());
   } else {
-    facets.push_back({Kind::kForce, contact, 0, 1, Beyond::kCell, {Law::kBreak, 0}});
+    visit(KindIs<Kind::kForce>(), Facet(Kind::kForce, contact, 0, 1, Beyond::kCell, {Law::kBreak, 0}));
   }
   if (!InSpace()) {
-    const Beyond beyond = driven ? Beyond::kEnd : Beyond::kCell;
-    facets.push_back({Kind::kOpposed, contact, k, 1, beyond, {Law::kInside, 0}});
-    return;
+    const KindIs<Kind::kOpposed> kind;
+    return visit(kind, Facet(kind, contact, k, 1, driven ? Beyond::kEnd : Beyond::kCell, {Law::kInside, 0}));
   }
   const int before = (*polygons_)[contact].Wrap(k - 1);
-  facets.push_back({Kind::kAlong, contact, k, 1, Beyond::kCell, {Law::kEdge, k}});
-  facets.push_back({Kind::kAlong, contact, before, -1, Beyond::kCell, {Law::kEdge, before}});
+  visit(Kind::kAlong, Facet(Kind::kAlong, contact, k, 1, Beyond::kCell, {Law::kEdge, k}));
+  visit(Kind::kAlong, Facet(Kind::kAlong, contact, before, -1, Beyond::kCell, {Law::kEdge, before}));
 }
 
 // The corner where fF.aF is least, at the present point, which lies on the facet `at`.
@@ -240,12 +241,40 @@ Scalar CompleteDriving<Scalar, Rows>::Evaluate(const Facet& facet, Force f, Acce
 }
 
 template <class Scalar, int Rows>
-Scalar CompleteDriving<Scalar, Rows>::Value(const Facet& facet, const Vector& f, const Vector& a,
-                                            const Scalar& radius) const {
+Scalar CompleteDriving<Scalar, Rows>::SpatialValue(const Facet& facet, const Vector& f, const Vector& a,
+                                                   const Scalar& radius) const {
   const int row = RowOf(facet.contact);
   return Evaluate(
       facet, [&](int r) -> const Scalar& { return f[row + r]; },
       [&](int r) -> const Scalar& { return a[row + r]; }, radius);
+}
+
+// The same in the plane, where each is one row's, or two. Kind: KindIs, or the facet's.
+template <class Scalar, int Rows>
+template <class OfKind>
+Scalar CompleteDriving<Scalar, Rows>::PlanarValue(OfKind kind, const Facet& facet, const Vector& f,
+                                                  const Vector& a, const Scalar& radius) const {
+  const int row = RowOf(facet.contact);
+  const auto oriented = [](bool plus, const Scalar& x) { return plus ? x : Scalar(-x); };
+  switch (kind) {
+    case Kind::kForce:
+      return f[row];
+    case Kind::kAcceleration:
+      return oriented(facet.sign > 0, a[row]);
+    case Kind::kOpposed:
+      return oriented(facet.k != 0, a[row + 1]);
+    case Kind::kSide:
+      return oriented(facet.k == 0, f[row + 1]);
+    case Kind::kRadius:
+      return radius;
+    case Kind::kRest:
+      return problem_->contacts[facet.contact].mu * f[row] - radius;
+    default:
+      break;
+  }
+  const Scalar& mu = problem_->contacts[facet.contact].mu;
+  const Scalar bound = FrictionIsDriven(facet.contact) ? radius : Scalar(mu * f[row]);
+  return facet.k == 0 ? Scalar(bound - f[row + 1]) : Scalar(bound + f[row + 1]);
 }
 
 }  // namespace stiction

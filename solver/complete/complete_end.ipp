@@ -88,7 +88,8 @@ Planar<Scalar> CompleteDriving<Scalar, Rows>::WantedFriction(int contact, const 
     return (*polygons_)[contact].Project(
         {Scalar(f_[row + 1] - r * a_[row + 1]), Scalar(f_[row + 2] - r * a_[row + 2])}, radius);
   }
-  const RowCombination<Scalar> free = FreeForce(contact);
+  RowCombination<Scalar> free;
+  SetFreeForce(contact, free);
   return {Scalar(free.factors[1] * f_[row]), Scalar(free.factors[2] * f_[row])};
 }
 

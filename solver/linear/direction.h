@@ -91,8 +91,6 @@ class DirectionSystem {
   static void Convert(const RowCombination<Scalar>& combination, Scaled& scaled);
   template <class Unknowns>
   void Assemble(const Problem& problem, const Unknowns& unknowns);
-  template <class Matrix, class Force, class Rest>
-  void Fill(const Matrix& A, Force force, Rest rest);
   Status Eliminate(const Scale<Scalar>& scale);
   int SolveHomogeneous();
   template <class Unknowns>

@@ -143,31 +143,18 @@ void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const Unkno
       Convert(unknowns.Rest(unknown_[j]), rests_[j]);
     }
     Convert(unknowns.Driven(), forces_[unknowns_]);
-    const auto combination = [](const std::vector<Scaled>& of) {
-      return [&of](int j) -> const RowCombination<Entry>& { return of[j].combination; };
-    };
-    Fill(integer_A_, combination(forces_), combination(rests_));
-  } else {
-    const auto force = [&](int j) -> decltype(auto) {
-      return j < unknowns_ ? unknowns.Force(unknown_[j]) : unknowns.Driven();
-    };
-    Fill(problem.A, force, [&](int i) -> decltype(auto) { return unknowns.Rest(unknown_[i]); });
-  }
-}
-
-template <class Scalar, int Rows>
-template <class Matrix, class Force, class Rest>
-void DirectionSystem<Scalar, Rows>::Fill(const Matrix& A, Force force, Rest rest) {
-  for (int j = 0; j <= unknowns_; ++j) {
-    const auto& column = force(j);
-    for (int i = 0; i < unknowns_; ++i) {
-      Entry entry = EntryOf<Scalar>(rest(i), A, column);
-      if (j < unknowns_) {
-        system_(i, j) = std::move(entry);
-      } else {
-        system_(i, j) = -entry;
-      }
+    for (int j = 0; j <= unknowns_; ++j) {
+      for (int i = 0; i < unknowns_; ++i)
+        system_(i, j) = EntryOf<Scalar>(rests_[i].combination, integer_A_, forces_[j].combination);
     }
+    for (int i = 0; i < unknowns_; ++i) system_(i, unknowns_) = -system_(i, unknowns_);
+  } else {
+    for (int j = 0; j < unknowns_; ++j) {
+      const auto column = unknowns.Column(unknown_[j]);
+      for (int i = 0; i < unknowns_; ++i) system_(i, j) = column(unknown_[i]);
+    }
+    const auto driven = unknowns.DrivenColumn();
+    for (int i = 0; i < unknowns_; ++i) system_(i, unknowns_) = -driven(unknown_[i]);
   }
 }
 
@@ -230,15 +217,16 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const Unknown
   }
   const int rows = problem.rows();
   for (int row = 0; row < rows; ++row) df_[row] = Scalar(0);
-  for (int i = 0; i < unknowns_; ++i) {
-    const Scalar& x = system_.numerator(i);  // over 1
-    AddTo<Scalar>(df_, unknowns.Force(unknown_[i]), x);
+  for (int i = 0; i < unknowns_; ++i) unknowns.Place(unknown_[i], system_.numerator(i), df_);  // over 1
+  if (rate != 0) unknowns.PlaceDriven(Scalar(rate), df_);
+  int used = rows;  // df is zero from here on
+  if constexpr (Rows == Eigen::Dynamic) {
+    while (used > 0 && IsSurelyZero(df_[used - 1])) --used;
   }
-  if (rate != 0) AddTo<Scalar>(df_, unknowns.Driven(), Scalar(rate));
   for (int row = 0; row < rows; ++row) {
     Scalar change = Scalar(0);
     if (!unknowns.Rests(row)) {
-      for (int j = 0; j < rows; ++j) {
+      for (int j = 0; j < used; ++j) {
         if (kIsExact<Scalar> && IsSurelyZero(df_[j])) continue;
         change += problem.A(row, j) * df_[j];
       }

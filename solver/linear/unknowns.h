@@ -28,6 +28,20 @@ struct RowCombination {
 
   static RowCombination Unit(int row) { return {row, 1, true, {}}; }
 
+  void SetUnit(int first) {
+    row = first;
+    size = 1;
+    unit = true;
+  }
+  template <class... Numbers>
+  void Set(int first, const Numbers&... numbers) {
+    row = first;
+    size = sizeof...(numbers);
+    unit = false;
+    int r = 0;
+    ((factors[r++] = numbers), ...);
+  }
+
   bool operator==(const RowCombination& other) const {
     if (row != other.row || size != other.size || unit != other.unit) return false;
     for (int r = 0; r < size && !unit; ++r) {
@@ -114,15 +128,56 @@ struct SetUnknowns {
     for (Scalar& factor : force.factors) factor = -factor;
     return force;
   }
+
+  // The same without combinations: the column of an unknown or of the driven force, entry by row; and df of
+  // their rows where they change by x.
+  auto Column(int row) const {
+    return [this, row, limit = FrictionLimitSign(layout, sets, row)](int of) {
+      Scalar entry = problem.A(of, row);
+      if (limit == 0) return entry;
+      const Scalar along = problem.contacts[layout.ContactOf(row)].mu * problem.A(of, row + 1);
+      if (limit > 0) {
+        entry += along;
+      } else {
+        entry -= along;
+      }
+      return entry;
+    };
+  }
+  auto DrivenColumn() const {
+    return [this, column = Column(driven)](int of) {
+      Scalar entry = column(of);
+      return sign > 0 ? entry : Scalar(-entry);
+    };
+  }
+  template <class Vector>
+  void Place(int row, const Scalar& x, Vector& df) const {
+    df[row] = x;
+    const int limit = FrictionLimitSign(layout, sets, row);
+    if (limit == 0) return;
+    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * x;
+    if (limit > 0) {
+      df[row + 1] = bound;
+    } else {
+      df[row + 1] = -bound;
+    }
+  }
+  template <class Vector>
+  void PlaceDriven(const Scalar& x, Vector& df) const {
+    Place(driven, sign > 0 ? x : Scalar(-x), df);
+  }
 };
 
 // Unknowns of any kind, kept by row.
 template <class Scalar, int Rows>
 struct ListedUnknowns {
+  const ContactProblem<Scalar, Rows>* problem = nullptr;
   RowArray<RowCombination<Scalar>, Rows> forces, rests;  // rests of size 0: no unknown
   RowCombination<Scalar> driven;
 
-  void Clear(int rows) {
+  void Start(const ContactProblem<Scalar, Rows>& of) {
+    problem = &of;
+    const int rows = of.rows();
     if constexpr (Rows == Eigen::Dynamic) {
       forces.resize(rows);
       rests.resize(rows);
@@ -131,16 +186,30 @@ struct ListedUnknowns {
     driven.size = 0;
   }
 
-  void Add(int row, const RowCombination<Scalar>& force, const RowCombination<Scalar>& rest) {
-    forces[row] = force;
-    rests[row] = rest;
-  }
-
   bool IsUnknown(int row) const { return rests[row].size > 0; }
   bool Rests(int row) const { return rests[row].size > 0 && rests[row].unit; }
   const RowCombination<Scalar>& Rest(int row) const { return rests[row]; }
   const RowCombination<Scalar>& Force(int row) const { return forces[row]; }
   const RowCombination<Scalar>& Driven() const { return driven; }
+
+  auto Column(int row) const { return ColumnOf(forces[row]); }
+  auto DrivenColumn() const { return ColumnOf(driven); }
+  template <class Vector>
+  void Place(int row, const Scalar& x, Vector& df) const {
+    AddTo<Scalar>(df, forces[row], x);
+  }
+  template <class Vector>
+  void PlaceDriven(const Scalar& x, Vector& df) const {
+    AddTo<Scalar>(df, driven, x);
+  }
+
+ private:
+  auto ColumnOf(const RowCombination<Scalar>& force) const {
+    return [this, &force](int of) {
+      if (force.unit && rests[of].unit) return problem->A(of, force.row);
+      return EntryOf<Scalar>(rests[of], problem->A, force);
+    };
+  }
 };
 
 }  // namespace stiction

@@ -650,9 +650,9 @@ std::optional<ExactVector> NullVector(const ExactMatrix& M) {
   problem.A.topRows(k) = M;
   problem.b = ExactVector::Zero(k + 1);
   ListedUnknowns<Rational, Eigen::Dynamic> unknowns;
-  unknowns.Clear(k + 1);
+  unknowns.Start(problem);
   const auto unit = [](int row) { return RowCombination<Rational>::Unit(row); };
-  for (int row = 0; row < k; ++row) unknowns.Add(row, unit(row), unit(row));
+  for (int row = 0; row < k; ++row) unknowns.forces[row] = unknowns.rests[row] = unit(row);
   unknowns.driven = unit(k);
   DirectionSystem<Rational, Eigen::Dynamic> system;
   system.Start(problem);
