@@ -27,11 +27,13 @@
 #include <iostream>
 #include <map>
 
+#include "bench/measure.h"
 #include "bench/plain_rational.h"
 #include "bench/suite.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
 #include "search/choices.h"
 #include "solver/complete/complete.ipp"
 #include "solver/linear/elimination.ipp"
@@ -267,33 +269,17 @@ struct Way {
   std::size_t base = 0;
 };
 
-struct Spread {
-  double least, median, most;
-};
-
-Spread SpreadOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return {values.front(), values[values.size() / 2], values.back()};
-}
-
-// Processor time of this thread: other programs do not count.
-double ThreadSeconds() {
-  timespec now = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double MicrosecondsOf(const Way& way, std::size_t items, int passes) {
-  const double start = ThreadSeconds();
+  const Stopwatch watch;
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t i = 0; i < items; ++i) way.run(i);
   }
-  return 1e6 * (ThreadSeconds() - start) / (static_cast<double>(items) * passes);
+  return 1e6 * watch.Seconds() / (static_cast<double>(items) * passes);
 }
 
 // Microseconds an item, by way and run: all ways in turn, `repeat` times after one that is not counted; a run
 // takes 5 ms or so of each at least.
-std::vector<std::vector<double>> Measure(const std::vector<Way>& ways, std::size_t items, int repeat) {
+std::vector<std::vector<double>> MeasureWays(const std::vector<Way>& ways, std::size_t items, int repeat) {
   std::vector<std::vector<double>> times(ways.size());
   std::vector<int> passes(ways.size(), 1);
   for (int run = 0; run <= repeat; ++run) {
@@ -318,7 +304,7 @@ class Table {
   }
 
   void AddRows(const std::string& name, int size, std::size_t items, const std::vector<Way>& ways) {
-    const auto times = Measure(ways, items, options_.repeat);
+    const auto times = MeasureWays(ways, items, options_.repeat);
     for (std::size_t w = 0; w < ways.size(); ++w) {
       std::vector<double> ratios;  // within one run
       for (std::size_t run = 0; run < times[w].size(); ++run) {

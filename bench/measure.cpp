@@ -11,6 +11,12 @@ Quartiles QuartilesOf(std::vector<double> values) {
   return {values[n / 4], values[n / 2], values[3 * n / 4]};
 }
 
+Spread SpreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  return {values.front(), values[values.size() / 2], values.back()};
+}
+
 Average AverageOf(const std::vector<std::int64_t>& values) {
   Average average;
   for (const std::int64_t value : values) {

@@ -36,6 +36,12 @@ struct Quartiles {
 };
 Quartiles QuartilesOf(std::vector<double> values);
 
+struct Spread {
+  double least = 0, median = 0, most = 0;
+};
+// Zeros if there are none.
+Spread SpreadOf(std::vector<double> values);
+
 // Zeros if there are none.
 struct Average {
   double mean = 0;

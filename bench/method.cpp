@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "bench/stopwatch.h"
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/verify_solution.h"
+#include "corpus/stopwatch.h"
 #include "solver/problem/residual.h"
 
 namespace stiction {
@@ -45,17 +45,17 @@ bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>:
 }
 
 template <class Scalar>
-struct Answer {
+struct BenchAnswer {
   Measure measure;
   typename ContactProblem<Scalar>::Vector f;  // if solved
 };
 
-// run(problem) returns an Answer.
+// run(problem) returns a BenchAnswer.
 template <class Scalar, class Run>
 Measure Timed(const BenchProblem& problem, Run run) {
   const ContactProblem<Scalar>& data = In<Scalar>(problem);
   const Stopwatch watch;
-  Answer<Scalar> answer = run(data);
+  BenchAnswer<Scalar> answer = run(data);
   Measure& measure = answer.measure;
   measure.seconds = watch.Seconds() + measure.library_seconds;
   if (measure.outcome == Outcome::kSolved) measure.wrong = !Stands(data, answer.f);
@@ -64,7 +64,7 @@ Measure Timed(const BenchProblem& problem, Run run) {
 }
 
 template <class Scalar>
-Method PublishedMethod(const std::string& policy) {
+BenchMethod PublishedMethod(const std::string& policy) {
   PublishedAlgorithm<Scalar> algorithm({ParsePolicy(policy), {}, {}});
   return {.name = "baraff",
           .reading = policy,
@@ -73,16 +73,16 @@ Method PublishedMethod(const std::string& policy) {
           .run = [algorithm](const BenchProblem& problem) mutable {
             return Timed<Scalar>(problem, [&algorithm](const auto& data) {
               const Verdict verdict = algorithm.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome,
-                                     .work = verdict.statistics.steps,
-                                     .give_ups = verdict.statistics.give_ups},
-                                    algorithm.state().f};
+              return BenchAnswer<Scalar>{{.outcome = verdict.outcome,
+                                          .work = verdict.statistics.steps,
+                                          .give_ups = verdict.statistics.give_ups},
+                                         algorithm.state().f};
             });
           }};
 }
 
 template <class Scalar>
-Method CompleteMethod() {
+BenchMethod CompleteMethod() {
   return {.name = "complete",
           .reading = "",
           .arithmetic = kArithmetic<Scalar>,
@@ -90,17 +90,17 @@ Method CompleteMethod() {
           .run = [driving = CompleteDriving<Scalar>()](const BenchProblem& problem) mutable {
             return Timed<Scalar>(problem, [&driving](const auto& data) {
               const CompleteVerdict verdict = driving.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome,
-                                     .work = verdict.statistics.pieces,
-                                     .folds = verdict.statistics.folds,
-                                     .descents = verdict.statistics.descents},
-                                    driving.f()};
+              return BenchAnswer<Scalar>{{.outcome = verdict.outcome,
+                                          .work = verdict.statistics.pieces,
+                                          .folds = verdict.statistics.folds,
+                                          .descents = verdict.statistics.descents},
+                                         driving.f()};
             });
           }};
 }
 
 template <class Scalar>
-Method LemkeMethod(Cover cover) {
+BenchMethod LemkeMethod(Cover cover) {
   return {.name = "lemke",
           .reading = cover == Cover::kOnes ? "ones" : "units",
           .arithmetic = kArithmetic<Scalar>,
@@ -108,12 +108,13 @@ Method LemkeMethod(Cover cover) {
           .run = [lemke = LemkeAlgorithm<Scalar>({cover, {}, {}})](const BenchProblem& problem) mutable {
             return Timed<Scalar>(problem, [&lemke](const auto& data) {
               const Verdict verdict = lemke.Run(data);
-              return Answer<Scalar>{{.outcome = verdict.outcome, .work = verdict.statistics.pivots}, lemke.f()};
+              return BenchAnswer<Scalar>{{.outcome = verdict.outcome, .work = verdict.statistics.pivots},
+                                         lemke.f()};
             });
           }};
 }
 
-Method EnumerateMethod() {
+BenchMethod EnumerateMethod() {
   return {.name = "enumerate",
           .reading = "",
           .arithmetic = "exact",
@@ -125,7 +126,7 @@ Method EnumerateMethod() {
               EnumerationOptions options;
               options.first_solution_only = true;
               const Enumeration modes = EnumerateModes(data, options);
-              Answer<Rational> answer;
+              BenchAnswer<Rational> answer;
               answer.measure.work = modes.programs;
               answer.measure.refutes = modes.ProvesNoSolution();
               if (modes.solutions.empty()) return answer;
@@ -137,7 +138,7 @@ Method EnumerateMethod() {
 }
 
 // Solved: an exact solution came out of one of its points.
-Method IpoptMethod(Formulation formulation, int one_in) {
+BenchMethod IpoptMethod(Formulation formulation, int one_in) {
   const auto proposer = std::make_shared<IpoptProposer>();
   return {.name = "ipopt",
           .reading = formulation == Formulation::kNonlinear ? "(17), (18)" : "(5)",
@@ -151,7 +152,7 @@ Method IpoptMethod(Formulation formulation, int one_in) {
               options.formulation = formulation;
               const Stopwatch watch(ClockOf(proposer->process_id()));
               const auto f = proposer->ProposeSolution(data, options, statistics);
-              Answer<Rational> answer;
+              BenchAnswer<Rational> answer;
               answer.measure.work = statistics.starts;
               answer.measure.library_seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
               if (!f) return answer;
@@ -164,7 +165,7 @@ Method IpoptMethod(Formulation formulation, int one_in) {
 
 }  // namespace
 
-std::vector<Method> Methods() {
+std::vector<BenchMethod> BenchedMethods() {
   return {CompleteMethod<Rational>(),
           PublishedMethod<Rational>("paper"),
           PublishedMethod<Rational>("apex=suspended"),
@@ -178,7 +179,7 @@ std::vector<Method> Methods() {
           EnumerateMethod()};
 }
 
-std::vector<Method> FrictionlessMethods() {
+std::vector<BenchMethod> FrictionlessMethods() {
   return {PublishedMethod<double>("paper"), LemkeMethod<double>(Cover::kUnits),
           IpoptMethod(Formulation::kQuadratic, 1)};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods that are compared, ready to run. Entry: Methods().
+// The methods that are compared, ready to run. Entry: BenchedMethods().
 //
 // Every answer is verified: exact ones by FindViolation, doubles by the natural residual, both outside the time
 // taken. A time is one call of an algorithm that keeps its memory between calls, for any number of contacts,
@@ -19,7 +19,7 @@
 
 namespace stiction {
 
-struct Method {
+struct BenchMethod {
   std::string name;
   std::string reading;  // policy, cover or formulation
   std::string arithmetic;
@@ -37,11 +37,11 @@ struct Method {
 enum MethodPlace { kComplete, kPaper, kSuspended, kAsComplete, kLemke, kLemkeUnits, kCompleteDouble, kIpopt };
 inline constexpr std::array kPublished = {kPaper, kSuspended, kAsComplete};
 // Starts Ipopt's process: InputError if it cannot be run.
-std::vector<Method> Methods();
+std::vector<BenchMethod> BenchedMethods();
 
 // Without friction.
 enum FrictionlessPlace { kBaraffDouble, kLemkeDouble, kQuadratic };
-std::vector<Method> FrictionlessMethods();
+std::vector<BenchMethod> FrictionlessMethods();
 
 }  // namespace stiction
 

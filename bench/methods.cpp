@@ -36,14 +36,14 @@ struct Sample {
 };
 
 // All classes of friction are as frequent in what a method is given.
-std::int64_t ProblemsOf(const Method& method, const Sample& sample) {
+std::int64_t ProblemsOf(const BenchMethod& method, const Sample& sample) {
   if (method.most_contacts > 0 && sample.contacts > method.most_contacts) return 0;
   const std::int64_t part = (sample.problems + method.one_in - 1) / method.one_in;
   const std::int64_t classes = kFrictionClasses;
   return std::min(sample.problems, (part + classes - 1) / classes * classes);
 }
 
-void AddMismatches(const std::vector<Method>& methods, Sample& sample) {
+void AddMismatches(const std::vector<BenchMethod>& methods, Sample& sample) {
   for (std::size_t i = 0; i < sample.friction.size(); ++i) {
     std::vector<NamedMeasure> measures;
     for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -58,7 +58,7 @@ void AddMismatches(const std::vector<Method>& methods, Sample& sample) {
 
 // make(index) returns a BenchProblem.
 template <class Make>
-Sample Measured(std::vector<Method>& methods, int contacts, std::int64_t problems, Make make) {
+Sample Measured(std::vector<BenchMethod>& methods, int contacts, std::int64_t problems, Make make) {
   Sample sample{contacts, problems, {}, {}, {}, {}};
   sample.measures.resize(methods.size());
   for (std::int64_t first = 0; first < problems; first += kBlock) {
@@ -115,7 +115,7 @@ Json OtherEnds(const std::vector<Measure>& measures) {
   return ends;
 }
 
-BenchTable RunTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+BenchTable RunTable(const std::vector<BenchMethod>& methods, const std::vector<Sample>& samples) {
   BenchTable table{"runs", "how runs end; what they count, mean and most, over what is solved"};
   for (const Sample& sample : samples) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -180,7 +180,7 @@ BenchTable FrictionTable(const std::vector<Sample>& samples) {
 }
 
 // Folds of complete driving against give-ups of one reading of the published algorithm.
-Json GiveUpRow(const Method& method, int place, const std::vector<Sample>& samples) {
+Json GiveUpRow(const BenchMethod& method, int place, const std::vector<Sample>& samples) {
   Contingency count;
   std::int64_t plain = 0, equal = 0;
   std::vector<std::int64_t> pieces, steps;  // where there are folds and both solve
@@ -209,7 +209,7 @@ Json GiveUpRow(const Method& method, int place, const std::vector<Sample>& sampl
           {"steps if folds", AverageOf(steps).mean}};
 }
 
-BenchTable GiveUpTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+BenchTable GiveUpTable(const std::vector<BenchMethod>& methods, const std::vector<Sample>& samples) {
   BenchTable table{"give-ups", "folds of complete driving against give-ups of the published algorithm"};
   for (const int place : kPublished) table.rows.push_back(GiveUpRow(methods[place], place, samples));
   return table;
@@ -230,7 +230,7 @@ Quartiles RatioOf(const std::vector<Measure>& left, const std::vector<Measure>& 
   return QuartilesOf(ratios);
 }
 
-BenchTable TimeTable(const std::vector<Method>& methods, const std::vector<Sample>& samples) {
+BenchTable TimeTable(const std::vector<BenchMethod>& methods, const std::vector<Sample>& samples) {
   BenchTable table{"times",
                    "microseconds a problem, and times that of complete driving over doubles: quartiles"};
   for (const Sample& sample : samples) {
@@ -309,7 +309,7 @@ int BenchMethods(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(800);
   std::vector<int> contacts = options.contacts;
   if (contacts.empty()) contacts = {2, 3, 4, 5, 6};
-  std::vector<Method> methods = Methods(), frictionless_methods = FrictionlessMethods();
+  std::vector<BenchMethod> methods = BenchedMethods(), frictionless_methods = FrictionlessMethods();
   std::vector<Sample> samples, frictionless;
   for (const int n : contacts) {
     samples.push_back(Measured(methods, n, problems, [&](std::int64_t index) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/peers.h"
-#include "bench/stopwatch.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
 
 namespace stiction {
 

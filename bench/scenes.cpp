@@ -7,14 +7,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <utility>
 
+#include "bench/measure.h"
 #include "bench/suite.h"
 #include "corpus/scene_file.h"
-#include "scene/simulate_space.h"
+#include "corpus/stopwatch.h"
+#include "scene/simulate.h"
 
 namespace stiction {
 namespace {
@@ -34,34 +35,22 @@ struct Measured {
   std::string failure;
 };
 
-struct Spread {
-  double least = 0, median = 0, most = 0;
-};
-
-Spread SpreadOf(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  return {values.front(), values[values.size() / 2], values.back()};
-}
-
-template <class ExactScene>
-void RunOnce(const SceneFileOf<ExactScene>& file, const Way& way, Measured& measured) {
+template <class Kind>
+void RunOnce(const SceneFileIn<Kind>& file, const Way& way, Measured& measured) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, way.threads);
   SimulationOptions options;
   options.step = ToDouble(file.step);
   options.minimal = way.minimal;
   const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / options.step), 1, kFrames);
-  const auto scene = Round(file.scene);
-  SimulationOf<std::remove_const_t<decltype(scene)>> simulation(scene, options);
-  const auto start = std::chrono::steady_clock::now();
+  SimulationIn<Kind> simulation(Round(file.scene), options);
+  const Stopwatch watch(CLOCK_MONOTONIC);  // threads of their own
   try {
     for (std::int64_t k = 0; k < frames; ++k) simulation.Step();
   } catch (const SimulationError& error) {
     measured.failure = error.what();
     return;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  measured.rates.push_back(static_cast<double>(frames) / seconds);
+  measured.rates.push_back(static_cast<double>(frames) / watch.Seconds());
   measured.rows = static_cast<double>(simulation.statistics().rows) / static_cast<double>(frames);
   measured.problems = static_cast<double>(simulation.statistics().problems) / static_cast<double>(frames);
 }
@@ -74,8 +63,8 @@ struct Pair {
   std::string failure() const { return first.failure.empty() ? second.failure : first.failure; }
 };
 
-template <class ExactScene>
-Pair Measure(const SceneFileOf<ExactScene>& file, const std::array<Way, 2>& ways, int repeat) {
+template <class Kind>
+Pair MeasureScene(const SceneFileIn<Kind>& file, const std::array<Way, 2>& ways, int repeat) {
   Pair pair;
   for (int run = 0; run < repeat; ++run) {
     RunOnce(file, ways[0], pair.first);
@@ -137,7 +126,7 @@ int BenchScenes(const BenchOptions& o) {
   for (const auto& path : files) {
     const auto file = ReadAnyScene(path);
     const auto name = std::visit([](const auto& of) { return of.scene.name; }, file);
-    const Pair pair = std::visit([&](const auto& of) { return Measure(of, ways, o.repeat); }, file);
+    const Pair pair = std::visit([&](const auto& of) { return MeasureScene(of, ways, o.repeat); }, file);
     rows.push_back({{"scene", name},
                     {ways[0].name, ToJson(pair.first)},
                     {ways[1].name, ToJson(pair.second)},

@@ -4,25 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
+#include "bench/measure.h"
 #include "bench/suite.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
 #include "search/unit.h"
 
 namespace stiction {
 namespace {
-
-struct Spread {
-  double least, median, most;
-};
-
-Spread SpreadOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return {values.front(), values[values.size() / 2], values.back()};
-}
 
 // Problems a second of one thread: generation, solving over doubles, classification, exact runs of suspicions.
 Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
@@ -36,9 +28,9 @@ Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
   UnitRunner runner(campaign);
   std::vector<double> rates;
   for (int run = 0; run <= o.repeat; ++run) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     runner.Run(run);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = watch.Seconds();
     if (run > 0) rates.push_back(static_cast<double>(problems) / seconds);  // the first run warms up
   }
   return SpreadOf(rates);

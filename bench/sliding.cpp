@@ -16,7 +16,7 @@
 #include "certify/exact.h"
 #include "certify/existence.h"
 #include "corpus/exit_code.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {

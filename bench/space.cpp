@@ -92,9 +92,7 @@ void Add(const Count& count, Count& sum) {
   sum.steps.insert(sum.steps.end(), count.steps.begin(), count.steps.end());
 }
 
-void CountSuspicion(const ExactProblem& problem, const PublishedOptions& options, const Verdict& suspected,
-                    Count& count) {
-  const PublishedSpaceVerdict again = RunSuspicionInSpace<double>(problem, options).verdict;
+void CountSuspicion(const Suspicion& suspected, const InexactAnswer& again, Count& count) {
   if (again.outcome != Outcome::kCycle) {
     ++count.refuted;
   } else if (again.start == suspected.start && again.period == suspected.period) {
@@ -104,21 +102,22 @@ void CountSuspicion(const ExactProblem& problem, const PublishedOptions& options
   }
 }
 
-void CountRounded(const ExactProblem& problem, const PublishedOptions& options, const RoundedSpaceRun& run,
-                  Count& count) {
-  const PublishedSpaceVerdict& verdict = run.verdict;
+// `first`: over doubles.
+void CountRounded(const Solution& solution, const Suspicion& first, Count& count) {
+  const auto& answer = std::get<InexactAnswer>(solution.answer);
+  const auto counted = [&first](std::string_view name) { return ValueOf(first.counters, name); };
   ++count.problems;
-  count.breaks += verdict.breaks > 0;
-  count.redirects += verdict.redirects > 0;
-  count.give_ups += verdict.statistics.give_ups > 0;
-  switch (verdict.outcome) {
+  count.breaks += counted("breaks") > 0;
+  count.redirects += counted("redirects") > 0;
+  count.give_ups += counted("give_ups") > 0;
+  switch (first.outcome) {
     case Outcome::kSolved:
       ++count.solved;
-      count.wrong += !(run.residual <= kWrongAnswer);
-      count.steps.push_back(verdict.statistics.steps);
+      count.wrong += !(first.residual <= kWrongAnswer);
+      count.steps.push_back(counted("steps"));
       break;
     case Outcome::kCycle:
-      CountSuspicion(problem, options, verdict, count);
+      CountSuspicion(first, answer, count);
       break;
     case Outcome::kRay:
       ++count.ray;
@@ -135,13 +134,18 @@ void CountRounded(const ExactProblem& problem, const PublishedOptions& options, 
   }
 }
 
+bool StartsWith(const std::vector<Counter>& all, const std::vector<Counter>& first) {
+  return all.size() >= first.size() && std::equal(first.begin(), first.end(), all.begin());
+}
+
 // What intervals prove must be what doubles did.
-void CountIntervals(const PublishedSpaceVerdict& proved, const PublishedSpaceVerdict& rounded, Count& count) {
+void CountIntervals(const PublishedSpaceVerdict& proved, const Suspicion& rounded, Count& count) {
   const bool decided = proved.outcome != Outcome::kUndecided && proved.outcome != Outcome::kLimit;
   count.proved_solved += proved.outcome == Outcome::kSolved;
   count.proved_ray += proved.outcome == Outcome::kRay;
   count.unsure += !decided;
-  count.differ += decided && (proved.outcome != rounded.outcome || proved.statistics != rounded.statistics);
+  count.differ += decided && (proved.outcome != rounded.outcome ||
+                              !StartsWith(rounded.counters, CountersOf(proved.statistics)));
 }
 
 // Static contacts alone.
@@ -179,10 +183,14 @@ Count CountProblem(const ExactProblem& problem, Slip slip) {
   if (slip == Slip::kPolygon) return CountPolygon(problem);
   PublishedOptions options;
   options.policy.slip = slip;
-  const RoundedSpaceRun run = RunRoundedInSpace<double>(problem, options);
+  SolveRequest request{.method = "baraff", .arithmetic = Arithmetic::kDouble};
+  request.options.policy = options.policy;
+  const Solution solution = SolveIn(problem, request);
+  const Suspicion first =
+      solution.suspected ? *solution.suspected : SuspicionOf(std::get<InexactAnswer>(solution.answer));
   Count count;
-  CountRounded(problem, options, run, count);
-  CountIntervals(RunIntervalsInSpace(problem, options).verdict, run.verdict, count);
+  CountRounded(solution, first, count);
+  CountIntervals(RunIntervalsInSpace(problem, options).verdict, first, count);
   return count;
 }
 

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "certify/exact.h"
 #include "corpus/problem_file.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
+
+struct ExactRun;  // certify/exact.h
 
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 

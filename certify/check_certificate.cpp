@@ -7,6 +7,7 @@
 #include <set>
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/hypothesis.h"
 #include "certify/no_solution.h"
 #include "certify/properties.h"

@@ -24,15 +24,19 @@ from those documents and shares no code or tables with the C++.
 
 import argparse
 import json
+import os
 import re
 import sys
 from collections import namedtuple
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import product
-from math import prod
+from math import isinf, prod
+from stat import S_ISREG
 
 sys.set_int_max_str_digits(0)  # numbers may have more than 4300 digits
+MOST_BYTES = 1 << 30  # of a file
+MOST_DEPTH = 100
 
 
 # --- Reading: strict, nothing is guessed or repaired -------------------------------
@@ -54,20 +58,51 @@ def need(ok, place, found, expected, meaning=""):
 
 
 def object_of(pairs):
-    """A JSON object. A repeated key gets a name that fields() refuses."""
-    result = {}
-    for key, value in pairs:
-        result[f"{key} (a second time)" if key in result else key] = value
+    """A JSON object, with each key once."""
+    result = dict(pairs)
+    if len(result) < len(pairs):
+        raise ValueError("a key stands twice in an object")
     return result
+
+
+def number_of(text):
+    """A JSON number that 64 bits hold, or a double exactly."""
+    nearest = float(text)
+    if isinf(nearest) or (text.lstrip("-").isdigit() and not -2**63 <= int(text) < 2**64 and int(text) != nearest):
+        raise ValueError(f"the number {text[:60]} is not finite, or is rounded")
+    return int(text) if text.lstrip("-").isdigit() else nearest
 
 
 def refuse_constant(text):
     raise ValueError(f"{text} is no JSON")
 
 
+def depth(value):
+    """Arrays and objects within each other."""
+    inner = value.values() if type(value) is dict else value if type(value) is list else None
+    return 0 if inner is None else 1 + max(map(depth, inner), default=0)
+
+
+def text_of(path):
+    """The text of a regular file, or of standard input as -; a named pipe might wait for ever."""
+    if path == "-":
+        return sys.stdin.buffer.read(MOST_BYTES + 1)
+    mode = os.stat(path)
+    if not S_ISREG(mode.st_mode) or mode.st_size > MOST_BYTES:
+        raise ValueError(f"no regular file of at most {MOST_BYTES} bytes")
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def load(path):
-    with open(path, encoding="utf-8") as file:
-        return json.load(file, object_pairs_hook=object_of, parse_constant=refuse_constant)
+    text = text_of(path)
+    if len(text) > MOST_BYTES or b"\0" in text:
+        raise ValueError(f"a NUL byte, or more than {MOST_BYTES} bytes")
+    value = json.loads(text.decode("utf-8"), object_pairs_hook=object_of, parse_constant=refuse_constant,
+                       parse_int=number_of, parse_float=number_of)
+    if depth(value) > MOST_DEPTH:
+        raise ValueError(f"more than {MOST_DEPTH} levels of arrays and objects")
+    return value
 
 
 def fields(value, place, *keys):

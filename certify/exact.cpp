@@ -3,70 +3,46 @@
 
 #include <CGAL/Exact_rational.h>
 
-#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "solver/complete/complete.ipp"
 #include "solver/lemke/lemke.ipp"
 #include "solver/problem/reduction.ipp"
+#include "solver/problem/remainder.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
 
 static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
 
+template class Reduction<Rational>;
 template class PublishedAlgorithm<Rational>;
 template class CompleteDriving<Rational>;
 template class LemkeAlgorithm<Rational>;
 
 namespace {
 
-// What a run takes place on: the problem, or what bilateral and sliding contacts leave of it.
-class Remainder {
- public:
-  explicit Remainder(const ExactProblem& whole) : whole_(whole) {
-    if (Reduction<Rational>::Concerns(whole)) reduction_.emplace(whole);
-  }
+Verdict VerdictOn(const Remainder<Rational>& remainder) {
+  Verdict verdict;
+  verdict.outcome = Outcome::kSingular;
+  verdict.reason = remainder.Obstacle();
+  return verdict;
+}
 
-  const ExactProblem& problem() const { return reduction_ ? reduction_->problem() : whole_; }
-
-  // A verdict without a run, if there is nothing to run on.
-  std::optional<Verdict> Obstacle() const {
-    if (!reduction_ || reduction_->end() == ReductionEnd::kReduced) return std::nullopt;
-    Verdict verdict;
-    verdict.outcome = Outcome::kSingular;
-    verdict.reason = Reason(reduction_->end());
-    return verdict;
-  }
-
-  // A run on problem() in the terms of the whole problem.
-  ExactRun Restored(ExactRun run) const {
-    if (!reduction_) return run;
-    for (Pivot<Rational>& pivot : run.trace.pivots) {
-      pivot.driven = reduction_->row_of()[pivot.driven];
-      pivot.limiting = reduction_->row_of()[pivot.limiting];
-      pivot.df = reduction_->Direction(pivot.df);
-      pivot.da = whole_.A * pivot.df;
-      pivot.f = reduction_->Forces(pivot.f);
-      pivot.a = whole_.A * pivot.f + whole_.b;
-      pivot.sets = reduction_->Spread(pivot.sets, IndexSet::kClamped, IndexSet::kNone);
-    }
-    ExactState& state = run.state;
-    state.sets = reduction_->Spread(state.sets, IndexSet::kClamped, IndexSet::kNone);
-    state.last_left = reduction_->Spread(state.last_left, IndexSet::kNone, IndexSet::kNone);
-    state.f = reduction_->Forces(state.f);
-    if (state.last_driven_contact >= 0)
-      state.last_driven_contact = reduction_->contact_of()[state.last_driven_contact];
-    run.initial_f = reduction_->Forces(run.initial_f);
-    run.a = whole_.A * state.f + whole_.b;
-    if (run.verdict.outcome == Outcome::kRay) run.ray = reduction_->Direction(run.ray);
-    return run;
-  }
-
- private:
-  const ExactProblem& whole_;
-  std::optional<Reduction<Rational>> reduction_;
-};
+// A run on the remainder in the terms of the whole problem.
+ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
+  for (Pivot<Rational>& pivot : run.trace.pivots) pivot = remainder.Restored(std::move(pivot));
+  ExactState& state = run.state;
+  state.sets = remainder.Sets(std::move(state.sets), IndexSet::kClamped);
+  state.last_left = remainder.Sets(std::move(state.last_left), IndexSet::kNone);
+  state.f = remainder.Forces(state.f);
+  state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);
+  run.initial_f = remainder.Forces(run.initial_f);
+  run.a = remainder.Accelerations(state.f);
+  if (run.verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(run.ray);
+  return run;
+}
 
 // A run of no steps.
 ExactRun Unstarted(const ExactProblem& problem, const Verdict& verdict) {
@@ -94,10 +70,9 @@ ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& optio
 }  // namespace
 
 ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
-  const Remainder remainder(problem);
-  const auto obstacle = remainder.Obstacle();
-  ExactRun run =
-      obstacle ? Unstarted(problem, *obstacle) : remainder.Restored(RunRemaining(remainder.problem(), options));
+  const Remainder<Rational> remainder(problem);
+  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), options))
+                                              : Unstarted(problem, VerdictOn(remainder));
   run.policy = options.policy;
   return run;
 }
@@ -107,8 +82,7 @@ namespace {
 // Runs policies one by one and remembers which others each run speaks for.
 class GridRunner {
  public:
-  GridRunner(const ExactProblem& problem, const Limits& limits)
-      : remainder_(problem), obstacle_(remainder_.Obstacle()) {
+  GridRunner(const ExactProblem& problem, const Limits& limits) : remainder_(problem) {
     algorithm_.options().limits = limits;
     trace_.keep_pivots = false;
   }
@@ -120,15 +94,15 @@ class GridRunner {
       return known;
     }
     algorithm_.options().policy = policy;
-    const Verdict verdict = obstacle_ ? *obstacle_ : algorithm_.Run(remainder_.problem(), &trace_);
+    const Verdict verdict =
+        remainder_.Obstacle().empty() ? algorithm_.Run(remainder_.problem(), &trace_) : VerdictOn(remainder_);
     return classes_.emplace_back(PolicyClass{{policy}, trace_.consulted, verdict});
   }
 
   std::vector<PolicyClass> Take() { return std::move(classes_); }
 
  private:
-  const Remainder remainder_;
-  const std::optional<Verdict> obstacle_;
+  const Remainder<Rational> remainder_;
   PublishedAlgorithm<Rational> algorithm_;
   Trace<Rational> trace_;
   std::vector<PolicyClass> classes_;

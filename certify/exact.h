@@ -17,10 +17,12 @@
 #include "corpus/problem_file.h"
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"
+#include "solver/problem/reduction.h"
 #include "solver/published/published.h"
 
 namespace stiction {
 
+extern template class Reduction<Rational>;
 extern template class PublishedAlgorithm<Rational>;
 extern template class CompleteDriving<Rational>;
 extern template class LemkeAlgorithm<Rational>;

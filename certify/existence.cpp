@@ -2,9 +2,9 @@
 #include "certify/existence.h"
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/no_solution.h"
-#include "certify/space.h"
-#include "solver/problem/reduction.ipp"
+#include "certify/solve.h"
 
 namespace stiction {
 
@@ -40,22 +40,12 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
 
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
                           const EnumerationOptions& options) {
-  if (problem.dimension == 3) {
-    SpaceOptions space;
-    space.limits = limits;
-    const SpaceSolution solution = SolveInSpace(problem, space);
-    if (solution.outcome != Outcome::kSolved) return {nullptr, "none"};
-    return {SolutionCertificate(problem, solution.f), "complete"};
+  for (const Method<Rational>& method : Methods<Rational>()) {
+    if (!method.automatic || !method.has_path || !method.IsBuilt(problem.dimension)) continue;
+    const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits});
+    if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};
   }
-  const Reduction<Rational> reduction(problem);  // 4.5, 6
-  if (reduction.end() == ReductionEnd::kReduced) {
-    const CompleteRun complete = RunComplete(reduction.problem(), limits);
-    if (complete.verdict.outcome == Outcome::kSolved)
-      return {SolutionCertificate(problem, reduction.Forces(complete.f)), "complete"};
-    const LemkeRun lemke = RunLemke(reduction.problem(), limits);
-    if (lemke.verdict.outcome == Outcome::kSolved)
-      return {SolutionCertificate(problem, reduction.Forces(lemke.f)), "lemke"};
-  }
+  if (problem.dimension == 3) return {nullptr, "none"};
   EnumerationOptions first = options;
   first.first_solution_only = true;
   const Enumeration modes = EnumerateModes(problem, first);

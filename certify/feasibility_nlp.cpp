@@ -13,6 +13,7 @@
 
 #include "certify/ipopt_process.h"
 #include "certify/nearby_words.h"
+#include "certify/qp.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -30,7 +31,7 @@ double SecondsSince(Clock::time_point begin) {
 
 namespace {
 
-// One start a request, since words near a point that is no solution may have one. first_start is to be set.
+// One start a request, since words near a point that is no solution may have one: the first, to be changed.
 Json MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled, const ProposalOptions& options) {
   Json contacts = Json::array();
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
@@ -44,7 +45,8 @@ Json MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled, const
           {"A", scaled.A},
           {"b", scaled.b},
           {"options",
-           {{"max_iterations", options.max_iterations},
+           {{"first_start", 0},
+            {"max_iterations", options.max_iterations},
             {"starts", 1},
             {"seed", options.seed},
             {"formulation", quadratic ? "qp" : "nlp"}}}};
@@ -55,12 +57,7 @@ void RequireHandled(const ExactProblem& problem, const ProposalOptions& options)
                  "ipopt: starts, iterations and words are at least 1");
   STICTION_CHECK(options.patience > 0 && options.patience <= 1e6, "ipopt: patience is from 0 to 1e6 seconds");
   if (problem.dimension != 2) throw InputError("dimension: found 3, expected 2 for ipopt");
-  if (options.formulation == Formulation::kNonlinear) return;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    if (problem.contacts[i].kind == ContactKind::kFrictionless) continue;
-    throw InputError(fmt::format("contacts[{}].kind: found {}, expected frictionless for equation (5)", i,
-                                 Name(problem.contacts[i].kind)));
-  }
+  if (options.formulation == Formulation::kQuadratic) RequireFrictionless(problem);
 }
 
 }  // namespace
@@ -131,6 +128,15 @@ IpoptProposer::Point IpoptProposer::ReadPoint(const std::string& text, ProposalS
   return point;
 }
 
+// Forces of the scaled problem.
+std::optional<std::vector<double>> IpoptProposer::AskForces(const Json& request, int rows, double patience,
+                                                            ProposalStatistics& statistics) {
+  auto point = Ask(JsonText(request) + "\n", patience, statistics);
+  if (!point) return std::nullopt;
+  if (static_cast<int>(point->f.size()) == rows) return std::move(point->f);
+  throw InputError(fmt::format("{}: found {} forces, expected {}", program_.string(), point->f.size(), rows));
+}
+
 std::optional<ExactVector> IpoptProposer::Search(const ExactProblem& problem, const ProposalOptions& options,
                                                  ProposalStatistics& statistics) {
   const ScaledProblem scaled = MakeScaled(problem);
@@ -138,18 +144,29 @@ std::optional<ExactVector> IpoptProposer::Search(const ExactProblem& problem, co
   std::set<ModeWord> tried;
   for (int start = 0; start < options.starts; ++start) {
     request["options"]["first_start"] = start;
-    const auto point = Ask(JsonText(request) + "\n", options.patience, statistics);
-    if (!point) return std::nullopt;
-    if (static_cast<int>(point->f.size()) != problem.rows()) {
-      throw InputError(
-          fmt::format("{}: found {} forces, expected {}", program_.string(), point->f.size(), problem.rows()));
-    }
-    NearbySolution near = SolveNear(problem, scaled, point->f, options.words, tried);
+    const auto f = AskForces(request, problem.rows(), options.patience, statistics);
+    if (!f) return std::nullopt;
+    NearbySolution near = SolveNear(problem, scaled, *f, options.words, tried);
     statistics.words += near.words;
     statistics.first_words += near.is_first;
     if (near.f) return std::move(near.f);
   }
   return std::nullopt;
+}
+
+std::optional<std::vector<double>> IpoptProposer::ProposePoint(const ExactProblem& problem,
+                                                               const ProposalOptions& options,
+                                                               ProposalStatistics& statistics) {
+  const Clock::time_point begin = Clock::now();
+  RequireHandled(problem, options);
+  const ScaledProblem scaled = MakeScaled(problem);
+  auto f = AskForces(MakeRequest(problem, scaled, options), problem.rows(), options.patience, statistics);
+  if (f) {
+    for (double& x : *f) x *= ToDouble(scaled.force);
+  }
+  ++statistics.problems;
+  statistics.seconds += SecondsSince(begin);
+  return f;
 }
 
 std::optional<ExactVector> IpoptProposer::ProposeSolution(const ExactProblem& problem,

@@ -40,6 +40,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "certify/modes.h"
 
@@ -117,6 +118,11 @@ class IpoptProposer {
   std::optional<ExactVector> ProposeSolution(const ExactProblem& problem, const ProposalOptions& options,
                                              ProposalStatistics& statistics);
 
+  // The point that Ipopt ends at from its first start, in the units of the problem, as it is; empty if the
+  // process gave no answer. InputError as above.
+  std::optional<std::vector<double>> ProposePoint(const ExactProblem& problem, const ProposalOptions& options,
+                                                  ProposalStatistics& statistics);
+
   // Of the running process; -1 if it died and has not been started anew.
   int process_id() const;
 
@@ -125,6 +131,8 @@ class IpoptProposer {
 
   std::optional<ExactVector> Search(const ExactProblem& problem, const ProposalOptions& options,
                                     ProposalStatistics& statistics);
+  std::optional<std::vector<double>> AskForces(const Json& request, int rows, double patience,
+                                               ProposalStatistics& statistics);
   std::optional<Point> Ask(const std::string& request, double patience, ProposalStatistics& statistics);
   Point ReadPoint(const std::string& text, ProposalStatistics& statistics) const;
 

@@ -27,6 +27,18 @@ namespace {
 
 mpz_class FromCgal(const CGAL::Gmpz& x) { return mpz_class(x.mpz()); }
 
+Rational FromCgal(const CGAL::Quotient<CGAL::Gmpz>& x) {
+  Rational number(FromCgal(x.numerator()), FromCgal(x.denominator()));
+  number.canonicalize();
+  return number;
+}
+
+CGAL::Quadratic_program_options BlandsRule() {
+  CGAL::Quadratic_program_options options;
+  options.set_pricing_strategy(CGAL::QP_BLAND);
+  return options;
+}
+
 CGAL::Comparison_result ToCgal(Relation relation) {
   if (relation == Relation::kZero) return CGAL::EQUAL;
   return relation == Relation::kAtLeastZero ? CGAL::LARGER : CGAL::SMALLER;
@@ -59,9 +71,7 @@ std::variant<Point, Combination> Solve(const LinearSystem& system) {
       if (system.free[j]) program.set_a(column++, i, -coefficient);
     }
   }
-  CGAL::Quadratic_program_options options;
-  options.set_pricing_strategy(CGAL::QP_BLAND);
-  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), options);
+  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), BlandsRule());
   if (solution.is_infeasible()) {
     Combination combination;
     auto lambda = solution.infeasibility_certificate_begin();
@@ -71,17 +81,34 @@ std::variant<Point, Combination> Solve(const LinearSystem& system) {
   STICTION_CHECK(solution.is_optimal(), "a feasibility program is either infeasible or solved");
   Point x;
   auto value = solution.variable_values_begin();
-  const auto next = [&value] {
-    const auto quotient = *value++;
-    Rational number(FromCgal(quotient.numerator()), FromCgal(quotient.denominator()));
-    number.canonicalize();
-    return number;
-  };
   for (int j = 0; j < variables; ++j) {
-    x.push_back(next());
-    if (system.free[j]) x.back() -= next();
+    x.push_back(FromCgal(*value++));
+    if (system.free[j]) x.back() -= FromCgal(*value++);
   }
   return x;
+}
+
+// QP_solver is given twice the matrix of x'Dx, below its diagonal: that is M.
+QuadraticEnd Minimize(const QuadraticProgram& program) {
+  const int variables = static_cast<int>(program.c.size());
+  CGAL::Quadratic_program<CGAL::Gmpz> copy(CGAL::SMALLER, true, 0, false, 0);
+  for (int i = 0; i < variables; ++i) {
+    copy.set_c(i, CGAL::Gmpz(program.c[i].get_mpz_t()));
+    for (int j = 0; j <= i; ++j) copy.set_d(i, j, CGAL::Gmpz(program.M[i][j].get_mpz_t()));
+  }
+  const auto solution = CGAL::solve_nonnegative_quadratic_program(copy, CGAL::Gmpz(), BlandsRule());
+  QuadraticEnd end;
+  end.iterations = solution.number_of_iterations();
+  end.bounded = solution.is_optimal();
+  STICTION_CHECK(end.bounded || solution.is_unbounded(), "x >= 0 is never infeasible");
+  if (end.bounded) {
+    auto value = solution.variable_values_begin();
+    for (int j = 0; j < variables; ++j) end.x.push_back(FromCgal(*value++));
+  } else {
+    auto value = solution.unboundedness_certificate_begin();
+    for (int j = 0; j < variables; ++j) end.x.emplace_back(FromCgal(*value++));
+  }
+  return end;
 }
 
 }  // namespace stiction

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear systems of equations and inequalities over integers, solved exactly by CGAL's QP_solver over Gmpz.
+// Linear systems of equations and inequalities, and quadratic programs, over integers: solved exactly by CGAL's
+// QP_solver over Gmpz.
 //
-// Nothing that comes out is to be believed: callers check points and combinations against what they ask.
+// Nothing that comes out is to be believed: callers check points, combinations and rays against what they ask.
 
 #ifndef STICTION_CERTIFY_LINEAR_SYSTEM_H_
 #define STICTION_CERTIFY_LINEAR_SYSTEM_H_
 
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -38,6 +40,21 @@ using Combination = std::vector<mpz_class>;
 // A solution, or a combination that shows that there is none. Bland's rule, since degenerate systems are the
 // usual case here and QP_solver's other rules may cycle. A free variable is the difference of two.
 std::variant<Point, Combination> Solve(const LinearSystem& system);
+
+// Minimize x'Mx / 2 + c'x over x >= 0. M: symmetric, positive semidefinite, by rows.
+struct QuadraticProgram {
+  std::vector<std::vector<mpz_class>> M;
+  std::vector<mpz_class> c;
+};
+
+struct QuadraticEnd {
+  bool bounded = true;
+  Point x;  // where it is least; if unbounded, a direction x >= 0 with M x = 0 and c'x < 0
+  std::int64_t iterations = 0;
+};
+
+// Bland's rule here too. Requires a variable.
+QuadraticEnd Minimize(const QuadraticProgram& program);
 
 }  // namespace stiction
 

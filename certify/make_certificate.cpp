@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"

@@ -7,10 +7,12 @@
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "certify/nearby_words.h"
+#include "certify/qp.h"
+#include "certify/qp_ipopt.h"
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "corpus/rounded.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 #include "solver/solve.ipp"
 
 namespace stiction {
@@ -23,9 +25,10 @@ constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `
 
 // ---- Runs ------------------------------------------------------------------------------------
 
-Answer<Rational> RunCompleteInSpace(const ExactProblem& problem, const SolveOptions& options,
-                                    ExactTrace* trace) {
+template <SpaceEngine kEngine>
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
   SpaceOptions space;
+  space.engine = kEngine;
   space.law = options.law;
   space.sides = options.sides;
   space.limits = options.limits;
@@ -103,6 +106,27 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions&
   return answer;
 }
 
+Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
+  QpRun run = SolveQp(problem);
+  Answer<Rational> answer;
+  answer.outcome = run.outcome;
+  answer.f = std::move(run.f);
+  answer.ray = std::move(run.ray);
+  answer.counters = {{"iterations", run.iterations}};
+  return answer;
+}
+
+Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const SolveOptions&, Trace<double>*) {
+  IpoptProposer proposer;
+  const RoundedQpRun run = SolveQpByIpopt(Unrounded(problem), proposer, 1);  // the gate judges
+  Answer<double> answer;
+  answer.outcome = run.outcome;
+  answer.reason = run.reason;
+  if (!run.f.empty()) answer.f = Eigen::Map<const Eigen::VectorXd>(run.f.data(), problem.rows());
+  answer.counters = {{"iterations", run.iterations}};
+  return answer;
+}
+
 // ---- The table ---------------------------------------------------------------------------------
 
 constexpr std::string_view kExactEnd = "a solution, verified; nothing where it finds none";
@@ -140,15 +164,41 @@ ExactMethod FastRow() {
           .space = {}};
 }
 
+constexpr std::string_view kQpTitle = "the quadratic program f'Af / 2 + b'f over f >= 0, frictionless";
+constexpr std::string_view kQpSource = "[Baraff94] 5.1, equation (5); certify/qp.h";
+
+ExactMethod QpRow() {
+  return {.name = "qp",
+          .title = kQpTitle,
+          .source = kQpSource,
+          .ends = "a solution, or a direction that proves that there is none (CGAL)",
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunQp, true},
+          .space = {&RunQp, true}};
+}
+
+Method<double> QpByIpoptRow() {
+  return {.name = "qp",
+          .title = kQpTitle,
+          .source = kQpSource,
+          .ends = "nothing (Ipopt); what is called solved has the residual that is asked for",
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunQpByIpopt, true},
+          .space = {&RunQpByIpopt, true}};
+}
+
 }  // namespace
 
 template <>
 std::span<const ExactMethod> Methods<Rational>() {
   static const std::array rows = {
-      CompleteRow<Rational>({&RunCompleteInSpace, true}),
-      LemkeRow<Rational>({}),
+      CompleteRow<Rational>({&RunOnPolygons<SpaceEngine::kComplete>, true}),
+      LemkeRow<Rational>({&RunOnPolygons<SpaceEngine::kLemke>, true}),
       EnumerateRow(),
       FastRow(),
+      QpRow(),
       IpoptRow(),
       BaraffRow<Rational>({}),
   };
@@ -158,6 +208,11 @@ std::span<const ExactMethod> Methods<Rational>() {
 template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
 template const ExactMethod* FindMethod(std::string_view);
 
+std::span<const Method<double>> MethodsByProcess() {
+  static const std::array rows = {QpByIpoptRow()};
+  return rows;
+}
+
 // ---- All arithmetics ---------------------------------------------------------------------------
 
 namespace {
@@ -165,8 +220,8 @@ namespace {
 class FactsList {
  public:
   template <class Scalar>
-  void Add() {
-    for (const Method<Scalar>& method : Methods<Scalar>()) {
+  void Add(std::span<const Method<Scalar>> methods) {
+    for (const Method<Scalar>& method : methods) {
       MethodFacts& facts = RowOf(method);
       for (const int dimension : {2, 3})
         Mark(facts, dimension, kArithmeticOf<Scalar>, method.IsBuilt(dimension));
@@ -181,12 +236,16 @@ class FactsList {
     }
   }
 
+  void AddIntervals(const IntervalMethod& method) {
+    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
+    Mark(*row, method.dimension, Arithmetic::kInterval, true);
+  }
+
   static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
     facts.built[dimension - 2][static_cast<int>(arithmetic)] |= built;
   }
 
   std::vector<MethodFacts> Take() { return std::move(rows_); }
-  std::vector<MethodFacts>& rows() { return rows_; }
 
  private:
   template <class Scalar>
@@ -202,13 +261,13 @@ class FactsList {
 
 std::vector<MethodFacts> MakeFacts() {
   FactsList list;
-  list.Add<Rational>();
+  list.Add(Methods<Rational>());
   list.AddToldExactly();
-  list.Add<float>();
-  list.Add<double>();
-  list.Add<long double>();
-  for (MethodFacts& facts : list.rows())
-    FactsList::Mark(facts, 3, Arithmetic::kInterval, facts.name == "baraff");
+  list.Add(Methods<float>());
+  list.Add(Methods<double>());
+  list.Add(Methods<long double>());
+  list.Add(MethodsByProcess());
+  for (const IntervalMethod& method : IntervalMethods()) list.AddIntervals(method);
   return list.Take();
 }
 

@@ -8,6 +8,7 @@
 #include "certify/witness.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "certify/intervals.h"
 #include "certify/published_space.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
@@ -18,6 +19,11 @@ constexpr int kExactRows = 60;  // from which on `auto` solves over doubles
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
          arithmetic == Arithmetic::kLongDouble;
+}
+
+template <class Scalar>
+double BoundOf(const SolveOptions& options) {
+  return options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
 }
 
 // ---- Exact -------------------------------------------------------------------------------------
@@ -63,31 +69,7 @@ Eigen::VectorXd InDoubles(const Vector& values) {
 
 template <class Scalar>
 Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
-  Pivot<double> result{.drive = pivot.drive,
-                       .driven = pivot.driven,
-                       .goal = pivot.goal,
-                       .df = InDoubles(pivot.df),
-                       .da = InDoubles(pivot.da),
-                       .s = static_cast<double>(pivot.s),
-                       .limiting = pivot.limiting,
-                       .from = pivot.from,
-                       .to = pivot.to,
-                       .wanted = pivot.wanted,
-                       .gave_up = pivot.gave_up,
-                       .f = InDoubles(pivot.f),
-                       .a = InDoubles(pivot.a),
-                       .sets = pivot.sets,
-                       .turned_away = pivot.turned_away,
-                       .recorded = {},
-                       .word = pivot.word,
-                       .determinant = pivot.determinant,
-                       .turn = pivot.turn,
-                       .entering = pivot.entering,
-                       .leaving = pivot.leaving,
-                       .cover = static_cast<double>(pivot.cover)};
-  for (const auto& d : pivot.recorded)
-    result.recorded.push_back({static_cast<double>(d[0]), static_cast<double>(d[1])});
-  return result;
+  return Converted<double>(pivot, [](const Scalar& x) { return static_cast<double>(x); });
 }
 
 // Forces of long double are rounded to what is told of them before they are judged.
@@ -117,10 +99,6 @@ InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem
   return result;
 }
 
-Suspicion SuspicionOf(const InexactAnswer& answer) {
-  return {answer.outcome, answer.reason, answer.start, answer.period, answer.arithmetic, answer.residual};
-}
-
 // The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
 InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
   Tolerances& t = request.options.tolerances;
@@ -128,7 +106,7 @@ InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest requ
   t.loop_grain = std::min(t.loop_grain, 1e-12);
   request.trace = KeepTrace::kNo;
   const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
-  return InDoubles(SolveTraced(wide, request), wide, request.options.residual);
+  return InDoubles(SolveTraced(wide, request), wide, BoundOf<double>(request.options));
 }
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
@@ -168,14 +146,31 @@ TracedAnswer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const 
   return answer;
 }
 
+// The row that runs in a process of its own; null if there is none.
+template <class Scalar>
+const Method<Scalar>* FindProcess(std::string_view name) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    const auto rows = MethodsByProcess();
+    const auto row = std::find_if(rows.begin(), rows.end(), [name](auto& m) { return m.name == name; });
+    if (row != rows.end()) return &*row;
+  }
+  return nullptr;
+}
+
+template <class Scalar>
+TracedAnswer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+  if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
+    return SolveTraced(problem, request);
+  if (const Method<Scalar>* process = FindProcess<Scalar>(request.method))
+    return Traced(SolveBy(*process, problem, request.options), Trace<Scalar>());
+  return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
+}
+
 template <class Scalar>
 Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
   const ContactProblem<Scalar> rounded = Rounded<Scalar>(problem);
-  const double bound = request.options.residual > 0 ? request.options.residual : kSolvedResidual<Scalar>;
-  const bool built = request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr;
   Solution solution;
-  solution.answer =
-      InDoubles(built ? SolveTraced(rounded, request) : SolveAndRound(rounded, request, bound), rounded, bound);
+  solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
   Confirm(Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); }), request, solution);
   return solution;
 }
@@ -190,29 +185,45 @@ Eigen::VectorXd MiddleOf(const std::vector<Enclosure>& values) {
   return middles;
 }
 
-// What intervals prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
-Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  const SolveOptions& options = request.options;
+IntervalRun RunBaraffInSpace(const ExactProblem& problem, const SolveOptions& options, KeepTrace) {
   const IntervalSpaceRun run =
       RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
+  return {run.verdict, run.f, run.a,
+          run.ray,     {},    {{"redirects", run.verdict.redirects}, {"breaks", run.verdict.breaks}}};
+}
+
+IntervalRun RunBaraff(const ExactProblem& problem, const SolveOptions& options, KeepTrace keep) {
+  return RunPublishedOverIntervals(problem, {options.policy, options.tolerances, options.limits}, keep);
+}
+
+IntervalRun RunLemke(const ExactProblem& problem, const SolveOptions& options, KeepTrace keep) {
+  return RunLemkeOverIntervals(problem, options.limits, keep);
+}
+
+// What intervals prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
+Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
+  const auto methods = IntervalMethods();
+  const auto method = std::find_if(methods.begin(), methods.end(), [&](auto& m) {
+    return m.name == request.method && m.dimension == problem.dimension;
+  });
+  IntervalRun run = method->run(problem, request.options, request.trace);
   InexactAnswer answer;
   answer.outcome = run.verdict.outcome;
   answer.reason = run.verdict.reason;
   answer.start = run.verdict.start;
   answer.period = run.verdict.period;
-  answer.method = "baraff";
+  answer.method = method->name;
   answer.arithmetic = Arithmetic::kInterval;
   answer.f = MiddleOf(run.f);
   answer.ray = MiddleOf(run.ray);
+  answer.first_f = Eigen::VectorXd::Zero(problem.rows());
   answer.counters = CountersOf(run.verdict.statistics);
-  answer.counters.push_back({"redirects", run.verdict.redirects});
-  answer.counters.push_back({"breaks", run.verdict.breaks});
-  if (answer.Solved())
-    JudgeAnswer(Rounded<double>(problem), options.residual > 0 ? options.residual : kSolvedResidual<double>,
-                answer);
+  answer.counters.insert(answer.counters.end(), run.more.begin(), run.more.end());
+  if (answer.Solved()) JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
   answer.a = MiddleOf(run.a);
-  answer.f_enclosed = run.f;
-  answer.a_enclosed = run.a;
+  answer.pivots = std::move(run.pivots);
+  answer.f_enclosed = std::move(run.f);
+  answer.a_enclosed = std::move(run.a);
   return {std::move(answer), std::nullopt};
 }
 
@@ -243,6 +254,18 @@ std::vector<std::string_view> MethodsOf(int dimension, Arithmetic arithmetic) {
 
 }  // namespace
 
+Suspicion SuspicionOf(const InexactAnswer& answer) {
+  return {answer.outcome,    answer.reason,   answer.start,   answer.period,
+          answer.arithmetic, answer.residual, answer.counters};
+}
+
+std::span<const IntervalMethod> IntervalMethods() {
+  static constexpr std::array rows = {IntervalMethod{"baraff", 2, &RunBaraff},
+                                      IntervalMethod{"lemke", 2, &RunLemke},
+                                      IntervalMethod{"baraff", 3, &RunBaraffInSpace}};
+  return rows;
+}
+
 std::optional<Arithmetic> FindArithmetic(std::string_view name) {
   const auto at = std::find(kArithmeticNames.begin(), kArithmeticNames.end(), name);
   if (at == kArithmeticNames.end()) return std::nullopt;
@@ -260,8 +283,10 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
       facts == nullptr ? std::vector<std::string_view>() : ArithmeticsOf(*facts, dimension);
   if (!arithmetics.empty()) return text + fmt::format("; expected one of {}", fmt::join(arithmetics, ", "));
   const auto methods = MethodsOf(dimension, arithmetic);
-  return text + fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic),
-                            methods.empty() ? "none" : fmt::format("{}", fmt::join(methods, ", ")));
+  if (!methods.empty())
+    return text +
+           fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic), fmt::join(methods, ", "));
+  return text + "; expected one of float, double, long-double, exact";
 }
 
 Arithmetic UsualArithmetic(std::string_view method, const ExactProblem& problem) {

@@ -43,6 +43,9 @@ const std::vector<MethodFacts>& AllMethods();
 // The row of that name; null if there is none.
 const MethodFacts* FindMethodFacts(std::string_view name);
 
+// What runs over doubles in a process of its own.
+std::span<const Method<double>> MethodsByProcess();
+
 // The arithmetic of that name; empty if there is none.
 std::optional<Arithmetic> FindArithmetic(std::string_view name);
 
@@ -58,7 +61,7 @@ enum class KeepTrace { kNo, kYes };
 struct SolveRequest {
   std::string method{kAutomatic};
   Arithmetic arithmetic = Arithmetic::kExact;
-  SolveOptions options;
+  SolveOptions options = {};
   KeepTrace trace = KeepTrace::kNo;  // of path methods
   bool confirm = true;               // whether suspicions are run again
 };
@@ -84,7 +87,19 @@ struct Suspicion {
   std::int64_t start = 0, period = 0;
   Arithmetic arithmetic = Arithmetic::kDouble;
   double residual = -1;
+  std::vector<Counter> counters;
 };
+Suspicion SuspicionOf(const InexactAnswer& answer);
+
+struct IntervalRun;
+
+// A method over intervals, in one dimension.
+struct IntervalMethod {
+  std::string_view name;
+  int dimension;
+  IntervalRun (*run)(const ExactProblem&, const SolveOptions&, KeepTrace);
+};
+std::span<const IntervalMethod> IntervalMethods();
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/lemke_space.h"
 #include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
@@ -262,7 +263,8 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
   const ContactProblem<double> rounded = coulomb ? Rounded<double>(problem) : ContactProblem<double>();
   SpaceSolution solution;
   for (;; ++solution.refinements) {
-    SpaceRun run = RunSpace(problem, polygons, options.limits, trace);
+    SpaceRun run = options.engine == SpaceEngine::kLemke ? RunLemkeInSpace(problem, polygons, options.limits)
+                                                         : RunSpace(problem, polygons, options.limits, trace);
     Add(solution.statistics, run.verdict.statistics);
     if (run.verdict.outcome != Outcome::kSolved) {
       if (solution.outcome == Outcome::kSolved) break;  // a bound that was not improved

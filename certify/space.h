@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solutions in space, exact: of the conditions (21), (22) of [Baraff94], or of Coulomb's law up to a bound.
 //
-// Both begin with the exact solution of complete driving on friction polygons
-// (solver/complete/complete.h).
+// Both begin with an exact solution on friction polygons, of complete driving
+// (solver/complete/complete.h) or of Lemke's method (lemke_space.h): the engine, which runs again on the
+// polygons with more corners.
 //
 //   Baraff    Contacts in a corner, separating or sticking meet (21), (22) as they are. Of one on an edge,
 //             where abs(fF) < mu fN, the edge is replaced by a point u of the circle near fF / abs(fF), and the
 //             word with fF = mu fN u is solved as linear equations. If that breaks a condition, u becomes a
-//             corner of the polygon, and complete driving runs again.
+//             corner of the polygon, and the engine runs again.
 //   Coulomb   The polygon's solution has -fF.aF >= c mu fN abs(aF), c the inner radius of the polygon. Newton's
 //             method in doubles goes on from it (solver/numeric/coulomb.h); its word, with directions of slip
 //             rounded to rational points of the circle, is solved as linear equations, and c measured. If that
-//             fails, corners are added opposite to the accelerations, and complete driving runs again.
+//             fails, corners are added opposite to the accelerations, and the engine runs again.
 //
 // Whatever is returned as solved was verified by verify_solution.h.
 
@@ -41,15 +42,18 @@ struct SpaceRun {
 SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
                   Trace<Rational>* trace = nullptr);
 
+enum class SpaceEngine { kComplete, kLemke };
+
 struct SpaceOptions {
   FrictionLaw law = FrictionLaw::kBaraff;
+  SpaceEngine engine = SpaceEngine::kComplete;
   int sides = 8;         // of every polygon at the start
   int refinements = 20;  // runs with more corners, at most
   Limits limits;
 };
 
 struct SpaceSolution {
-  // solved; ray, limit and undecided as complete driving ends; undecided if no refinement helped
+  // solved; ray, limit and undecided as the engine ends; undecided if no refinement helped
   Outcome outcome = Outcome::kUndecided;
   std::string_view reason;
   ExactVector f, a;  // where solved

@@ -66,7 +66,9 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
   ModeWord prefix;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const auto modes = ModesOf(problem.contacts[i]);
-    const auto mode = std::ranges::find_if(modes, [&](Mode m) { return json[i] == std::string(Name(m)); });
+    const auto* name = json[i].get_ptr<const std::string*>();  // null if it is no text
+    const auto mode =
+        std::ranges::find_if(modes, [name](Mode m) { return name != nullptr && *name == Name(m); });
     if (mode == modes.end()) {
       const ModeWord all(modes.begin(), modes.end());
       throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + WordToJson(all).dump()};

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/answer_text.h"
 
-#include <cmath>
-
-#include "certify/certificate.h"
-#include "cli/shared.h"
+#include "cli/narrate_text.h"
 
 namespace stiction {
 namespace {
 
-Json ToJson(const Eigen::VectorXd& values) { return NumbersToJson(values); }
-Json ToJson(const ExactVector& values) { return VectorToJson(values); }
-Json ToJson(const std::vector<Enclosure>& values) {
+Json EnclosuresToJson(const std::vector<Enclosure>& values) {
   Json json = Json::array();
   for (const Enclosure& x : values) json.push_back({NumberToJson(x.low), NumberToJson(x.high)});
   return json;
@@ -20,13 +15,13 @@ Json ToJson(const std::vector<Enclosure>& values) {
 template <class Scalar>
 void AddVectors(const TracedAnswer<Scalar>& answer, Json& json) {
   if (answer.f_enclosed.empty()) {
-    json["f"] = answer.f.size() > 0 || answer.Solved() ? ToJson(answer.f) : Json(nullptr);
-    json["a"] = answer.a.size() > 0 || answer.Solved() ? ToJson(answer.a) : Json(nullptr);
+    json["f"] = answer.f.size() > 0 || answer.Solved() ? ListJson(answer.f) : Json(nullptr);
+    json["a"] = answer.a.size() > 0 || answer.Solved() ? ListJson(answer.a) : Json(nullptr);
   } else {
-    json["f"] = ToJson(answer.f_enclosed);
-    json["a"] = ToJson(answer.a_enclosed);
+    json["f"] = EnclosuresToJson(answer.f_enclosed);
+    json["a"] = EnclosuresToJson(answer.a_enclosed);
   }
-  if (answer.ray.size() > 0) json["ray"] = ToJson(answer.ray);
+  if (answer.ray.size() > 0) json["ray"] = ListJson(answer.ray);
 }
 
 template <class Scalar>

@@ -53,9 +53,12 @@ int Export(const ExportOptions& o) {
   SparseProblem problem = ToSparse(ReadProblem(o.file));
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
-  fmt::print("{}: {} numbers rounded", o.output, report.rounded);
-  if (report.rounded > 0) fmt::print(", by {:.2g} of their value at most", ToDouble(report.largest_change));
-  fmt::print("\n");
+  // With the problem itself on standard output, nothing else may stand there.
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  out << fmt::format("{}: {} numbers rounded", o.output, report.rounded);
+  if (report.rounded > 0)
+    out << fmt::format(", by {:.2g} of their value at most", ToDouble(report.largest_change));
+  out << "\n";
   return kExitDone;
 }
 
@@ -74,7 +77,7 @@ void AddImport(CommandLine& program) {
 void AddExport(CommandLine& program) {
   auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
   verb.Positional("FILE", o.file, "stiction-problem file").Required();
-  verb.Option("-o,--output", o.output, "file to write").Required();
+  verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format to write").Required().OneOf(FormatNames());
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());

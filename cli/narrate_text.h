@@ -68,8 +68,8 @@ class VariableTexts {
 // A f + b before the first step, in the numbers of the answer.
 template <class Scalar>
 typename Answer<Scalar>::Vector FirstAccelerations(const ExactProblem& problem, const Answer<Scalar>& answer) {
-  const ExactVector f = answer.first_f.unaryExpr([](const Scalar& x) { return Rational(x); });
-  const ExactVector a = problem.A * f + problem.b;
+  const ExactProblem::Vector f = answer.first_f.unaryExpr([](const Scalar& x) { return Rational(x); });
+  const ExactProblem::Vector a = problem.A * f + problem.b;
   if constexpr (kIsExact<Scalar>) {
     return a;
   } else {

@@ -51,7 +51,7 @@ SolveRequest RequestOf(const ReplayOptions& o, const ProblemFile& file, const Po
 Solution SolveFile(const ReplayOptions& o, const ProblemFile& file, const SolveRequest& request) {
   try {
     return SolveIn(file.problem, request);
-  } catch (const RangeError& error) {
+  } catch (const InputError& error) {
     throw InputError(o.file + ": " + error.what());
   }
 }

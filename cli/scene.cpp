@@ -15,9 +15,10 @@
 
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/grouped.h"
+#include "corpus/output_error.h"
 #include "corpus/scene_file.h"
-#include "reports/draw_space.h"
-#include "search/summary.h"
+#include "reports/draw.h"
 
 namespace stiction {
 namespace {
@@ -41,8 +42,8 @@ std::string NumberedFile(const std::string& file, std::size_t number, std::size_
   return numbered.string();
 }
 
-template <class SceneType>
-int RunAssemble(const AssembleCommand& o, const SceneFileOf<SceneType>& file) {
+template <class Kind>
+int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto contacts = FindContacts(file.scene);
   AssembleOptions<Rational> options;
   options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
@@ -86,7 +87,7 @@ struct SimulateCommand {
   std::optional<double> seconds, step;
   double rest = 0;
   int frames_a_second = 30, threads = 0;
-  bool full = false, svg = true;
+  bool full = false, svg = true, replace = false;
 };
 
 ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
@@ -119,24 +120,25 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
 
-double SumOfNumbers(const RigidBody<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia + 1 / body.inertia + body.position.sum() +
-         body.velocity.sum() + body.spin + body.acceleration.sum() + body.force.sum() + body.torque;
+double SumOf(double x) { return x; }
+template <class Numbers>
+double SumOf(const Numbers& numbers) {
+  return numbers.sum();
 }
+double SumOfInertia(double inertia) { return inertia + 1 / inertia; }
+double SumOfInertia(const Matrix3<double>& inertia) { return inertia.sum() + Inverse3<double>(inertia).sum(); }
 
-const auto& CornersOf(const BodyShape<double>& shape) { return shape.polygon; }
-const auto& CornersOf(const ShapeInSpace<double>& shape) { return shape.corners; }
-
-double SumOfNumbers(const BodyInSpace<double>& body) {
-  return body.mass + 1 / body.mass + body.inertia.sum() + Inverse3<double>(body.inertia).sum() +
-         body.position.sum() + body.rotation.sum() + body.velocity.sum() + body.spin.sum() +
-         body.acceleration.sum() + body.force.sum() + body.torque.sum();
+template <class Kind>
+double SumOfNumbers(const BodyIn<Kind, double>& body) {
+  return body.mass + 1 / body.mass + SumOfInertia(body.inertia) + body.position.sum() + body.rotation.sum() +
+         body.velocity.sum() + SumOf(body.spin) + body.acceleration.sum() + body.force.sum() +
+         SumOf(body.torque);
 }
 
 // The finite scene of a file.
-template <class SceneType>
-auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source) {
-  auto scene = Round(file.scene);
+template <class Kind>
+SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::string& source) {
+  SceneIn<Kind, double> scene = Round(file.scene);
   const auto require = [&source](double sum, const std::string& place) {
     if (!std::isfinite(sum)) {
       throw InputError(
@@ -147,7 +149,7 @@ auto RoundedScene(const SceneFileOf<SceneType>& file, const std::string& source)
     double sum = SumOfNumbers(body);
     for (const auto& shape : body.shapes) {
       sum += shape.center.sum() + shape.radius;
-      for (const auto& corner : CornersOf(shape)) sum += corner.sum();
+      for (const auto& corner : shape.corners) sum += corner.sum();
     }
     require(sum, "body " + body.name);
   }
@@ -164,32 +166,29 @@ double Within(const Rational& x, double least, double most, const std::string& p
   if (value >= least && value <= most) return value;
   throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
 }
-template <class SceneType>
-double StepOf(const SceneFileOf<SceneType>& file, const std::string& source) {
+template <class Kind>
+double StepOf(const SceneFileIn<Kind>& file, const std::string& source) {
   return Within(file.step, 1e-9, 1, source + ": step");
 }
 
-// The folder with what a run writes. Tables grow as the run goes; pictures, which share a view, come at its
-// end.
-template <class SceneType>
+// The folder with what a run writes: tables as the run goes, pictures, which share a view, at its end.
+template <class Kind>
 class SimulationWriter {
  public:
-  using Picture = typename DrawingOf<SceneType>::FrameType;
+  using SceneType = SceneIn<Kind, double>;
+  using Picture = FrameIn<Kind>;
 
   explicit SimulationWriter(const SimulateCommand& o)
-      : o_(o), energy_file_(fs::path(o.output) / "energy.csv"), drift_file_(fs::path(o.output) / "drift.csv") {
-    MakeFolder(o.output);
-    if (o.svg) MakeFolder(fs::path(o.output) / "frames");
-    if (!o.problems.empty()) MakeFolder(o.problems);
-    RemoveOlder();
-    energy_.open(energy_file_);
-    drift_.open(drift_file_);
+      : o_(o), folder_(o.output, "simulate", OccupiedIf(o.replace)) {
+    if (!o.problems.empty()) MakeFolder(Place(o.problems));
+    energy_.open(Place(fs::path(o.output) / "energy.csv"));
+    drift_.open(Place(fs::path(o.output) / "drift.csv"));
     energy_ << "time_s,kinetic_J,potential_J,total_J\n";
     drift_ << "time_s,joints_m,overlap_m\n";
     Flush();
   }
 
-  void AddState(const SimulationOf<SceneType>& simulation) {
+  void AddState(const SimulationIn<Kind>& simulation) {
     const Energy energy = EnergyOf(simulation.scene());
     const Drift drift = DriftOf(simulation.scene());
     energy_ << fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
@@ -206,51 +205,50 @@ class SimulationWriter {
     Flush();
   }
 
+  // Where a file is while the folder of the output is not whole.
+  fs::path Place(const fs::path& path) const { return folder_.Place(path); }
+
   void WritePictures(const SceneType& scene) {
-    const fs::path folder(o_.output);
     view_.AddMargin();
     std::vector<double> largest;
     for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
     const double newton = ForceScale(view_, std::move(largest));
-    WriteText((folder / "animation.html").string(),
-              DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
+    folder_.Write("animation.html",
+                  DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
     SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
       SetPoses(moved, pictures_[k]);
-      WriteText((folder / "frames" / FrameName(k)).string(), DrawSvg(moved, view_, pictures_[k].marks, newton));
+      folder_.Write(fmt::format("frames/{:05}.svg", k), DrawSvg(moved, view_, pictures_[k].marks, newton));
     }
+  }
+
+  void Commit() {
+    energy_.close();
+    drift_.close();
+    Flush();
+    TellAside(folder_.Commit());
   }
 
   const Drift& worst() const { return worst_; }
 
  private:
-  static std::string FrameName(std::size_t k) { return fmt::format("{:05}.svg", k); }
-
-  // What would stand from a run before among the files of this one.
-  void RemoveOlder() const {
-    const fs::path folder(o_.output);
-    fs::remove(folder / "undecided.json");
-    fs::remove(folder / "animation.html");
-    for (std::size_t k = 0; fs::remove(folder / "frames" / FrameName(k)); ++k) continue;
-  }
-
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error)
-      throw InputError(fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+    if (error) RefuseOutput(folder, error.value());
   }
 
   void Flush() {
-    if (!energy_.flush()) throw InputError(fmt::format("{}: cannot be written", energy_file_.string()));
-    if (!drift_.flush()) throw InputError(fmt::format("{}: cannot be written", drift_file_.string()));
+    for (std::ofstream* table : {&energy_, &drift_}) {
+      if (!table->flush()) throw OutputError(o_.output + ": its tables cannot be written");
+    }
   }
 
   const SimulateCommand& o_;
-  fs::path energy_file_, drift_file_;
+  WholeFolder folder_;
   std::ofstream energy_, drift_;
   Drift worst_;
-  typename DrawingOf<SceneType>::ViewType view_;
+  View view_;
   std::vector<Picture> pictures_;
 };
 
@@ -263,8 +261,8 @@ class SimulationProgress {
     shown_ = now;
     const double fraction = static_cast<double>(done) / static_cast<double>(steps);
     const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;
-    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Thousands(done),
-                                    Thousands(steps), left));
+    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Grouped(done),
+                                    Grouped(steps), left));
   }
   ~SimulationProgress() { bar_.Clear(); }
 
@@ -277,9 +275,9 @@ class SimulationProgress {
 // All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
 // the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
 // before it.
-template <class SceneType>
-void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a_second,
-         const std::atomic<bool>& interrupted, SimulationWriter<SceneType>& writer) {
+template <class Kind>
+void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_second,
+         const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
   SimulationProgress progress;
   double next = 0;  // picture, s
   writer.AddState(simulation);
@@ -287,7 +285,7 @@ void Run(SimulationOf<SceneType>& simulation, std::int64_t steps, int pictures_a
     const bool shown = simulation.time() >= next - 1e-9;
     if (shown) next += 1.0 / pictures_a_second;
     const double time = simulation.time();
-    const std::optional<SceneType> start = shown ? std::optional(simulation.scene()) : std::nullopt;
+    const auto start = shown ? std::optional(simulation.scene()) : std::nullopt;
     simulation.Step();
     if (start) writer.AddPicture(*start, RecordFrame(*start, time, MarksOf(simulation)));
     writer.AddState(simulation);
@@ -305,8 +303,8 @@ void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, co
              (fs::path(folder) / "animation.html").string());
 }
 
-template <class ExactScene>
-int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
+template <class Kind>
+int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     o.threads > 0 ? o.threads : tbb::info::default_concurrency());
   SimulationOptions options;
@@ -314,36 +312,38 @@ int RunSimulate(const SimulateCommand& o, const SceneFileOf<ExactScene>& file) {
   options.rest = o.rest;
   options.minimal = !o.full;
   const double seconds = o.seconds ? *o.seconds : Within(file.seconds, 1e-9, 1e6, o.scene + ": seconds");
-  const auto scene = RoundedScene(file, o.scene);
-  using SceneType = std::remove_const_t<decltype(scene)>;
-  SimulationWriter<SceneType> writer(o);
+  const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
+  SimulationWriter<Kind> writer(o);
   std::function<void(const FrameProblem&)> observe;
   if (!o.problems.empty()) {
     const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
-    observe = [&o, &file, scene_name, frame = std::int64_t{-1}, number = 0](const FrameProblem& met) mutable {
+    observe = [&o, &file, &writer, scene_name, frame = std::int64_t{-1},
+               number = 0](const FrameProblem& met) mutable {
       const char* level = kLevelNames[static_cast<int>(met.level)];
       number = met.frame == frame ? number + 1 : 1;  // a frame can ask for several of one level and island
       frame = met.frame;
       const std::string name = fmt::format("{}-{:05}-{:02}-{}.json", scene_name, frame, number, level);
-      WriteProblem(fs::path(o.problems) / name, file.scene.name, met.frame, level, met.problem);
+      WriteProblem(writer.Place(fs::path(o.problems) / name), file.scene.name, met.frame, level, met.problem);
     };
   }
   const std::atomic<bool>& interrupted = Interruption();
-  SimulationOf<SceneType> simulation(scene, options, observe);
+  SimulationIn<Kind> simulation(scene, options, observe);
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
   try {
     Run(simulation, steps, o.frames_a_second, interrupted, writer);
   } catch (const SimulationError& error) {
     const fs::path at = fs::path(o.output) / "undecided.json";
-    WriteProblem(at, file.scene.name, simulation.statistics().frames, "undecided", error.problem);
+    WriteProblem(writer.Place(at), file.scene.name, simulation.statistics().frames, "undecided", error.problem);
     auto marks = MarksOf(simulation);
     marks.forces.clear();  // they are of the step before
     writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), std::move(marks)));
     writer.WritePictures(scene);
+    writer.Commit();
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
     return kExitUndecided;
   }
   writer.WritePictures(scene);
+  writer.Commit();
   WriteSummary(simulation.statistics(), writer.worst(), o.output);
   if (interrupted) {
     fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
@@ -358,14 +358,13 @@ struct DrawCommand {
   std::string scene, output;
 };
 
-template <class ExactScene>
-int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
-  const auto scene = RoundedScene(file, o.scene);
-  using SceneType = std::remove_const_t<decltype(scene)>;
+template <class Kind>
+int RunDraw(const DrawCommand& o, const SceneFileIn<Kind>& file) {
+  const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationOptions options;
   options.step = StepOf(file, o.scene);
-  SimulationOf<SceneType> simulation(scene, options);
-  decltype(MarksOf(simulation)) marks;
+  SimulationIn<Kind> simulation(scene, options);
+  MarksIn<Kind> marks;
   try {
     simulation.Step();
     marks = MarksOf(simulation);
@@ -373,7 +372,7 @@ int RunDraw(const DrawCommand& o, const SceneFileOf<ExactScene>& file) {
     std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
     for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
   }
-  typename DrawingOf<SceneType>::ViewType view;
+  View view;
   view.Include(scene);
   view.AddMargin();
   WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));
@@ -412,8 +411,9 @@ void AddSimulate(CommandLine& program) {
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
       .Required()
       .Details(
-          "energy.csv and drift.csv grow as the run goes; at its end, or where Ctrl-C ends it, animation.html "
-          "and frames/*.svg; undecided.json where a frame has no answer (exit 3)");
+          "Whole, when the run or Ctrl-C ends: energy.csv, drift.csv, animation.html and frames/*.svg; "
+          "undecided.json where a frame has no answer (exit 3)");
+  AddReplace(verb, o.replace);
   verb.Option("--seconds", o.seconds, "simulated time; by default the scene's").Unit("s").Range(1e-9, 1e6);
   verb.Option("--step", o.step, "length of a step; by default the scene's").Unit("s").Range(1e-9, 1);
   verb.Option("--rest", o.rest,

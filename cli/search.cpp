@@ -13,7 +13,10 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
+#include "corpus/grouped.h"
 #include "corpus/json_text.h"
+#include "corpus/kinds.h"
+#include "corpus/store_lock.h"
 #include "reports/report.h"
 #include "search/exponential.h"
 #include "search/summary.h"
@@ -117,10 +120,10 @@ class ProgressLine {
     const double fraction = Fraction(progress);
     const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
     return fmt::format("{} problems, {} a second, {} findings in {} groups, {} to finish, {:.0f} s left",
-                       Thousands(progress.problems),
-                       Thousands(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
-                                                           std::max(progress.seconds, 1e-9))),
-                       Thousands(progress.findings), Thousands(progress.groups), progress.pending, left);
+                       Grouped(progress.problems),
+                       Grouped(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
+                                                         std::max(progress.seconds, 1e-9))),
+                       Grouped(progress.findings), Grouped(progress.groups), progress.pending, left);
   }
 
   std::optional<double> minutes_;
@@ -129,6 +132,17 @@ class ProgressLine {
 };
 
 // ---- Verbs -----------------------------------------------------------------------------------
+
+// Grave findings are an alarm.
+int ExitOf(const Store& store, const std::string& file) {
+  int grave = 0;
+  for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
+  if (grave == 0) return kExitDone;
+  fmt::print(stderr,
+             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles\n",
+             file, grave);
+  return kExitGrave;
+}
 
 int RunSearchVerb(const SearchVerb& o) {
   const Campaign campaign = CampaignOf(o);
@@ -156,7 +170,7 @@ int RunSearchVerb(const SearchVerb& o) {
   if (report.end == SearchEnd::kInterrupted) {
     fmt::print(stderr, "Interrupted; everything done so far is stored. The same command goes on from here.\n");
   }
-  return kExitDone;
+  return ExitOf(store, o.store);
 }
 
 struct StatusVerb {
@@ -213,18 +227,20 @@ struct MergeVerb {
 
 int RunMerge(const MergeVerb& o) {
   const Store first = Store::OpenToRead(o.stores.front());
+  const StoreLock lock(o.out, Shard{});
   Store merged(o.out, first.identity());
   for (const std::string& file : o.stores) merged.MergeFrom(Store::OpenToRead(file));
   std::cout << SummaryText(merged, o.out);
-  return kExitDone;
+  return ExitOf(merged, o.out);
 }
 
 struct ReportVerb {
   std::string store, folder;
+  bool replace = false;
 };
 
 int RunReport(const ReportVerb& o) {
-  WriteReport(Store::OpenToRead(o.store), o.folder);
+  TellAside(WriteReport(Store::OpenToRead(o.store), o.folder, OccupiedIf(o.replace)));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
 }
@@ -304,7 +320,8 @@ void AddReport(CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search").Required();
-  verb.Option("-o,--output", o.folder, "folder to write").Required();
+  verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced").Required();
+  AddReplace(verb, o.replace);
 }
 
 }  // namespace stiction

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <fstream>
-#include <iostream>
 
 #include "certify/bounds.h"
 #include "certify/certificate.h"
@@ -97,6 +95,16 @@ std::vector<Policy> PoliciesNamed(const std::string& text) {
   return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
 }
 
+void AddReplace(Verb& verb, bool& replace) {
+  verb.Flag("--replace", replace, "also a folder that holds files of others; it is kept as NAME.old");
+}
+
+Occupied OccupiedIf(bool replace) { return replace ? Occupied::kSetAside : Occupied::kRefused; }
+
+void TellAside(const std::filesystem::path& aside) {
+  if (!aside.empty()) fmt::print(stderr, "stiction: what stood there is kept as {}\n", aside.string());
+}
+
 std::string Expected(const ProblemFile& file, const Policy& policy) {
   for (const auto& [name, outcome] : file.expect) {
     if (name != "*" && ParsePolicy(name) == policy) return outcome;
@@ -105,20 +113,10 @@ std::string Expected(const ProblemFile& file, const Policy& policy) {
   return all == file.expect.end() ? "" : all->second;
 }
 
-void WriteText(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    std::cout << text;
-    return;
-  }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(fmt::format("{}: cannot be written", file));
-}
-
 const std::atomic<bool>& Interruption() {
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
+  if (std::signal(SIGHUP, OnSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   return interrupted;
 }
 

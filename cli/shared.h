@@ -5,13 +5,17 @@
 #define STICTION_CLI_SHARED_H_
 
 #include <atomic>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/verb.h"
+#include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
+#include "corpus/whole_folder.h"
 #include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 
@@ -40,10 +44,14 @@ std::vector<Policy> PoliciesNamed(const std::string& text);
 // What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
 std::string Expected(const ProblemFile& file, const Policy& policy);
 
-// Writes a text file; "-" is standard output.
-void WriteText(const std::string& file, const std::string& text);
+// --replace, of verbs that write a folder.
+void AddReplace(Verb& verb, bool& replace);
+Occupied OccupiedIf(bool replace);
+// Says on standard error where the folder that stood there is now, if it was kept.
+void TellAside(const std::filesystem::path& aside);
 
-// From the first call on SIGINT and SIGTERM set what it returns, and do nothing else: the verb ends by itself.
+// From the first call on SIGINT, SIGTERM and SIGHUP set what it returns, and do nothing else: the verb ends by
+// itself. SIGHUP stays ignored where it is (nohup).
 const std::atomic<bool>& Interruption();
 
 // A bar on standard error, where that is a terminal.

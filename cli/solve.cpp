@@ -12,6 +12,7 @@
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
 
 namespace stiction {
 namespace {
@@ -51,6 +52,8 @@ SolveRequest RequestOf(const SolveVerb& o, const ExactProblem& problem) {
   request.options.law = o.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
   if (dimension == 2 && o.law != "baraff")
     throw InputError(o.file, "dimension", "2", "3: --law chooses a law of friction in space");
+  if (o.method != "baraff" && request.options.policy != Policy{})
+    throw InputError(fmt::format("--policy {}: expected --method baraff, of which it is a reading", o.policy));
   const bool polygon = o.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
   if (dimension == 3 && polygon) request.method = "complete";  // which that reading is
   request.arithmetic =
@@ -65,7 +68,7 @@ Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest
   request.options.limits.stop = stop.flag();
   try {
     return SolveIn(problem, request);
-  } catch (const RangeError& error) {
+  } catch (const InputError& error) {
     throw InputError(o.file + ": " + error.what());
   }
 }

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
 // The program `stiction`: one verb per task. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "corpus/output_error.h"
 
 namespace {
 
 constexpr const char* kFooter =
     "Exit: 0 done; 1 not solved, rejected, or not as expected; 2 bad usage or input; 3 undecided or a limit; "
-    "70 a bug.";
+    "4 a search or merge holds a grave finding; 70 a bug; 74 the disk is full, or the output cannot be "
+    "written.";
 
 int Main(int argc, char** argv) {
   using namespace stiction;
@@ -45,16 +49,23 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write
   try {
     const int status = Main(argc, argv);
     std::cout.flush();
     if (!std::cout || std::ferror(stdout) != 0 || std::fflush(stdout) != 0) {
-      throw stiction::InputError("standard output cannot be written");
+      throw stiction::OutputError("standard output cannot be written");
     }
     return status;
   } catch (const stiction::InputError& error) {
     std::cerr << "stiction: " << error.what() << "\n";
     return stiction::kExitBadInput;
+  } catch (const stiction::OutputError& error) {
+    std::cerr << "stiction: " << error.what() << "\n";
+    return stiction::kExitDisk;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "stiction: limit: out of memory\n";
+    return stiction::kExitUndecided;
   } catch (const std::exception& error) {
     std::cerr << "stiction: internal error: " << error.what() << "\n";
     return stiction::kExitInternal;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -14,21 +13,18 @@
 #include "certify/certificate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/solve.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
+#include "cli/answer_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
-#include "corpus/rounded.h"
-#include "solver/complete/complete.h"
-#include "solver/lemke/lemke.h"
-#include "solver/numeric/coulomb.h"
+#include "corpus/stopwatch.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
-#include "solver/problem/reduction.ipp"
 #include "solver/problem/residual.h"
-#include "solver/published/published.h"
 
 namespace stiction {
 namespace {
@@ -46,16 +42,6 @@ struct SurveyOptions {
   bool suspicions = false;  // bounds for the assumptions; in the plane, runs over rationals of suspicions only
   bool json = false;
   Limits limits;
-};
-
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // ---- Assumptions -----------------------------------------------------------------------------
@@ -128,74 +114,37 @@ Json MeetsAll(const Json& entry) {
 
 // ---- Runs ------------------------------------------------------------------------------------
 
-// The natural residual of f, a double vector, on the exact problem: evaluated over rationals.
+// The residual of f, a double vector, on the exact problem: evaluated over rationals, in space bounded.
 template <class Problem>
 double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
   const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
+  if constexpr (std::is_same_v<Problem, ExactProblem>) {
+    if (problem.dimension == 3) return ToDouble(CoulombResidualBound(problem, exact));
+  }
   const ExactVector a = problem.A * exact + problem.b;
   return ToDouble(NaturalResidual(problem, exact, a));
 }
 
-// A run over doubles that calls itself solved is solved if the residual of its forces says so.
+// What solves over doubles, judged on the problem as it is given: its rounding is the method's, too.
 Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
-  const ContactProblem<double> whole = Rounded<double>(problem);
-  const Stopwatch watch;
-  std::optional<Reduction<double>> reduction;  // bilateral and sliding contacts leave a problem first (4.5, 6)
-  if (Reduction<double>::Concerns(whole)) reduction.emplace(whole);
-  if (reduction && reduction->end() != ReductionEnd::kReduced) {
-    return {{"method", method},
-            {"arithmetic", "double"},
-            {"outcome", Name(Outcome::kSingular)},
-            {"reason", Reason(reduction->end())}};
-  }
-  const ContactProblem<double>& rounded = reduction ? reduction->problem() : whole;
-  Outcome outcome;
-  std::string_view reason;
-  Eigen::VectorXd f;
-  std::int64_t pivots = 0;
-  if (method == "complete") {
-    CompleteOptions options;
-    options.limits = limits;
-    CompleteDriving<double> driving(options);
-    const CompleteVerdict verdict = driving.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    f = driving.f();
-    pivots = verdict.statistics.pieces;
-  } else if (method == "baraff") {
-    PublishedAlgorithm<double> algorithm({Policy{}, {}, limits});
-    const Verdict verdict = algorithm.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    f = algorithm.state().f;
-    pivots = verdict.statistics.pivots;
-  } else {
-    LemkeOptions options;
-    options.cover = Cover::kUnits;
-    options.limits = limits;
-    LemkeAlgorithm<double> lemke(options);
-    const Verdict verdict = lemke.Run(rounded);
-    outcome = verdict.outcome;
-    reason = verdict.reason;
-    if (outcome == Outcome::kSolved) f = lemke.f();
-    pivots = verdict.statistics.pivots;
-  }
-  Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(outcome)}};
+  const SolveRequest request{
+      .method = method, .arithmetic = Arithmetic::kDouble, .options = {.limits = limits}, .confirm = false};
+  const Stopwatch watch(CLOCK_MONOTONIC);
+  const InexactAnswer answer = std::get<InexactAnswer>(SolveIn(problem, request).answer);
+  Json run = {{"method", method}, {"arithmetic", "double"}, {"outcome", Name(answer.outcome)}};
   run["seconds"] = watch.Seconds();
-  run["pivots"] = pivots;
-  if (!reason.empty()) run["reason"] = reason;
-  if (reduction && f.size() == rounded.rows()) f = reduction->Forces(f);
-  if (f.size() == problem.rows() && f.allFinite()) run["residual"] = VerifiedResidual(problem, f);
-  if (outcome == Outcome::kSolved && !(run.contains("residual") && run["residual"] <= kWrong)) {
-    run["outcome"] = "wrong";
-  }
+  run["statistics"] = CountersToJson(answer.counters);
+  if (!answer.reason.empty()) run["reason"] = answer.reason;
+  if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return run;
+  run["residual"] = VerifiedResidual(problem, answer.f);
+  if (answer.Solved() && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
   return run;
 }
 
 // The proximal method, for which A stays sparse.
 Json RunSparse(const SparseProblem& problem) {
   const SparseContactProblem<double> rounded = InDoubles(problem);
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   ProximalNewton<double> method;
   const ProximalVerdict verdict = method.Run(rounded);
   Json run = {{"method", "proximal"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
@@ -277,7 +226,7 @@ ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::v
 
 Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
                 const Limits& limits) {
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const ExactAnswer answer = DecideByGroups(problem, groups, limits);
   Json run = {{"method", answer.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
   run["seconds"] = watch.Seconds();
@@ -293,7 +242,7 @@ Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>
 
 // The published algorithm as it stands, under the policy `paper`: does it loop?
 Json RunPublished(const ExactProblem& problem, const Limits& limits) {
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const ExactRun published = RunExact(problem, {Policy{}, {}, limits});
   Json run = {{"method", "baraff"}, {"arithmetic", "exact"}, {"outcome", Name(published.verdict.outcome)}};
   run["seconds"] = watch.Seconds();
@@ -325,33 +274,12 @@ Json PlanarRuns(const ExactProblem& problem, const SurveyOptions& o) {
   return runs;
 }
 
-// Coulomb's law over doubles. The residual of the returned forces is bounded over rationals.
-Json RunCoulomb(const ExactProblem& problem, const Limits& limits) {
-  CoulombOptions options;
-  options.limits = limits;
-  CoulombSolver<double> solver(options);
-  const ContactProblem<double> rounded = Rounded<double>(problem);
-  const Stopwatch watch;
-  const CoulombVerdict verdict = solver.Run(rounded);
-  Json run = {{"method", "fast"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
-  run["seconds"] = watch.Seconds();
-  run["statistics"] = Json::object();
-  ForEachField(verdict.statistics,
-               [&run](const char* name, const char*, std::int64_t value) { run["statistics"][name] = value; });
-  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
-  if (!solver.f().allFinite()) return run;
-  const ExactVector f = solver.f().unaryExpr([](double x) { return Rational(x); });
-  run["residual"] = ToDouble(CoulombResidualBound(problem, f));
-  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= options.residual)) run["outcome"] = "wrong";
-  return run;
-}
-
 // A certificate of Coulomb's law up to a bound.
 Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   SpaceOptions options;
   options.law = FrictionLaw::kCoulomb;
   options.limits = limits;
-  const Stopwatch watch;
+  const Stopwatch watch(CLOCK_MONOTONIC);
   const SpaceSolution solution = SolveInSpace(problem, options);
   Json run = {{"method", "complete"}, {"arithmetic", "exact"}, {"outcome", Name(solution.outcome)}};
   run["seconds"] = watch.Seconds();
@@ -372,7 +300,7 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
 }
 
 Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
-  Json runs = Json::array({RunCoulomb(problem, limits)});
+  Json runs = Json::array({RunInDoubles(problem, "fast", limits)});
   if (problem.contacts.size() <= kExactSpatialContacts) runs.push_back(CertifyCoulomb(problem, limits));
   return runs;
 }
@@ -420,7 +348,8 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
 }
 
 SparseProblem ReadAny(const std::filesystem::path& file) {
-  return file.extension() == ".json" ? ToSparse(ReadProblem(file)) : ReadPublished(file);
+  const bool is_json = file == "-" ? ReadText(file).starts_with("{") : file.extension() == ".json";
+  return is_json ? ToSparse(ReadProblem(file)) : ReadPublished(file);
 }
 
 // Files as they are given; of a folder those that look like problems, by name.

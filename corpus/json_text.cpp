@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <set>
 #include <utility>
 
+#include "corpus/input_file.h"
 #include "solver/problem/check.h"
+
+template class nlohmann::basic_json<nlohmann::ordered_map>;
 
 namespace stiction {
 namespace {
@@ -163,23 +163,7 @@ Json ParseJson(std::string_view text, const std::string& source) {
   return builder.TakeDocument();
 }
 
-std::string ReadText(const std::filesystem::path& file) {
-  const auto refuse = [&](const std::string& reason) {
-    throw InputError(file.string() + ": found nothing to read (" + reason + "), expected a file");
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) refuse("a directory");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(std::strerror(errno));
-  std::string text;
-  std::vector<char> buffer(1 << 16);
-  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
-    text.append(buffer.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) refuse("reading failed");
-  return text;
-}
+std::string ReadText(const std::filesystem::path& file) { return ReadInput(file, kMostInputBytes); }
 
 std::string JsonText(const Json& value, int indent) {
   CheckWritable(value);

@@ -20,6 +20,9 @@
 #include "corpus/input_error.h"
 #include "corpus/rational.h"
 
+// Instantiated once, in json_text.cpp.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace stiction {
 
 using Json = nlohmann::ordered_json;

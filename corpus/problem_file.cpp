@@ -137,7 +137,18 @@ void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
   if (size != static_cast<std::size_t>(rows)) place.Refuse(fmt::format("{} {}", size, items), expected);
 }
 
+// A of more rows is refused before it is made.
+constexpr int kMostRows = 8192;
+
+void RequireMemory(const JsonPlace& place, int rows) {
+  if (rows <= kMostRows) return;
+  constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
+  place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
+               fmt::format("at most {} rows, {:.3g} GiB", kMostRows, kEntry / kGiB * kMostRows * kMostRows));
+}
+
 Matrix ProblemReader::ContactMatrix(const JsonPlace& place, int rows) const {
+  RequireMemory(place, rows);
   return place.json().is_object() ? Entries(place, rows) : DenseRows(place, rows);
 }
 

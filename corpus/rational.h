@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/published/published.h"
+#include "solver/problem/scalar.h"
 
 namespace stiction {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems in other numbers.
+// Problems and pivots in other numbers.
 
 #ifndef STICTION_CORPUS_ROUNDED_H_
 #define STICTION_CORPUS_ROUNDED_H_
@@ -9,6 +9,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/problem_file.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 
@@ -23,6 +24,34 @@ ContactProblem<To> Converted(const ContactProblem<From>& problem, Convert conver
   }
   result.A = problem.A.unaryExpr(convert);
   result.b = problem.b.unaryExpr(convert);
+  return result;
+}
+
+template <class To, class From, class Convert>
+Pivot<To> Converted(const Pivot<From>& pivot, Convert convert) {
+  Pivot<To> result;
+  result.drive = pivot.drive;
+  result.driven = pivot.driven;
+  result.goal = pivot.goal;
+  result.df = pivot.df.unaryExpr(convert);
+  result.da = pivot.da.unaryExpr(convert);
+  result.s = convert(pivot.s);
+  result.limiting = pivot.limiting;
+  result.from = pivot.from;
+  result.to = pivot.to;
+  result.wanted = pivot.wanted;
+  result.gave_up = pivot.gave_up;
+  result.f = pivot.f.unaryExpr(convert);
+  result.a = pivot.a.unaryExpr(convert);
+  result.sets = pivot.sets;
+  result.turned_away = pivot.turned_away;
+  for (const auto& d : pivot.recorded) result.recorded.push_back({convert(d[0]), convert(d[1])});
+  result.word = pivot.word;
+  result.determinant = pivot.determinant;
+  result.turn = pivot.turn;
+  result.entering = pivot.entering;
+  result.leaving = pivot.leaving;
+  result.cover = convert(pivot.cover);
   return result;
 }
 

@@ -1,94 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/scene_file.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <tuple>
 #include <utility>
 
-#include "corpus/scene_reading.h"
+#include "corpus/scene_fields.h"
 
 namespace stiction {
 namespace {
 
-using Vector = Vector2<Rational>;
-
-constexpr std::array<std::string_view, 3> kJointNames = {"pin", "rail", "slider"};
-const std::string kPair = "a pair of numbers [x, y]";
-
-// Up to the rounding of doubles.
-bool IsUnit(const Vector& v) {
-  const Rational excess = abs(Dot<Rational>(v, v) - 1);
-  return excess < Rational(1, 1000000000000000);
-}
+constexpr std::string_view kSceneFormat = "stiction-scene";
+constexpr int kSceneVersion = 1;
 
 // ---- Reading ---------------------------------------------------------------------------------
 
-Vector ReadVector(const JsonPlace& place) {
-  if (place.Size(kPair) != 2) place.Refuse(kPair);
-  return MakeVector2<Rational>(ExactNumber(place[0]), ExactNumber(place[1]));
+// The dimension, from `least` to `most`.
+int ReadHeader(const JsonPlace& place, int least, int most) {
+  const std::string format = '"' + std::string(kSceneFormat) + '"', version = std::to_string(kSceneVersion);
+  const JsonPlace found = place.Required("format", format);
+  if (found.Text(format) != kSceneFormat) found.Refuse(format);
+  place.Required("version", version).Integer(kSceneVersion, kSceneVersion, version);
+  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
+                   "seconds", "bodies", "joints", "contacts", "pairs"});
+  const std::string dimension = least == most ? std::to_string(least) : "2 or 3";
+  return static_cast<int>(place.Required("dimension", dimension).Integer(least, most, dimension));
 }
 
-// A direction: made a unit vector unless it is one.
-Vector ReadDirection(const JsonPlace& place) {
-  const Vector v = ReadVector(place);
-  if (v[0] == 0 && v[1] == 0) place.Refuse("a direction, not zero");
-  return IsUnit(v) ? v : UnitVector<Rational>(v);
+bool ReadFlag(const JsonPlace& place) {
+  if (!place.json().is_boolean()) place.Refuse("true or false");
+  return place.json().get<bool>();
 }
 
-Vector ReadRotation(const JsonPlace& place) {
-  const Vector v = ReadVector(place);
-  if (!IsUnit(v)) place.Refuse("[cos, sin], cos^2 + sin^2 = 1 up to the rounding of doubles");
-  return v;
+// Calls visit for each element of an array that may be missing.
+template <class Visit>
+void ForEachOf(const JsonPlace& place, const std::string& key, const Visit& visit) {
+  const auto list = place.Optional(key);
+  const std::size_t count = list ? list->Size("an array of " + key) : 0;
+  for (std::size_t i = 0; i < count; ++i) visit((*list)[i]);
 }
 
-BodyShape<Rational> ReadBox(const JsonPlace& place, const Vector& center) {
-  const Vector size = ReadVector(place);
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (size[static_cast<int>(i)] <= 0) place[i].Refuse("a number > 0");
-  }
-  BodyShape<Rational> shape;
-  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-    shape.polygon.push_back(MakeVector2<Rational>(center[0] + x * size[0] / 2, center[1] + y * size[1] / 2));
-  return shape;
-}
-
-BodyShape<Rational> ReadShape(const JsonPlace& place) {
-  const std::string expected = R"(one of {"polygon": corners}, {"box": [width, height]}, {"disc": radius})";
-  place.RequireObject();
-  place.AllowKeys({"polygon", "box", "disc", "center"});
-  const auto polygon = place.Optional("polygon"), box = place.Optional("box"), disc = place.Optional("disc");
-  if (polygon.has_value() + box.has_value() + disc.has_value() != 1) place.Refuse(expected);
-  BodyShape<Rational> shape;
-  const auto center = place.Optional("center");
-  if (center) shape.center = ReadVector(*center);
-  if (box) return ReadBox(*box, shape.center);
-  if (disc) {
-    shape.radius = Positive(*disc);
-    return shape;
-  }
-  if (center) center->Refuse("no center of a polygon");
-  const std::size_t corners = polygon->Size("an array of corners");
-  for (std::size_t i = 0; i < corners; ++i) shape.polygon.push_back(ReadVector((*polygon)[i]));
-  const std::string fault = PolygonFault(shape.polygon);
-  if (!fault.empty()) polygon->Refuse(fault, "a strictly convex polygon, its corners anticlockwise");
-  return shape;
-}
-
-// A uniform body of that mass and these shapes.
-Rational UniformInertia(const JsonPlace& place, const RigidBody<Rational>& body) {
-  const std::string expected = "an inertia > 0, as there are no shapes to compute it from";
-  if (body.shapes.empty()) return Positive(place.Required("inertia", expected));
-  const MassProperties<Rational> properties = MassPropertiesOf(body.shapes);
-  if (properties.center[0] != 0 || properties.center[1] != 0) {
-    place.Refuse("no inertia, and shapes with the centre [" + ToString(properties.center[0]) + ", " +
-                     ToString(properties.center[1]) + "]",
-                 "shapes about their centre of mass, or an inertia");
-  }
-  return Rational(body.mass * properties.inertia / properties.area);
-}
-
-void ReadMass(const JsonPlace& place, RigidBody<Rational>& body) {
+template <class Kind>
+void ReadMass(const JsonPlace& place, BodyIn<Kind, Rational>& body) {
   const auto inertia = place.Optional("inertia");
   if (body.fixed) {
     for (const char* key : {"mass", "inertia", "force", "torque"}) {
@@ -99,207 +55,287 @@ void ReadMass(const JsonPlace& place, RigidBody<Rational>& body) {
   if (const auto given = place.Optional("acceleration"))
     given->Refuse("no acceleration of a body that is not fixed");
   body.mass = Positive(place.Required("mass", "the mass, a number > 0"));
-  body.inertia = inertia ? Positive(*inertia) : UniformInertia(place, body);
+  if (inertia) return ReadInertia(*inertia, body.inertia);
+  if (body.shapes.empty()) place.Required("inertia", "an inertia, as there are no shapes to compute it from");
+  body.inertia = UniformInertia(place, body);
 }
 
-RigidBody<Rational> ReadBody(const JsonPlace& place) {
+template <class Kind>
+void ReadMotion(const JsonPlace& place, BodyIn<Kind, Rational>& body) {
+  ReadRotation(place, body.rotation);
+  if (const auto position = place.Optional("position")) body.position = ReadVector<Kind>(*position);
+  if (const auto velocity = place.Optional("velocity")) body.velocity = ReadVector<Kind>(*velocity);
+  if (const auto spin = place.Optional("spin")) ReadSpin(*spin, body.spin);
+  if (const auto given = place.Optional("acceleration")) body.acceleration = ReadVector<Kind>(*given);
+  if (const auto force = place.Optional("force")) body.force = ReadVector<Kind>(*force);
+  if (const auto torque = place.Optional("torque")) ReadSpin(*torque, body.torque);
+}
+
+template <class Kind>
+BodyIn<Kind, Rational> ReadBody(const JsonPlace& place) {
   place.RequireObject();
-  place.AllowKeys({"name", "fixed", "mass", "inertia", "position", "rotation", "angle", "velocity", "spin",
-                   "acceleration", "force", "torque", "shapes", "level"});
-  RigidBody<Rational> body;
+  std::vector<std::string> keys = {"name",     "fixed",  "mass",     "inertia", "position",
+                                   "rotation", "angle",  "velocity", "spin",    "acceleration",
+                                   "force",    "torque", "shapes",   "level"};
+  if (Kind::kDimension == 3) keys.insert(keys.begin() + 6, "axis");
+  place.AllowKeys(keys);
+  BodyIn<Kind, Rational> body;
   body.name = place.Required("name", "a name").Text("a name");
   if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
-  if (const auto shapes = place.Optional("shapes")) {
-    const std::size_t count = shapes->Size("an array of shapes");
-    for (std::size_t i = 0; i < count; ++i) body.shapes.push_back(ReadShape((*shapes)[i]));
-  }
+  ForEachOf(place, "shapes", [&body](const JsonPlace& at) { body.shapes.push_back(ReadShape<Kind>(at)); });
   ReadMass(place, body);
-  const auto rotation = place.Optional("rotation"), angle = place.Optional("angle");
-  if (rotation && angle) angle->Refuse("a rotation or an angle, not both");
-  if (rotation) body.rotation = ReadRotation(*rotation);
-  if (angle) {
-    const double radians = ToDouble(ExactNumber(*angle));
-    body.rotation = MakeVector2<Rational>(std::cos(radians), std::sin(radians));
-  }
-  if (const auto position = place.Optional("position")) body.position = ReadVector(*position);
-  if (const auto velocity = place.Optional("velocity")) body.velocity = ReadVector(*velocity);
-  if (const auto acceleration = place.Optional("acceleration")) body.acceleration = ReadVector(*acceleration);
-  if (const auto force = place.Optional("force")) body.force = ReadVector(*force);
-  if (const auto spin = place.Optional("spin")) body.spin = ExactNumber(*spin);
-  if (const auto torque = place.Optional("torque")) body.torque = ExactNumber(*torque);
+  ReadMotion(place, body);
   if (const auto level = place.Optional("level"))
     body.level = static_cast<int>(level->Integer(-1000, 1000, "a level from -1000 to 1000"));
   return body;
 }
 
 // Reads what refers to bodies by their names.
+template <class Kind>
 class SceneReader {
  public:
-  SceneFile Read(const JsonPlace& place);
+  SceneFileIn<Kind> Read(const JsonPlace& place) {
+    ReadHeader(place, Kind::kDimension, Kind::kDimension);
+    Numbers(place);
+    place.Required("bodies", "an array of bodies");
+    ForEachOf(place, "bodies", [this](const JsonPlace& at) { AddBody(at); });
+    ForEachOf(place, "joints", [this](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at)); });
+    ForEachOf(place, "contacts", [this](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at)); });
+    ForEachOf(place, "pairs", [this](const JsonPlace& at) { scene_.pairs.push_back(OneRule(at)); });
+    return std::move(file_);
+  }
 
  private:
-  void Bodies(const JsonPlace& place);
-  Joint<Rational> OneJoint(const JsonPlace& place) const;
-  GivenContact<Rational> OneContact(const JsonPlace& place) const;
+  using Vector = typename Kind::template Vector<Rational>;
+
+  void Numbers(const JsonPlace& place) {
+    scene_.name = place.Required("name", "a string").Text("a string");
+    scene_.gap = Rational(1, 1000);
+    if (const auto note = place.Optional("note")) file_.note = note->Text("a string");
+    if (const auto mu = place.Optional("mu")) scene_.mu = NotNegative(*mu);
+    if (const auto gap = place.Optional("gap")) scene_.gap = NotNegative(*gap);
+    if (const auto rest = place.Optional("rest")) scene_.rest = NotNegative(*rest);
+    if (const auto step = place.Optional("step")) file_.step = Positive(*step);
+    if (const auto seconds = place.Optional("seconds")) file_.seconds = Positive(*seconds);
+    if (const auto gravity = place.Optional("gravity")) scene_.gravity = ReadVector<Kind>(*gravity);
+  }
+
+  void AddBody(const JsonPlace& place) {
+    BodyIn<Kind, Rational> body = ReadBody<Kind>(place);
+    for (const auto& other : scene_.bodies) {
+      if (other.name == body.name) place.Required("name", "").Refuse("a name of its own");
+    }
+    scene_.bodies.push_back(std::move(body));
+  }
+
+  int BodyNumber(const JsonPlace& place) const {
+    const std::string& name = place.Text("the name of a body");
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      if (scene_.bodies[i].name == name) return static_cast<int>(i);
+    }
+    place.Refuse("the name of a body of the scene");
+  }
+
   template <class Item>
-  void Anchors(const JsonPlace& place, Item& item) const;
-  Vector Direction(const JsonPlace& place, const std::string& world, const std::string& local, int b) const;
+  void Pair(const JsonPlace& place, Item& item) const {
+    const std::string expected = "the names of two bodies";
+    const JsonPlace bodies = place.Required("bodies", expected);
+    if (bodies.Size(expected) != 2) bodies.Refuse(expected);
+    item.a = BodyNumber(bodies[0]);
+    item.b = BodyNumber(bodies[1]);
+    if (item.a == item.b) bodies.Refuse("two different bodies");
+  }
 
-  Scene<Rational> scene_;
-};
-
-SceneFile SceneReader::Read(const JsonPlace& place) {
-  ReadSceneHeader(place, 2, 2);
-  SceneFile file;
-  ReadSceneNumbers(place, file, scene_);
-  if (const auto gravity = place.Optional("gravity")) scene_.gravity = ReadVector(*gravity);
-  Bodies(place.Required("bodies", "an array of bodies"));
-  ForEachOf(place, "joints", [this](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at)); });
-  ForEachOf(place, "contacts", [this](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at)); });
-  ForEachOf(place, "pairs", [this](const JsonPlace& at) { scene_.pairs.push_back(ReadRule(scene_, at)); });
-  file.scene = std::move(scene_);
-  return file;
-}
-
-void SceneReader::Bodies(const JsonPlace& place) {
-  const std::size_t count = place.Size("an array of bodies");
-  for (std::size_t i = 0; i < count; ++i) AddBody(scene_, place[i], ReadBody(place[i]));
-}
-
-// "at": one point of the world; or "anchors": a point in the coordinates of each body.
-template <class Item>
-void SceneReader::Anchors(const JsonPlace& place, Item& item) const {
-  const std::string expected = "the points of both bodies [[x, y], [x, y]]";
-  const auto anchors = place.Optional("anchors");
-  if (anchors) {
+  // "at": one point of the world; or "anchors": a point in the coordinates of each body.
+  template <class Item>
+  void Anchors(const JsonPlace& place, Item& item) const {
+    const std::string expected = fmt::format("the points of both bodies [{0}, {0}]", SceneWords<Kind>::kAxes);
+    const auto anchors = place.Optional("anchors");
+    if (!anchors) {
+      const Vector at = ReadVector<Kind>(place.Required("at", SceneWords<Kind>::kVector));
+      item.at_a = scene_.bodies[item.a].Local(at);
+      item.at_b = scene_.bodies[item.b].Local(at);
+      return;
+    }
     if (place.Optional("at")) anchors->Refuse(R"("at" or "anchors", not both)");
     if (anchors->Size(expected) != 2) anchors->Refuse(expected);
-    item.at_a = ReadVector((*anchors)[0]);
-    item.at_b = ReadVector((*anchors)[1]);
-    return;
+    item.at_a = ReadVector<Kind>((*anchors)[0]);
+    item.at_b = ReadVector<Kind>((*anchors)[1]);
   }
-  const Vector at = ReadVector(place.Required("at", kPair));
-  item.at_a = scene_.bodies[item.a].Local(at);
-  item.at_b = scene_.bodies[item.b].Local(at);
-}
 
-// A direction of the world, or in the coordinates of b.
-Vector SceneReader::Direction(const JsonPlace& place, const std::string& world, const std::string& local,
-                              int b) const {
-  if (const auto found = place.Optional(local)) {
-    if (place.Optional(world)) found->Refuse('"' + world + "\" or \"" + local + "\", not both");
-    return ReadDirection(*found);
-  }
-  return RotateBack<Rational>(scene_.bodies[b].rotation,
-                              ReadDirection(place.Required(world, "a direction [x, y]")));
-}
-
-Joint<Rational> SceneReader::OneJoint(const JsonPlace& place) const {
-  place.RequireObject();
-  place.AllowKeys({"kind", "bodies", "at", "anchors", "direction", "axis", "turn"});
-  const std::string kinds = "pin, rail or slider";
-  const JsonPlace named = place.Required("kind", kinds);
-  const auto kind = std::find(kJointNames.begin(), kJointNames.end(), named.Text(kinds));
-  if (kind == kJointNames.end()) named.Refuse(kinds);
-  Joint<Rational> joint;
-  joint.kind = static_cast<JointKind>(kind - kJointNames.begin());
-  std::tie(joint.a, joint.b) = ReadPair(scene_, place);
-  Anchors(place, joint);
-  joint.direction = joint.relative_rotation = MakeVector2<Rational>(Rational(1), Rational(0));
-  if (joint.kind == JointKind::kPin) {
-    for (const char* key : {"direction", "axis", "turn"}) {
-      if (const auto given = place.Optional(key)) given->Refuse(std::string("no ") + key + " of a pin");
+  // A direction of the world, or in the coordinates of b.
+  Vector Direction(const JsonPlace& place, const std::string& world, const std::string& local, int b) const {
+    if (const auto found = place.Optional(local)) {
+      if (place.Optional(world)) found->Refuse('"' + world + "\" or \"" + local + "\", not both");
+      return ReadDirection<Kind>(*found);
     }
+    const std::string expected = std::string("a direction ") + SceneWords<Kind>::kAxes;
+    return RotateBack(TurnOf(scene_.bodies[b].rotation), ReadDirection<Kind>(place.Required(world, expected)));
+  }
+
+  JointIn<Kind, Rational> OneJoint(const JsonPlace& place) const {
+    constexpr const auto& kNames = Kind::kJointNames;
+    place.RequireObject();
+    place.AllowKeys({"kind", "bodies", "at", "anchors", "direction", "axis", "turn"});
+    const std::string kinds =
+        fmt::format("{} or {}", fmt::join(kNames.begin(), kNames.end() - 1, ", "), kNames.back());
+    const JsonPlace named = place.Required("kind", kinds);
+    const auto kind = std::find(kNames.begin(), kNames.end(), named.Text(kinds));
+    if (kind == kNames.end()) named.Refuse(kinds);
+    JointIn<Kind, Rational> joint;
+    joint.kind = static_cast<typename Kind::JointKind>(kind - kNames.begin());
+    Pair(place, joint);
+    Anchors(place, joint);
+    for (const char* key : {"direction", "axis", "turn"}) {
+      const auto given = place.Optional(key);
+      if (given && !(key == std::string_view("turn") ? HasTurn(joint) : HasDirection(joint)))
+        given->Refuse(fmt::format("no {} of a {}", key, *kind));
+    }
+    if (HasDirection(joint)) joint.direction = Direction(place, "direction", "axis", joint.b);
+    joint.relative_rotation = SeenFrom(scene_.bodies[joint.b].rotation, scene_.bodies[joint.a].rotation);
+    if (const auto turn = place.Optional("turn")) ReadTurn(*turn, joint.relative_rotation);
     return joint;
   }
-  joint.direction = Direction(place, "direction", "axis", joint.b);
-  joint.relative_rotation =
-      RotateBack<Rational>(scene_.bodies[joint.b].rotation, scene_.bodies[joint.a].rotation);
-  const auto turn = place.Optional("turn");
-  if (turn && joint.kind != JointKind::kSlider) turn->Refuse("no turn of a rail");
-  if (turn) joint.relative_rotation = ReadRotation(*turn);
-  return joint;
-}
 
-GivenContact<Rational> SceneReader::OneContact(const JsonPlace& place) const {
-  place.RequireObject();
-  place.AllowKeys({"bodies", "at", "anchors", "normal", "axis"});
-  GivenContact<Rational> contact;
-  std::tie(contact.a, contact.b) = ReadPair(scene_, place);
-  Anchors(place, contact);
-  contact.normal = Direction(place, "normal", "axis", contact.b);
-  return contact;
-}
+  GivenContactIn<Kind, Rational> OneContact(const JsonPlace& place) const {
+    place.RequireObject();
+    place.AllowKeys({"bodies", "at", "anchors", "normal", "axis"});
+    GivenContactIn<Kind, Rational> contact;
+    Pair(place, contact);
+    Anchors(place, contact);
+    contact.normal = Direction(place, "normal", "axis", contact.b);
+    return contact;
+  }
+
+  PairRule<Rational> OneRule(const JsonPlace& place) const {
+    place.RequireObject();
+    place.AllowKeys({"bodies", "mu", "collide"});
+    PairRule<Rational> rule;
+    Pair(place, rule);
+    if (const auto mu = place.Optional("mu")) rule.mu = NotNegative(*mu);
+    if (const auto collide = place.Optional("collide")) rule.collide = ReadFlag(*collide);
+    return rule;
+  }
+
+  SceneFileIn<Kind> file_;
+  SceneIn<Kind, Rational>& scene_ = file_.scene;
+};
 
 // ---- Writing ---------------------------------------------------------------------------------
 
-Json VectorJson(const Vector& v) { return Json::array({ToString(v[0]), ToString(v[1])}); }
-
-Json ShapeJson(const BodyShape<Rational>& shape) {
-  if (shape.IsDisc()) return {{"disc", ToString(shape.radius)}, {"center", VectorJson(shape.center)}};
-  Json corners = Json::array();
-  for (const auto& corner : shape.polygon) corners.push_back(VectorJson(corner));
-  return {{"polygon", std::move(corners)}};
-}
-
-Json BodyJson(const RigidBody<Rational>& body) {
+template <class Kind>
+Json BodyJson(const BodyIn<Kind, Rational>& body) {
   Json json = {{"name", body.name}};
   if (body.fixed) {
     json["fixed"] = true;
-    json["acceleration"] = VectorJson(body.acceleration);
+    json["acceleration"] = NumbersJson(body.acceleration);
   } else {
     json["mass"] = ToString(body.mass);
-    json["inertia"] = ToString(body.inertia);
-    json["force"] = VectorJson(body.force);
-    json["torque"] = ToString(body.torque);
+    json["inertia"] = InertiaJson(body.inertia);
+    json["force"] = NumbersJson(body.force);
+    json["torque"] = SpinJson(body.torque);
   }
-  json["position"] = VectorJson(body.position);
-  json["rotation"] = VectorJson(body.rotation);
-  json["velocity"] = VectorJson(body.velocity);
-  json["spin"] = ToString(body.spin);
+  json["position"] = NumbersJson(body.position);
+  json["rotation"] = NumbersJson(body.rotation);
+  json["velocity"] = NumbersJson(body.velocity);
+  json["spin"] = SpinJson(body.spin);
   json["level"] = body.level;
   json["shapes"] = Json::array();
   for (const auto& shape : body.shapes) json["shapes"].push_back(ShapeJson(shape));
   return json;
 }
 
-template <class Item>
-Json AnchorsJson(const Item& item) {
-  return Json::array({VectorJson(item.at_a), VectorJson(item.at_b)});
+template <class Kind, class Item>
+Json PairJson(const SceneIn<Kind, Rational>& scene, const Item& item) {
+  return {{"bodies", Json::array({scene.bodies[item.a].name, scene.bodies[item.b].name})}};
 }
 
-Json JointJson(const Scene<Rational>& scene, const Joint<Rational>& joint) {
-  Json json = {{"kind", kJointNames[static_cast<int>(joint.kind)]},
-               {"bodies", PairJson(scene, joint)},
-               {"anchors", AnchorsJson(joint)}};
-  if (joint.kind != JointKind::kPin) json["axis"] = VectorJson(joint.direction);
-  if (joint.kind == JointKind::kSlider) json["turn"] = VectorJson(joint.relative_rotation);
+template <class Kind, class Item>
+Json AnchoredJson(const SceneIn<Kind, Rational>& scene, const Item& item) {
+  Json json = PairJson(scene, item);
+  json["anchors"] = Json::array({NumbersJson(item.at_a), NumbersJson(item.at_b)});
+  return json;
+}
+
+template <class Kind>
+Json JointJson(const SceneIn<Kind, Rational>& scene, const JointIn<Kind, Rational>& joint) {
+  Json json = {{"kind", Kind::kJointNames[static_cast<std::size_t>(joint.kind)]}};
+  json.update(AnchoredJson(scene, joint));
+  if (HasDirection(joint)) json["axis"] = NumbersJson(joint.direction);
+  if (HasTurn(joint)) json["turn"] = NumbersJson(joint.relative_rotation);
+  return json;
+}
+
+template <class Kind>
+Json ContactJson(const SceneIn<Kind, Rational>& scene, const GivenContactIn<Kind, Rational>& contact) {
+  Json json = AnchoredJson(scene, contact);
+  json["axis"] = NumbersJson(contact.normal);
+  return json;
+}
+
+template <class Kind>
+Json RuleJson(const SceneIn<Kind, Rational>& scene, const PairRule<Rational>& rule) {
+  Json json = PairJson(scene, rule);
+  if (rule.mu) json["mu"] = ToString(*rule.mu);
+  if (rule.collide) json["collide"] = *rule.collide;
   return json;
 }
 
 }  // namespace
 
-SceneFile ParseScene(std::string_view text, const std::string& source) {
+template <class Kind>
+SceneFileIn<Kind> ParseScene(std::string_view text, const std::string& source) {
   const Json json = ParseJson(text, source);
-  return SceneReader().Read(JsonPlace(json, source, ""));
+  return SceneReader<Kind>().Read(JsonPlace(json, source, ""));
 }
+template SceneFile ParseScene<Plane>(std::string_view, const std::string&);
+template SceneFileInSpace ParseScene<Space>(std::string_view, const std::string&);
 
 SceneFile ReadScene(const std::filesystem::path& file) { return ParseScene(ReadText(file), file.string()); }
 
-Json ToJson(const SceneFile& file) {
-  const Scene<Rational>& scene = file.scene;
-  Json json = SceneJson(file, 2, VectorJson(scene.gravity));
+template <class Kind>
+Json ToJson(const SceneFileIn<Kind>& file) {
+  const auto& scene = file.scene;
+  Json json = {{"format", kSceneFormat},
+               {"version", kSceneVersion},
+               {"name", scene.name},
+               {"dimension", Kind::kDimension}};
+  if (!file.note.empty()) json["note"] = file.note;
+  json["gravity"] = NumbersJson(scene.gravity);
+  json["mu"] = ToString(scene.mu);
+  json["gap"] = ToString(scene.gap);
+  json["rest"] = ToString(scene.rest);
+  json["step"] = ToString(file.step);
+  json["seconds"] = ToString(file.seconds);
+  for (const char* key : {"bodies", "joints", "contacts", "pairs"}) json[key] = Json::array();
   for (const auto& body : scene.bodies) json["bodies"].push_back(BodyJson(body));
   for (const auto& joint : scene.joints) json["joints"].push_back(JointJson(scene, joint));
-  for (const auto& contact : scene.contacts) {
-    json["contacts"].push_back({{"bodies", PairJson(scene, contact)},
-                                {"anchors", AnchorsJson(contact)},
-                                {"axis", VectorJson(contact.normal)}});
-  }
+  for (const auto& contact : scene.contacts) json["contacts"].push_back(ContactJson(scene, contact));
+  for (const auto& rule : scene.pairs) json["pairs"].push_back(RuleJson(scene, rule));
   return json;
 }
+template Json ToJson(const SceneFile&);
+template Json ToJson(const SceneFileInSpace&);
 
-std::string Print(const SceneFile& file) { return PrintScene(ToJson(file)); }
+// The members of the scene, and of its lists, on a line each.
+template <class Kind>
+std::string Print(const SceneFileIn<Kind>& file) {
+  const Json json = ToJson(file);
+  std::string text = "{";
+  for (const auto& [key, value] : json.items()) {
+    text += (text == "{" ? "\n  " : ",\n  ") + JsonText(key) + ": ";
+    if (!value.is_array() || value.empty() || !value[0].is_object()) {
+      text += JsonText(value);
+      continue;
+    }
+    for (std::size_t i = 0; i < value.size(); ++i)
+      text += (i == 0 ? "[\n    " : ",\n    ") + JsonText(value[i]);
+    text += "\n  ]";
+  }
+  return text + "\n}\n";
+}
+template std::string Print(const SceneFile&);
+template std::string Print(const SceneFileInSpace&);
 
 std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
   std::string text = ReadText(file), source = file.string();
@@ -310,7 +346,7 @@ std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::pa
     text = JsonText(json);
     source += ": scene";
   }
-  if (ReadSceneHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseSceneInSpace(text, source);
+  if (ReadHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseScene<Space>(text, source);
   return ParseScene(text, source);
 }
 

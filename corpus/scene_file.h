@@ -13,33 +13,33 @@
 #include <variant>
 
 #include "corpus/json_text.h"
-#include "scene/scene_space.h"
+#include "scene/scene.h"
 
 namespace stiction {
 
-template <class SceneType>
-struct SceneFileOf {
-  SceneType scene;
+template <class Kind>
+struct SceneFileIn {
+  SceneIn<Kind, Rational> scene;
   Rational step = Rational(1, 60);  // s, of a simulation
   Rational seconds = Rational(2);   // how long it runs by default
   std::string note;
 };
 
-using SceneFile = SceneFileOf<Scene<Rational>>;
-using SceneFileInSpace = SceneFileOf<SceneInSpace<Rational>>;
+using SceneFile = SceneFileIn<Plane>;
+using SceneFileInSpace = SceneFileIn<Space>;
 
-// Scenes of dimension 2, of dimension 3, and whichever it is; the last from the key "scene" of a
-// stiction-problem file too.
-SceneFile ParseScene(std::string_view text, const std::string& source);
+// Scenes of dimension 2, or of dimension 3; whichever it is, also from the key "scene" of a stiction-problem
+// file.
+template <class Kind = Plane>
+SceneFileIn<Kind> ParseScene(std::string_view text, const std::string& source);
 SceneFile ReadScene(const std::filesystem::path& file);
-SceneFileInSpace ParseSceneInSpace(std::string_view text, const std::string& source);
 std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file);
 
 // What the reader reads back to the same scene: anchors of joints and contacts in the bodies' coordinates.
-Json ToJson(const SceneFile& file);
-Json ToJson(const SceneFileInSpace& file);
-std::string Print(const SceneFile& file);
-std::string Print(const SceneFileInSpace& file);
+template <class Kind>
+Json ToJson(const SceneFileIn<Kind>& file);
+template <class Kind>
+std::string Print(const SceneFileIn<Kind>& file);
 
 }  // namespace stiction
 

@@ -76,16 +76,6 @@ void AddTo(std::array<std::int64_t, kOutcomeCount>& sums,
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
 }
 
-// Calls visit(mine, theirs) for every counter of two statistics.
-template <class Visit>
-void ForEachPair(Statistics& mine, Statistics theirs, Visit visit) {
-  std::array<std::int64_t*, 9> left;
-  std::size_t n = 0;
-  ForEachField(mine, [&](const char*, const char*, std::int64_t& value) { left.at(n++) = &value; });
-  n = 0;
-  ForEachField(theirs, [&](const char*, const char*, std::int64_t& value) { visit(*left.at(n++), value); });
-}
-
 }  // namespace
 
 void Tally::Merge(const Tally& other) {
@@ -97,9 +87,7 @@ void Tally::Merge(const Tally& other) {
   wrong += other.wrong;
   with_zero_steps += other.with_zero_steps;
   with_give_ups += other.with_give_ups;
-  ForEachPair(sums, other.sums, [](std::int64_t& mine, std::int64_t theirs) { mine += theirs; });
-  ForEachPair(maxima, other.maxima,
-              [](std::int64_t& mine, std::int64_t theirs) { mine = std::max(mine, theirs); });
+  Add(other.sums, other.maxima);
   for (int i = 0; i < kBins; ++i) steps[i] += other.steps[i];
 }
 

@@ -4,6 +4,7 @@
 #ifndef STICTION_CORPUS_STATISTICS_H_
 #define STICTION_CORPUS_STATISTICS_H_
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <concepts>
@@ -27,6 +28,16 @@ struct TallyKey {
 
   auto operator<=>(const TallyKey&) const = default;
 };
+
+// visit(mine, theirs) for every counter of two statistics.
+template <class Visit>
+void ForEachFieldOfTwo(Statistics& mine, const Statistics& theirs, const Visit& visit) {
+  std::array<std::int64_t*, sizeof(Statistics) / sizeof(std::int64_t)> left;
+  std::size_t n = 0;
+  ForEachField(mine, [&](const char*, const char*, std::int64_t& value) { left[n++] = &value; });
+  n = 0;
+  ForEachField(theirs, [&](const char*, const char*, std::int64_t value) { visit(*left[n++], value); });
+}
 
 // Runs of one method in one inexact arithmetic, and what exact runs of the same problems said.
 struct Tally {
@@ -53,31 +64,16 @@ struct Tally {
     with_zero_steps += s.zero_steps > 0;
     with_give_ups += s.give_ups > 0;
     ++steps[s.steps < kBins ? s.steps : kBins - 1];
-    Add(s);
+    Add(s, s);
   }
   void Merge(const Tally& other);
   bool operator==(const Tally&) const = default;
 
  private:
-  void Add(const Statistics& s) {
-    sums.drives += s.drives;
-    sums.steps += s.steps;
-    sums.pivots += s.pivots;
-    sums.zero_steps += s.zero_steps;
-    sums.longest_zero_run += s.longest_zero_run;
-    sums.bounces += s.bounces;
-    sums.give_ups += s.give_ups;
-    sums.singular_directions += s.singular_directions;
-    sums.outer_scans += s.outer_scans;
-    maxima.drives = std::max(maxima.drives, s.drives);
-    maxima.steps = std::max(maxima.steps, s.steps);
-    maxima.pivots = std::max(maxima.pivots, s.pivots);
-    maxima.zero_steps = std::max(maxima.zero_steps, s.zero_steps);
-    maxima.longest_zero_run = std::max(maxima.longest_zero_run, s.longest_zero_run);
-    maxima.bounces = std::max(maxima.bounces, s.bounces);
-    maxima.give_ups = std::max(maxima.give_ups, s.give_ups);
-    maxima.singular_directions = std::max(maxima.singular_directions, s.singular_directions);
-    maxima.outer_scans = std::max(maxima.outer_scans, s.outer_scans);
+  void Add(const Statistics& more_sums, const Statistics& more_maxima) {
+    ForEachFieldOfTwo(sums, more_sums, [](std::int64_t& mine, std::int64_t theirs) { mine += theirs; });
+    ForEachFieldOfTwo(maxima, more_maxima,
+                      [](std::int64_t& mine, std::int64_t theirs) { mine = std::max(mine, theirs); });
   }
 };
 

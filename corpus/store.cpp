@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/store.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <map>
+#include <new>
 #include <tuple>
 #include <utility>
 
+#include "corpus/atomic_file.h"
+#include "corpus/output_error.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "stiction-store";
 constexpr const char* kVersion = "2";  // 2: with existence
@@ -34,6 +46,23 @@ CREATE TABLE IF NOT EXISTS findings (
 constexpr const char* kFindingColumns =
     "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
     "certificate, minimized, minimized_certificate, existence, minimized_existence, facts";
+
+// What the last call on a database says: it cannot be written, or it is damaged or none.
+[[noreturn]] void Refuse(sqlite3* db) {
+  const std::string file = sqlite3_db_filename(db, "main"), reason = sqlite3_errmsg(db);
+  switch (sqlite3_errcode(db)) {
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+      throw OutputError(file, reason);
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
+    default:
+      throw InputError(fmt::format("{}: {}", file, reason));
+  }
+}
 
 // A prepared statement: parameters are bound in order, rows read by column.
 class Statement {
@@ -67,9 +96,7 @@ class Statement {
   }
 
  private:
-  [[noreturn]] void Fail() const {
-    throw InputError(fmt::format("{}: {}", sqlite3_db_filename(db_, "main"), sqlite3_errmsg(db_)));
-  }
+  [[noreturn]] void Fail() const { Refuse(db_); }
 
   sqlite3* db_;
   sqlite3_stmt* statement_ = nullptr;
@@ -93,15 +120,61 @@ class Transaction {
   bool committed_ = false;
 };
 
-sqlite3* OpenDatabase(const std::filesystem::path& file, int flags) {
+sqlite3* OpenDatabase(const std::string& name, int flags) {
   sqlite3* db = nullptr;
-  if (sqlite3_open_v2(file.c_str(), &db, flags | SQLITE_OPEN_NOMUTEX, nullptr) != SQLITE_OK) {
+  if (sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_NOMUTEX, nullptr) != SQLITE_OK) {
     const std::string reason = db != nullptr ? sqlite3_errmsg(db) : "out of memory";
     sqlite3_close(db);
-    throw InputError(fmt::format("{}: cannot be opened as a store: {}", file.string(), reason));
+    throw InputError(fmt::format("{}: cannot be opened as a store: {}", name, reason));
   }
   sqlite3_busy_timeout(db, 10000);
   return db;
+}
+
+// A name that may have parameters behind it.
+std::string UriOf(const fs::path& file) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string()) {
+    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<int>(c)) : std::string(1, c);
+  }
+  return uri;
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((fs::temp_directory_path() / "stiction-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr) RefuseOutput(path_, errno);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void CopyFile(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, error);
+  if (error) RefuseOutput(to, error.value());
+}
+
+// What is there and no database is not taken over: SQLite would make an empty file one.
+void RequireDatabase(const fs::path& file) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  const auto refuse = [&file](const std::string& found) {
+    throw InputError(fmt::format("{}: is no stiction store but {}", file.string(), found));
+  };
+  if (fs::is_directory(file)) refuse("a directory");
+  if (!fs::is_regular_file(file)) refuse("no regular file");
+  std::string head(kMagic.size(), ' ');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != kMagic) refuse(fmt::format("another file of {} bytes", fs::file_size(file)));
 }
 
 Finding ReadFinding(const Statement& row) {
@@ -161,7 +234,7 @@ std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& w
 }
 
 // A database with tables of somebody else must not get ours beside them.
-void RefuseForeignDatabase(sqlite3* db, const std::filesystem::path& file) {
+void RefuseForeignDatabase(sqlite3* db, const fs::path& file) {
   Statement tables(db, "SELECT COUNT(*), COUNT(CASE WHEN name = 'campaign' THEN 1 END) FROM sqlite_master");
   tables.Step();
   if (tables.Integer(0) > 0 && tables.Integer(1) == 0) {
@@ -177,36 +250,74 @@ std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {
 
 void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
 
-Store::Store(std::unique_ptr<sqlite3, Close> db) : db_(std::move(db)) {}
+Store::Store(sqlite3* db) : db_(db) {}
 Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
-Store::Store(const std::filesystem::path& file, const CampaignIdentity& identity)
-    : db_(OpenDatabase(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)), identity_(identity) {
+Store::Store(const fs::path& file, const CampaignIdentity& identity) {
+  if (!fs::exists(file)) Make(file, identity);
+  RequireDatabase(file);
+  db_.reset(OpenDatabase(file, SQLITE_OPEN_READWRITE));
   RefuseForeignDatabase(db_.get(), file);
   // A killed process loses nothing that was committed; synchronous=NORMAL gives up only the last commits of a
   // machine that loses its power.
   Execute("PRAGMA journal_mode = WAL");
   Execute("PRAGMA synchronous = NORMAL");
-  Transaction transaction(db_.get());
-  CreateTables();
   const auto stored = ReadIdentity();
-  if (!stored) {
-    WriteIdentity(identity);
-  } else if (*stored != identity) {
-    throw InputError(fmt::format(
-        "{}: holds another campaign: {}. Go on with the same options and build, or start a new store with "
-        "--store NEW_FILE",
-        file.string(), Difference(*stored, identity)));
-  }
-  transaction.Commit();
+  if (!stored) throw InputError(fmt::format("{}: is no stiction store", file.string()));
+  identity_ = *stored;
+  if (*stored == identity) return;
+  throw InputError(fmt::format(
+      "{}: holds another campaign: {}. Go on with the same options and build, or start a new store with "
+      "--store NEW_FILE",
+      file.string(), Difference(*stored, identity)));
 }
 
-Store Store::OpenToRead(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such store", file.string()));
-  Store store{std::unique_ptr<sqlite3, Close>(OpenDatabase(file, SQLITE_OPEN_READWRITE))};
-  // One snapshot for all that is read: a running search may close a block between two questions.
+// Under another name first: a store is never half made, and no file that came meanwhile is overwritten.
+void Store::Make(const fs::path& file, const CampaignIdentity& identity) {
+  fs::path name = file;
+  name += fmt::format(".new-{}", getpid());
+  {
+    Store store(OpenDatabase(name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
+    Transaction transaction(store.db_.get());
+    store.CreateTables();
+    store.WriteIdentity(identity);
+    transaction.Commit();
+  }
+  if (renameat2(AT_FDCWD, name.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0) return;
+  const int error = errno;
+  fs::remove(name);
+  if (error != EEXIST) RefuseOutput(file, error);
+}
+
+Store Store::OpenToRead(const fs::path& file) {
+  if (!fs::exists(file)) throw InputError(fmt::format("{}: no such store", file.string()));
+  RequireDatabase(file);
+  try {
+    return Snapshot(OpenDatabase(file, SQLITE_OPEN_READWRITE), file);
+  } catch (const OutputError&) {  // a folder where the files that readers share cannot be made
+    return ReadAlone(file);
+  }
+}
+
+// Commits that wait beside the store, of a search that was killed, are read from a copy.
+Store Store::ReadAlone(const fs::path& file) {
+  fs::path log = file;
+  log += "-wal";
+  std::error_code none;
+  if (const auto size = fs::file_size(log, none); none || size == 0)
+    return Snapshot(OpenDatabase(UriOf(file) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI), file);
+  const TemporaryFolder folder;
+  const fs::path copy = folder.path() / "store";
+  CopyFile(file, copy);
+  CopyFile(log, copy.string() + "-wal");
+  return Snapshot(OpenDatabase(copy, SQLITE_OPEN_READWRITE), file);  // needs no names once it is open
+}
+
+// For all that is read: a running search may close a block between two questions.
+Store Store::Snapshot(sqlite3* db, const fs::path& file) {
+  Store store(db);
   store.Execute("BEGIN");
   const auto identity = store.ReadIdentity();
   if (!identity) throw InputError(fmt::format("{}: is no stiction store", file.string()));
@@ -215,11 +326,7 @@ Store Store::OpenToRead(const std::filesystem::path& file) {
 }
 
 void Store::Execute(const std::string& sql) const {
-  char* error = nullptr;
-  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, &error) == SQLITE_OK) return;
-  const std::string reason = error != nullptr ? error : "unknown";
-  sqlite3_free(error);
-  throw InputError(fmt::format("{}: {}", sqlite3_db_filename(db_.get(), "main"), reason));
+  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Refuse(db_.get());
 }
 
 void Store::CreateTables() { Execute(kTables); }
@@ -250,8 +357,13 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
         "by that version only; search anew with --store NEW_FILE",
         sqlite3_db_filename(db_.get(), "main"), values["format"], values["version"], kFormat, kVersion));
   }
-  return CampaignIdentity{values["definition"], std::stoull(values["seed"]), values["policies"],
-                          values["build"]};
+  std::uint64_t seed = 0;
+  const std::string& text = values["seed"];
+  if (std::from_chars(text.data(), text.data() + text.size(), seed).ec != std::errc()) {
+    throw InputError(fmt::format("{}: found seed '{}', expected an integer from 0 to 2^64 - 1",
+                                 sqlite3_db_filename(db_.get(), "main"), text));
+  }
+  return CampaignIdentity{values["definition"], seed, values["policies"], values["build"]};
 }
 
 bool UnitSet::Contains(std::int64_t unit) const {

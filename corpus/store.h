@@ -92,10 +92,12 @@ class Store {
  public:
   static constexpr std::int64_t kUnitsPerBlock = 1024;
 
-  // Opens a store for a campaign, making it if it does not exist. A store of another campaign is an InputError
-  // that names the difference and how to start a new one.
+  // Opens a store for a campaign, making it where no file is. A file that is none, and a store of another
+  // campaign, is an InputError that names the difference and how to start a new one. Here and in all that
+  // changes a store: OutputError if the disk is full or the store cannot be written; nothing that was committed
+  // is lost then.
   Store(const std::filesystem::path& file, const CampaignIdentity& identity);
-  // Opens an existing store to read.
+  // Opens an existing store to read, while others write or not, in a folder that can be written or not.
   static Store OpenToRead(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -132,7 +134,10 @@ class Store {
   struct Close {
     void operator()(sqlite3* db) const;
   };
-  explicit Store(std::unique_ptr<sqlite3, Close> db);
+  explicit Store(sqlite3* db);
+  static void Make(const std::filesystem::path& file, const CampaignIdentity& identity);
+  static Store ReadAlone(const std::filesystem::path& file);
+  static Store Snapshot(sqlite3* db, const std::filesystem::path& file);
   void CreateTables();
   void WriteIdentity(const CampaignIdentity& identity);
   std::optional<CampaignIdentity> ReadIdentity() const;

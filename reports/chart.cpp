@@ -18,8 +18,6 @@ constexpr double kLeft = 34, kTop = 6, kHeight = 112, kBar = 5, kWidth = kBar * 
 constexpr double kBase = kTop + kHeight;
 constexpr double kOne = 0.4;  // height of a count of one, in decades, lest it be invisible
 
-std::string Coordinate(double x) { return fmt::format("{:.1f}", x); }
-
 // Decades between 1 and value: its logarithm, by linear interpolation within a decade's third. Drawn only, and
 // the same on every machine since it needs no library function.
 double Decades(std::int64_t value) {
@@ -50,14 +48,12 @@ class Chart {
   double Y(double decades) const { return kBase - kHeight * (decades + kOne) / (decades_ + kOne); }
 
   static Html Label(double x, double y, const char* anchor, const std::string& text) {
-    return Tag("text", {{"x", Coordinate(x)}, {"y", Coordinate(y)}, {"text-anchor", anchor}})(text) +
-           Html("\n");
+    return Tag("text", {{"x", Fixed(x)}, {"y", Fixed(y)}, {"text-anchor", anchor}})(text) + Html("\n");
   }
 
   static Html Line(double y) {
-    const std::string at = Coordinate(y);
-    return Tag("line",
-               {{"x1", Coordinate(kLeft)}, {"x2", Coordinate(kLeft + kWidth)}, {"y1", at}, {"y2", at}})("");
+    const std::string at = Fixed(y);
+    return Tag("line", {{"x1", Fixed(kLeft)}, {"x2", Fixed(kLeft + kWidth)}, {"y1", at}, {"y2", at}})("");
   }
 
   Html Scale() const {
@@ -84,10 +80,10 @@ class Chart {
     const double y = Y(Decades(bins_[bin]));
     const std::string more = bin == Tally::kBins - 1 ? " or more" : "";
     const std::string tip = fmt::format("{}{} step{}: {}", bin, more, bin == 1 ? "" : "s", Grouped(bins_[bin]));
-    return Tag("rect", {{"x", Coordinate(kLeft + kBar * bin + 0.5)},
-                        {"y", Coordinate(y)},
-                        {"width", Coordinate(kBar - 1)},
-                        {"height", Coordinate(kBase - y)}})(Tag("title")(tip)) +
+    return Tag("rect", {{"x", Fixed(kLeft + kBar * bin + 0.5)},
+                        {"y", Fixed(y)},
+                        {"width", Fixed(kBar - 1)},
+                        {"height", Fixed(kBase - y)}})(Tag("title")(tip)) +
            Html("\n");
   }
 

@@ -1,67 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/draw.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <utility>
 
-#include "reports/draw_page.h"
+#include "corpus/json_text.h"
+#include "reports/draw_bodies.h"
 
 namespace stiction {
-namespace {
 
-constexpr std::array kLevelColours = {"#e89a3c", "#9a6fb0", "#6aa84f", "#4f81bd", "#c0504d"};
+// ---- The view --------------------------------------------------------------------------------
 
-const char* ColourOf(const RigidBody<double>& body) {
-  if (body.fixed) return "#333333";
-  const int count = static_cast<int>(kLevelColours.size());
-  return kLevelColours[static_cast<std::size_t>(((body.level % count) + count) % count)];
-}
-
-// The pieces of a body in its own coordinates, y up; behind them a rod to each of its joints.
-std::string Pieces(const Scene<double>& scene, int index, double scale) {
-  const RigidBody<double>& body = scene.bodies[index];
-  std::string text;
-  for (const auto& joint : scene.joints) {
-    if (body.fixed || (joint.a != index && joint.b != index)) continue;
-    const Vector2<double>& at = joint.a == index ? joint.at_a : joint.at_b;
-    text += fmt::format("<path d=\"M0,0 L{:.5g},{:.5g}\"/>", at[0], at[1]);
-  }
-  for (const auto& shape : body.shapes) {
-    if (shape.IsDisc()) {
-      // The radius line shows the turning.
-      text += fmt::format(
-          "<circle cx=\"{0:.5g}\" cy=\"{1:.5g}\" r=\"{2:.5g}\"/><path d=\"M{0:.5g},{1:.5g} h{2:.5g}\"/>",
-          shape.center[0], shape.center[1], shape.radius);
-      continue;
-    }
-    text += "<polygon points=\"";
-    for (const auto& corner : shape.polygon) text += fmt::format("{:.6g},{:.6g} ", corner[0], corner[1]);
-    text += "\"/>";
-  }
-  return fmt::format("<g fill=\"{}\" stroke=\"black\" stroke-width=\"{:.4g}\" fill-opacity=\"0.85\">{}</g>",
-                     ColourOf(body), 1 / scale, text);
-}
-
-std::string Matrix(const Screen& screen, double x, double y, double c, double s) {
-  const double k = screen.scale;
-  return fmt::format("matrix({:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g})", k * c, -k * s, -k * s, -k * c,
-                     screen.X(x), screen.Y(y));
-}
-
-std::string Circle(const Screen& screen, const Vector2<double>& p, const char* fill, double radius) {
-  return fmt::format("<circle cx=\"{:.5g}\" cy=\"{:.5g}\" r=\"{}\" fill=\"{}\" stroke=\"black\"/>\n",
-                     screen.X(p[0]), screen.Y(p[1]), radius, fill);
-}
-
-}  // namespace
-
-void View::Include(const Scene<double>& scene) {
+template <class Kind>
+void View::Include(const SceneIn<Kind, double>& scene) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (!(right > left)) left = bottom = kInfinite, right = top = -kInfinite;
-  const auto include = [this](const Vector2<double>& p, double r) {
+  const auto include = [this](const typename Kind::template Vector<double>& point, double r) {
+    const Vector2<double> p = Seen(point);
     left = std::min(left, p[0] - r);
     right = std::max(right, p[0] + r);
     bottom = std::min(bottom, p[1] - r);
@@ -72,12 +28,13 @@ void View::Include(const Scene<double>& scene) {
     // wheels that are driven move.
     if (fixed && right > left) break;
     for (const auto& body : scene.bodies) {
-      const bool driven = body.spin != 0 || !body.velocity.isZero(0) || !body.acceleration.isZero(0);
+      const bool turns = body.spin != Zero<typename BodyIn<Kind, double>::Spin>();
+      const bool driven = turns || !body.velocity.isZero(0) || !body.acceleration.isZero(0);
       if ((body.fixed && !driven) != fixed) continue;
       include(body.position, 0.01);
       for (const auto& shape : body.shapes) {
-        if (shape.IsDisc()) include(body.At(shape.center), shape.radius);
-        for (const auto& corner : shape.polygon) include(body.At(corner), 0);
+        if (shape.IsRound()) include(body.At(shape.center), shape.radius);
+        for (const auto& corner : shape.corners) include(body.At(corner), 0);
       }
     }
   }
@@ -98,27 +55,30 @@ void View::AddMargin() {
   left -= more_width, right += more_width, bottom -= more_height, top += more_height;
 }
 
-Marks MarksOf(const Simulation& simulation) {
-  Marks marks;
+// ---- States ----------------------------------------------------------------------------------
+
+template <class Kind>
+MarksIn<Kind> MarksOf(const SimulationIn<Kind>& simulation) {
+  MarksIn<Kind> marks;
   for (const auto& contact : simulation.contacts()) marks.contacts.push_back(contact.point);
   marks.forces = simulation.forces();
   return marks;
 }
 
-RecordedFrame RecordFrame(const Scene<double>& scene, double time, Marks marks) {
-  RecordedFrame frame;
+template <class Kind>
+FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>& scene, double time, MarksIn<Kind> marks) {
+  FrameIn<Kind> frame;
   frame.time = time;
-  for (const auto& body : scene.bodies)
-    frame.bodies.push_back({body.position[0], body.position[1], body.rotation[0], body.rotation[1]});
+  for (const auto& body : scene.bodies) frame.bodies.push_back({body.position, body.rotation});
   frame.marks = std::move(marks);
   return frame;
 }
 
-void SetPoses(Scene<double>& scene, const RecordedFrame& frame) {
+template <class Kind>
+void SetPoses(SceneIn<Kind, double>& scene, const FrameIn<Kind>& frame) {
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
-    const auto& [x, y, c, s] = frame.bodies[i];
-    scene.bodies[i].position = {x, y};
-    scene.bodies[i].rotation = {c, s};
+    scene.bodies[i].position = frame.bodies[i].position;
+    scene.bodies[i].rotation = frame.bodies[i].rotation;
   }
 }
 
@@ -130,76 +90,166 @@ double ForceScale(const View& view, std::vector<double> largest) {
   return 0.15 * (view.top - view.bottom) / *median;
 }
 
-std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks, double newton) {
-  const Screen screen(view);
-  std::string text = Head(screen);
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
-    const auto& body = scene.bodies[i];
-    text += fmt::format("<g transform=\"{}\">{}</g>\n",
-                        Matrix(screen, body.position[0], body.position[1], body.rotation[0], body.rotation[1]),
-                        Pieces(scene, i, screen.scale));
-  }
-  for (const auto& joint : scene.joints)
-    text += Circle(screen, scene.bodies[joint.a].At(joint.at_a), "white", 4);
-  for (const auto& point : marks.contacts) text += Circle(screen, point, "#30c030", 3);
-  for (const auto& force : marks.forces) {
-    if (force.from_joint || force.force.norm() == 0) continue;
-    text += Line(ArrowOf(screen, force.point, newton * ShownForce(scene, force)));
-  }
-  return text + "</svg>\n";
-}
+// ---- Pictures --------------------------------------------------------------------------------
 
 namespace {
 
-std::string FrameData(const Scene<double>& scene, const Screen& screen, const RecordedFrame& frame,
-                      double newton) {
-  std::string poses, joints, contacts, forces;
-  Scene<double> moved = scene;
-  SetPoses(moved, frame);
-  for (const auto& [x, y, c, s] : frame.bodies) poses += '"' + Matrix(screen, x, y, c, s) + "\",";
-  for (const auto& joint : scene.joints) {
-    const Vector2<double> p = moved.bodies[joint.a].At(joint.at_a);
-    joints += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
-  }
-  for (const auto& p : frame.marks.contacts)
-    contacts += fmt::format("[{:.1f},{:.1f}],", screen.X(p[0]), screen.Y(p[1]));
-  for (const auto& force : frame.marks.forces) {
-    if (force.from_joint || force.force.norm() == 0) continue;
-    const Arrow arrow = ArrowOf(screen, force.point, newton * ShownForce(scene, force));
-    forces +=
-        fmt::format("[{:.1f},{:.1f},{:.1f},{:.1f},{:d}],", arrow.x1, arrow.y1, arrow.x2, arrow.y2, arrow.cut);
-  }
-  return fmt::format("[{:.9g},[{}],[{}],[{}],[{}]],\n", frame.time, poses, joints, contacts, forces);
+// From a point of the picture's plane along a vector of it.
+Html Arrow(const Screen& screen, const Vector2<double>& from, Vector2<double> along) {
+  const double longest = screen.height / 4 / screen.scale, length = along.norm();
+  const bool cut = length > longest;
+  if (cut) along *= longest / length;
+  const Vector2<double> to = from + along;
+  return Tag("line", {{"x1", Fixed(screen.X(from))},
+                      {"y1", Fixed(screen.Y(from))},
+                      {"x2", Fixed(screen.X(to))},
+                      {"y2", Fixed(screen.Y(to))},
+                      {"stroke", "#d00000"},
+                      {"stroke-width", "1.5"},
+                      {"stroke-dasharray", cut ? "6 3" : ""},
+                      {"marker-end", "url(#tip)"}})("") +
+         Html("\n");
 }
 
-constexpr const char* kShow = R"js(
-const bodies = [...document.querySelectorAll('#bodies > g')], marks = document.getElementById('marks');
-function circle(p, fill, r) { return `<circle cx="${p[0]}" cy="${p[1]}" r="${r}" fill="${fill}" stroke="black"/>`; }
+// The force as a picture shows it (draw.h); `force.force` acts on the first body.
+template <class Kind>
+Vector2<double> ShownForce(const SceneIn<Kind, double>& scene, const AppliedForceIn<Kind>& force) {
+  const auto [first, second] = force.bodies;
+  const bool on_first = scene.bodies[first].fixed ? false : scene.bodies[second].fixed || first > second;
+  return (on_first ? 1.0 : -1.0) * Seen(force.force);
+}
+
+template <class Kind>
+Html Marks(const SceneIn<Kind, double>& scene, const Screen& screen, const MarksIn<Kind>& marks,
+           double newton) {
+  Html html = Placed(scene, screen);
+  for (const auto& point : marks.contacts) html += Dot(screen, Seen(point), "#30c030", 3);
+  for (const auto& force : marks.forces) {
+    if (force.from_joint || force.force.norm() == 0) continue;
+    html += Arrow(screen, Seen(force.point), newton * ShownForce(scene, force));
+  }
+  return html;
+}
+
+Html Svg(const Screen& screen, const Html& content) {
+  const std::string width = Fixed(screen.width, 0), height = Fixed(screen.height, 0);
+  const Html head(
+      "\n<defs><marker id=\"tip\" markerWidth=\"6\" markerHeight=\"6\" refX=\"5\" refY=\"3\" orient=\"auto\">"
+      "<path d=\"M0,0 L6,3 L0,6 z\" fill=\"#d00000\"/></marker></defs>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n");
+  return Tag("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                     {"width", width},
+                     {"height", height},
+                     {"viewBox", "0 0 " + width + " " + height}})(head + content) +
+         Html("\n");
+}
+
+// Number k of `frames`: time, transforms of the bodies, and what is drawn where it is.
+template <class Kind>
+Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const FrameIn<Kind>& frame,
+               double newton) {
+  return {frame.time, Transforms(moved, screen), Marks(moved, screen, frame.marks, newton).markup()};
+}
+
+const Html& PlayerStyle() {
+  static const Html style(
+      "<style>body{font-family:sans-serif;margin:1em} svg{border:1px solid #ccc;max-width:100%} "
+      "input{width:60%;vertical-align:middle}</style>\n");
+  return style;
+}
+
+const Html& PlayerControls() {
+  static const Html controls(
+      "<p><button id=\"play\">Pause</button> <input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> "
+      "<span id=\"time\"></span></p>\n");
+  return controls;
+}
+
+// Plays `frames` at `rate` frames a second.
+const Html& Player() {
+  static const Html player(R"js(
+const slider = document.getElementById('frame'), play = document.getElementById('play');
+const label = document.getElementById('time'), marks = document.getElementById('marks');
+const bodies = [...document.querySelectorAll('#bodies > g')];
+slider.max = frames.length - 1;
 function show(k) {
-  const [time, poses, joints, contacts, forces] = frames[k];
-  poses.forEach((m, i) => bodies[i].setAttribute('transform', m));
-  marks.innerHTML = joints.map(p => circle(p, 'white', 4)).join('') +
-    contacts.map(p => circle(p, '#30c030', 3)).join('') +
-    forces.map(f => `<line x1="${f[0]}" y1="${f[1]}" x2="${f[2]}" y2="${f[3]}" stroke="#d00000" ` +
-      `stroke-width="1.5" ${f[4] ? 'stroke-dasharray="6 3"' : ''} marker-end="url(#tip)"/>`).join('');
+  const [time, transforms, drawn] = frames[k];
+  transforms.forEach((transform, i) => bodies[i].setAttribute('transform', transform));
+  marks.innerHTML = drawn;
   slider.value = k;
   label.textContent = `t = ${time.toFixed(3)} s`;
 }
-)js";
+let playing = true, began = null, first = 0;
+// The last picture up to a time, which starts again after the last one.
+function at(time) {
+  const last = frames.length - 1, span = frames[last][0] - frames[0][0] + 1 / rate;
+  const t = frames[0][0] + (time - frames[0][0]) % span;
+  let k = 0;
+  while (k < last && frames[k + 1][0] <= t + 1e-9) ++k;
+  return k;
+}
+function tick(now) {
+  if (playing) {
+    if (began === null) { began = now; first = +slider.value; }
+    show(at(frames[first][0] + (now - began) / 1000));
+  }
+  requestAnimationFrame(tick);
+}
+play.onclick = () => { playing = !playing; began = null; play.textContent = playing ? 'Pause' : 'Play'; };
+slider.oninput = () => { playing = false; began = null; play.textContent = 'Play'; show(+slider.value); };
+show(0);
+requestAnimationFrame(tick);
+)js");
+  return player;
+}
 
 }  // namespace
 
-std::string DrawAnimation(const Scene<double>& scene, const View& view,
-                          const std::vector<RecordedFrame>& frames, double newton, double rate) {
+template <class Kind>
+std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
+                    double newton) {
   const Screen screen(view);
-  std::string text = PageHead(scene.name);
-  text += Head(screen) + "<g id=\"bodies\">\n";
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
-    text += "<g>" + Pieces(scene, i, screen.scale) + "</g>\n";
-  text += "</g>\n<g id=\"marks\"></g>\n</svg>\n";
-  std::string data;
-  for (const auto& frame : frames) data += FrameData(scene, screen, frame, newton);
-  return text + PageTail(data, rate, kShow);
+  const std::vector<Html> pictures = BodyPictures(scene, screen);
+  const std::vector<std::string> transforms = Transforms(scene, screen);
+  Html bodies;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    bodies += Tag("g", {{"transform", transforms[i]}})(pictures[i]) + Html("\n");
+  return Svg(screen, bodies + Marks(scene, screen, marks, newton)).markup();
 }
+
+template <class Kind>
+std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
+                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate) {
+  const Screen screen(view);
+  Html bodies("\n");
+  for (const Html& picture : BodyPictures(scene, screen)) bodies += Tag("g")(picture) + Html("\n");
+  Json data = Json::array();
+  SceneIn<Kind, double> moved = scene;
+  for (const auto& frame : frames) {
+    SetPoses(moved, frame);
+    data.push_back(FrameJson(moved, screen, frame, newton));
+  }
+  const Html picture = Tag("g", {{"id", "bodies"}})(bodies) + Html("\n") + Tag("g", {{"id", "marks"}})("");
+  const Html script = Html("\nconst rate = ") + ScriptData(JsonText(rate)) + Html(";\nconst frames = ") +
+                      ScriptData(JsonText(data)) + Html(";") + Player();
+  const Html head = Html("<meta charset=\"utf-8\">") + Tag("title")(scene.name) + Html("\n") + PlayerStyle();
+  const Html body = Tag("h1")(scene.name) + Html("\n") + Svg(screen, picture + Html("\n")) + PlayerControls() +
+                    Tag("script")(script);
+  return Document(Tag("head")(head), Tag("body")(body));
+}
+
+#define STICTION_INSTANTIATE(Kind)                                                                       \
+  template void View::Include(const SceneIn<Kind, double>&);                                             \
+  template MarksIn<Kind> MarksOf(const SimulationIn<Kind>&);                                             \
+  template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);               \
+  template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                  \
+  template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double); \
+  template std::string DrawAnimation(const SceneIn<Kind, double>&, const View&,                          \
+                                     const std::vector<FrameIn<Kind>>&, double, double)
+
+STICTION_INSTANTIATE(Plane);
+STICTION_INSTANTIATE(Space);
+
+#undef STICTION_INSTANTIATE
 
 }  // namespace stiction

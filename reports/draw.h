@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draw: a state as an SVG, a run as one HTML page that moves. Text only; no file is written here.
 //
-// Fixed bodies are dark, others have the colour of their level; joints are white circles, contacts green ones,
-// forces of contacts red arrows, as they act on the body that moves, or on the later one of two. An arrow that
-// would be longer than a quarter of the picture's height is dashed and that long.
+// Fixed bodies are dark or grey, others have the colour of their level; joints are white circles, contacts
+// green ones, forces of contacts red arrows, as they act on the body that moves, or on the later one of two. An
+// arrow that would be longer than a quarter of the picture's height is dashed and that long. Space is seen from
+// one direction, without perspective.
 
 #ifndef STICTION_REPORTS_DRAW_H_
 #define STICTION_REPORTS_DRAW_H_
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -17,33 +17,44 @@
 
 namespace stiction {
 
-// The part of the plane that is shown.
+// The part of the plane, or of the picture's plane, that is shown.
 struct View {
   double left = 0, right = 0, bottom = 0, top = 0;
 
-  void Include(const Scene<double>& scene);  // bodies that move, and joints; all bodies if none moves
+  // Bodies that move, and joints; all bodies if none moves.
+  template <class Kind>
+  void Include(const SceneIn<Kind, double>& scene);
   void AddMargin();
 };
 
 // What is drawn besides the bodies.
-struct Marks {
-  std::vector<Vector2<double>> contacts;
-  std::vector<AppliedForce> forces;
+template <class Kind>
+struct MarksIn {
+  std::vector<typename Kind::template Vector<double>> contacts;
+  std::vector<AppliedForceIn<Kind>> forces;
 };
-Marks MarksOf(const Simulation& simulation);
+template <class Kind>
+MarksIn<Kind> MarksOf(const SimulationIn<Kind>& simulation);
 
 // What a page needs of a state.
-struct RecordedFrame {
-  double time = 0;                            // s
-  std::vector<std::array<double, 4>> bodies;  // x, y, cos, sin
-  Marks marks;
+template <class Kind>
+struct FrameIn {
+  struct Pose {
+    typename Kind::template Vector<double> position;
+    typename Kind::template Rotation<double> rotation;
+  };
+  double time = 0;  // s
+  std::vector<Pose> bodies;
+  MarksIn<Kind> marks;
 };
-RecordedFrame RecordFrame(const Scene<double>& scene, double time, Marks marks);
-void SetPoses(Scene<double>& scene, const RecordedFrame& frame);
+template <class Kind>
+FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>& scene, double time, MarksIn<Kind> marks);
+template <class Kind>
+void SetPoses(SceneIn<Kind, double>& scene, const FrameIn<Kind>& frame);
 
 // The largest force of a contact, N; 0 if there is none.
-template <class MarksType>
-double LargestForce(const MarksType& marks) {
+template <class Kind>
+double LargestForce(const MarksIn<Kind>& marks) {
   double largest = 0;
   for (const auto& force : marks.forces) {
     if (!force.from_joint) largest = std::max(largest, force.force.norm());
@@ -54,20 +65,13 @@ double LargestForce(const MarksType& marks) {
 // largest of a picture.
 double ForceScale(const View& view, std::vector<double> largest);
 
-std::string DrawSvg(const Scene<double>& scene, const View& view, const Marks& marks, double newton);
+template <class Kind>
+std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
+                    double newton);
 // `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
-std::string DrawAnimation(const Scene<double>& scene, const View& view,
-                          const std::vector<RecordedFrame>& frames, double newton, double rate);
-
-// The types of a scene's drawing.
-template <class SceneType>
-struct DrawingOf;
-
-template <>
-struct DrawingOf<Scene<double>> {
-  using FrameType = RecordedFrame;
-  using ViewType = View;
-};
+template <class Kind>
+std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
+                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate);
 
 }  // namespace stiction
 

@@ -72,6 +72,15 @@ Html Text(std::string_view text) {
   return html;
 }
 
+Html ScriptData(std::string_view json) {
+  Html html;
+  for (const char c : json) {
+    if ((c == '/' || c == '!') && !html.markup_.empty() && html.markup_.back() == '<') html.markup_ += '\\';
+    html.markup_ += c;
+  }
+  return html;
+}
+
 Tag::Tag(std::string_view name, std::initializer_list<Attribute> attributes) : name_(name), open_("<" + name_) {
   for (const Attribute& attribute : attributes) {
     if (attribute.value.empty()) continue;
@@ -89,6 +98,11 @@ Html Tag::Void() const {
   Html html;
   html.markup_ = open_ + ">";
   return html;
+}
+
+std::string Document(const Html& head, const Html& body) {
+  const Html page = Tag("html", {{"lang", "en"}})(Html("\n") + head + body + Html("\n"));
+  return "<!DOCTYPE html>\n" + page.markup() + "\n";
 }
 
 Table::Table(std::string caption, std::vector<Column> columns)
@@ -129,14 +143,9 @@ Html Table::Done() const {
   return frame(table) + Html("\n");
 }
 
-std::string Grouped(std::int64_t value) {
-  std::string digits = std::to_string(value);
-  const std::ptrdiff_t first = value < 0 ? 1 : 0;
-  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > first; i -= 3) {
-    digits.insert(static_cast<std::size_t>(i), ",");
-  }
-  return digits;
-}
+std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, decimals); }
+
+std::string Significant(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
 
 std::string PerMillion(std::int64_t count, std::int64_t total) { return Scaled(1e6, count, total); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// HTML, escaped by construction: whatever does not come from our own source text becomes Html only through
-// Text() or an attribute's value, and both escape.
+// HTML and SVG, escaped by construction: whatever does not come from our own source text becomes Html only
+// through Text(), an attribute's value or ScriptData(), and all of them escape.
 
 #ifndef STICTION_REPORTS_HTML_H_
 #define STICTION_REPORTS_HTML_H_
@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "corpus/grouped.h"
 
 namespace stiction {
 
@@ -29,6 +31,7 @@ class Html {
 
  private:
   friend Html Text(std::string_view text);
+  friend Html ScriptData(std::string_view json);
   friend struct Tag;
   std::string markup_;
 };
@@ -36,6 +39,10 @@ class Html {
 // Control characters that HTML does not allow become U+FFFD.
 Html Text(std::string_view text);
 
+// JSON text as a script may hold it: no end of a script or start of a comment stands in it.
+Html ScriptData(std::string_view json);
+
+// One that is empty is left out.
 struct Attribute {
   std::string_view name;
   std::string value;
@@ -52,6 +59,9 @@ struct Tag {
   std::string name_;
   std::string open_;  // "<name attributes", not closed yet
 };
+
+// A page that needs nothing else.
+std::string Document(const Html& head, const Html& body);
 
 // ---- Tables ----
 
@@ -86,9 +96,13 @@ class Table {
   Html rows_;
 };
 
+// ---- Numbers for pictures ----
+
+std::string Fixed(double x, int decimals = 1);
+std::string Significant(double x, int digits = 5);
+
 // ---- Numbers for people ----
 
-std::string Grouped(std::int64_t value);  // 1,234,567
 // count per million of total, two or three digits; "" of nothing.
 std::string PerMillion(std::int64_t count, std::int64_t total);
 std::string Percent(std::int64_t count, std::int64_t total);

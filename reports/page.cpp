@@ -298,8 +298,7 @@ std::string Page(const ReportContent& content) {
   const Html header = Tag("header")(Html("\n") + Introduction() + (content.units > 0 ? Navigation() : Html()));
   const Html body =
       Tag("body")(Html("\n") + header + Html("\n") + Tag("main")(Html("\n") + sections) + Html("\n"));
-  return "<!DOCTYPE html>\n" + Tag("html", {{"lang", "en"}})(Html("\n") + Head() + body + Html("\n")).markup() +
-         "\n";
+  return Document(Head(), body);
 }
 
 }  // namespace stiction

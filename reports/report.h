@@ -17,12 +17,14 @@
 #include <filesystem>
 
 #include "corpus/store.h"
+#include "corpus/whole_folder.h"
 
 namespace stiction {
 
-// Makes the directory; overwrites its own files there and leaves all others. The same content of a store gives
-// the same bytes. InputError if something cannot be written.
-void WriteReport(const Store& store, const std::filesystem::path& directory);
+// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
+// content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
+std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
+                                  Occupied occupied = Occupied::kRefused);
 
 }  // namespace stiction
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assembling in the plane, over doubles for simulation, and over rationals.
+// Assembling over doubles for simulation, and over rationals.
 
 #include "scene/assemble.ipp"
 
@@ -7,26 +7,33 @@
 
 namespace stiction {
 
-#define STICTION_INSTANTIATE(Scalar)                                                                          \
-  template std::vector<BodyDynamics<Scalar, 3>> DynamicsOf(const Scene<Scalar>&);                             \
-  template std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>&);                         \
-  template Constraint<Scalar, 3> ContactConstraint(const Scene<Scalar>&, const TouchPoint<Scalar>&);          \
-  template SceneModel<Scalar> Assemble(const Scene<Scalar>&, const std::vector<TouchPoint<Scalar>>&,          \
-                                       const AssembleOptions<Scalar>&);                                       \
-  template ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, 3>>&,                 \
-                                                 const std::vector<Constraint<Scalar, 3>>&, const Island&);   \
-  template SparseContactProblem<Scalar> SparseProblemOf(                                                      \
-      const std::vector<BodyDynamics<Scalar, 3>>&, const std::vector<Constraint<Scalar, 3>>&, const Island&); \
-  template std::vector<Eigen::Matrix<Scalar, 3, 1>> BodyAccelerations(                                        \
-      const SceneModel<Scalar, 3>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);             \
+#define STICTION_INSTANTIATE(Kind, Scalar)                                                                    \
+  template std::vector<BodyDynamics<Scalar, Kind::kDof>> DynamicsOf(const SceneIn<Kind, Scalar>&);            \
+  template std::vector<ConstraintIn<Kind, Scalar>> JointConstraints(const SceneIn<Kind, Scalar>&);            \
+  template ConstraintIn<Kind, Scalar> ContactConstraint(const SceneIn<Kind, Scalar>&,                         \
+                                                        const TouchPointIn<Kind, Scalar>&);                   \
+  template ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>&,                                       \
+                                          const std::vector<TouchPointIn<Kind, Scalar>>&,                     \
+                                          const AssembleOptions<Scalar>&);                                    \
+  template ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Kind::kDof>>&,        \
+                                                 const std::vector<ConstraintIn<Kind, Scalar>>&,              \
+                                                 const Island&);                                              \
+  template SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Kind::kDof>>&, \
+                                                        const std::vector<ConstraintIn<Kind, Scalar>>&,       \
+                                                        const Island&);                                       \
+  template std::vector<Eigen::Matrix<Scalar, Kind::kDof, 1>> BodyAccelerations(                               \
+      const ModelIn<Kind, Scalar>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);             \
   template typename ContactProblem<Scalar>::Vector ExtendForces(                                              \
-      const SceneModel<Scalar, 3>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,              \
-      const SceneModel<Scalar, 3>&);                                                                          \
-  template std::vector<std::string> Explain(const Scene<Scalar>&, const std::vector<TouchPoint<Scalar>>&,     \
-                                            const SceneModel<Scalar>&, const AssembleOptions<Scalar>&)
+      const ModelIn<Kind, Scalar>&, const std::vector<typename ContactProblem<Scalar>::Vector>&,              \
+      const ModelIn<Kind, Scalar>&);                                                                          \
+  template std::vector<std::string> Explain(const SceneIn<Kind, Scalar>&,                                     \
+                                            const std::vector<TouchPointIn<Kind, Scalar>>&,                   \
+                                            const ModelIn<Kind, Scalar>&, const AssembleOptions<Scalar>&)
 
-STICTION_INSTANTIATE(double);
-STICTION_INSTANTIATE(mpq_class);
+STICTION_INSTANTIATE(Plane, double);
+STICTION_INSTANTIATE(Plane, mpq_class);
+STICTION_INSTANTIATE(Space, double);
+STICTION_INSTANTIATE(Space, mpq_class);
 
 #undef STICTION_INSTANTIATE
 

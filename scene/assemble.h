@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assemble: a scene and its contacts become the smallest problems that represent them.
 //
-// Rows. With n the normal from b to a, t = n turned by a quarter, p the point, r = p - centre of mass:
-//
-//   J_N = (n, r_a x n | -n, -(r_b x n))       J_F the same with t
+// Rows and their bias are in rows.h. In space a contact has one row of friction more, given forces include the
+// gyroscopic moment -w x (I w), and problems are of dimension 3: their law is Coulomb's, with the round cone.
 //
 // Levels: what the problem says, by its b. WF are the accelerations that the given forces cause.
 //
@@ -28,20 +27,6 @@
 //                correction, in the metric of the masses, that mends overlap and joints to first order. No
 //                friction.
 //
-// bias, the velocity-dependent part, is the second derivative of what the row measures where no body
-// accelerates. Normal rows measure the gap g of the surfaces themselves, a corner or disc at c of a:
-//
-//   against an edge of b with a point q   g = n.(c - q) - radius, dn/dt = w_b t:
-//       bias = n.(c'' - q'') + 2 w_b t.(c' - q') - w_b^2 n.(c - q)
-//   against a corner or disc at d of b    g = abs(c - d) - radii:
-//       bias = n.(c'' - d'') + (t.(c' - d'))^2 / abs(c - d)
-//
-// with c'' = -w_a^2 (c - x_a) of a point that turns with its body, likewise q'', d''. [Baraff94], section 3
-// takes such terms into b without writing them out. Tangential rows measure the relative acceleration of the
-// two material points, which is the derivative of the tangential velocity where that is zero, as it is at
-// static contacts:
-//       bias = t.(-w_a^2 r_a + w_b^2 r_b)
-//
 // Only what is required (`minimal`), each step exact:
 //   frictionless contacts have one row; contacts that part have none (at the level of forces); inner contacts
 //   of a face are dropped (FindRedundant); islands are problems of their own. Joints are bilateral rows, which
@@ -53,8 +38,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/contacts.h"
-#include "scene/mechanics.h"
+#include "scene/rows.h"
 
 namespace stiction {
 
@@ -87,8 +71,8 @@ struct SceneModel {
   std::vector<Constraint<Scalar, Dof>> constraints;  // that the problems hold
   std::vector<Island> islands;
   std::vector<Omission> omitted;
-  std::vector<int>
-      colliding;  // contacts that approach faster than `rest`; at the level of forces they count as at rest
+  // Contacts that approach faster than `rest`; at the level of forces they count as at rest.
+  std::vector<int> colliding;
 
   // That of an island.
   ContactProblem<Scalar> Problem(std::size_t island) const {
@@ -99,33 +83,13 @@ struct SceneModel {
   }
 };
 
-// What assembling and stepping ask of a scene, in the plane or in space (assemble_space.h). Both have the
-// functions DynamicsOf, JointConstraints and ContactConstraint.
-template <class SceneType>
-struct SceneTypes;
+template <class Kind, class Scalar>
+using ModelIn = SceneModel<Scalar, Kind::kDof>;
 
-template <class Number>
-struct SceneTypes<Scene<Number>> {
-  using Scalar = Number;
-  using Touch = TouchPoint<Number>;
-  static constexpr int kDimension = 2, kDof = 3;
-  using Model = SceneModel<Number, kDof>;
-};
-
-template <class Scalar>
-std::vector<BodyDynamics<Scalar, 3>> DynamicsOf(const Scene<Scalar>& scene);
-
-// Rows of a joint, in order: J, bias and error; b is not set.
-template <class Scalar>
-std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene);
-
-// Normal and tangential row of a contact likewise.
-template <class Scalar>
-Constraint<Scalar, 3> ContactConstraint(const Scene<Scalar>& scene, const TouchPoint<Scalar>& contact);
-
-template <class SceneType, class Types = SceneTypes<SceneType>>
-typename Types::Model Assemble(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
-                               const AssembleOptions<typename Types::Scalar>& options = {});
+template <class Kind, class Scalar>
+ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>& scene,
+                               const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
+                               const AssembleOptions<Scalar>& options = {});
 
 // Accelerations of all bodies (x, y, spin; x, y, z, three spins) under gravity, applied forces and f, a vector
 // of forces per island.
@@ -141,10 +105,10 @@ typename ContactProblem<Scalar>::Vector ExtendForces(
     const SceneModel<Scalar, Dof>& full);
 
 // Line by line what was modelled, what was left out, and why that is exact.
-template <class SceneType, class Types = SceneTypes<SceneType>>
-std::vector<std::string> Explain(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
-                                 const typename Types::Model& model,
-                                 const AssembleOptions<typename Types::Scalar>& options);
+template <class Kind, class Scalar>
+std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
+                                 const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
+                                 const ModelIn<Kind, Scalar>& model, const AssembleOptions<Scalar>& options);
 
 }  // namespace stiction
 

@@ -1,157 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
-// Definitions for assemble.h, in its order.
+// Definitions for rows.h and assemble.h, in their order.
 
 #ifndef STICTION_SCENE_ASSEMBLE_IPP_
 #define STICTION_SCENE_ASSEMBLE_IPP_
 
 #include <array>
 #include <map>
+#include <utility>
 
 #include "scene/assemble.h"
 #include "scene/mechanics.ipp"
 
 namespace stiction {
 
+// ---- Bodies and rows -------------------------------------------------------------------------
+
 template <class Scalar>
-std::vector<BodyDynamics<Scalar, 3>> DynamicsOf(const Scene<Scalar>& scene) {
-  std::vector<BodyDynamics<Scalar, 3>> bodies;
-  for (const auto& body : scene.bodies) {
-    BodyDynamics<Scalar, 3> d;
-    d.fixed = body.fixed;
-    d.W = Eigen::Matrix<Scalar, 3, 3>::Constant(Scalar(0));
-    d.force = Eigen::Matrix<Scalar, 3, 1>::Constant(Scalar(0));
-    for (int i = 0; i < 2; ++i) d.velocity[i] = body.velocity[i];
-    d.velocity[2] = body.spin;
-    for (int i = 0; i < 2; ++i) d.imposed[i] = body.acceleration[i];
-    if (!body.fixed) {
-      for (int i = 0; i < 2; ++i) {
-        d.W(i, i) = Scalar(1) / body.mass;
-        d.force[i] = body.mass * scene.gravity[i] + body.force[i];
-      }
-      d.W(2, 2) = Scalar(1) / body.inertia;
-      d.force[2] = body.torque;
-    }
-    bodies.push_back(std::move(d));
-  }
+Scalar InverseInertia(const RigidBody<Scalar>& body) {
+  return Scalar(1) / body.inertia;
+}
+template <class Scalar>
+Matrix3<Scalar> InverseInertia(const BodyInSpace<Scalar>& body) {
+  return Inverse3<Scalar>(WorldInertia(body));
+}
+
+// The given moment, in space with the gyroscopic one.
+template <class Scalar>
+Scalar MomentOn(const RigidBody<Scalar>& body) {
+  return body.torque;
+}
+template <class Scalar>
+Vector3<Scalar> MomentOn(const BodyInSpace<Scalar>& body) {
+  const Vector3<Scalar> momentum = WorldInertia(body) * body.spin;
+  return body.torque - CrossProduct<Scalar>(body.spin, momentum);
+}
+
+template <class Kind, class Scalar>
+BodyDynamics<Scalar, Kind::kDof> DynamicsOf(const SceneIn<Kind, Scalar>& scene,
+                                            const BodyIn<Kind, Scalar>& body) {
+  using Dynamics = BodyDynamics<Scalar, Kind::kDof>;
+  constexpr int kSpins = Kind::kDof - Kind::kDimension;
+  Dynamics d;
+  d.fixed = body.fixed;
+  d.W = Zero<typename Dynamics::Matrix>();
+  d.force = Zero<typename Dynamics::Vector>();
+  d.velocity << body.velocity, body.spin;
+  d.imposed.template head<Kind::kDimension>() = body.acceleration;
+  if (body.fixed) return d;
+  for (int i = 0; i < Kind::kDimension; ++i) d.W(i, i) = Scalar(1) / body.mass;
+  d.W.template bottomRightCorner<kSpins, kSpins>() << InverseInertia(body);
+  d.force << body.mass * scene.gravity + body.force, MomentOn(body);
+  return d;
+}
+
+template <class Kind, class Scalar>
+std::vector<BodyDynamics<Scalar, Kind::kDof>> DynamicsOf(const SceneIn<Kind, Scalar>& scene) {
+  std::vector<BodyDynamics<Scalar, Kind::kDof>> bodies;
+  for (const auto& body : scene.bodies) bodies.push_back(DynamicsOf(scene, body));
   return bodies;
 }
 
-// ---- Rows ------------------------------------------------------------------------------------
-
-// The velocity along d of a's point at arm_a relative to b's at arm_b.
+// Of a's material relative to b's at the contact point.
 template <class Scalar>
-ConstraintRow<Scalar, 3> RowAlong(const Vector2<Scalar>& d, const Vector2<Scalar>& arm_a,
-                                  const Vector2<Scalar>& arm_b) {
-  ConstraintRow<Scalar, 3> row;
-  row.J[0] << d[0], d[1], Cross<Scalar>(arm_a, d);
-  row.J[1] << Scalar(-d[0]), Scalar(-d[1]), Scalar(-Cross<Scalar>(arm_b, d));
-  return row;
+Vector2<Scalar> SlipBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b,
+                         const TouchPoint<Scalar>& contact) {
+  return ToCentre(a, contact.point) - ToCentre(b, contact.point);
+}
+template <class Scalar>
+Vector3<Scalar> SlipBias(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
+                         const TouchPointInSpace<Scalar>& contact) {
+  const Vector3<Scalar> spin = a.spin - b.spin, ahead = Wandering(contact, spin);
+  return ToCentre(a, contact.point) - ToCentre(b, contact.point) + CrossProduct<Scalar>(spin, ahead);
 }
 
-// Second derivative of a point that turns with its body.
-template <class Scalar>
-Vector2<Scalar> Centripetal(const RigidBody<Scalar>& body, const Vector2<Scalar>& point) {
-  const Scalar factor = -body.spin * body.spin;
-  return factor * (point - body.position);
-}
-
-// Of n.(c - q): c a point of a, q one of b, n turning with b.
-template <class Scalar>
-Scalar EdgeBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b, const Vector2<Scalar>& c,
-                const Vector2<Scalar>& q, const Vector2<Scalar>& n) {
-  const Vector2<Scalar> relative = Centripetal<Scalar>(a, c) - Centripetal<Scalar>(b, q);
-  const Vector2<Scalar> velocity = a.VelocityAt(c) - b.VelocityAt(q);
-  return Scalar(Dot<Scalar>(n, relative) + 2 * b.spin * Dot<Scalar>(Quarter<Scalar>(n), velocity) -
-                b.spin * b.spin * Dot<Scalar>(n, c - q));
-}
-
-// Of abs(c - d).
-template <class Scalar>
-Scalar RoundBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b, const Vector2<Scalar>& c,
-                 const Vector2<Scalar>& d, const Vector2<Scalar>& n) {
-  const Vector2<Scalar> relative = Centripetal<Scalar>(a, c) - Centripetal<Scalar>(b, d);
-  const Scalar across = Dot<Scalar>(Quarter<Scalar>(n), a.VelocityAt(c) - b.VelocityAt(d));
-  const Scalar distance = Dot<Scalar>(n, c - d);
-  return Scalar(Dot<Scalar>(n, relative) + (distance > 0 ? Scalar(across * across / distance) : Scalar(0)));
-}
-
-template <class Scalar>
-Constraint<Scalar, 3> ContactConstraint(const Scene<Scalar>& scene, const TouchPoint<Scalar>& contact) {
-  const RigidBody<Scalar>&a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
-  const Vector2<Scalar>&n = contact.normal, &p = contact.point;
-  const Vector2<Scalar> t = Quarter<Scalar>(n);
-  Constraint<Scalar, 3> constraint;
+template <class Kind, class Scalar>
+ConstraintIn<Kind, Scalar> ContactConstraint(const SceneIn<Kind, Scalar>& scene,
+                                             const TouchPointIn<Kind, Scalar>& contact) {
+  using Vector = typename Kind::template Vector<Scalar>;
+  const auto &a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
+  const Vector arm_a = contact.point - a.position, arm_b = contact.point - b.position;
+  ConstraintIn<Kind, Scalar> constraint;
   constraint.bodies = {contact.a, contact.b};
   constraint.law.mu = contact.mu;
-  const Vector2<Scalar> arm_a = p - a.position, arm_b = p - b.position;
-  constraint.rows = {RowAlong<Scalar>(n, arm_a, arm_b), RowAlong<Scalar>(t, arm_a, arm_b)};
-  ConstraintRow<Scalar, 3>&normal = constraint.rows[0], &tangential = constraint.rows[1];
-  normal.error = contact.gap;
-  const Vector2<Scalar> c = p + (contact.gap + contact.radius_a) * n;
-  if (contact.flat_b) {
-    normal.bias = EdgeBias<Scalar>(a, b, c, p, n);
-  } else {
-    normal.bias = RoundBias<Scalar>(a, b, c, p - contact.radius_b * n, n);
+  constraint.rows.reserve(Kind::kDimension);
+  constraint.rows.push_back(RowAlong<Kind, Scalar>(contact.normal, arm_a, arm_b));
+  constraint.rows[0].error = contact.gap;
+  constraint.rows[0].bias = NormalBias(a, b, contact);
+  const Vector bias = SlipBias(a, b, contact);
+  for (const Vector& tangent : TangentsOf(contact.normal)) {
+    constraint.rows.push_back(RowAlong<Kind, Scalar>(tangent, arm_a, arm_b));
+    constraint.rows.back().bias = tangent.dot(bias);
   }
-  tangential.bias = Dot<Scalar>(t, Centripetal<Scalar>(a, p) - Centripetal<Scalar>(b, p));
   return constraint;
 }
 
-template <class Scalar>
-Constraint<Scalar, 3> BilateralRow(const Joint<Scalar>& joint, int source, int part,
-                                   ConstraintRow<Scalar, 3> row) {
-  Constraint<Scalar, 3> constraint;
-  constraint.bodies = {joint.a, joint.b};
-  constraint.law.kind = ContactKind::kBilateral;
-  constraint.rows.push_back(std::move(row));
-  constraint.from_joint = true;
-  constraint.source = source;
-  constraint.part = part;
-  return constraint;
-}
-
-template <class Scalar>
-void AddPin(const Scene<Scalar>& scene, int source, std::vector<Constraint<Scalar, 3>>& constraints) {
-  const Joint<Scalar>& joint = scene.joints[source];
-  const RigidBody<Scalar>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
-  const Vector2<Scalar> p = a.At(joint.at_a), q = b.At(joint.at_b);
-  const Vector2<Scalar> bias = Centripetal<Scalar>(a, p) - Centripetal<Scalar>(b, q);
-  for (int i = 0; i < 2; ++i) {
-    const auto axis = MakeVector2<Scalar>(Scalar(1 - i), Scalar(i));
-    ConstraintRow<Scalar, 3> row = RowAlong<Scalar>(axis, p - a.position, q - b.position);
-    row.bias = bias[i];
-    row.error = p[i] - q[i];
-    constraints.push_back(BilateralRow(joint, source, i, std::move(row)));
-  }
-}
-
-template <class Scalar>
-void AddRail(const Scene<Scalar>& scene, int source, std::vector<Constraint<Scalar, 3>>& constraints) {
-  const Joint<Scalar>& joint = scene.joints[source];
-  const RigidBody<Scalar>&a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
-  const Vector2<Scalar> p = a.At(joint.at_a), q = b.At(joint.at_b);
-  const Vector2<Scalar> n = Quarter<Scalar>(Rotate<Scalar>(b.rotation, joint.direction));
-  ConstraintRow<Scalar, 3> row = RowAlong<Scalar>(n, p - a.position, p - b.position);
-  row.bias = EdgeBias<Scalar>(a, b, p, q, n);
-  row.error = Dot<Scalar>(n, p - q);
-  constraints.push_back(BilateralRow(joint, source, 0, std::move(row)));
-  if (joint.kind != JointKind::kSlider) return;
-  ConstraintRow<Scalar, 3> lock;
-  lock.J[0] << Scalar(0), Scalar(0), Scalar(1);
-  lock.J[1] << Scalar(0), Scalar(0), Scalar(-1);
-  lock.error =
-      Cross<Scalar>(Rotate<Scalar>(b.rotation, joint.relative_rotation), a.rotation);  // sine of the turn
-  constraints.push_back(BilateralRow(joint, source, 1, std::move(lock)));
-}
-
-template <class Scalar>
-std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene) {
-  std::vector<Constraint<Scalar, 3>> constraints;
-  for (int i = 0; i < static_cast<int>(scene.joints.size()); ++i) {
-    if (scene.joints[i].kind == JointKind::kPin) {
-      AddPin(scene, i, constraints);
-    } else {
-      AddRail(scene, i, constraints);
+template <class Kind, class Scalar>
+std::vector<ConstraintIn<Kind, Scalar>> JointConstraints(const SceneIn<Kind, Scalar>& scene) {
+  std::vector<ConstraintIn<Kind, Scalar>> constraints;
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    int part = 0;
+    for (auto& row : JointRows(scene, scene.joints[i])) {
+      auto& constraint = constraints.emplace_back();
+      constraint.bodies = {scene.joints[i].a, scene.joints[i].b};
+      constraint.law.kind = ContactKind::kBilateral;
+      constraint.rows.push_back(std::move(row));
+      constraint.from_joint = true;
+      constraint.source = static_cast<int>(i);
+      constraint.part = part++;
     }
   }
   return constraints;
@@ -159,16 +114,15 @@ std::vector<Constraint<Scalar, 3>> JointConstraints(const Scene<Scalar>& scene) 
 
 // ---- Laws and b ------------------------------------------------------------------------------
 
-template <class SceneType>
+template <class Kind, class Scalar>
 class Assembler {
  public:
-  using Types = SceneTypes<SceneType>;
-  using Scalar = typename Types::Scalar;
-  using Touch = typename Types::Touch;
-  using Model = typename Types::Model;
-  static constexpr int kDof = Types::kDof;
+  using Touch = TouchPointIn<Kind, Scalar>;
+  using Model = ModelIn<Kind, Scalar>;
+  static constexpr int kDof = Kind::kDof;
 
-  Assembler(const SceneType& scene, const AssembleOptions<Scalar>& options) : scene_(scene), options_(options) {
+  Assembler(const SceneIn<Kind, Scalar>& scene, const AssembleOptions<Scalar>& options)
+      : scene_(scene), options_(options) {
     model_.bodies = DynamicsOf(scene);
     for (const auto& body : model_.bodies) free_.push_back(body.FreeAcceleration());
   }
@@ -186,7 +140,7 @@ class Assembler {
 
  private:
   void AddContact(const Touch& contact, int number) {
-    Constraint<Scalar, kDof> constraint = ContactConstraint(scene_, contact);
+    ConstraintIn<Kind, Scalar> constraint = ContactConstraint(scene_, contact);
     constraint.source = number;
     const Scalar speed = Speed(constraint, 0);
     const bool stays = Sign(options_.step) != 0 && (!options_.minimal || IsIn(options_.closing, number));
@@ -201,7 +155,7 @@ class Assembler {
   }
 
   // At this instant, of what is kept: zero where a row is held at zero.
-  Scalar Speed(const Constraint<Scalar, kDof>& constraint, int row) const {
+  Scalar Speed(const ConstraintIn<Kind, Scalar>& constraint, int row) const {
     return Scalar(Velocity(constraint, row, model_.bodies) - options_.before / 2 * constraint.rows[row].bias);
   }
 
@@ -209,7 +163,7 @@ class Assembler {
     return number < static_cast<int>(contacts.size()) && contacts[number];
   }
 
-  void SetLaw(Constraint<Scalar, kDof>& constraint) {
+  void SetLaw(ConstraintIn<Kind, Scalar>& constraint) {
     Contact<Scalar>& law = constraint.law;
     const bool smooth = options_.level == Level::kPositions || (options_.minimal && Sign(law.mu) == 0);
     if (smooth) {
@@ -220,7 +174,7 @@ class Assembler {
     law.kind = ContactKind::kStatic;
     if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsIn(options_.held, constraint.source)) return;
     const Scalar speed = Speed(constraint, 1);
-    if constexpr (Types::kDimension == 2) {
+    if constexpr (Kind::kDimension == 2) {
       if (Abs<Scalar>(speed) <= scene_.rest) return;
       law.slip = {Scalar(Sign(speed)), Scalar(0)};
     } else {
@@ -231,12 +185,12 @@ class Assembler {
     law.kind = ContactKind::kSliding;
   }
 
-  void SetB(Constraint<Scalar, kDof>& constraint) {
+  void SetB(ConstraintIn<Kind, Scalar>& constraint) {
     for (int i = 0; i < static_cast<int>(constraint.rows.size()); ++i) SetB(constraint, i);
   }
 
-  void SetB(Constraint<Scalar, kDof>& constraint, int i) {
-    ConstraintRow<Scalar, kDof>& row = constraint.rows[i];
+  void SetB(ConstraintIn<Kind, Scalar>& constraint, int i) {
+    RowIn<Kind, Scalar>& row = constraint.rows[i];
     const bool one_sided = constraint.law.kind != ContactKind::kBilateral && i == 0;
     const Scalar gap = one_sided ? std::max<Scalar>(row.error, Scalar(0)) : Scalar(0);
     const bool step = Sign(options_.step) != 0;
@@ -265,7 +219,7 @@ class Assembler {
   void DropRedundant() {
     const std::vector<int> redundant = FindRedundant(model_.constraints);
     if (redundant.empty()) return;
-    std::vector<Constraint<Scalar, kDof>> kept;
+    std::vector<ConstraintIn<Kind, Scalar>> kept;
     for (std::size_t i = 0, dropped = 0; i < model_.constraints.size(); ++i) {
       if (dropped < redundant.size() && redundant[dropped] == static_cast<int>(i)) {
         model_.omitted.push_back({model_.constraints[i].source, OmissionReason::kRedundant});
@@ -277,16 +231,17 @@ class Assembler {
     model_.constraints = std::move(kept);
   }
 
-  const SceneType& scene_;
+  const SceneIn<Kind, Scalar>& scene_;
   const AssembleOptions<Scalar>& options_;
   Model model_;
   std::vector<Eigen::Matrix<Scalar, kDof, 1>> free_;
 };
 
-template <class SceneType, class Types>
-typename Types::Model Assemble(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
-                               const AssembleOptions<typename Types::Scalar>& options) {
-  return Assembler<SceneType>(scene, options).Run(contacts);
+template <class Kind, class Scalar>
+ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>& scene,
+                               const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
+                               const AssembleOptions<Scalar>& options) {
+  return Assembler<Kind, Scalar>(scene, options).Run(contacts);
 }
 
 // ---- What follows from forces ----------------------------------------------------------------

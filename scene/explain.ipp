@@ -20,9 +20,9 @@ std::string PointText(const Eigen::Matrix<Scalar, Dimension, 1>& point) {
   return text;
 }
 
-template <class SceneType>
-std::string ContactName(const SceneType& scene,
-                        const std::vector<typename SceneTypes<SceneType>::Touch>& contacts, int i) {
+template <class Kind, class Scalar>
+std::string ContactName(const SceneIn<Kind, Scalar>& scene,
+                        const std::vector<TouchPointIn<Kind, Scalar>>& contacts, int i) {
   const auto& c = contacts[i];
   return fmt::format("contact {} ({} on {}, at ({}))", i + 1, scene.bodies[c.a].name, scene.bodies[c.b].name,
                      PointText(c.point));
@@ -47,34 +47,28 @@ std::string LawOf(const Contact<Scalar>& law, int dimension) {
   return "";
 }
 
-template <class Scalar>
-const char* KindName(const Joint<Scalar>& joint) {
-  constexpr std::array kNames = {"pin", "rail", "slider"};
-  return kNames[static_cast<int>(joint.kind)];
-}
-
-template <class SceneType>
-std::string ConstraintName(
-    const SceneType& scene, const std::vector<typename SceneTypes<SceneType>::Touch>& contacts,
-    const Constraint<typename SceneTypes<SceneType>::Scalar, SceneTypes<SceneType>::kDof>& constraint) {
+template <class Kind, class Scalar>
+std::string ConstraintName(const SceneIn<Kind, Scalar>& scene,
+                           const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
+                           const ConstraintIn<Kind, Scalar>& constraint) {
   if (!constraint.from_joint) return ContactName(scene, contacts, constraint.source);
   const auto& joint = scene.joints[constraint.source];
   return fmt::format("joint {}, row {} ({} of {} and {})", constraint.source + 1, constraint.part + 1,
-                     KindName(joint), scene.bodies[joint.a].name, scene.bodies[joint.b].name);
+                     Kind::kJointNames[static_cast<std::size_t>(joint.kind)], scene.bodies[joint.a].name,
+                     scene.bodies[joint.b].name);
 }
 
 inline std::string ReasonFor(OmissionReason reason) {
   return reason == OmissionReason::kSeparating
              ? "left out: it parts, so it has no force at this instant, whatever its acceleration"
              : "left out: on a flat face between others of the same mu, any force of it is one of theirs and "
-               "its "
-               "acceleration a mean of theirs, so that no acceleration of any solution changes";
+               "its acceleration a mean of theirs, so that no acceleration of any solution changes";
 }
 
-template <class SceneType, class Types>
-std::vector<std::string> Explain(const SceneType& scene, const std::vector<typename Types::Touch>& contacts,
-                                 const typename Types::Model& model,
-                                 const AssembleOptions<typename Types::Scalar>& options) {
+template <class Kind, class Scalar>
+std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
+                                 const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
+                                 const ModelIn<Kind, Scalar>& model, const AssembleOptions<Scalar>& options) {
   std::vector<std::string> lines;
   for (const auto& omission : model.omitted)
     lines.push_back(ContactName(scene, contacts, omission.contact) + ": " + ReasonFor(omission.reason));
@@ -93,8 +87,8 @@ std::vector<std::string> Explain(const SceneType& scene, const std::vector<typen
                         : ""));
     for (const int k : island.constraints) {
       const auto& constraint = model.constraints[k];
-      std::string line =
-          "  " + ConstraintName(scene, contacts, constraint) + ": " + LawOf(constraint.law, Types::kDimension);
+      std::string line = "  " + ConstraintName<Kind, Scalar>(scene, contacts, constraint) + ": " +
+                         LawOf(constraint.law, Kind::kDimension);
       if (constraint.law.kind == ContactKind::kFrictionless)
         line += options.level == Level::kPositions
                     ? ""

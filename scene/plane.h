@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane over any scalar: vectors, rotations as (cos, sin), unit vectors rounded once.
+// The plane over any scalar: vectors, rotations as (cos, sin), unit vectors rounded once. And the plane as a
+// kind of scene: what templates over the kind ask of it; those of space are in space.h.
 
 #ifndef STICTION_SCENE_PLANE_H_
 #define STICTION_SCENE_PLANE_H_
@@ -9,6 +10,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include "solver/problem/scalar.h"
 
@@ -36,7 +39,7 @@ Scalar Cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
   return Scalar(a[0] * b[1] - a[1] * b[0]);
 }
 
-// a turned by a quarter, anticlockwise: the velocity of the point a under the spin 1.
+// a turned by a quarter, anticlockwise.
 template <class Scalar>
 Vector2<Scalar> Quarter(const Vector2<Scalar>& a) {
   return MakeVector2<Scalar>(Scalar(-a[1]), a[0]);
@@ -53,6 +56,24 @@ template <class Scalar>
 Vector2<Scalar> RotateBack(const Vector2<Scalar>& rotation, const Vector2<Scalar>& v) {
   return MakeVector2<Scalar>(Scalar(rotation[0] * v[0] + rotation[1] * v[1]),
                              Scalar(rotation[0] * v[1] - rotation[1] * v[0]));
+}
+
+// A scalar, vector or matrix of zeros.
+template <class T>
+T Zero() {
+  if constexpr (requires { T::RowsAtCompileTime; }) {
+    return T::Constant(typename T::Scalar(0));
+  } else {
+    return T(0);
+  }
+}
+
+// The rotation that turns nothing, 1 of the complex numbers and of the quaternions.
+template <class Rotation>
+Rotation NoRotation() {
+  Rotation one = Zero<Rotation>();
+  one[0] = typename Rotation::Scalar(1);
+  return one;
 }
 
 // v / abs(v). Over rationals exactly that where abs(v) is rational, otherwise doubles near it: the one rounding
@@ -83,6 +104,59 @@ std::array<Scalar, 2> ExactDirection(const Vector2<Scalar>& v) {
   const Scalar t = unit[1] / (1 + Abs<Scalar>(unit[0]));
   const Scalar scale = 1 + t * t, cosine = (1 - t * t) / scale, sine = 2 * t / scale;
   return {right ? cosine : Scalar(-cosine), sine};
+}
+
+// ---- A kind of scene -------------------------------------------------------------------------
+
+// pin     the points at_a and at_b coincide (2 rows)
+// rail    at_a stays on the line through at_b along `direction`, which turns with b (1 row)
+// slider  a rail on which a does not turn relative to b either (2 rows)
+enum class JointKind : std::uint8_t { kPin, kRail, kSlider };
+
+struct Plane {
+  static constexpr int kDimension = 2, kDof = 3;  // x, y, spin
+  template <class Scalar>
+  using Vector = Vector2<Scalar>;
+  template <class Scalar>
+  using Rotation = Vector2<Scalar>;  // (cos, sin)
+  template <class Scalar>
+  using Spin = Scalar;  // and moments, anticlockwise
+  template <class Scalar>
+  using Inertia = Scalar;
+  // What a convex piece has beside its corners, in order anticlockwise.
+  template <class Scalar>
+  struct Surface {};
+
+  using JointKind = stiction::JointKind;
+  static constexpr std::array<std::string_view, 3> kJointNames = {"pin", "rail", "slider"};
+};
+
+// A rotation as Rotate and RotateBack take it.
+template <class Scalar>
+const Vector2<Scalar>& TurnOf(const Vector2<Scalar>& rotation) {
+  return rotation;
+}
+
+// The moment of d at the arm.
+template <class Scalar>
+Scalar Moment(const Vector2<Scalar>& arm, const Vector2<Scalar>& d) {
+  return Cross<Scalar>(arm, d);
+}
+
+// Of the point at the arm under a spin: its velocity, and its acceleration toward the centre.
+template <class Scalar>
+Vector2<Scalar> SpinVelocity(const Scalar& spin, const Vector2<Scalar>& arm) {
+  return spin * Quarter<Scalar>(arm);
+}
+template <class Scalar>
+Vector2<Scalar> Centripetal(const Scalar& spin, const Vector2<Scalar>& arm) {
+  const Scalar factor = -spin * spin;
+  return factor * arm;
+}
+
+template <class Scalar>
+std::array<Vector2<Scalar>, 1> TangentsOf(const Vector2<Scalar>& normal) {
+  return {Quarter<Scalar>(normal)};
 }
 
 }  // namespace stiction

@@ -6,6 +6,7 @@
 
 #include <gmpxx.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 
@@ -18,6 +19,11 @@ inline double Nearest(const mpq_class& x) {
   if (!std::isfinite(below) || !std::isfinite(above)) return below;
   const mpq_class from_below = abs(x - mpq_class(below)), from_above = abs(mpq_class(above) - x);
   return from_above < from_below ? above : below;
+}
+
+template <int Rows, int Columns>
+Eigen::Matrix<double, Rows, Columns> Nearest(const Eigen::Matrix<mpq_class, Rows, Columns>& numbers) {
+  return numbers.unaryExpr([](const mpq_class& x) { return Nearest(x); });
 }
 
 // The root of x >= 0 if it is rational.

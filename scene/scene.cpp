@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rounding: unit vectors over rationals, and scenes to doubles.
+
 #include "scene/scene.h"
 
-#include <CGAL/Cartesian.h>
-#include <CGAL/Polygon_2_algorithms.h>
-#include <CGAL/mpq_class.h>
-
 #include <algorithm>
-#include <iterator>
-#include <numbers>
+#include <utility>
 
 #include "scene/rounding.h"
 
@@ -15,74 +12,82 @@ namespace stiction {
 namespace {
 
 using Exact = mpq_class;
-using Kernel = CGAL::Cartesian<Exact>;
 
-Exact SquaredLength(const Vector2<Exact>& v) { return Dot<Exact>(v, v); }
-
-Vector2<double> NearestVector(const Vector2<Exact>& v) { return {Nearest(v[0]), Nearest(v[1])}; }
-
-void AddPolygon(MassProperties<Exact>& sum, const std::vector<Vector2<Exact>>& polygon) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2<Exact>&p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const Exact cross = Cross<Exact>(p, q);
-    sum.area += cross / 2;
-    for (int k = 0; k < 2; ++k) sum.center[k] += cross * (p[k] + q[k]) / 6;
-    sum.inertia += cross * (Dot<Exact>(p, p) + Dot<Exact>(p, q) + Dot<Exact>(q, q)) / 12;
-  }
+template <int Size>
+Exact RoundedLength(const Eigen::Matrix<Exact, Size, 1>& v) {
+  const Exact square = v.squaredNorm();
+  if (const auto root = RationalRoot(square)) return *root;
+  return Exact(std::sqrt(Nearest(square)));
 }
 
-void AddDisc(MassProperties<Exact>& sum, const BodyShape<Exact>& disc) {
-  const Exact square = disc.radius * disc.radius;
-  const Exact area = Exact(std::numbers::pi) * square;
-  sum.area += area;
-  for (int k = 0; k < 2; ++k) sum.center[k] += area * disc.center[k];
-  sum.inertia += area * (square / 2 + SquaredLength(disc.center));
+template <int Size>
+Eigen::Matrix<Exact, Size, 1> RoundedUnitVector(const Eigen::Matrix<Exact, Size, 1>& v) {
+  if (const auto root = RationalRoot(Exact(v.squaredNorm()))) return v / *root;
+  Exact scale(0);  // so that nothing overflows
+  for (int i = 0; i < Size; ++i) scale = std::max<Exact>(scale, abs(v[i]));
+  const Eigen::Matrix<Exact, Size, 1> scaled = v / scale;
+  return UnitVector(Nearest(scaled)).template cast<Exact>();
 }
 
 }  // namespace
 
 template <>
-Vector2<Exact> UnitVector(const Vector2<Exact>& v) {
-  if (const auto root = RationalRoot(SquaredLength(v))) return MakeVector2<Exact>(v[0] / *root, v[1] / *root);
-  const Exact scale = std::max(Exact(abs(v[0])), Exact(abs(v[1])));  // so that nothing overflows
-  const Vector2<double> unit =
-      UnitVector<double>(NearestVector(MakeVector2<Exact>(v[0] / scale, v[1] / scale)));
-  return MakeVector2<Exact>(unit[0], unit[1]);
-}
-
-template <>
 Exact Length(const Vector2<Exact>& v) {
-  const Exact square = SquaredLength(v);
-  if (const auto root = RationalRoot(square)) return *root;
-  return Exact(std::sqrt(Nearest(square)));
+  return RoundedLength(v);
+}
+template <>
+Exact Length(const Vector3<Exact>& v) {
+  return RoundedLength(v);
+}
+template <>
+Vector2<Exact> UnitVector(const Vector2<Exact>& v) {
+  return RoundedUnitVector(v);
+}
+template <>
+Vector3<Exact> UnitVector(const Vector3<Exact>& v) {
+  return RoundedUnitVector(v);
 }
 
-std::string PolygonFault(const std::vector<Vector2<Exact>>& polygon) {
-  if (polygon.size() < 3) return "fewer than three corners";
-  std::vector<Kernel::Point_2> points;
-  for (const auto& corner : polygon) points.emplace_back(corner[0], corner[1]);
-  // One turn to the left at every corner is not enough: a star has that too.
-  if (!CGAL::is_simple_2(points.begin(), points.end(), Kernel())) return "edges that cross or touch";
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto turn =
-        CGAL::orientation(points[i], points[(i + 1) % points.size()], points[(i + 2) % points.size()]);
-    if (turn != CGAL::LEFT_TURN)
-      return "no turn to the left at corner " + std::to_string((i + 1) % points.size());
-  }
-  return "";
+namespace {
+
+void RoundSurface(const BodyShape<Exact>&, BodyShape<double>&) {}
+
+void RoundSurface(const ShapeInSpace<Exact>& shape, ShapeInSpace<double>& rounded) {
+  for (const auto& normal : shape.normals) rounded.normals.push_back(Nearest(normal));
+  rounded.faces = shape.faces;
+  rounded.edges = shape.edges;
 }
 
-MassProperties<Exact> MassPropertiesOf(const std::vector<BodyShape<Exact>>& shapes) {
-  MassProperties<Exact> sum;
-  for (const auto& shape : shapes) {
-    if (shape.IsDisc()) {
-      AddDisc(sum, shape);
-    } else {
-      AddPolygon(sum, shape.polygon);
-    }
-  }
-  for (int k = 0; sum.area != 0 && k < 2; ++k) sum.center[k] /= sum.area;
-  return sum;
+template <class Kind>
+ShapeIn<Kind, double> Round(const ShapeIn<Kind, Exact>& shape) {
+  ShapeIn<Kind, double> rounded;
+  for (const auto& corner : shape.corners) rounded.corners.push_back(Nearest(corner));
+  rounded.center = Nearest(shape.center);
+  rounded.radius = Nearest(shape.radius);
+  RoundSurface(shape, rounded);
+  return rounded;
+}
+
+Vector2<double> NearestRotation(const Vector2<Exact>& rotation) { return Nearest(rotation); }
+Quaternion<double> NearestRotation(const Quaternion<Exact>& rotation) { return Nearest(rotation).normalized(); }
+
+template <class Kind>
+BodyIn<Kind, double> Round(const BodyIn<Kind, Exact>& body) {
+  BodyIn<Kind, double> rounded;
+  rounded.name = body.name;
+  rounded.fixed = body.fixed;
+  rounded.mass = Nearest(body.mass);
+  rounded.inertia = Nearest(body.inertia);
+  rounded.position = Nearest(body.position);
+  rounded.rotation = NearestRotation(body.rotation);
+  rounded.velocity = Nearest(body.velocity);
+  rounded.spin = Nearest(body.spin);
+  rounded.acceleration = Nearest(body.acceleration);
+  rounded.force = Nearest(body.force);
+  rounded.torque = Nearest(body.torque);
+  rounded.level = body.level;
+  for (const auto& shape : body.shapes) rounded.shapes.push_back(Round(shape));
+  return rounded;
 }
 
 PairRule<double> Round(const PairRule<Exact>& rule) {
@@ -91,47 +96,29 @@ PairRule<double> Round(const PairRule<Exact>& rule) {
   return rounded;
 }
 
-Scene<double> Round(const Scene<Exact>& scene) {
-  Scene<double> rounded;
+}  // namespace
+
+template <class Kind>
+SceneIn<Kind, double> Round(const SceneIn<Kind, Exact>& scene) {
+  SceneIn<Kind, double> rounded;
   rounded.name = scene.name;
-  rounded.gravity = NearestVector(scene.gravity);
+  rounded.gravity = Nearest(scene.gravity);
   rounded.mu = Nearest(scene.mu);
   rounded.gap = Nearest(scene.gap);
   rounded.rest = Nearest(scene.rest);
-  for (const auto& body : scene.bodies) {
-    RigidBody<double> copy;
-    copy.name = body.name;
-    copy.fixed = body.fixed;
-    copy.mass = Nearest(body.mass);
-    copy.inertia = Nearest(body.inertia);
-    copy.position = NearestVector(body.position);
-    copy.rotation = NearestVector(body.rotation);
-    copy.velocity = NearestVector(body.velocity);
-    copy.spin = Nearest(body.spin);
-    copy.acceleration = NearestVector(body.acceleration);
-    copy.force = NearestVector(body.force);
-    copy.torque = Nearest(body.torque);
-    copy.level = body.level;
-    for (const auto& shape : body.shapes) {
-      BodyShape<double> piece;
-      for (const auto& corner : shape.polygon) piece.polygon.push_back(NearestVector(corner));
-      piece.center = NearestVector(shape.center);
-      piece.radius = Nearest(shape.radius);
-      copy.shapes.push_back(std::move(piece));
-    }
-    rounded.bodies.push_back(std::move(copy));
-  }
+  for (const auto& body : scene.bodies) rounded.bodies.push_back(Round(body));
   for (const auto& joint : scene.joints) {
-    rounded.joints.push_back({joint.kind, joint.a, joint.b, NearestVector(joint.at_a),
-                              NearestVector(joint.at_b), NearestVector(joint.direction),
-                              NearestVector(joint.relative_rotation)});
+    rounded.joints.push_back({joint.kind, joint.a, joint.b, Nearest(joint.at_a), Nearest(joint.at_b),
+                              Nearest(joint.direction), NearestRotation(joint.relative_rotation)});
   }
-  for (const auto& given : scene.contacts) {
+  for (const auto& given : scene.contacts)
     rounded.contacts.push_back(
-        {given.a, given.b, NearestVector(given.at_a), NearestVector(given.at_b), NearestVector(given.normal)});
-  }
+        {given.a, given.b, Nearest(given.at_a), Nearest(given.at_b), Nearest(given.normal)});
   for (const auto& pair : scene.pairs) rounded.pairs.push_back(Round(pair));
   return rounded;
 }
+
+template Scene<double> Round(const Scene<Exact>&);
+template SceneInSpace<double> Round(const SceneInSpace<Exact>&);
 
 }  // namespace stiction

@@ -1,134 +1,385 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stepping in the plane.
+#include "scene/simulate.h"
 
-#include "scene/simulate.ipp"
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
-#include <limits>
-#include <utility>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "scene/motion.h"
 
 namespace stiction {
 namespace {
 
-constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
-constexpr int kProximalPoints = 3;
-constexpr double kWholeResidual = 1e-7;  // of a problem with the bilateral rows that reduction took out
+constexpr int kHoldRounds = 8;
+constexpr int kSparseRows = 400;   // from which on a sparse A costs less
+constexpr double kDeep = 1e-3;     // m; where the scene has no gap
+constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
-void Turn(Vector2<double>& rotation, double angle) {
-  if (angle == 0) return;
-  rotation =
-      UnitVector<double>(Rotate<double>(MakeVector2<double>(std::cos(angle), std::sin(angle)), rotation));
+// The derivative of the gap: negative where the contact closes.
+template <class SceneType, class Touch>
+double ApproachOf(const SceneType& scene, const Touch& contact) {
+  const auto &a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
+  return contact.normal.dot(a.VelocityAt(contact.point) - b.VelocityAt(contact.point));
 }
 
-// Without complete driving: limits.pivots bounds it. (Without friction it would bound the active set as well.)
-bool SolveQuickly(FastSolver<double>& solver, const ContactProblem<double>& problem,
-                  std::span<const Cell> guess = {}) {
-  const Limits limits = std::exchange(solver.options().limits, {.pivots = 0});
-  const bool solved = solver.Run(problem, guess).outcome == Outcome::kSolved;
-  solver.options().limits = limits;
-  return solved;
+template <class Body>
+auto MotionOf(const Body& body) {
+  return std::tuple(body.position, body.rotation, body.velocity, body.spin);
 }
 
-bool SolveProximally(FastSolver<double>& solver, const ContactProblem<double>& problem,
-                     ContactProblem<double>::Vector& f) {
-  const double eps = kProximal * problem.A.diagonal().maxCoeff();
-  ContactProblem<double> near = problem;
-  near.A.diagonal().array() += eps;
-  double residual = std::numeric_limits<double>::infinity();
-  std::vector<Cell> cells;
-  f.setZero(problem.rows());
-  for (int point = 0; point < kProximalPoints && residual > kProximalAim; ++point) {
-    near.b = problem.b - eps * f;
-    if (!SolveQuickly(solver, near, cells)) return false;
-    f = solver.f();
-    cells = solver.cells();
-    const ContactProblem<double>::Vector a = problem.A * f + problem.b;
-    const Residual<double> measured = MeasureResidual(problem, f, a);
-    // Relative to b: where there is no solution forces grow like 1 / eps, and any violation is small beside
-    // them.
-    residual = measured.worst / measured.b_scale;
+// Of a large island A stays sparse, if that gives an answer.
+template <class Model>
+SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island) {
+  if (model.islands[island].rows >= kSparseRows) {
+    SceneAnswer answer = solver.Solve(model.SparseProblem(island));
+    if (answer.solved) return answer;
   }
-  return residual <= solver.options().residual;
-}
-
-bool SolveInTurn(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
-                 ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
-  const bool friction = problem.rows() > static_cast<int>(problem.contacts.size());
-  if (friction && SolveQuickly(solver.fast, problem)) {
-    f = solver.fast.f();
-    return true;
-  }
-  if (friction && SolveProximally(solver.fast, problem, f)) return true;
-  const auto complete = [&] {
-    const FastVerdict verdict = solver.fast.Run(problem);
-    statistics.fallbacks += verdict.statistics.fallbacks;
-    f = solver.fast.f();
-    return verdict.outcome == Outcome::kSolved;
-  };
-  const auto sparse = [&] {
-    const bool solved = SolveSparse(solver, {2, problem.contacts, problem.A.sparseView(), problem.b}, f);
-    statistics.sparse += solved;
-    return solved;
-  };
-  return friction ? sparse() || complete() : complete() || sparse();
+  return solver.Solve(model.Problem(island));
 }
 
 }  // namespace
 
-static double FastestPoint(const RigidBody<double>& body) {
-  double radius = 0;
-  for (const auto& shape : body.shapes) {
-    radius = std::max(radius, Length<double>(shape.center) + shape.radius);
-    for (const auto& corner : shape.polygon) radius = std::max(radius, Length<double>(corner));
+template <class Kind>
+SimulationIn<Kind>::SimulationIn(SceneType scene, const SimulationOptions& options,
+                                 std::function<void(const FrameProblem&)> observe)
+    : scene_(std::move(scene)),
+      options_(options),
+      observe_(std::move(observe)),
+      solvers_([options] { return SceneSolver(options.solver); }) {
+  const double gravity = scene_.gravity.norm();
+  scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : 1e-3;
+}
+
+template <class Kind>
+void SimulationIn<Kind>::Step() {
+  exhausted_ = false;
+  StepBy(options_.step, options_.halvings);
+  ++statistics_.frames;
+  statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
+  statistics_.deep += exhausted_;
+}
+
+// At once or, where that ends too deep, from the same state in two halves.
+template <class Kind>
+void SimulationIn<Kind>::StepBy(double h, int halvings) {
+  if (!is_near_known_) FindNear();
+  const double allowed = std::max(scene_.gap > 0 ? scene_.gap : kDeep, Overlap());
+  std::vector<decltype(MotionOf(scene_.bodies[0]))> before;
+  before.reserve(scene_.bodies.size());
+  for (const auto& body : scene_.bodies) before.push_back(MotionOf(body));
+  const double step_before = before_;
+  step_ = h;
+  TakeStep();
+  FindNear();
+  if (exhausted_ || Overlap() <= allowed) return;
+  exhausted_ = halvings == 0;
+  if (exhausted_) return;
+  ++statistics_.halved;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    auto& body = scene_.bodies[i];
+    std::tie(body.position, body.rotation, body.velocity, body.spin) = before[i];
   }
-  return Length<double>(body.velocity) + std::abs(body.spin) * radius;
+  before_ = step_before;
+  is_near_known_ = false;
+  for (int half = 0; half < 2; ++half) StepBy(h / 2, halvings - 1);
 }
 
-static void AddVelocity(RigidBody<double>& body, const Eigen::Vector3d& change) {
-  body.velocity += change.head<2>();
-  body.spin += change[2];
+template <class Kind>
+void SimulationIn<Kind>::TakeStep() {
+  FindStepContacts();
+  if (HasDrifted()) {
+    if (Collides()) ApplyImpulses();
+    CorrectPositions();
+  }
+  Changes accelerations(scene_.bodies.size(), Eigen::Matrix<double, Kind::kDof, 1>::Zero());
+  do {
+    if (Collides()) ApplyImpulses();
+  } while (AddClosing(accelerations));
+  do {
+    accelerations = Accelerations();
+  } while (AddClosing(accelerations));
+  Move(accelerations);
 }
 
-static void Displace(RigidBody<double>& body, const Eigen::Vector3d& change) {
-  body.position += change.head<2>();
-  Turn(body.rotation, change[2]);
+template <class Kind>
+double SimulationIn<Kind>::Overlap() const {
+  double overlap = 0;
+  for (const auto& contact : near_) overlap = std::max(overlap, -contact.gap);
+  return overlap;
 }
 
-static void Advance(RigidBody<double>& body, const Eigen::Vector3d& acceleration, double k, double h) {
-  AddVelocity(body, k * acceleration);
-  body.position += h * body.velocity;
-  Turn(body.rotation, h * body.spin);
+template <class Kind>
+auto SimulationIn<Kind>::AssembleAt(Level level, const std::vector<bool>& held,
+                                    const std::vector<bool>& closing) const -> Model {
+  AssembleOptions<double> options;
+  options.level = level;
+  options.step = step_;
+  options.before = before_;
+  options.minimal = options_.minimal;
+  options.held = held;
+  options.closing = closing;
+  return Assemble(scene_, contacts_, options);
 }
 
-bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, SimulationStatistics& statistics) {
-  const auto run = [&](const ContactProblem<double>& p, ContactProblem<double>::Vector& x) {
-    return SolveInTurn(solver, p, x, statistics);
-  };
-  const auto accept = [&](const auto& whole, const auto& a) {
-    return NaturalResidual(problem, whole, a) <= kWholeResidual;
-  };
-  return SolveReduced(problem, solver.fast.options().tolerances, run, accept, f);
+template <class Kind>
+void SimulationIn<Kind>::FindNear() {
+  double fastest = scene_.gravity.norm() * options_.step;
+  for (const auto& body : scene_.bodies) fastest = std::max(fastest, FastestPoint(body));
+  near_ = FindContacts(scene_, 2 * options_.step * fastest);
+  is_near_known_ = true;
 }
 
-bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
-                 ContactProblem<double>::Vector& f) {
-  if (solver.proximal.Run(problem).outcome != Outcome::kSolved) return false;
-  f = solver.proximal.f();
-  return true;
+template <class Kind>
+void SimulationIn<Kind>::FindStepContacts() {
+  if (!is_near_known_) FindNear();
+  is_near_known_ = false;
+  contacts_ = std::move(near_);
+  const auto beyond = std::stable_partition(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
+    return contact.gap + step_ * ApproachOf(scene_, contact) <= scene_.gap;
+  });
+  beyond_.assign(beyond, contacts_.end());
+  contacts_.erase(beyond, contacts_.end());
 }
 
-template class SimulationOf<Scene<double>>;
+// Whether the contact would overlap at the end of the step, to first order.
+template <class Kind>
+bool SimulationIn<Kind>::Closes(const Touch& contact, const Changes& accelerations) const {
+  const double h = step_;
+  const auto normal = ContactConstraint(scene_, contact).rows[0];
+  const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
+  const double speed = ApproachOf(scene_, contact) + Kick() * change + h / 2 * normal.bias;
+  return !(contact.gap + h * speed >= -kDrift);
+}
 
-Energy EnergyOf(const Scene<double>& scene) {
+// Moves from beyond_ to contacts_ what closes; whether there was anything.
+template <class Kind>
+bool SimulationIn<Kind>::AddClosing(const Changes& accelerations) {
+  const auto closing = std::stable_partition(
+      beyond_.begin(), beyond_.end(), [&](const Touch& contact) { return !Closes(contact, accelerations); });
+  const bool found = closing != beyond_.end();
+  contacts_.insert(contacts_.end(), closing, beyond_.end());
+  beyond_.erase(closing, beyond_.end());
+  return found;
+}
+
+// ---- Solving ---------------------------------------------------------------------------------
+
+// Islands at the same time where there is work enough: every answer depends on its own problem alone. False
+// with failed_ set to the first island that has no answer.
+template <class Kind>
+bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
+  const std::size_t count = model.islands.size();
+  int rows = 0, largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    rows += model.islands[i].rows;
+    largest = std::max(largest, model.islands[i].rows);
+    if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), model.Problem(i)});
+  }
+  statistics_.problems += static_cast<std::int64_t>(count);
+  statistics_.rows += rows;
+
+  f.resize(count);
+  std::vector<SceneAnswer> answers(count);
+  const auto solve = [&](std::size_t i) { answers[i] = SolveIsland(solvers_.local(), model, i); };
+  if (count > 1 && largest >= kParallelRows) {
+    tbb::parallel_for(std::size_t{0}, count, solve);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) solve(i);
+  }
+  failed_ = count;
+  for (std::size_t i = count; i-- > 0;) {
+    statistics_.fallbacks += answers[i].fallbacks;
+    statistics_.loose += answers[i].loose;
+    statistics_.sparse += answers[i].sparse;
+    if (!answers[i].solved) failed_ = i;
+    f[i] = std::move(answers[i].f);
+  }
+  return failed_ == count;
+}
+
+template <class Kind>
+void SimulationIn<Kind>::Fail(const Model& model, Level level, std::size_t island) const {
+  throw SimulationError(
+      fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided",
+                  statistics_.frames, time(), kLevelNames[static_cast<int>(level)], island + 1,
+                  model.islands[island].rows),
+      model.Problem(island));
+}
+
+template <class Kind>
+auto SimulationIn<Kind>::Response(const Model& model, const Forces& f) const -> Changes {
+  Changes change(model.bodies.size(), Eigen::Matrix<double, Kind::kDof, 1>::Zero());
+  for (std::size_t i = 0; i < model.islands.size(); ++i)
+    AddResponse(model.bodies, model.constraints, model.islands[i], f[i], change);
+  return change;
+}
+
+// ---- Positions and impulses ------------------------------------------------------------------
+
+template <class Kind>
+bool SimulationIn<Kind>::HasDrifted() const {
+  const auto overlaps = [](const Touch& contact) { return contact.gap < -kDrift; };
+  if (std::any_of(contacts_.begin(), contacts_.end(), overlaps)) return true;
+  if (scene_.joints.empty()) return false;
+  const auto joints = JointConstraints(scene_);
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const auto& joint) { return std::abs(joint.rows[0].error) > kDrift; });
+}
+
+template <class Kind>
+void SimulationIn<Kind>::CorrectPositions() {
+  ++statistics_.corrections;
+  const Model model = AssembleAt(Level::kPositions);
+  Forces f;
+  if (!Solve(model, Level::kPositions, f)) Fail(model, Level::kPositions, failed_);
+  const Changes change = Response(model, f);
+  for (std::size_t i = 0; i < change.size(); ++i) Displace(scene_.bodies[i], change[i]);
+  FindStepContacts();
+}
+
+template <class Kind>
+bool SimulationIn<Kind>::Collides() const {
+  return std::any_of(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
+    const auto closes = [&](double speed) {
+      return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
+    };
+    const double speed = ApproachOf(scene_, contact);
+    return closes(speed) && closes(speed - before_ / 2 * ContactConstraint(scene_, contact).rows[0].bias);
+  });
+}
+
+template <class Kind>
+void SimulationIn<Kind>::ApplyImpulses() {
+  ++statistics_.collisions;
+  const Model model = AssembleAt(Level::kImpulses);
+  Forces p;
+  if (!Solve(model, Level::kImpulses, p)) Fail(model, Level::kImpulses, failed_);
+  const Changes change = Response(model, p);
+  for (std::size_t i = 0; i < change.size(); ++i) AddVelocity(scene_.bodies[i], change[i]);
+}
+
+// ---- Forces ----------------------------------------------------------------------------------
+
+template <class Kind>
+auto SimulationIn<Kind>::Accelerations() -> Changes {
+  std::vector<bool> held(contacts_.size(), false), closing(contacts_.size(), false);
+  for (int round = 0;; ++round) {
+    const Model model = AssembleAt(Level::kForces, held, closing);
+    const bool all_held = std::find(held.begin(), held.end(), false) == held.end();
+    Forces f;
+    if (!Solve(model, Level::kForces, f)) {
+      if (all_held) Fail(model, Level::kForces, failed_);
+      ++statistics_.impulsive;
+      held.assign(contacts_.size(), true);
+      continue;
+    }
+    Changes accelerations = BodyAccelerations(model, f);
+    const int reversing = all_held ? 0 : HoldReversing(model, accelerations, held);
+    statistics_.stopped += reversing;
+    const int back = KeepClosing(model, accelerations, closing);
+    if ((reversing == 0 && back == 0) || round >= kHoldRounds) {
+      KeepForces(model, f);
+      return accelerations;
+    }
+  }
+}
+
+// Marks the sliding contacts whose tangential velocity would turn round within the step.
+template <class Kind>
+int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& accelerations,
+                                      std::vector<bool>& held) const {
+  int count = 0;
+  for (const auto& constraint : model.constraints) {
+    if (constraint.law.kind != ContactKind::kSliding) continue;
+    double along = 0;  // the slip
+    for (int row = 1; row < Kind::kDimension; ++row) {
+      double speed = Velocity(constraint, row, model.bodies) + step_ / 2 * constraint.rows[row].bias;
+      for (int side = 0; side < 2; ++side)
+        speed += Kick() * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
+      along += speed * constraint.law.slip[row - 1];
+    }
+    if (along >= 0) continue;
+    held[constraint.source] = true;
+    ++count;
+  }
+  return count;
+}
+
+// Marks the contacts left out because they part that would be back, and overlap, at the end of the step.
+template <class Kind>
+int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerations,
+                                    std::vector<bool>& closing) const {
+  int count = 0;
+  for (const Omission& omission : model.omitted) {
+    if (omission.reason != OmissionReason::kSeparating) continue;
+    if (!Closes(contacts_[omission.contact], accelerations)) continue;
+    closing[omission.contact] = true;
+    ++count;
+  }
+  return count;
+}
+
+template <class Kind>
+void SimulationIn<Kind>::KeepForces(const Model& model, const Forces& f) {
+  forces_.clear();
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    int at = 0;
+    for (const int k : model.islands[i].constraints) {
+      const auto& constraint = model.constraints[k];
+      Applied force;
+      force.bodies = constraint.bodies;
+      force.from_joint = constraint.from_joint;
+      force.force.setZero();
+      for (const auto& row : constraint.rows)
+        force.force += row.J[0].template head<Kind::kDimension>() * f[i][at++];
+      if (constraint.from_joint) {
+        const auto& joint = scene_.joints[constraint.source];
+        force.point = scene_.bodies[joint.a].At(joint.at_a);
+      } else {
+        force.point = contacts_[constraint.source].point;
+      }
+      forces_.push_back(force);
+    }
+  }
+}
+
+template <class Kind>
+void SimulationIn<Kind>::Move(const Changes& accelerations) {
+  for (std::size_t i = 0; i < accelerations.size(); ++i)
+    Advance(scene_.bodies[i], accelerations[i], Kick(), step_);
+  before_ = step_;
+}
+
+template class SimulationIn<Plane>;
+template class SimulationIn<Space>;
+
+// ---- Measures --------------------------------------------------------------------------------
+
+template <class Kind>
+Energy EnergyOf(const SceneIn<Kind, double>& scene) {
   Energy energy;
   for (const auto& body : scene.bodies) {
     if (body.fixed) continue;
-    energy.kinetic += (body.mass * body.velocity.squaredNorm() + body.inertia * body.spin * body.spin) / 2;
+    energy.kinetic += (body.mass * body.velocity.squaredNorm() + SpinEnergy(body)) / 2;
     energy.potential -= body.mass * scene.gravity.dot(body.position);
   }
   return energy;
 }
+template Energy EnergyOf(const Scene<double>&);
+template Energy EnergyOf(const SceneInSpace<double>&);
 
-Drift DriftOf(const Scene<double>& scene) { return MeasureDrift(scene); }
+template <class Kind>
+Drift DriftOf(const SceneIn<Kind, double>& scene) {
+  Drift drift;
+  for (const auto& joint : JointConstraints(scene))
+    drift.joints = std::max(drift.joints, std::abs(joint.rows[0].error));
+  for (const auto& contact : FindContacts(scene)) drift.overlap = std::max(drift.overlap, -contact.gap);
+  return drift;
+}
+template Drift DriftOf(const Scene<double>&);
+template Drift DriftOf(const SceneInSpace<double>&);
 
 }  // namespace stiction

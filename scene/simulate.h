@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulate: a scene over doubles, stepped through time.
+// Simulate: a scene over doubles, stepped through time, in the plane or in space.
 //
 // A step of length h, from a state (x, v):
 //
@@ -36,10 +36,10 @@
 // was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
 // were taken back too, and all counters but `frames` and `contacts` count them.
 //
-// Which solution. Forces and accelerations need not be unique. The answer is that of SolveScene, started afresh
-// in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the plane
-// f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing else is
-// promised: the answer need not be the solution nearest to f = 0.
+// Which solution. Forces and accelerations need not be unique. The answer is that of SceneSolver, started
+// afresh in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the
+// plane f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing
+// else is promised: the answer need not be the solution nearest to f = 0.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
 // or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
@@ -58,36 +58,19 @@
 #include <vector>
 
 #include "scene/assemble.h"
-#include "solver/numeric/coulomb.h"
-#include "solver/numeric/fast.h"
-#include "solver/numeric/proximal.h"
+#include "scene/solve_scene.h"
 
 namespace stiction {
 
 inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
-
-// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
-// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
-// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
-// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
-// tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
-// is accepted to this one, and counted.
-inline constexpr double kLooseResidual = 1e-5;
-
-inline CoulombOptions WithResidual(double residual) {
-  CoulombOptions options;
-  options.residual = residual;
-  return options;
-}
 
 struct SimulationOptions {
   double step = 1.0 / 60;  // s
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
-  int halvings = 10;                            // of a step, one within the other; 0: none
-  FastOptions fast;                             // in the plane, and without friction
-  CoulombOptions coulomb = WithResidual(1e-7);  // in space
+  int halvings = 10;  // of a step, one within the other; 0: none
+  SceneSolverOptions solver;
 };
 
 // Counters since the start.
@@ -145,13 +128,12 @@ class SimulationError : public std::runtime_error {
 };
 
 // A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
-template <int Dimension>
+template <class Kind>
 struct AppliedForceIn {
   std::array<int, 2> bodies = {0, 0};
-  Eigen::Matrix<double, Dimension, 1> point, force;
+  typename Kind::template Vector<double> point, force;
   bool from_joint = false;
 };
-using AppliedForce = AppliedForceIn<2>;
 
 struct Energy {
   double kinetic = 0, potential = 0;  // J; potential of gravity, zero at the origin
@@ -164,29 +146,15 @@ struct Drift {
   double overlap = 0;  // m
 };
 
-inline constexpr double kProximalAim = 1e-13;  // a residual beyond which points gain nothing
-
-// What solves the problems of a scene: SolveScene(solver, problem, f, fallbacks).
-template <class SceneType>
-struct SolverOf;
-
-template <>
-struct SolverOf<Scene<double>> {
-  explicit SolverOf(const SimulationOptions& options)
-      : fast(options.fast), proximal({.residual = options.fast.residual, .aim = kProximalAim}) {}
-  FastSolver<double> fast;
-  ProximalNewton<double> proximal;
-};
-
-template <class SceneType>
-class SimulationOf {
+template <class Kind>
+class SimulationIn {
  public:
-  using Types = SceneTypes<SceneType>;
-  using Touch = typename Types::Touch;
-  using Applied = AppliedForceIn<Types::kDimension>;
+  using SceneType = SceneIn<Kind, double>;
+  using Touch = TouchPointIn<Kind, double>;
+  using Applied = AppliedForceIn<Kind>;
 
   // Requires a finite scene. `observe` sees every problem before it is solved.
-  explicit SimulationOf(SceneType scene, const SimulationOptions& options = {},
+  explicit SimulationIn(SceneType scene, const SimulationOptions& options = {},
                         std::function<void(const FrameProblem&)> observe = {});
 
   // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
@@ -201,9 +169,9 @@ class SimulationOf {
   const std::vector<Touch>& contacts() const { return contacts_; }
 
  private:
-  using Model = typename Types::Model;
+  using Model = ModelIn<Kind, double>;
   using Forces = std::vector<ContactProblem<double>::Vector>;
-  using Changes = std::vector<Eigen::Matrix<double, Types::kDof, 1>>;
+  using Changes = std::vector<Eigen::Matrix<double, Kind::kDof, 1>>;
 
   void StepBy(double h, int halvings);
   void TakeStep();
@@ -231,7 +199,7 @@ class SimulationOf {
   SceneType scene_;
   SimulationOptions options_;
   std::function<void(const FrameProblem&)> observe_;
-  tbb::enumerable_thread_specific<SolverOf<SceneType>> solvers_;
+  tbb::enumerable_thread_specific<SceneSolver> solvers_;
   SimulationStatistics statistics_;
   double step_ = 0;          // that is being taken: options_.step or a part of it
   double before_ = 0;        // the step before, of whose middle the velocities are; 0: of the start itself
@@ -243,27 +211,15 @@ class SimulationOf {
   std::vector<Applied> forces_;
   std::size_t failed_ = 0;  // island
 };
-using Simulation = SimulationOf<Scene<double>>;
-extern template class SimulationOf<Scene<double>>;
+using Simulation = SimulationIn<Plane>;
+using SimulationInSpace = SimulationIn<Space>;
+extern template class SimulationIn<Plane>;
+extern template class SimulationIn<Space>;
 
-Energy EnergyOf(const Scene<double>& scene);
-Drift DriftOf(const Scene<double>& scene);
-
-// f of a problem of any kinds after reduction.h, checked by the natural residual of the whole problem. False if
-// there is none to `options.residual`. In order, until one ends in a solution:
-//
-//   FastSolver without complete driving
-//   the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from f = 0: two
-//   contacts of one face give A dependent rows of friction, so that a choice of cells need not determine its
-//   forces; these it does determine, and their accelerations agree with the problem's to rounding
-//   SolveSparse: more proximal points, from large eps to small: counted
-//   FastSolver with complete driving: counted
-bool SolveScene(SolverOf<Scene<double>>& solver, const ContactProblem<double>& problem,
-                ContactProblem<double>::Vector& f, SimulationStatistics& statistics);
-
-// The same with a sparse A, in which joints stay: proximal points (proximal.h).
-bool SolveSparse(SolverOf<Scene<double>>& solver, const SparseContactProblem<double>& problem,
-                 ContactProblem<double>::Vector& f);
+template <class Kind>
+Energy EnergyOf(const SceneIn<Kind, double>& scene);
+template <class Kind>
+Drift DriftOf(const SceneIn<Kind, double>& scene);
 
 }  // namespace stiction
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Space over any scalar: vectors, rotations as quaternions, unit vectors rounded once.
+// Space over any scalar: vectors, rotations as quaternions, unit vectors rounded once. And space as a kind of
+// scene, like the plane in plane.h.
 
 #ifndef STICTION_SCENE_SPACE_H_
 #define STICTION_SCENE_SPACE_H_
@@ -7,9 +8,13 @@
 #include <gmpxx.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <vector>
 
-#include "solver/problem/scalar.h"
+#include "scene/plane.h"
 
 namespace stiction {
 
@@ -28,11 +33,6 @@ Vector3<Scalar> MakeVector3(const Scalar& x, const Scalar& y, const Scalar& z) {
   v[1] = y;
   v[2] = z;
   return v;
-}
-
-template <class Scalar>
-Vector3<Scalar> Zero3() {
-  return Vector3<Scalar>::Constant(Scalar(0));
 }
 
 template <class Scalar>
@@ -93,19 +93,93 @@ Matrix3<Scalar> Inverse3(const Matrix3<Scalar>& M) {
 
 // abs(v), rounded where it must be.
 template <class Scalar>
-Scalar Length3(const Vector3<Scalar>& v) {
+Scalar Length(const Vector3<Scalar>& v) {
   return v.stableNorm();
 }
 template <>
-mpq_class Length3(const Vector3<mpq_class>& v);
+mpq_class Length(const Vector3<mpq_class>& v);
 
 // v / abs(v). Over rationals exactly that where abs(v) is rational, otherwise doubles near it. Requires v /= 0.
 template <class Scalar>
-Vector3<Scalar> UnitVector3(const Vector3<Scalar>& v) {
-  return v / Length3<Scalar>(v);
+Vector3<Scalar> UnitVector(const Vector3<Scalar>& v) {
+  return v / Length<Scalar>(v);
 }
 template <>
-Vector3<mpq_class> UnitVector3(const Vector3<mpq_class>& v);
+Vector3<mpq_class> UnitVector(const Vector3<mpq_class>& v);
+
+// ---- A kind of scene -------------------------------------------------------------------------
+
+// ball    the points at_a and at_b coincide (3 rows)
+// hinge   a ball on which a turns relative to b about `direction` only (5 rows)
+// rail    at_a stays on the line through at_b along `direction`, which turns with b (2 rows)
+// slider  a rail on which a does not turn relative to b either (5 rows)
+enum class JointKindInSpace : std::uint8_t { kBall, kHinge, kRail, kSlider };
+
+// An edge of a polyhedron: from corner to corner, seen from outside with face `left` on its left.
+struct PolyhedronEdge {
+  int from = 0, to = 0;
+  int left = 0, right = 0;
+};
+
+struct Space {
+  static constexpr int kDimension = 3, kDof = 6;  // x, y, z, three spins
+  template <class Scalar>
+  using Vector = Vector3<Scalar>;
+  template <class Scalar>
+  using Rotation = Quaternion<Scalar>;
+  template <class Scalar>
+  using Spin = Vector3<Scalar>;  // and moments, vectors of the world
+  template <class Scalar>
+  using Inertia = Matrix3<Scalar>;
+  template <class Scalar>
+  struct Surface {
+    std::vector<std::vector<int>> faces;   // their corners, anticlockwise from outside
+    std::vector<Vector3<Scalar>> normals;  // of the faces, outward, of length 1 up to rounding
+    std::vector<PolyhedronEdge> edges;
+  };
+
+  using JointKind = JointKindInSpace;
+  static constexpr std::array<std::string_view, 4> kJointNames = {"ball", "hinge", "rail", "slider"};
+};
+
+template <class Scalar>
+Matrix3<Scalar> TurnOf(const Quaternion<Scalar>& rotation) {
+  return RotationMatrix<Scalar>(rotation);
+}
+template <class Scalar>
+Vector3<Scalar> Rotate(const Matrix3<Scalar>& turn, const Vector3<Scalar>& v) {
+  return turn * v;
+}
+template <class Scalar>
+Vector3<Scalar> RotateBack(const Matrix3<Scalar>& turn, const Vector3<Scalar>& v) {
+  return turn.transpose() * v;
+}
+
+template <class Scalar>
+Vector3<Scalar> Moment(const Vector3<Scalar>& arm, const Vector3<Scalar>& d) {
+  return CrossProduct<Scalar>(arm, d);
+}
+template <class Scalar>
+Vector3<Scalar> SpinVelocity(const Vector3<Scalar>& spin, const Vector3<Scalar>& arm) {
+  return CrossProduct<Scalar>(spin, arm);
+}
+template <class Scalar>
+Vector3<Scalar> Centripetal(const Vector3<Scalar>& spin, const Vector3<Scalar>& arm) {
+  return CrossProduct<Scalar>(spin, CrossProduct<Scalar>(spin, arm));
+}
+
+// Across the axis that the normal has least of, and across both: functions of the normal alone.
+template <class Scalar>
+std::array<Vector3<Scalar>, 2> TangentsOf(const Vector3<Scalar>& normal) {
+  int least = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (Abs<Scalar>(normal[i]) < Abs<Scalar>(normal[least])) least = i;
+  }
+  Vector3<Scalar> axis = Zero<Vector3<Scalar>>();
+  axis[least] = Scalar(1);
+  const Vector3<Scalar> across = CrossProduct<Scalar>(normal, axis), first = UnitVector(across);
+  return {first, CrossProduct<Scalar>(normal, first)};
+}
 
 }  // namespace stiction
 

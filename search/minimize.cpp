@@ -11,7 +11,7 @@
 #include "certify/properties.h"
 #include "search/rounding.h"
 #include "search/signature.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 
 namespace stiction {
 namespace {

@@ -248,7 +248,7 @@ RigidBody<Rational> WallBody(const SceneDesign& design, int wall) {
   body.fixed = true;
   body.shapes.resize(1);
   // Below the line the piece runs anticlockwise from p to q.
-  body.shapes[0].polygon = {p, q, q - depth * normal, p - depth * normal};
+  body.shapes[0].corners = {p, q, q - depth * normal, p - depth * normal};
   return body;
 }
 
@@ -263,7 +263,7 @@ RigidBody<Rational> CellBody(const SceneDesign& design, int c) {
   body.torque = design.cell[c].load[2];
   body.shapes.resize(1);
   for (int i = 0; i < made.polygon.size; ++i)
-    body.shapes[0].polygon.push_back(made.polygon.points[i] - made.center);
+    body.shapes[0].corners.push_back(made.polygon.points[i] - made.center);
   return body;
 }
 

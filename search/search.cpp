@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "corpus/store_lock.h"
 #include "search/finish.h"
 #include "search/unit.h"
 
@@ -31,7 +32,11 @@ struct FinishOrder {
 class Search {
  public:
   Search(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options)
-      : campaign_(campaign), options_(options), store_(options.store, identity), done_(store_.Units()) {
+      : campaign_(campaign),
+        options_(options),
+        lock_(options.store, options.shard),
+        store_(options.store, identity),
+        done_(store_.Units()) {
     for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
     if (!options.problems) return;
     wanted_units_ = UnitsFor(campaign, *options.problems);
@@ -161,6 +166,7 @@ class Search {
 
   const Campaign& campaign_;
   const SearchOptions& options_;
+  StoreLock lock_;
   Store store_;  // under the mutex
   UnitSet done_;
   std::optional<std::int64_t> wanted_units_;

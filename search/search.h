@@ -44,6 +44,8 @@ struct SearchReport {
   SearchProgress progress;
 };
 
+// InputError that names the holder if another process works on the shard; OutputError if the store cannot be
+// written, which loses the units that were being worked on and nothing else.
 // `show` is called about twice a second from the calling thread.
 SearchReport RunSearch(const Campaign& campaign, const CampaignIdentity& identity, const SearchOptions& options,
                        const std::function<void(const SearchProgress&)>& show);

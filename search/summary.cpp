@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 
@@ -108,12 +109,6 @@ std::string FindingLine(const Finding& finding) {
 
 }  // namespace
 
-std::string Thousands(std::int64_t number) {
-  std::string text = std::to_string(number);
-  for (int i = static_cast<int>(text.size()) - 3; i > (number < 0 ? 1 : 0); i -= 3) text.insert(i, ",");
-  return text;
-}
-
 Json SummaryToJson(const Store& store) {
   const Digest digest = DigestOf(store);
   Json simplest = Json::array();
@@ -153,34 +148,33 @@ Json SummaryToJson(const Store& store) {
 
 std::string SummaryText(const Store& store, const std::string& file) {
   const Digest digest = DigestOf(store);
-  std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Thousands(digest.problems),
-                                 Thousands(digest.units), store.identity().seed);
+  std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Grouped(digest.problems),
+                                 Grouped(digest.units), store.identity().seed);
   for (const Finding& finding : digest.grave)
     text += fmt::format("  GRAVE: {}: {}\n", finding.kind, finding.signature);
   for (const auto& [kind, count] : digest.findings) {
-    text +=
-        fmt::format("  {:28} {:>12} in {} groups\n", kind, Thousands(count), Thousands(digest.groups.at(kind)));
+    text += fmt::format("  {:28} {:>12} in {} groups\n", kind, Grouped(count), Grouped(digest.groups.at(kind)));
   }
   if (digest.findings.empty()) text += "  no findings\n";
   text += fmt::format(
       "  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
-      Thousands(digest.confirmed), Thousands(digest.suspicions), Thousands(digest.misjudged),
-      Thousands(digest.audited), Thousands(digest.wrong));
+      Grouped(digest.confirmed), Grouped(digest.suspicions), Grouped(digest.misjudged), Grouped(digest.audited),
+      Grouped(digest.wrong));
   text += fmt::format(
       "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
-      Thousands(digest.existence.solved), Thousands(digest.existence.problems),
-      Thousands(digest.existence.with_folds));
+      Grouped(digest.existence.solved), Grouped(digest.existence.problems),
+      Grouped(digest.existence.with_folds));
   text += fmt::format(
       "  agreement: {} disagreements of complete driving, Lemke's method and the published algorithm on {} "
       "problems, "
       "all modes tried of {}\n",
-      Thousands(digest.agreement.disagreements), Thousands(digest.agreement.compared),
-      Thousands(digest.agreement.enumerated));
+      Grouped(digest.agreement.disagreements), Grouped(digest.agreement.compared),
+      Grouped(digest.agreement.enumerated));
   text += fmt::format("  safe: {} of {} audited problems; {} gave up something under apex=suspended\n",
-                      Thousands(digest.agreement.safe), Thousands(digest.agreement.safety_decided),
-                      Thousands(digest.agreement.safe_gave_up));
+                      Grouped(digest.agreement.safe), Grouped(digest.agreement.safety_decided),
+                      Grouped(digest.agreement.safe_gave_up));
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
-                      Thousands(digest.finished), Thousands(digest.pending), Thousands(digest.whole_grid));
+                      Grouped(digest.finished), Grouped(digest.pending), Grouped(digest.whole_grid));
   if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(kShown, digest.simplest.size()); ++i) {
     text += FindingLine(digest.simplest[i]);

@@ -10,9 +10,6 @@
 
 namespace stiction {
 
-// 1234567 -> "1,234,567".
-std::string Thousands(std::int64_t number);
-
 Json SummaryToJson(const Store& store);
 // `file` is named in the commands that it proposes.
 std::string SummaryText(const Store& store, const std::string& file);

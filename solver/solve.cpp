@@ -74,6 +74,31 @@ Answer<Scalar> RunCoulomb(const ContactProblem<Scalar>& problem, const SolveOpti
   return answer;
 }
 
+// The solution on polygons is where sweeps and Newton's method begin.
+template <class Scalar>
+Answer<Scalar> RunLemkeInSpace(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                               Trace<Scalar>* trace) {
+  LemkeAlgorithm<Scalar> lemke(LemkeOptionsOf<Scalar>(options));
+  const std::vector<FrictionPolygon<Scalar>> polygons(problem.contacts.size(),
+                                                      FrictionPolygon<Scalar>(options.sides));
+  const Verdict verdict = lemke.Run(problem, polygons, trace);
+  if (verdict.outcome != Outcome::kSolved) {
+    auto answer = AnswerOf<Scalar>(verdict);
+    if (verdict.outcome == Outcome::kRay) answer.ray = lemke.ray();
+    return answer;
+  }
+  CoulombOptions coulomb;
+  coulomb.limits = options.limits;
+  coulomb.sides = 0;
+  coulomb.residual = AimOf<Scalar>(options);
+  CoulombSolver<Scalar> solver(coulomb);
+  auto answer = AnswerOf<Scalar>(solver.Run(problem, &lemke.f()));
+  answer.counters.push_back({"pivots", verdict.statistics.pivots});
+  answer.law = FrictionLaw::kCoulomb;
+  answer.f = solver.f();
+  return answer;
+}
+
 // ---- The table ---------------------------------------------------------------------------------
 
 template <class Scalar>
@@ -85,7 +110,7 @@ Method<Scalar> FastRow() {
           .source = "solver/numeric/fast.h, solver/numeric/coulomb.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
           .automatic = true,
-          .plane = {&RunFast<Scalar>, true},
+          .plane = {&RunFast<Scalar>},
           .space = {&RunCoulomb<Scalar, CoulombStart::kSweeps>, true}};
 }
 
@@ -106,7 +131,7 @@ std::span<const Method<Scalar>> Table() {
       FastRow<Scalar>(),
       ProximalRow<Scalar>(),
       CompleteRow<Scalar>({&RunCoulomb<Scalar, CoulombStart::kComplete>, true}),
-      LemkeRow<Scalar>({}),
+      LemkeRow<Scalar>({&RunLemkeInSpace<Scalar>}),
       BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}),
   };
   return rows;
@@ -133,6 +158,8 @@ template Answer<double> Solve(const ContactProblem<double>&, std::string_view, c
                               Trace<double>*);
 template Answer<long double> Solve(const ContactProblem<long double>&, std::string_view, const SolveOptions&,
                                    Trace<long double>*);
+template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
+                                Trace<double>*);
 template const Method<float>* FindMethod(std::string_view);
 template const Method<double>* FindMethod(std::string_view);
 template const Method<long double>* FindMethod(std::string_view);

@@ -31,9 +31,9 @@
 namespace stiction {
 
 struct SolveOptions {
-  Policy policy;          // of the published algorithm
-  Tolerances tolerances;  // of inexact arithmetics
-  Limits limits;
+  Policy policy = {};          // of the published algorithm
+  Tolerances tolerances = {};  // of inexact arithmetics
+  Limits limits = {};
   FrictionLaw law = FrictionLaw::kBaraff;  // in space; inexact answers of methods that know it obey kCoulomb
   int sides = 8;                           // of friction polygons in space, a multiple of 4
   double residual = 0;                     // of an answer that is called solved; 0: that of the arithmetic
@@ -104,6 +104,8 @@ extern template Answer<float> Solve(const ContactProblem<float>&, std::string_vi
                                     Trace<float>*);
 extern template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
                                      Trace<double>*);
+extern template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&,
+                                       const SolveOptions&, Trace<double>*);
 extern template Answer<long double> Solve(const ContactProblem<long double>&, std::string_view,
                                           const SolveOptions&, Trace<long double>*);
 

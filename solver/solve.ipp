@@ -65,14 +65,19 @@ Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const S
 
 // Units of the problem at hand steady the ratio tests of rounded numbers; ones are the classical cover.
 template <class Scalar>
-Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                              Trace<Scalar>*) {
+LemkeOptions LemkeOptionsOf(const SolveOptions& options) {
   LemkeOptions lemke;
   lemke.cover = kIsExact<Scalar> ? Cover::kOnes : Cover::kUnits;
   lemke.tolerances = options.tolerances;
   lemke.limits = options.limits;
-  LemkeAlgorithm<Scalar> algorithm(lemke);
-  const Verdict verdict = algorithm.Run(problem);
+  return lemke;
+}
+
+template <class Scalar>
+Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                              Trace<Scalar>* trace) {
+  LemkeAlgorithm<Scalar> algorithm(LemkeOptionsOf<Scalar>(options));
+  const Verdict verdict = algorithm.Run(problem, trace);
   auto answer = AnswerOf<Scalar>(verdict);
   answer.counters = {{"pivots", verdict.statistics.pivots}};
   if (verdict.outcome == Outcome::kSolved) answer.f = algorithm.f();

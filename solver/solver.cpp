@@ -5,9 +5,14 @@
 #include "solver/lemke/lemke.ipp"
 #include "solver/numeric/fast.ipp"
 #include "solver/numeric/proximal.ipp"
+#include "solver/problem/reduction.ipp"
 #include "solver/published/published.ipp"
 
 namespace stiction {
+
+template class Reduction<float>;
+template class Reduction<double>;
+template class Reduction<long double>;
 
 template class PublishedAlgorithm<float>;
 template class PublishedAlgorithm<double>;

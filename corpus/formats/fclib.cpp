@@ -33,6 +33,19 @@ class Handle {
 
 void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+// HDF5 wants a name, of no file that exists.
+constexpr const char* kNoFile = "/dev/null/in-memory";
+
+// A file that is never one: it begins as `text`, if there is any.
+Handle InMemory(std::string* text) {
+  constexpr std::size_t kGrowth = 1 << 16;  // bytes
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  STICTION_CHECK(access >= 0 && H5Pset_fapl_core(access, kGrowth, false) >= 0 &&
+                     (text == nullptr || H5Pset_file_image(access, text->data(), text->size()) >= 0),
+                 "HDF5 has no files in memory");
+  return {access, H5Pclose};
+}
+
 constexpr int kMost = 100'000'000;  // of anything that is counted, in a file that is not nonsense
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -48,9 +61,11 @@ struct Matrix {
 
 class FclibReader {
  public:
-  explicit FclibReader(const std::string& file)
-      : source_(file), file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
-    if (!file_.valid()) throw InputError(file, "/", "no HDF5 file that can be read", "one");
+  FclibReader(std::string text, const std::string& source)
+      : source_(source),
+        text_(std::move(text)),
+        file_(H5Fopen(kNoFile, H5F_ACC_RDONLY, InMemory(&text_).id()), H5Fclose) {
+    if (!file_.valid()) throw InputError(source, "/", "no HDF5 file that can be read", "one");
   }
 
   SparseProblem Read() {
@@ -305,6 +320,7 @@ class FclibReader {
   }
 
   const std::string source_;
+  std::string text_;
   Handle file_;
   std::string group_;
   SparseProblem problem_;
@@ -314,11 +330,20 @@ class FclibReader {
 
 class FclibWriter {
  public:
-  FclibWriter(const std::string& file, FclibStorage storage)
-      : source_(file),
-        storage_(storage),
-        file_(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+  explicit FclibWriter(FclibStorage storage)
+      : storage_(storage),
+        file_(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, InMemory(nullptr).id()), H5Fclose) {
     Require(file_.valid());
+  }
+
+  // The bytes of the file.
+  std::string Image() const {
+    Require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
+    const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+    Require(size > 0);
+    std::string image(static_cast<std::size_t>(size), '\0');
+    Require(H5Fget_file_image(file_.id(), image.data(), image.size()) == size);
+    return image;
   }
 
   void Write(const SparseProblem& problem) {
@@ -352,9 +377,7 @@ class FclibWriter {
     bool Has(int i) const { return first <= i && i < first + count; }
   };
 
-  void Require(bool done) const {
-    if (!done) throw InputError(fmt::format("{}: cannot be written", source_));
-  }
+  static void Require(bool done) { STICTION_CHECK(done, "HDF5 does not write into memory"); }
 
   static double Double(const Rational& x) {
     const double value = ToDouble(x);
@@ -426,21 +449,22 @@ class FclibWriter {
     Doubles(path + "/x", x);
   }
 
-  const std::string source_;
   FclibStorage storage_;
   Handle file_;
 };
 
 }  // namespace
 
-SparseProblem ReadFclib(const std::string& file) {
+SparseProblem ParseFclib(std::string text, const std::string& source) {
   Silence();
-  return FclibReader(file).Read();
+  return FclibReader(std::move(text), source).Read();
 }
 
-void WriteFclib(const SparseProblem& problem, FclibStorage storage, const std::string& file) {
+std::string PrintFclib(const SparseProblem& problem, FclibStorage storage) {
   Silence();
-  FclibWriter(file, storage).Write(problem);
+  FclibWriter writer(storage);
+  writer.Write(problem);
+  return writer.Image();
 }
 
 }  // namespace stiction

@@ -31,12 +31,13 @@ namespace stiction {
 
 enum class FclibStorage { kColumns, kRows, kTriplet };
 
-// InputError names the file, the place in it, what was found and what was expected.
-SparseProblem ReadFclib(const std::string& file);
+// `text`: the bytes of the file. InputError names the source, the place in it, what was found and what was
+// expected.
+SparseProblem ParseFclib(std::string text, const std::string& source);
 
-// Requires static contacts first and bilateral ones behind them, and numbers that are doubles. Replaces the
-// file. InputError if it cannot be written.
-void WriteFclib(const SparseProblem& problem, FclibStorage storage, const std::string& file);
+// The bytes of a file. Requires static contacts first and bilateral ones behind them, and numbers that are
+// doubles.
+std::string PrintFclib(const SparseProblem& problem, FclibStorage storage);
 
 }  // namespace stiction
 

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <utility>
 
+#include "corpus/atomic_file.h"
 #include "corpus/formats/fclib.h"
 #include "corpus/formats/siconos.h"
 
@@ -129,10 +130,10 @@ const std::vector<PublishedFormat>& PublishedFormats() {
 SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format) {
   const std::string source = file.string();
   if (!format.empty()) FormatNamed(format);
-  const std::string text = ReadText(file);
+  std::string text = ReadText(file);
   SparseProblem problem;
   if (format == "fclib" || (format.empty() && text.starts_with(kHdf5Signature))) {
-    problem = ReadFclib(source);
+    problem = ParseFclib(std::move(text), source);
   } else {
     const SiconosKind kind = format.empty()            ? SiconosKindOf(text, source)
                              : format == "siconos-lcp" ? SiconosKind::kLcp
@@ -157,14 +158,11 @@ ExportReport WritePublished(const SparseProblem& problem, const std::filesystem:
   SparseProblem rounded = problem;
   const ExportReport report = RoundAll(rounded, rounding);
   if (format == "fclib") {
-    WriteFclib(rounded, FclibStorageNamed(chosen), file.string());
+    WriteText(file, PrintFclib(rounded, FclibStorageNamed(chosen)));
     return report;
   }
   const SiconosKind kind = format == "siconos-lcp" ? SiconosKind::kLcp : SiconosKind::kFriction;
-  std::ofstream out(file, std::ios::binary);
-  out << PrintSiconos(rounded, kind, SiconosStorageNamed(chosen));
-  out.close();
-  if (!out) throw InputError(fmt::format("{}: cannot be written", file.string()));
+  WriteText(file, PrintSiconos(rounded, kind, SiconosStorageNamed(chosen)));
   return report;
 }
 

@@ -6,10 +6,12 @@
 //
 //   law      plane  space
 //   kBreak     B      B    f = 0, aN >= 0
-//   kCorner   + -     Vk   aN = 0, fN >= 0, fF = mu fN d_k, opposed to aF: aF.t_k >= 0 >= aF.t_(k-1), or aF d_k
-//   <= 0 kEdge             Ek   aN = 0, fF between mu fN d_k and mu fN d_(k+1), aF = -c n_k, c >= 0 kInside S
-//   I    aN = aF = 0, fF in mu fN times the polygon kFree      0      0    aN = 0, fN >= 0, fF = -mu fN slip:
-//   no friction, mu = 0, or sliding (24) kHold      H      H    aN = 0, fN of any sign: bilateral
+//   kCorner   + -     Vk   aN = 0, fN >= 0, fF = mu fN d_k, opposed to aF: aF.t_k >= 0 >= aF.t_(k-1),
+//                          or in the plane aF d_k <= 0
+//   kEdge             Ek   aN = 0, fF between mu fN d_k and mu fN d_(k+1), aF = -c n_k, c >= 0
+//   kInside    S      I    aN = aF = 0, fF in mu fN times the polygon
+//   kFree      0      0    aN = 0, fN >= 0, fF = -mu fN slip: no friction, mu = 0, or sliding (24)
+//   kHold      H      H    aN = 0, fN of any sign: bilateral
 
 #ifndef STICTION_SOLVER_COMPLETE_CELLS_H_
 #define STICTION_SOLVER_COMPLETE_CELLS_H_
@@ -125,14 +127,14 @@ struct Facet {
     kRest,          // mu fN - rho
   };
   Kind kind;
+  Beyond beyond;
   int contact;
   int k;
   int sign;
-  Beyond beyond;
   LawCell cell;
 
   Facet(Kind kind, int contact, int k = 0, int sign = 1, Beyond beyond = Beyond::kCell, LawCell cell = {})
-      : kind(kind), contact(contact), k(k), sign(sign), beyond(beyond), cell(cell) {}
+      : kind(kind), beyond(beyond), contact(contact), k(k), sign(sign), cell(cell) {}
 
   bool OfAcceleration() const {
     return kind == Kind::kAcceleration || kind == Kind::kOpposed || kind == Kind::kAlong;

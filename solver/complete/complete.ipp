@@ -207,14 +207,14 @@ void CompleteDriving<Scalar, Rows>::EnterNormal() {
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::EnterFriction(const LawCell& cell, const Scalar& radius) {
+void CompleteDriving<Scalar, Rows>::EnterFriction(LawCell cell, const Scalar& radius) {
   stage_ = Stage::kFriction;
   rho_ = radius;
   SetCell(driven_, cell);
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::FinishDriven(const LawCell& cell) {
+void CompleteDriving<Scalar, Rows>::FinishDriven(LawCell cell) {
   stage_ = Stage::kNormal;
   const int finished = driven_++;
   SetCell(finished, cell);
@@ -400,6 +400,8 @@ bool CompleteDriving<Scalar, Rows>::BudgetSpent() {
     Impossible("more pieces than cells");
   } else if (verdict_.statistics.pieces >= options_.limits.pivots) {
     End(Outcome::kLimit, "pieces");
+  } else if (options_.limits.Stopped()) {
+    End(Outcome::kUndecided, kStopped);
   } else if (!IsFinite()) {
     End(Outcome::kUndecided, "a number is not finite");
   }

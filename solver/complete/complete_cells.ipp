@@ -21,7 +21,7 @@ bool CompleteDriving<Scalar, Rows>::HasFriction(int contact) const {
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::SetCell(int contact, const LawCell& cell) {
+void CompleteDriving<Scalar, Rows>::SetCell(int contact, LawCell cell) {
   const Law from = std::exchange(word_[contact], cell).law;
   if (from != Law::kNone || cell.law != Law::kNone) SetUnknowns(contact, cell);
   if (contact == driven_) SetDriven();
@@ -30,34 +30,27 @@ void CompleteDriving<Scalar, Rows>::SetCell(int contact, const LawCell& cell) {
 // ---- Unknowns --------------------------------------------------------------------------------
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::SetUnknowns(int contact, const LawCell& cell) {
+void CompleteDriving<Scalar, Rows>::SetUnknowns(int contact, LawCell cell) {
   const int row = RowOf(contact), size = Size(contact);
   auto& forces = unknowns_.forces;
   auto& rests = unknowns_.rests;
   for (int r = 0; r < size; ++r) rests[row + r].size = 0;
-  const int resting = cell.law == Law::kInside ? size : cell.law <= Law::kBreak ? 0 : 1;
-  for (int r = 0; r < resting; ++r) rests[row + r].SetUnit(row + r);
-  switch (cell.law) {
-    case Law::kNone:
-    case Law::kBreak:
-      return;
-    case Law::kHold:
-      forces[row].SetUnit(row);
-      if (cell.side != 0) rests[row].size = 0;
-      return;
-    case Law::kFree:
-      return SetFreeForce(contact, forces[row]);
-    case Law::kEdge: {
-      const Planar<Scalar>& edge = (*polygons_)[contact].edge(cell.side);
-      forces[row + 1].Set(row + 1, edge[0], edge[1]);
-      rests[row + 1].Set(row + 1, edge[0], edge[1]);
-      [[fallthrough]];
+  if (cell.law == Law::kNone || cell.law == Law::kBreak) return;
+  if (cell.law != Law::kHold || cell.side == 0) rests[row].SetUnit(row);
+  if (cell.law == Law::kHold) return forces[row].SetUnit(row);
+  if (cell.law == Law::kFree) return SetFreeForce(contact, forces[row]);
+  if (cell.law == Law::kInside) {
+    for (int r = row; r < row + size; ++r) {
+      forces[r].SetUnit(r);
+      rests[r].SetUnit(r);
     }
-    case Law::kCorner:
-      return SetCornerForce(contact, cell.side, forces[row]);
-    case Law::kInside:
-      for (int r = 0; r < size; ++r) forces[row + r].SetUnit(row + r);
+    return;
   }
+  SetCornerForce(contact, cell.side, forces[row]);
+  if (cell.law != Law::kEdge) return;
+  const Planar<Scalar>& edge = (*polygons_)[contact].edge(cell.side);
+  forces[row + 1].Set(row + 1, edge[0], edge[1]);
+  rests[row + 1].Set(row + 1, edge[0], edge[1]);
 }
 
 // The driven force: fN, friction in a corner per unit of rho, or inside nothing.
@@ -118,41 +111,38 @@ auto CompleteDriving<Scalar, Rows>::StageEnd() const -> Facet {
 }
 
 // visit(kind, facet) for those of the present cell. The kinds of the plane are KindIs.
+// Not a switch: a jump by a table is foreseen wrongly half of the time.
 template <class Scalar, int Rows>
 template <class Visit>
 void CompleteDriving<Scalar, Rows>::ForEachFacet(int contact, Visit visit) const {
   const LawCell& cell = word_[contact];
   const int k = cell.side;
-  const auto add = [&](auto kind, int k, const LawCell& to) {
+  const auto add = [&](auto kind, int k, LawCell to) {
     visit(kind, Facet(kind, contact, k, 1, Beyond::kCell, to));
   };
-  switch (cell.law) {
-    case Law::kNone:
-      if (contact != driven_) return;
-      visit(KindIs<Kind::kForce>(), DrivenAmount());
-      return visit(KindIs<Kind::kAcceleration>(), StageEnd());
-    case Law::kHold:
-      return;
-    case Law::kBreak: {
-      const KindIs<Kind::kAcceleration> kind;
-      const Beyond beyond = HasFriction(contact) ? Beyond::kCorners : Beyond::kCell;
-      return visit(kind, Facet(kind, contact, 0, 1, beyond, {Law::kFree, 0}));
-    }
-    case Law::kFree:
-      return add(KindIs<Kind::kForce>(), 0, {Law::kBreak, 0});
-    case Law::kCorner:
-      ForEachCornerFacet(contact, k, visit);
-      break;
-    case Law::kEdge:
-      add(Kind::kFromCorner, k, {Law::kCorner, k});
-      add(Kind::kToCorner, k, {Law::kCorner, (*polygons_)[contact].Wrap(k + 1)});
-      add(Kind::kOpposed, k, {Law::kInside, 0});
-      break;
-    case Law::kInside: {
-      const int sides = InSpace() ? (*polygons_)[contact].sides() : 2;
-      for (int j = 0; j < sides; ++j)
-        add(KindIs<Kind::kBound>(), j, {InSpace() ? Law::kEdge : Law::kCorner, j});
-    }
+  if (cell.law == Law::kNone) {
+    if (contact != driven_) return;
+    visit(KindIs<Kind::kForce>(), DrivenAmount());
+    return visit(KindIs<Kind::kAcceleration>(), StageEnd());
+  }
+  if (cell.law == Law::kBreak) {
+    const KindIs<Kind::kAcceleration> kind;
+    const Beyond beyond = HasFriction(contact) ? Beyond::kCorners : Beyond::kCell;
+    return visit(kind, Facet(kind, contact, 0, 1, beyond, {Law::kFree, 0}));
+  }
+  if (cell.law < Law::kCorner) {
+    if (cell.law == Law::kFree) add(KindIs<Kind::kForce>(), 0, {Law::kBreak, 0});
+    return;
+  }
+  if (cell.law == Law::kCorner) {
+    ForEachCornerFacet(contact, k, visit);
+  } else if (cell.law == Law::kInside) {
+    const int sides = InSpace() ? (*polygons_)[contact].sides() : 2;
+    for (int j = 0; j < sides; ++j) add(KindIs<Kind::kBound>(), j, {InSpace() ? Law::kEdge : Law::kCorner, j});
+  } else {
+    add(Kind::kFromCorner, k, {Law::kCorner, k});
+    add(Kind::kToCorner, k, {Law::kCorner, (*polygons_)[contact].Wrap(k + 1)});
+    add(Kind::kOpposed, k, {Law::kInside, 0});
   }
   if (FrictionIsDriven(contact)) visit(KindIs<Kind::kRest>(), StageEnd());
 }
@@ -256,23 +246,15 @@ Scalar CompleteDriving<Scalar, Rows>::PlanarValue(OfKind kind, const Facet& face
                                                   const Vector& a, const Scalar& radius) const {
   const int row = RowOf(facet.contact);
   const auto oriented = [](bool plus, const Scalar& x) { return plus ? x : Scalar(-x); };
-  switch (kind) {
-    case Kind::kForce:
-      return f[row];
-    case Kind::kAcceleration:
-      return oriented(facet.sign > 0, a[row]);
-    case Kind::kOpposed:
-      return oriented(facet.k != 0, a[row + 1]);
-    case Kind::kSide:
-      return oriented(facet.k == 0, f[row + 1]);
-    case Kind::kRadius:
-      return radius;
-    case Kind::kRest:
-      return problem_->contacts[facet.contact].mu * f[row] - radius;
-    default:
-      break;
+  if (kind == Kind::kForce) return f[row];
+  if (kind == Kind::kRadius) return radius;
+  if (kind == Kind::kAcceleration || kind == Kind::kOpposed) {
+    const bool normal = kind == Kind::kAcceleration;
+    return oriented(normal ? facet.sign > 0 : facet.k != 0, a[normal ? row : row + 1]);
   }
+  if (kind == Kind::kSide) return oriented(facet.k == 0, f[row + 1]);
   const Scalar& mu = problem_->contacts[facet.contact].mu;
+  if (kind == Kind::kRest) return mu * f[row] - radius;
   const Scalar bound = FrictionIsDriven(facet.contact) ? radius : Scalar(mu * f[row]);
   return facet.k == 0 ? Scalar(bound - f[row + 1]) : Scalar(bound + f[row + 1]);
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solver/complete/complete.h"
+#include "solver/complete/polygon_residual.h"
 #include "solver/problem/check.h"
 #include "solver/problem/residual.h"
 
@@ -52,45 +53,7 @@ void CompleteDriving<Scalar, Rows>::ComputeAccelerations() {
 
 template <class Scalar, int Rows>
 Scalar CompleteDriving<Scalar, Rows>::Residual() const {
-  return InSpace() ? PolygonalResidual() : NaturalResidual(*problem_, f_, a_);
-}
-
-// The natural residual of planar contacts (residual.h), friction with the polygon in place of the interval;
-// relative to max abs(b) / max A_ii.
-template <class Scalar, int Rows>
-Scalar CompleteDriving<Scalar, Rows>::PolygonalResidual() const {
-  const Scalar nothing(0);
-  const Scalar max_A = problem_->A.diagonal().cwiseMax(nothing).maxCoeff();
-  const Scalar r = max_A > 0 ? Scalar(1 / max_A) : Scalar(1);
-  const auto worse = [](const Scalar& worst, const Scalar& gap) { return std::max<Scalar>(worst, Abs(gap)); };
-  Scalar max_b(0), worst(0);
-  for (int row = 0; row < problem_->rows(); ++row) max_b = worse(max_b, problem_->b[row]);
-  for (int i = 0; i < static_cast<int>(word_.size()); ++i) {
-    const int row = RowOf(i);
-    if (IsBilateral(i)) {
-      worst = worse(worst, Scalar(r * a_[row]));
-      continue;
-    }
-    worst = worse(worst, Scalar(f_[row] - std::max<Scalar>(nothing, f_[row] - r * a_[row])));
-    if (Size(i) == 1) continue;
-    const Planar<Scalar> wanted = WantedFriction(i, r);
-    for (int c = 0; c < 2; ++c) worst = worse(worst, Scalar(f_[row + 1 + c] - wanted[c]));
-  }
-  return max_b > 0 ? Scalar(worst / (max_b * r)) : worst;
-}
-
-// What friction would be if it obeyed its law for the present fN and a step of length r along -aF.
-template <class Scalar, int Rows>
-Planar<Scalar> CompleteDriving<Scalar, Rows>::WantedFriction(int contact, const Scalar& r) const {
-  const int row = RowOf(contact);
-  if (HasFriction(contact)) {
-    const Scalar radius = problem_->contacts[contact].mu * std::max<Scalar>(Scalar(0), f_[row]);
-    return (*polygons_)[contact].Project(
-        {Scalar(f_[row + 1] - r * a_[row + 1]), Scalar(f_[row + 2] - r * a_[row + 2])}, radius);
-  }
-  RowCombination<Scalar> free;
-  SetFreeForce(contact, free);
-  return {Scalar(free.factors[1] * f_[row]), Scalar(free.factors[2] * f_[row])};
+  return InSpace() ? PolygonResidual(*problem_, *polygons_, f_, a_) : NaturalResidual(*problem_, f_, a_);
 }
 
 // ---- The trace -------------------------------------------------------------------------------

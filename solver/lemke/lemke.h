@@ -1,44 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lemke's method, lexicographic, on the static problem as a linear complementarity problem.
+// Lemke's method, lexicographic, on the static problem as a linear complementarity problem: in the plane, and
+// in space with polygons of friction.
 //
-// The conditions (15), (16) of [Baraff94] are the LCP  w = M z + q >= 0, z >= 0, z'w = 0  with
+// The corners d_k of a contact's friction polygon (complete/polygon.h) are two in the plane, +1 and -1, which
+// makes fF any number in [-mu fN, mu fN]. The law P(D) of complete driving in space, which is (15), (16) of
+// [Baraff94] in the plane, is the LCP  w = M z + q >= 0, z >= 0, z'w = 0  with
 //
-//   z = (fN, f+, f-, l),   w = (aN, aF + l, l - aF, mu fN - f+ - f-),   fF = f+ - f-,
+//   z = (fN, beta_k, l),   w = (aN, d_k.aF + l, mu fN - sum of beta_k),   fF = sum of beta_k d_k
 //
-//       [ A_NN  A_NF  -A_NF  0 ]       [  b_N ]
-//   M = [ A_FN  A_FF  -A_FF  I ]   q = [  b_F ]
-//       [-A_FN -A_FF   A_FF  I ]       [ -b_F ]
-//       [ mu     -I     -I   0 ]       [   0  ]
+//         normal row      corner row     multiplier row          q
+//   fN    A_NN            d_k.A_FN       mu               normal row       b_N
+//   beta  A_NF d_j        d_k.A_FF d_j   -1               corner row       d_k.b_F
+//   l     0               1              0                multiplier row   0
 //
-// where N are the normal rows of all contacts, F the friction rows of the static ones: a frictionless contact
-// contributes its normal row only. Starting from w = q + e z0 with e = (1, ..., 1), or another e > 0 (`Cover`),
+// where rows and columns of corners and multipliers are those of the static contacts: a frictionless contact
+// contributes its normal alone. Starting from w = q + e z0 with e = (1, ..., 1), or another e > 0 (`Cover`),
 // the path keeps z'w = 0 until z0 is zero again: a solution; or until nothing limits it: a ray.
 //
-// Copositive   z'Mz = f'Af + sum of mu_i l_i fN_i >= 0 for z >= 0 and A positive semidefinite: the terms of l
-//              with f+ and f- cancel. It is used at a ray, a direction (v, v0) at a point (z, z0) of the
-//              path with z0 > 0 and z'(Mv + e v0) = 0, v'w = 0, v'(Mv + e v0) = 0:
+// The law      sum of beta_k (d_k.aF + l) = 0 and l >= -d_k.aF: where l > 0, sum of beta_k = mu fN and fF is
+// where
+//              fF.aF is least in mu fN times the polygon; where l = 0, aF = 0, since the polygon contains 0
+//              inside, and fF is any of its points.
+// Copositive   z'Mz = f'Af + sum of mu_i l_i fN_i >= 0 for z >= 0 and A positive semidefinite: the beta_k
+// gather
+//              f'Af, and l sum of beta_k stands in the corner rows and, with the other sign, in the
+//              multiplier's. So it is in the plane and in space. It is used at a ray, a direction (v, v0) at a
+//              point (z, z0) of the path with z0 > 0 and z'(Mv + e v0) = 0, v'w = 0, v'(Mv + e v0) = 0:
 //              - v'Mv and v0 e'v are both >= 0 with sum 0, so v0 = 0, v'Mv = 0, Mv >= 0; v /= 0, since the
 //                ray is not the first one;
 //              - (z + t v)'M(z + t v) >= 0 for all t >= 0 with v'Mv = 0 = z'Mv gives v'Mz >= 0;
 //              - so 0 = v'w gives q'v = -v'Mz - z0 e'v < 0.
-//              For symmetric A: f = (vN, v+ - v-) has f in K, A f = 0 and b'f = q'v < 0, which b in range(A)
-//              excludes. So every problem that satisfies the paper's assumptions is solved,
-//              and a ray proves that (H) fails. It does not prove that there is no solution.
+//              For symmetric A: f = (vN, sum of v_k d_k) is in the cones of the polygons, hence in K, A f = 0
+//              and b'f = q'v < 0, which b in range(A) excludes. So every problem that satisfies the paper's
+//              assumptions is solved, and a ray proves that (H) fails. It does not prove that there is no
+//              solution.
 // Finite       the lexicographic rule: rows of (inv(B) q, inv(B)) are lexicographically positive and no basis
 //              recurs. The path ends as soon as z0 can leave at the smallest ratio, even in a tie.
-// Source       R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, 3.8 and 4.4
-//              (numbers to be checked).
-// Shapes       m = contacts + 3 static contacts; a dense tableau m x (m + 1). Units: f in N, a in m/s^2.
+// Source       R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, 3.8 and 4.4;
+//              the LCP of polygons: D. E. Stewart, J. C. Trinkle 1996, M. Anitescu, F. A. Potra 1997 (numbers
+//              and years to be checked).
+// Shapes       m = contacts + sum over static contacts of (corners + 1); a dense tableau m x (m + 1). Units: f
+// in
+//              N, a in m/s^2.
+// Names        of contact 1, in the trace: fN1, f+1, f-1, l1 with aN1, a+1, a-1, m1; in space beta_k is f0.1,
+//              f1.1, ... with a0.1, a1.1, ...; and z0.
 // Exactness    only + - * / and signs. Over inexact scalars signs are relative to the column (option
 //              `pivot`), equal quotients to the option `force`. An answer whose natural residual exceeds the
 //              option `loop_grain` is `undecided`; so is a ray unless its forces show A ray = 0, b'ray < 0.
-// Cost         O(m^2) per pivot.
+//              Over enclosures (problem/enclosure.h) the variables that are multiples of z0 by the rows of
+//              their contact end with it, which no ends of intervals could tell; and the tableau is computed
+//              anew at every pivot, O(m^3), since updates would let the ends drift apart.
+// Cost         O(m^2) per pivot; with a trace, O(rows^2) more.
 
 #ifndef STICTION_SOLVER_LEMKE_LEMKE_H_
 #define STICTION_SOLVER_LEMKE_LEMKE_H_
 
+#include <string>
 #include <vector>
 
+#include "solver/complete/polygon.h"
+#include "solver/problem/enclosure.h"
 #include "solver/published/published.h"
 
 namespace stiction {
@@ -62,6 +83,7 @@ class LemkeAlgorithm {
  public:
   using Problem = ContactProblem<Scalar, Rows>;
   using Vector = typename Problem::Vector;
+  using Polygons = std::vector<FrictionPolygon<Scalar>>;
 
   explicit LemkeAlgorithm(const LemkeOptions& options = {}) : options_(options) {}
 
@@ -69,7 +91,14 @@ class LemkeAlgorithm {
 
   // Requires PublishedHandles(problem): planar, frictionless and static contacts. Outcome: solved, ray, limit
   // (reason "pivots" or "bits") or undecided. Counts `pivots` only; the first, which brings z0 in, counts.
-  Verdict Run(const Problem& problem);
+  // With `trace`, every pivot is recorded: `driven` is the row of the contact's normal or (first) friction that
+  // the entering variable belongs to, `limiting` that of the leaving one; -1 for z0, and where a ray ends the
+  // run, which has no leaving variable. s, df, da are told per unit of the entering variable, in N or m/s^2.
+  Verdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
+
+  // The same in space. Requires dimension 3, frictionless and static contacts, and a polygon per contact, with
+  // zero inside.
+  Verdict Run(const Problem& problem, const Polygons& polygons, Trace<Scalar>* trace = nullptr);
 
   // Of a solved run: forces, and accelerations a = A f + b.
   const Vector& f() const { return f_; }
@@ -82,39 +111,61 @@ class LemkeAlgorithm {
   static constexpr int kColumns = Rows == Eigen::Dynamic ? Eigen::Dynamic : 2 * Rows + 1;
 
   // A component of z, and of w with the same index.
-  enum class Block { kNormal, kPlus, kMinus, kMultiplier };
+  enum class Block { kNormal, kCorner, kMultiplier };
   struct Component {
     Block block;
-    int row;  // of A: the friction row but for kNormal
+    int row;  // of A: the first friction row but for kNormal
     int contact;
+    int corner = 0;
   };
 
-  void Start(const Problem& problem);
-  void SetUnits(const Problem& problem);
-  void ListComponents(const Problem& problem);
-  Scalar RightSide(const Problem& problem, const Component& w) const;
-  Scalar MatrixEntry(const Problem& problem, const Component& w, const Component& z) const;
-  Scalar LimitCover(const Problem& problem) const;
+  Verdict Run();
+  void Start();
+  void SetUnits();
+  void ListComponents();
+  void ListCorners();
+  int Corners(int contact) const;
+  template <class Values>
+  Scalar Along(const Component& component, const Values& values) const;
+  Scalar RightSide(const Component& w) const;
+  Scalar MatrixEntry(const Component& w, const Component& z) const;
+  Scalar LimitCover() const;
   bool IsNonnegative() const;
 
   // Variables of the path: w_0 ... w_{m-1}, z_0 ... z_{m-1}, z0.
   int Artificial() const { return 2 * size_; }
-  Outcome Follow(const Problem& problem);
+  const Component& ComponentOf(int variable) const { return components_[variable % size_]; }
+  Outcome Follow();
   int FirstLeaving() const;
   void ComputeColumn(int entering);
-  int Leaving() const;
+  int Leaving(int entering) const;
   int CompareQuotients(int i, int k, int c) const;
   bool IsBefore(int i, int k) const;
   void Pivot(int row, int entering);
+  bool IsBasic(int variable) const;
+  bool FollowsCover(int i, int entering) const;
+  void MeetEnd(int entering);
+  void Renew() requires(kEncloses<Scalar>);
+  Scalar BasisEntry(int row, int variable) const;
   bool BudgetSpent();
 
   void AddForce(int variable, const Scalar& value, Vector& f) const;
-  void Extract(const Problem& problem);
-  Outcome JudgeSolution(const Problem& problem);
-  Outcome JudgeRay(const Problem& problem, int entering);
+  void Extract();
+  void ComputeRay(int entering);
+  Outcome JudgeSolution();
+  Outcome JudgeRay();
+
+  std::string NameOf(int variable) const;
+  int RowOf(int variable) const;
+  Scalar UnitOf(int variable) const;
+  void RecordStep(int row, int entering);
+  void RecordPoint(int row);
 
   LemkeOptions options_;
-  int size_ = 0;  // m
+  const Problem* problem_ = nullptr;
+  const Polygons* polygons_ = nullptr;  // in space
+  Trace<Scalar>* trace_ = nullptr;      // where pivots are kept
+  int size_ = 0;                        // m
   std::vector<Component> components_;
   Eigen::Matrix<Scalar, kSize, kColumns, Eigen::RowMajor> T_;  // inv(B) (q, I)
   Eigen::Matrix<Scalar, kSize, kSize> M_;

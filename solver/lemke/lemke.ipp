@@ -4,22 +4,43 @@
 #ifndef STICTION_SOLVER_LEMKE_LEMKE_IPP_
 #define STICTION_SOLVER_LEMKE_LEMKE_IPP_
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "solver/complete/polygon_residual.h"
 #include "solver/lemke/lemke.h"
+#include "solver/problem/check.h"
 #include "solver/problem/residual.h"
 
 namespace stiction {
 
 template <class Scalar, int Rows>
-Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem) {
-  Start(problem);
-  verdict_.outcome = IsNonnegative() ? Outcome::kSolved : Follow(problem);
+Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
+  problem_ = &problem;
+  polygons_ = nullptr;
+  trace_ = trace;
+  return Run();
+}
+
+template <class Scalar, int Rows>
+Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
+                                          Trace<Scalar>* trace) {
+  STICTION_CHECK(polygons.size() == problem.contacts.size(), "a polygon per contact");
+  problem_ = &problem;
+  polygons_ = &polygons;
+  trace_ = trace;
+  return Run();
+}
+
+template <class Scalar, int Rows>
+Verdict LemkeAlgorithm<Scalar, Rows>::Run() {
+  Start();
+  verdict_.outcome = IsNonnegative() ? Outcome::kSolved : Follow();
   if (verdict_.outcome == Outcome::kSolved) {
-    Extract(problem);
-    verdict_.outcome = JudgeSolution(problem);
+    Extract();
+    verdict_.outcome = JudgeSolution();
   }
   return verdict_;
 }
@@ -27,10 +48,16 @@ Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem) {
 // T = (q, I), w basic. Inexact runs divide accelerations by max abs(b) and A by max A_ii, which leaves the
 // path as it is: the covering vector is scaled along.
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::Start(const Problem& problem) {
+void LemkeAlgorithm<Scalar, Rows>::Start() {
+  const Problem& problem = *problem_;
   verdict_ = Verdict();
-  SetUnits(problem);
-  ListComponents(problem);
+  if (trace_ != nullptr) {
+    trace_->pivots.clear();
+    trace_->consulted = 0;
+    if (!trace_->keep_pivots) trace_ = nullptr;
+  }
+  SetUnits();
+  ListComponents();
   if constexpr (Rows == Eigen::Dynamic) {
     f_.resize(problem.rows());
     ray_.resize(problem.rows());
@@ -39,22 +66,23 @@ void LemkeAlgorithm<Scalar, Rows>::Start(const Problem& problem) {
     column_.resize(size_);
     cover_.resize(size_);
   }
-  const Scalar limit_cover = LimitCover(problem);
+  const Scalar limit_cover = LimitCover();
   basis_.resize(size_);
   for (int i = 0; i < problem.rows(); ++i) f_[i] = ray_[i] = Scalar(0);
   for (int i = 0; i < size_; ++i) {
     basis_[i] = i;
     cover_[i] = components_[i].block == Block::kMultiplier ? limit_cover : Scalar(1);
-    T_(i, 0) = RightSide(problem, components_[i]);
+    T_(i, 0) = RightSide(components_[i]);
     for (int j = 0; j < size_; ++j) {
       T_(i, j + 1) = Scalar(i == j ? 1 : 0);
-      M_(i, j) = MatrixEntry(problem, components_[i], components_[j]);
+      M_(i, j) = MatrixEntry(components_[i], components_[j]);
     }
   }
 }
 
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::SetUnits(const Problem& problem) {
+void LemkeAlgorithm<Scalar, Rows>::SetUnits() {
+  const Problem& problem = *problem_;
   unit_A_ = unit_b_ = Scalar(1);
   if constexpr (!kIsExact<Scalar>) {
     Scalar A = 0, b = 0;
@@ -71,47 +99,77 @@ void LemkeAlgorithm<Scalar, Rows>::SetUnits(const Problem& problem) {
   }
 }
 
+// Normals, the first corners, the second ones, ..., multipliers; each by contact.
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::ListComponents(const Problem& problem) {
+void LemkeAlgorithm<Scalar, Rows>::ListComponents() {
   components_.clear();
-  for (const Block block : {Block::kNormal, Block::kPlus, Block::kMinus, Block::kMultiplier}) {
-    int row = 0;
-    for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
-      const bool rough = problem.contacts[contact].HasFrictionRows();
-      if (block == Block::kNormal) {
-        components_.push_back({block, row, contact});
-      } else if (rough) {
-        components_.push_back({block, row + 1, contact});
-      }
-      row += rough ? 2 : 1;
-    }
+  int row = 0;
+  for (int contact = 0; contact < static_cast<int>(problem_->contacts.size()); ++contact) {
+    components_.push_back({Block::kNormal, row, contact});
+    row += problem_->contacts[contact].HasFrictionRows() ? problem_->dimension : 1;
+  }
+  ListCorners();
+  const int normals = static_cast<int>(problem_->contacts.size());
+  for (int i = 0; i < normals; ++i) {
+    const Component normal = components_[i];
+    if (Corners(normal.contact) > 0)
+      components_.push_back({Block::kMultiplier, normal.row + 1, normal.contact});
   }
   size_ = static_cast<int>(components_.size());
 }
 
 template <class Scalar, int Rows>
-Scalar LemkeAlgorithm<Scalar, Rows>::RightSide(const Problem& problem, const Component& w) const {
-  if (w.block == Block::kMultiplier) return Scalar(0);
-  const Scalar value = problem.b[w.row] / unit_b_;
-  return w.block == Block::kMinus ? Scalar(-value) : value;
+void LemkeAlgorithm<Scalar, Rows>::ListCorners() {
+  const int contacts = static_cast<int>(problem_->contacts.size());
+  int most = 0;
+  for (int contact = 0; contact < contacts; ++contact) most = std::max(most, Corners(contact));
+  for (int corner = 0; corner < most; ++corner) {
+    for (int contact = 0; contact < contacts; ++contact) {
+      if (corner < Corners(contact))
+        components_.push_back({Block::kCorner, components_[contact].row + 1, contact, corner});
+    }
+  }
 }
 
 template <class Scalar, int Rows>
-Scalar LemkeAlgorithm<Scalar, Rows>::MatrixEntry(const Problem& problem, const Component& w,
-                                                 const Component& z) const {
+int LemkeAlgorithm<Scalar, Rows>::Corners(int contact) const {
+  if (!problem_->contacts[contact].HasFrictionRows()) return 0;
+  return polygons_ == nullptr ? 2 : (*polygons_)[contact].sides();
+}
+
+// The normal value values(0), or d.values(0), values(1) for the corner d; in the plane d = +1, -1.
+template <class Scalar, int Rows>
+template <class Values>
+Scalar LemkeAlgorithm<Scalar, Rows>::Along(const Component& component, const Values& values) const {
+  if (component.block == Block::kNormal) return values(0);
+  if (polygons_ == nullptr) return component.corner == 0 ? Scalar(values(0)) : Scalar(-values(0));
+  const Planar<Scalar>& d = (*polygons_)[component.contact].corner(component.corner);
+  return d[0] * values(0) + d[1] * values(1);
+}
+
+template <class Scalar, int Rows>
+Scalar LemkeAlgorithm<Scalar, Rows>::RightSide(const Component& w) const {
+  if (w.block == Block::kMultiplier) return Scalar(0);
+  return Along(w, [&](int k) { return Scalar(problem_->b[w.row + k] / unit_b_); });
+}
+
+template <class Scalar, int Rows>
+Scalar LemkeAlgorithm<Scalar, Rows>::MatrixEntry(const Component& w, const Component& z) const {
   if (w.block != Block::kMultiplier && z.block != Block::kMultiplier) {
-    const Scalar entry = problem.A(w.row, z.row) / unit_A_;
-    return (w.block == Block::kMinus) != (z.block == Block::kMinus) ? Scalar(-entry) : entry;
+    return Along(w, [&](int k) {
+      return Along(z, [&](int l) { return Scalar(problem_->A(w.row + k, z.row + l) / unit_A_); });
+    });
   }
   const bool both = w.block == z.block;
   if (w.contact != z.contact || both || w.block == Block::kNormal) return Scalar(0);
   if (z.block == Block::kMultiplier) return Scalar(1);
-  return z.block == Block::kNormal ? problem.contacts[w.contact].mu : Scalar(-1);
+  return z.block == Block::kNormal ? problem_->contacts[w.contact].mu : Scalar(-1);
 }
 
 // The covering vector in the rows of force limits.
 template <class Scalar, int Rows>
-Scalar LemkeAlgorithm<Scalar, Rows>::LimitCover(const Problem& problem) const {
+Scalar LemkeAlgorithm<Scalar, Rows>::LimitCover() const {
+  const Problem& problem = *problem_;
   if (options_.cover == Cover::kOnes) return unit_A_;
   Scalar A = Scalar(0);
   for (int i = 0; i < problem.rows(); ++i) A = std::max<Scalar>(A, problem.A(i, i));
@@ -129,19 +187,26 @@ bool LemkeAlgorithm<Scalar, Rows>::IsNonnegative() const {
 // ---- The path ----------------------------------------------------------------------------------
 
 template <class Scalar, int Rows>
-Outcome LemkeAlgorithm<Scalar, Rows>::Follow(const Problem& problem) {
+Outcome LemkeAlgorithm<Scalar, Rows>::Follow() {
   int entering = Artificial();
   ComputeColumn(entering);
   int row = FirstLeaving();
   while (true) {
+    if (trace_ != nullptr) RecordStep(row, entering);
+    if (row < 0) return JudgeRay();
     const int leaving = basis_[row];
     Pivot(row, entering);
+    if constexpr (kEncloses<Scalar>) {
+      Renew();
+      if (leaving == Artificial()) MeetEnd(entering);
+    }
+    if (trace_ != nullptr) RecordPoint(row);
     if (leaving == Artificial()) return Outcome::kSolved;
-    if (BudgetSpent()) return Outcome::kLimit;
+    if (BudgetSpent()) return verdict_.reason == kStopped ? Outcome::kUndecided : Outcome::kLimit;
     entering = leaving < size_ ? leaving + size_ : leaving - size_;  // the complement of what has left
     ComputeColumn(entering);
-    row = Leaving();
-    if (row < 0) return JudgeRay(problem, entering);
+    row = Leaving(entering);
+    if (row < 0) ComputeRay(entering);
   }
 }
 
@@ -169,14 +234,14 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeColumn(int entering) {
     }
     column_[i] = Scalar(0);
     for (int k = 0; k < size_; ++k) {
-      if (Sign(T_(i, k + 1)) != 0) column_[i] -= T_(i, k + 1) * coefficient(k);
+      if (!IsSurelyZero(T_(i, k + 1))) column_[i] -= T_(i, k + 1) * coefficient(k);
     }
   }
 }
 
 // The row that limits the entering variable first, -1 if none does. z0 leaves whenever it can.
 template <class Scalar, int Rows>
-int LemkeAlgorithm<Scalar, Rows>::Leaving() const {
+int LemkeAlgorithm<Scalar, Rows>::Leaving(int entering) const {
   Scalar largest = Scalar(0);
   if constexpr (!kIsExact<Scalar>) {
     for (int i = 0; i < size_; ++i) largest = std::max(largest, Abs(column_[i]));
@@ -184,11 +249,13 @@ int LemkeAlgorithm<Scalar, Rows>::Leaving() const {
   const Scalar tolerance = pivot_tolerance_ * largest;
   int best = -1, artificial = -1;
   for (int i = 0; i < size_; ++i) {
+    if (kEncloses<Scalar> && FollowsCover(i, entering)) continue;  // z0 leaves in its place
     if (Sign(column_[i], tolerance) <= 0) continue;
     if (basis_[i] == Artificial()) artificial = i;
     if (best < 0 || IsBefore(i, best)) best = i;
   }
-  return artificial >= 0 && CompareQuotients(artificial, best, 0) <= 0 ? artificial : best;
+  if (artificial < 0 || artificial == best) return best;
+  return CompareQuotients(artificial, best, 0) <= 0 ? artificial : best;
 }
 
 // The sign of T_ic / column_i - T_kc / column_k.
@@ -214,15 +281,87 @@ bool LemkeAlgorithm<Scalar, Rows>::IsBefore(int i, int k) const {
 }
 
 template <class Scalar, int Rows>
+bool LemkeAlgorithm<Scalar, Rows>::IsBasic(int variable) const {
+  return std::find(basis_.begin(), basis_.end(), variable) != basis_.end();
+}
+
+// Whether the basic variable of row i is a multiple of z0, whatever the numbers: alone among the basic and the
+// entering ones in   m = mu fN - sum of beta_k + e z0,   or in the plane in   w_+ + w_- = 2 l + 2 z0.
+template <class Scalar, int Rows>
+bool LemkeAlgorithm<Scalar, Rows>::FollowsCover(int i, int entering) const {
+  const int variable = basis_[i];
+  if (variable == Artificial()) return false;
+  const Component& own = ComponentOf(variable);
+  const bool is_z = variable >= size_;
+  if (own.block == Block::kNormal || (own.block == Block::kMultiplier && is_z)) return false;
+  const bool of_forces = is_z || own.block == Block::kMultiplier;  // the first relation
+  if (!of_forces && polygons_ != nullptr) return false;
+  for (int k = 0; k < size_; ++k) {
+    const Component& other = components_[k];
+    if (other.contact != own.contact) continue;
+    const bool normal = other.block == Block::kNormal;
+    if (normal && (!of_forces || IsSurelyZero(problem_->contacts[own.contact].mu))) continue;
+    const bool member_is_z = of_forces != (other.block == Block::kMultiplier);
+    const int member = member_is_z ? k + size_ : k;
+    if (member != variable && (member == entering || IsBasic(member))) return false;
+  }
+  return true;
+}
+
+// Of the columns of w - M z - e z0 = q.
+template <class Scalar, int Rows>
+Scalar LemkeAlgorithm<Scalar, Rows>::BasisEntry(int row, int variable) const {
+  if (variable == Artificial()) return -cover_[row];
+  return variable < size_ ? Scalar(row == variable ? 1 : 0) : Scalar(-M_(row, variable - size_));
+}
+
+// T = inv(B) (q, I) over enclosures, from the basis: with R near inv(B) in doubles, R B is near I, and to
+// eliminate it keeps the ends close. Any R will do.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::Renew() requires(kEncloses<Scalar>) {
+  using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Dense B(size_, size_), q(size_, 1);
+  Eigen::MatrixXd middle(size_, size_);
+  for (int i = 0; i < size_; ++i) {
+    q(i, 0) = RightSide(components_[i]);
+    for (int j = 0; j < size_; ++j) B(i, j) = BasisEntry(i, basis_[j]);
+    for (int j = 0; j < size_; ++j) middle(i, j) = Approximation<Scalar>::Of(B(i, j));
+  }
+  const Eigen::MatrixXd inverse = middle.inverse();
+  const Dense R = inverse.unaryExpr([](double x) { return Scalar(x); });
+  Dense C = R * B;
+  T_ << R * q, R;
+  for (int c = 0; c < size_; ++c) {
+    const Scalar pivot = C(c, c);
+    C.row(c) /= pivot;
+    T_.row(c) /= pivot;
+    for (int i = 0; i < size_; ++i) {
+      if (i == c) continue;
+      const Scalar factor = C(i, c);
+      C.row(i) -= factor * C.row(c);
+      T_.row(i) -= factor * T_.row(c);
+    }
+  }
+}
+
+// z0 is zero, and so are its multiples.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::MeetEnd(int entering) {
+  for (int i = 0; i < size_; ++i) {
+    if (FollowsCover(i, entering)) T_(i, 0) = Scalar(0);
+  }
+}
+
+template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::Pivot(int row, int entering) {
   const Scalar pivot = column_[row];
   for (int c = 0; c <= size_; ++c) {
-    if (Sign(T_(row, c)) != 0) T_(row, c) /= pivot;
+    if (!IsSurelyZero(T_(row, c))) T_(row, c) /= pivot;
   }
   for (int i = 0; i < size_; ++i) {
-    if (i == row || Sign(column_[i]) == 0) continue;
+    if (i == row || IsSurelyZero(column_[i])) continue;
     for (int c = 0; c <= size_; ++c) {
-      if (Sign(T_(row, c)) != 0) T_(i, c) -= column_[i] * T_(row, c);
+      if (!IsSurelyZero(T_(row, c))) T_(i, c) -= column_[i] * T_(row, c);
     }
   }
   basis_[row] = entering;
@@ -233,6 +372,8 @@ template <class Scalar, int Rows>
 bool LemkeAlgorithm<Scalar, Rows>::BudgetSpent() {
   if (verdict_.statistics.pivots >= options_.limits.pivots) {
     verdict_.reason = "pivots";
+  } else if (options_.limits.Stopped()) {
+    verdict_.reason = kStopped;
   } else {
     for (int i = 0; i < size_; ++i) {
       if (BitLength<Scalar>::Of(T_(i, 0)) > options_.limits.bits) verdict_.reason = "bits";
@@ -247,32 +388,47 @@ bool LemkeAlgorithm<Scalar, Rows>::BudgetSpent() {
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::AddForce(int variable, const Scalar& value, Vector& f) const {
   if (variable < size_ || variable == Artificial()) return;
-  const Component& z = components_[variable - size_];
+  const Component& z = ComponentOf(variable);
   if (z.block == Block::kMultiplier) return;
-  if (z.block == Block::kMinus) {
+  if (z.block == Block::kNormal || (polygons_ == nullptr && z.corner == 0)) {
+    f[z.row] += value;
+  } else if (polygons_ == nullptr) {
     f[z.row] -= value;
   } else {
-    f[z.row] += value;
+    const Planar<Scalar>& d = (*polygons_)[z.contact].corner(z.corner);
+    for (int k = 0; k < 2; ++k) f[z.row + k] += value * d[k];
   }
 }
 
+// f and a of the present basis.
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::Extract(const Problem& problem) {
+void LemkeAlgorithm<Scalar, Rows>::Extract() {
   const Scalar unit = unit_b_ / unit_A_;
+  for (int i = 0; i < problem_->rows(); ++i) f_[i] = Scalar(0);
   for (int i = 0; i < size_; ++i) AddForce(basis_[i], T_(i, 0) * unit, f_);
-  a_ = problem.b;
-  for (int i = 0; i < problem.rows(); ++i) {
-    for (int j = 0; j < problem.rows(); ++j) {
-      if (Sign(f_[j]) != 0) a_[i] += problem.A(i, j) * f_[j];
+  a_ = problem_->b;
+  for (int i = 0; i < problem_->rows(); ++i) {
+    for (int j = 0; j < problem_->rows(); ++j) {
+      if (!IsSurelyZero(f_[j])) a_[i] += problem_->A(i, j) * f_[j];
     }
   }
 }
 
+// The forces per unit of the entering variable, in the units of the tableau.
 template <class Scalar, int Rows>
-Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution(const Problem& problem) {
+void LemkeAlgorithm<Scalar, Rows>::ComputeRay(int entering) {
+  for (int i = 0; i < problem_->rows(); ++i) ray_[i] = Scalar(0);
+  AddForce(entering, Scalar(1), ray_);
+  for (int i = 0; i < size_; ++i) AddForce(basis_[i], Scalar(-column_[i]), ray_);
+}
+
+template <class Scalar, int Rows>
+Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
+    const Scalar residual = polygons_ == nullptr ? NaturalResidual(*problem_, f_, a_)
+                                                 : PolygonResidual(*problem_, *polygons_, f_, a_);
     // Written so that a residual that is no number is refused.
-    if (!(NaturalResidual(problem, f_, a_) <= residual_tolerance_)) {
+    if (!(residual <= residual_tolerance_)) {
       verdict_.reason = "residual of the answer";
       return Outcome::kUndecided;
     }
@@ -283,9 +439,8 @@ Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution(const Problem& problem) {
 // Over inexact scalars a ray counts if its forces show it: A ray = 0 to the tolerance of pivots and b'ray < 0
 // far beyond it. Otherwise what limits the step may have been lost in rounding.
 template <class Scalar, int Rows>
-Outcome LemkeAlgorithm<Scalar, Rows>::JudgeRay(const Problem& problem, int entering) {
-  AddForce(entering, Scalar(1), ray_);
-  for (int i = 0; i < size_; ++i) AddForce(basis_[i], Scalar(-column_[i]), ray_);
+Outcome LemkeAlgorithm<Scalar, Rows>::JudgeRay() {
+  const Problem& problem = *problem_;
   if constexpr (!kIsExact<Scalar>) {
     Scalar largest = 0, product = 0, image = 0;
     for (int i = 0; i < problem.rows(); ++i) {
@@ -303,6 +458,66 @@ Outcome LemkeAlgorithm<Scalar, Rows>::JudgeRay(const Problem& problem, int enter
     }
   }
   return Outcome::kRay;
+}
+
+// ---- The trace ---------------------------------------------------------------------------------
+
+template <class Scalar, int Rows>
+std::string LemkeAlgorithm<Scalar, Rows>::NameOf(int variable) const {
+  if (variable == Artificial()) return "z0";
+  const bool is_w = variable < size_;
+  const Component& component = ComponentOf(variable);
+  const std::string contact = std::to_string(component.contact + 1);
+  if (component.block == Block::kMultiplier) return (is_w ? "m" : "l") + contact;
+  const std::string letter = is_w ? "a" : "f";
+  if (component.block == Block::kNormal) return letter + "N" + contact;
+  if (polygons_ == nullptr) return letter + (component.corner == 0 ? "+" : "-") + contact;
+  return letter + std::to_string(component.corner) + "." + contact;
+}
+
+template <class Scalar, int Rows>
+int LemkeAlgorithm<Scalar, Rows>::RowOf(int variable) const {
+  return variable == Artificial() ? -1 : ComponentOf(variable).row;
+}
+
+// What one of the variable in the tableau is in N or m/s^2. z0 covers accelerations.
+template <class Scalar, int Rows>
+Scalar LemkeAlgorithm<Scalar, Rows>::UnitOf(int variable) const {
+  if (variable == Artificial()) return unit_b_;
+  const bool is_multiplier = ComponentOf(variable).block == Block::kMultiplier;
+  return (variable < size_) == is_multiplier ? Scalar(unit_b_ / unit_A_) : unit_b_;
+}
+
+// Before the pivot; row -1: a ray.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::RecordStep(int row, int entering) {
+  ComputeRay(entering);
+  Extract();
+  stiction::Pivot<Scalar>& pivot = trace_->pivots.emplace_back();
+  pivot.drive = static_cast<int>(trace_->pivots.size());
+  pivot.driven = RowOf(entering);
+  pivot.limiting = row < 0 ? -1 : RowOf(basis_[row]);
+  pivot.entering = NameOf(entering);
+  if (row >= 0) pivot.leaving = NameOf(basis_[row]);
+  pivot.df = ray_ * Scalar(unit_b_ / unit_A_ / UnitOf(entering));
+  pivot.da = problem_->A * pivot.df;
+  pivot.f = f_;
+  pivot.a = a_;
+  if (trace_->pivots.size() > 1) pivot.cover = trace_->pivots[trace_->pivots.size() - 2].cover;
+}
+
+// After it.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::RecordPoint(int row) {
+  stiction::Pivot<Scalar>& pivot = trace_->pivots.back();
+  Extract();
+  pivot.s = T_(row, 0) * UnitOf(basis_[row]);
+  pivot.f = f_;
+  pivot.a = a_;
+  pivot.cover = Scalar(0);
+  for (int i = 0; i < size_; ++i) {
+    if (basis_[i] == Artificial()) pivot.cover = T_(i, 0) * unit_b_;
+  }
 }
 
 }  // namespace stiction

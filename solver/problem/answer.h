@@ -48,6 +48,14 @@ struct Counter {
   bool operator==(const Counter&) const = default;
 };
 
+// The value of the counter of that name; zero where there is none.
+inline std::int64_t ValueOf(const std::vector<Counter>& counters, std::string_view name) {
+  for (const Counter& counter : counters) {
+    if (counter.name == name) return counter.value;
+  }
+  return 0;
+}
+
 // S: what has a table of counters, ForEachField(statistics, visit(name, help, value)).
 template <class S>
 std::vector<Counter> CountersOf(const S& statistics) {

@@ -7,8 +7,6 @@
 #include <array>
 #include <cstdint>
 
-#include "solver/problem/problem.h"
-
 namespace stiction {
 
 enum class IndexSet : std::uint8_t {
@@ -27,10 +25,6 @@ inline constexpr std::array<const char*, kIndexSetCount> kIndexSetNames = {"none
                                                                            "NC-",  "NC+", "suspended"};
 
 inline const char* Name(IndexSet set) { return kIndexSetNames[static_cast<int>(set)]; }
-
-// One entry per row.
-template <int Rows>
-using IndexSets = RowArray<IndexSet, Rows>;
 
 // +1 in NC+, -1 in NC-, 0 elsewhere: f = LimitSign mu fN is kept.
 inline constexpr int LimitSign(IndexSet set) {

@@ -76,7 +76,12 @@ class Reduction {
   // Values by row of the full problem from values by row of the reduced one; `other`: of the friction of
   // sliding contacts.
   template <class T>
-  std::vector<T> Spread(const std::vector<T>& values, const T& bilateral, const T& other) const;
+  std::vector<T> Spread(const std::vector<T>& values, const T& bilateral, const T& other) const {
+    std::vector<T> all(E_.rows(), other);
+    for (const int row : bilateral_) all[row] = bilateral;
+    for (std::size_t i = 0; i < values.size(); ++i) all[row_of_[i]] = values[i];
+    return all;
+  }
   // f = E x + e: full rows x reduced rows, and full rows.
   const Matrix& E() const { return E_; }
   const Vector& e() const { return e_; }
@@ -102,6 +107,10 @@ class Reduction {
   Matrix E_;
   Vector e_;
 };
+
+extern template class Reduction<float>;
+extern template class Reduction<double>;
+extern template class Reduction<long double>;
 
 }  // namespace stiction
 

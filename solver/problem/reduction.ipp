@@ -45,16 +45,6 @@ void Reduction<Scalar>::Sort(const Problem& problem) {
   }
 }
 
-template <class Scalar>
-template <class T>
-std::vector<T> Reduction<Scalar>::Spread(const std::vector<T>& values, const T& bilateral,
-                                         const T& other) const {
-  std::vector<T> all(E_.rows(), other);
-  for (const int row : bilateral_) all[row] = bilateral;
-  for (std::size_t i = 0; i < values.size(); ++i) all[row_of_[i]] = values[i];
-  return all;
-}
-
 // (24): E maps the variables, the reduced rows and then the bilateral ones, to all forces; M = A E.
 template <class Scalar>
 void Reduction<Scalar>::ReplaceSlidingFriction(const Problem& problem) {

@@ -9,6 +9,7 @@
 #define STICTION_SOLVER_PROBLEM_SCALAR_H_
 
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 
 namespace stiction {
@@ -49,6 +50,12 @@ Scalar Abs(const Scalar& x) {
     return x;
   }
 }
+
+// Longest numerator or denominator of an exact scalar, in bits; specialised beside the scalar.
+template <class Scalar>
+struct BitLength {
+  static std::int64_t Of(const Scalar&) { return 0; }
+};
 
 // The integers beneath an exact scalar, for elimination without fractions. Specialised beside the scalar;
 // without that its own divisions are used.

@@ -15,6 +15,10 @@
 
 namespace stiction {
 
+// One entry per row.
+template <int Rows>
+using IndexSets = RowArray<IndexSet, Rows>;
+
 // Shapes: rows x 1 each. Units: f in N, a in m/s^2. Always a = A f + b (to rounding).
 template <class Scalar, int Rows>
 struct ContactState {

@@ -10,7 +10,8 @@
 // readings.md fixes every choice that the text leaves open; `Policy` names the readings. The algorithm
 // can fail to end: a repeated outer state is the outcome `cycle`, a repeated state inside a drive `stall`.
 //
-// Over exact scalars a repetition is a proof. Over inexact ones it is a suspicion: forces are compared
+// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, and what the
+// ends do not decide throws. Over inexact ones it is a suspicion: forces are compared
 // after rounding, and callers run the problem again exactly before they claim anything.
 
 #ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
@@ -24,12 +25,6 @@
 #include "solver/published/step_size.h"
 
 namespace stiction {
-
-// Longest numerator or denominator of an exact scalar, in bits; specialised beside the scalar.
-template <class Scalar>
-struct BitLength {
-  static std::int64_t Of(const Scalar&) { return 0; }
-};
 
 // Whether `problem` has kinds and a dimension that the published algorithm handles here.
 template <class Problem>

@@ -14,6 +14,22 @@
 
 namespace stiction {
 
+// Sets the friction forces that are held at a limit.
+template <class Scalar, int Rows>
+void FollowLimits(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout,
+                  const IndexSets<Rows>& sets, typename ContactProblem<Scalar, Rows>::Vector& f) {
+  for (int row = 0; row < problem.rows(); ++row) {
+    const int limit = FrictionLimitSign(layout, sets, row);
+    if (limit == 0) continue;
+    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * f[row];
+    if (limit > 0) {
+      f[row + 1] = bound;
+    } else {
+      f[row + 1] = -bound;
+    }
+  }
+}
+
 // ---- Main loop: 4.3 compute-forces, 5.5 ------------------------------------------------------
 
 template <class Scalar, int Rows>
@@ -139,6 +155,7 @@ bool PublishedAlgorithm<Scalar, Rows>::FrictionHolds(int row) const {  // (16)
 
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::Violated(int row) const {
+  if (kEncloses<Scalar> && state_.sets[row] != IndexSet::kNone) return false;  // by its set
   if (layout_.IsNormal(row)) return !NormalHolds(row);
   return NormalHolds(row - 1) && !FrictionHolds(row);
 }
@@ -244,6 +261,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     if (step.limiting < 0) return End(Outcome::kRay);
     if (step.order_matters) Consult(PolicySwitch::kTies);
     const bool zero = Sign(step.s, scale_.force) == 0;
+    if (kEncloses<Scalar> && !zero) step_size_.LeaveBounds();
     Advance(step.s, step.limiting, step.wants, driven);
     ++statistics.steps;
     statistics.zero_steps += zero;
@@ -267,7 +285,8 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
   }
 }
 
-// f += s df, a += s da. Over inexact scalars the limit that was reached is then met exactly.
+// f += s df, a += s da. Over inexact scalars and enclosures the limit that was reached is then met exactly;
+// over enclosures all friction at a limit is, which where fN = 0 is zero.
 template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, IndexSet wants, int driven) {
   (void)driven;
@@ -275,7 +294,7 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
     state_.f[row] += s * direction_.df()[row];
     state_.a[row] += s * direction_.da()[row];
   }
-  if constexpr (!kIsExact<Scalar>) {
+  if constexpr (kMeetsLimits<Scalar>) {
     Scalar& f = state_.f[limiting];
     switch (wants) {
       case IndexSet::kClamped:
@@ -295,6 +314,7 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
         break;
     }
   }
+  if constexpr (kEncloses<Scalar>) FollowLimits(*problem_, layout_, state_.sets, state_.f);
 }
 
 template <class Scalar, int Rows>
@@ -306,6 +326,9 @@ void PublishedAlgorithm<Scalar, Rows>::Move(int row, IndexSet to) {
 // The limiting variable changes its set, and its partner with it where the contact opens or closes.
 template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::MoveLimiting(int row, IndexSet wants) {
+  if constexpr (kEncloses<Scalar>) {
+    if (wants == IndexSet::kSticking) step_size_.MeetBound(row, LimitSign(state_.sets[row]));
+  }
   Move(row, wants);
   if (!layout_.IsNormal(row) || !layout_.HasFriction(row)) return;
   const int friction = row + 1;

@@ -27,16 +27,11 @@
 #include <vector>
 
 #include "solver/linear/direction.h"
+#include "solver/problem/enclosure.h"
 #include "solver/problem/solution.h"
 #include "solver/published/step_size.h"
 
 namespace stiction {
-
-// A double near x; specialised beside a scalar that does not convert.
-template <class Scalar>
-struct Approximation {
-  static double Of(const Scalar& x) { return static_cast<double>(x); }
-};
 
 // Whether `problem` has kinds and a dimension that the published algorithm handles in space.
 template <class Problem>

@@ -13,12 +13,16 @@
 // Ensures     s >= 0. A zero step is a legal answer. No limit at all: limiting = -1, a ray.
 // Ties        the driven variable first, then by Ties. Over inexact scalars steps within the force
 //             tolerance tie, and rates within the pivot tolerance are zero.
-// Exactness   only + - * / and sign tests.
+// Exactness   only + - * / and sign tests. Over enclosures a friction that has left its limit for CF is at the
+//             limit by what happened, not by its numbers: MeetBound tells so, until a step moves the forces.
 
 #ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
 #define STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
 
+#include <algorithm>
+
 #include "solver/linear/direction.h"
+#include "solver/problem/enclosure.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -38,6 +42,10 @@ class StepSize {
   using State = ContactState<Scalar, Rows>;
 
   void Resize(int rows);
+
+  // Over enclosures: the friction in `row` is exactly at its limit of this sign; and, no friction is any more.
+  void MeetBound(int row, int sign) { met_bound_[row] = sign; }
+  void LeaveBounds() { std::fill(met_bound_.begin(), met_bound_.end(), 0); }
 
   // Requires: the maintained variables are legal at f, a; aN_d < 0 for a driven normal; for a friction
   // variable to establish aF_d /= 0 and abs(fF_d) <= mu fN_d; to zero fF_d /= 0.
@@ -60,9 +68,11 @@ class StepSize {
                    const Scale<Scalar>& scale);
   void LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
                        const DirectionSystem<Scalar, Rows>& direction, int row, const Scale<Scalar>& scale);
-  int FirstOf(const State& state, int driven, Ties ties, const Scalar& reach) const;
+  Scalar GapToBound(const Scalar& bound, const Scalar& f, int row, int sign) const;
+  int FirstOf(const State& state, int driven, Ties ties, int nearest, const Scalar& reach) const;
 
   RowArray<Limit, Rows> limits_;
+  RowArray<int, Rows> met_bound_;  // sign of the limit, or 0; over enclosures
 };
 
 }  // namespace stiction

@@ -11,6 +11,7 @@ namespace stiction {
 template <class Scalar, int Rows>
 void StepSize<Scalar, Rows>::Resize(int rows) {
   if constexpr (Rows == Eigen::Dynamic) limits_.resize(rows);
+  if constexpr (kEncloses<Scalar>) Reset<int, Rows>(met_bound_, rows, 0);
 }
 
 template <class Scalar, int Rows>
@@ -65,9 +66,10 @@ void StepSize<Scalar, Rows>::LimitMaintained(const Problem& problem, const RowLa
       const Scalar& mu = problem.contacts[layout.ContactOf(row)].mu;
       const Scalar bound = mu * state.f[row - 1];
       const Scalar growth = mu * df[row - 1];
-      Offer(limit, Scalar(bound - state.f[row]), Scalar(df[row] - growth), IndexSet::kAtUpper, scale.pivot);
-      return Offer(limit, Scalar(bound + state.f[row]), Scalar(-df[row] - growth), IndexSet::kAtLower,
-                   scale.pivot);
+      Offer(limit, GapToBound(bound, state.f[row], row, 1), Scalar(df[row] - growth), IndexSet::kAtUpper,
+            scale.pivot);
+      return Offer(limit, GapToBound(bound, state.f[row], row, -1), Scalar(-df[row] - growth),
+                   IndexSet::kAtLower, scale.pivot);
     }
     case IndexSet::kAtUpper:
       return Offer(limit, Scalar(-state.a[row]), da[row], IndexSet::kSticking, scale.rate);
@@ -79,13 +81,25 @@ void StepSize<Scalar, Rows>::LimitMaintained(const Problem& problem, const RowLa
   }
 }
 
-// C, NC, CF, NC-, NC+: the order of the enumerators.
 template <class Scalar, int Rows>
-int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, const Scalar& reach) const {
-  if (limits_[driven].exists && !(limits_[driven].s > reach)) return driven;
+Scalar StepSize<Scalar, Rows>::GapToBound(const Scalar& bound, const Scalar& f, int row, int sign) const {
+  if constexpr (kEncloses<Scalar>) {
+    if (met_bound_[row] == sign) return Scalar(0);
+  }
+  return sign > 0 ? Scalar(bound - f) : Scalar(bound + f);
+}
+
+// C, NC, CF, NC-, NC+: the order of the enumerators. The nearest is within reach, and not compared.
+template <class Scalar, int Rows>
+int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, int nearest,
+                                    const Scalar& reach) const {
+  const auto within_reach = [&](int row) {
+    return limits_[row].exists && (row == nearest || !(limits_[row].s > reach));
+  };
+  if (within_reach(driven)) return driven;
   int first = -1;
   for (int row = 0; row < static_cast<int>(limits_.size()); ++row) {
-    if (!limits_[row].exists || limits_[row].s > reach) continue;
+    if (!within_reach(row)) continue;
     if (first < 0 || (ties == Ties::kSets && state.sets[row] < state.sets[first])) first = row;
   }
   return first;
@@ -108,8 +122,9 @@ Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayou
   }
   if (nearest < 0) return {};
   const Scalar reach = limits_[nearest].s + scale.force;
-  const int limiting = FirstOf(state, driven, ties, reach);
-  const int other = FirstOf(state, driven, ties == Ties::kSets ? Ties::kContacts : Ties::kSets, reach);
+  const int limiting = FirstOf(state, driven, ties, nearest, reach);
+  const Ties opposite = ties == Ties::kSets ? Ties::kContacts : Ties::kSets;
+  const int other = FirstOf(state, driven, opposite, nearest, reach);
   return {limits_[limiting].s, limiting, limits_[limiting].wants, limiting != other};
 }
 

@@ -6,8 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "certify/certificate.h"
+#include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/lemke_space.h"
 #include "certify/verify_solution.h"
+#include "solver/complete/polygon_residual.h"
 #include "solver/problem/residual.h"
 #include "tests/support.h"
 
@@ -170,6 +173,124 @@ TEST_CASE("space: the polygon alone proves its inner radius") {
   }
 }
 
+TEST_CASE("lemke in space: the law on polygons, exactly") {
+  for (int index = 0; index < 90; ++index) {
+    CAPTURE(index);
+    const ExactProblem problem = RandomInSpace(1 + index % 3, index);
+    for (const int sides : {4, 8}) {
+      const RationalPolygons polygons(problem.contacts.size(), FrictionPolygon<Rational>(sides));
+      LemkeAlgorithm<Rational> lemke;
+      REQUIRE(lemke.Run(problem, polygons).outcome == Outcome::kSolved);
+      CHECK(PolygonResidual(problem, polygons, lemke.f(), lemke.a()) == 0);
+      CHECK(lemke.a() == Accelerations(problem, lemke.f()));
+      if (problem.contacts.size() == 1) {
+        const SpaceRun driven = RunSpace(problem, polygons, Limits{});
+        CHECK(PolygonResidual(problem, polygons, driven.f, driven.a) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("lemke in space: what solves the law on polygons, and what does not") {
+  const ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
+  const RationalPolygons polygons(1, FrictionPolygon<Rational>(4));
+  const auto residual = [&](std::vector<Rational> f) {
+    return PolygonResidual(problem, polygons, Vector(f), Accelerations(problem, Vector(f)));
+  };
+  CHECK(residual({1, 0, Rational(-1, 2)}) == 0);
+  CHECK(residual({1, Rational(-1, 2), 0}) > 0);
+  CHECK(residual({1, 0, Rational(-1, 4)}) > 0);
+  CHECK(residual({2, 0, Rational(-1, 2)}) > 0);
+  CHECK(residual({0, 0, 0}) > 0);
+  LemkeAlgorithm<Rational> lemke;
+  Trace<Rational> trace;
+  REQUIRE(lemke.Run(problem, polygons, &trace).outcome == Outcome::kSolved);
+  CHECK(lemke.f() == Vector({1, 0, Rational(-1, 2)}));
+  CHECK(trace.pivots.back().f == lemke.f());
+  std::string names;
+  for (const auto& pivot : trace.pivots) names += pivot.entering + ">" + pivot.leaving + " ";
+  CHECK(names == "z0>a3.1 f3.1>a2.1 f2.1>m1 l1>f2.1 a2.1>aN1 fN1>z0 ");
+}
+
+TEST_CASE("lemke in space: over doubles an answer is right or undecided") {
+  LemkeOptions options;
+  options.cover = Cover::kUnits;
+  LemkeAlgorithm<double> lemke(options);
+  int solved = 0;
+  for (int index = 0; index < 90; ++index) {
+    CAPTURE(index);
+    const ContactProblem<double> problem = As<double>(RandomInSpace(1 + index % 3, index));
+    const std::vector<FrictionPolygon<double>> polygons(problem.contacts.size(), FrictionPolygon<double>(8));
+    const Verdict verdict = lemke.Run(problem, polygons);
+    if (verdict.outcome != Outcome::kSolved) continue;
+    ++solved;
+    CHECK(PolygonResidual(problem, polygons, lemke.f(), lemke.a()) <= 1e-9);
+  }
+  CHECK(solved >= 80);
+}
+
+TEST_CASE("space: with Lemke's method every problem in range is certified, under either law") {
+  for (int index = 0; index < 90; ++index) {
+    CAPTURE(index);
+    const ExactProblem problem = RandomInSpace(1 + index % 3, index);
+    SpaceOptions options;
+    options.engine = SpaceEngine::kLemke;
+    const SpaceSolution weak = SolveInSpace(problem, options);
+    REQUIRE(weak.outcome == Outcome::kSolved);
+    CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
+    CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
+    CHECK(weak.statistics.stages == 0);  // of complete driving
+    options.law = FrictionLaw::kCoulomb;
+    const SpaceSolution strict = SolveInSpace(problem, options);
+    REQUIRE(strict.outcome == Outcome::kSolved);
+    CHECK(FindCoulombViolation(problem, strict.f, strict.bound).value_or("") == "");
+  }
+}
+
+// A = J J', b = J y: contacts of every kind, sliding ones where asked for.
+ExactProblem MixedInSpace(bool sliding, int index) {
+  Choices choices(index);
+  ExactProblem problem;
+  problem.dimension = 3;
+  for (int i = 0; i < 3; ++i) {
+    Contact<Rational> contact;
+    contact.kind = static_cast<ContactKind>(choices.Integer(0, sliding ? 3 : 2));
+    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 3)) / 4;
+    if (contact.kind == ContactKind::kSliding) contact.slip = {Rational(3, 5), Rational(-4, 5)};
+    problem.contacts.push_back(contact);
+  }
+  const int rows = RowCount(problem.contacts, 3);
+  ExactMatrix J(rows, 6);
+  for (Rational& x : J.reshaped()) x = choices.Integer(-5, 5);
+  ExactVector y(6);
+  for (Rational& x : y) x = choices.Integer(-5, 5);
+  problem.A = J * J.transpose();
+  problem.b = J * y;
+  return problem;
+}
+
+TEST_CASE("space: Lemke's method with contacts of every kind") {
+  SpaceOptions options;
+  options.engine = SpaceEngine::kLemke;
+  int slides = 0;
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    const bool sliding = index % 2 == 1;
+    const ExactProblem problem = MixedInSpace(sliding, index);
+    const SpaceSolution solution = SolveInSpace(problem, options);
+    if (!sliding) REQUIRE(solution.outcome == Outcome::kSolved);
+    if (solution.outcome != Outcome::kSolved) continue;
+    slides += sliding;
+    CHECK(FindWeakViolation(problem, solution.f).value_or("") == "");
+    CHECK(CheckCertificate(SolutionCertificate(problem, solution.f), "here").accepted);
+    const RationalPolygons polygons(3, FrictionPolygon<Rational>(8));
+    const SpaceRun run = RunLemkeInSpace(problem, polygons, Limits{});
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    CHECK(PolygonResidual(problem, polygons, run.f, run.a) == 0);
+  }
+  CHECK(slides > 10);
+}
+
 TEST_CASE("space: modes are linear equations, free unknowns as guessed") {
   ExactProblem problem;
   problem.dimension = 3;
@@ -193,6 +314,9 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   const SpaceSolution stuck = SolveInSpace(wedge, {});
   CHECK(stuck.outcome == Outcome::kRay);
   CHECK(stuck.ray.size() == 3);
+  SpaceOptions by_lemke;
+  by_lemke.engine = SpaceEngine::kLemke;
+  CHECK(SolveInSpace(wedge, by_lemke).outcome == Outcome::kRay);
   CHECK(DecideExistence(wedge, {}).certificate.is_null());
   wedge.contacts[0].mu = Rational(1, 2);
   const SpaceSolution solved = SolveInSpace(wedge, {});

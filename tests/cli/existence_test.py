@@ -47,7 +47,7 @@ class Existence(cli.TestCase):
 
     def test_doubles_agree_with_exact_numbers(self):
         for problem in self.problems():
-            if problem.stem in NO_SOLUTION:
+            if problem.stem in NO_SOLUTION or problem.stem.startswith("wrong-in-doubles"):  # nearly degenerate
                 continue
             with self.subTest(problem=problem.name):
                 exact = cli.run("solve", problem, "--method", "complete", "--json").json()

@@ -32,12 +32,12 @@ class Exponential(cli.TestCase):
 
     def test_two_to_the_n_less_one_pivots(self):
         for n in [1, 2, 7, 10]:
-            self.assertEqual(self.pivots(self.member(n))["pivots"], 2 ** n - 1)
+            self.assertEqual(self.pivots(self.member(n), "--method", "baraff")["pivots"], 2 ** n - 1)
             self.assertEqual(self.pivots(self.member(n), "--method", "complete")["pieces"], 2 ** n - 1)
             scaled = self.member(n, "--scaled")
             for scan in ["paper", "scan=most-violated"]:
-                self.assertEqual(self.pivots(scaled, "--policy", scan)["pivots"], 2 ** n - 1)
-        self.assertLess(self.pivots(self.member(10), "--policy", "scan=most-violated")["pivots"], 20)
+                self.assertEqual(self.pivots(scaled, "--method", "baraff", "--policy", scan)["pivots"], 2 ** n - 1)
+        self.assertLess(self.pivots(self.member(10), "--method", "baraff", "--policy", "scan=most-violated")["pivots"], 20)
 
     def test_large_members_are_exact_and_bad_usage_is_refused(self):
         large = self.member(200)
@@ -67,7 +67,7 @@ class Solve(cli.TestCase):
 
     def test_a_solution_is_exact_and_exits_with_0(self):
         file = self.file("p.json", cli.SOLVED)
-        result = self.succeeds("solve", file, "--json").json()
+        result = self.succeeds("solve", file, "--json", "--method", "baraff").json()
         self.assertEqual(result["outcome"], "solved")
         self.assertEqual(result["f"], ["1/2", "-1/3"])
         self.assertEqual(result["a"], ["0", "0"])
@@ -84,15 +84,15 @@ class Solve(cli.TestCase):
         solving = [policy for policy, entry in outcomes.items() if entry["outcome"] == "solved"]
         self.assertGreater(len(solving), 3)
         for policy in solving[:3]:
-            result = self.succeeds("solve", file, "--json", "--policy", policy).json()
+            result = self.succeeds("solve", file, "--json", "--method", "baraff", "--policy", policy).json()
             self.assertEqual(result["f"], ["1", "-6/7", "25/14", "-25/14"])  # its only solution
             self.assertSolution(cli.REFERENCE, result["f"])
 
     def test_a_cycle_exits_with_1(self):
         file = self.file("p.json", cli.REFERENCE)
-        result = self.succeeds("solve", file, "--json", code=1).json()
+        result = self.succeeds("solve", file, "--json", "--method", "baraff", code=1).json()
         self.assertEqual((result["outcome"], result["start"], result["period"]), ("cycle", 3, 4))
-        self.assertEqual(self.succeeds("solve", file, code=1).out.splitlines()[0], "cycle, start 3, period 4")
+        self.assertEqual(self.succeeds("solve", file, "--method", "baraff", code=1).out.splitlines()[0], "cycle, start 3, period 4")
 
     def test_no_contacts_at_all_are_solved(self):
         file = self.file("p.json", changed(cli.SOLVED, contacts=[], A=[], b=[]))
@@ -103,7 +103,7 @@ class Solve(cli.TestCase):
         file = self.file("p.json", cli.REFERENCE)
         for option, reason in [("--max-drives", "drives"), ("--max-pivots", "pivots"), ("--max-bits", "bits")]:
             with self.subTest(option=option):
-                result = self.succeeds("solve", file, "--json", option, 1, code=3).json()
+                result = self.succeeds("solve", file, "--json", "--method", "baraff", option, 1, code=3).json()
                 self.assertEqual((result["outcome"], result["reason"]), ("limit", reason))
 
     def test_rounded_arithmetics(self):
@@ -116,14 +116,14 @@ class Solve(cli.TestCase):
                 self.assertAlmostEqual(result["f"][1], -1 / 3, 6)
                 self.assertLessEqual(result["residual"], 1e-6)
                 # What they suspect is claimed only after an exact run.
-                cycle = self.succeeds("solve", self.file("c.json", cli.REFERENCE), "--json", "--arithmetic",
+                cycle = self.succeeds("solve", self.file("c.json", cli.REFERENCE), "--json", "--method", "baraff", "--arithmetic",
                                       arithmetic, code=1).json()
                 self.assertEqual((cycle["outcome"], cycle["start"], cycle["period"]), ("cycle", 3, 4))
                 self.assertIn(cycle["suspected"]["outcome"], ["cycle", "stall", "limit"])
 
     def test_what_is_not_built_is_refused(self):
         file = self.file("p.json", cli.SOLVED)
-        for arithmetic in ["quad", "interval", "filtered", "decimal"]:
+        for arithmetic in ["quad", "filtered", "decimal"]:
             self.refuses("solve", file, "--arithmetic", arithmetic, says=[arithmetic, "expected one of", "exact"])
         self.refuses("solve", file, "--method", "gauss", says=["gauss", "expected one of", "baraff"])
 
@@ -139,7 +139,8 @@ class Solve(cli.TestCase):
                 self.assertLessEqual(result["residual"], 1e-6)
                 self.assertEqual(set(result["statistics"]),
                                  {"sweeps", "exchanges", "factorizations", "updates", "fallbacks"})
-        self.refuses("solve", file, "--method", "fast", "--arithmetic", "exact", says=["fast", "expected", "double"])
+        exact = self.succeeds("solve", file, "--json", "--method", "fast", "--arithmetic", "exact").json()
+        self.assertEqual(exact["f"], ["1", "-6/7", "25/14", "-25/14"])
         none = self.file("n.json", changed(cli.SOLVED, contacts=[{"kind": "static", "mu": "1"}],
                                            A=[["1", "-1"], ["-1", "1"]], b=["-1", "0"]))
         result = self.succeeds("solve", none, "--json", "--method", "fast", code=3).json()
@@ -174,7 +175,7 @@ class Solve(cli.TestCase):
         space = changed(cli.SOLVED, dimension=3, A=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
                         b=["-1", "0", "0"])
         file = self.file("p.json", space)
-        for verb in [("minimize", "-o", "-"), ("certify", "-o", "-", "--claim", "cycle"), ("solve", "--method", "lemke")]:
+        for verb in [("minimize", "-o", "-"), ("certify", "-o", "-", "--claim", "cycle")]:
             self.refuses(*verb, file, says=[file, "dimension: found 3"])
         frictionless = changed(cli.SOLVED, contacts=[{"kind": "frictionless"}], A=[["2"]], b=["-1"])
         self.assertEqual(self.succeeds("solve", self.file("p.json", frictionless), "--json").json()["f"], ["1/2"])
@@ -220,7 +221,7 @@ class Replay(cli.TestCase):
     def test_the_reference_point_as_text(self):
         file = self.file("p.json", cli.REFERENCE)
         lines = self.succeeds("replay", file, code=1).out.splitlines()
-        self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper")
+        self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper, exact")
         self.assertEqual(lines[-1], "cycle: the state after 3 drives stands again 4 drives later, for ever")
         self.assertEqual([line.split()[4] for line in lines[2:-1]][-10:], cli.PERIOD)
         steps = self.succeeds("replay", file, "--step", code=1).out

@@ -4,9 +4,7 @@
 import csv
 import json
 import math
-import shutil
 import subprocess
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 import cli
@@ -15,7 +13,7 @@ import cli
 PAGE = r"""
 const text = require('fs').readFileSync(process.argv[1], 'utf8');
 const element = () => ({attributes: {}, setAttribute(name, value) { this.attributes[name] = value; }, value: 0});
-const groups = text.match(/<g id="bodies">[^]*?<g id="marks">/)[0].match(/^<g><g/mg);
+const groups = text.match(/<g id="bodies">[^]*?<g id="marks">/)[0].match(/^<g><g/mg) || [];
 const bodies = groups.map(element), named = {marks: element(), frame: element(), play: element(), time: element()};
 let next = null;
 global.document = {querySelectorAll: () => bodies, getElementById: id => named[id]};
@@ -33,7 +31,8 @@ for (const body of bodies) {
   if (!/^matrix\(([-\d.e+]+ ){5}[-\d.e+]+\)$/.test(body.attributes.transform)) throw body.attributes.transform;
 }
 if (named.time.textContent !== 't = 0.100 s') throw named.time.textContent;
-console.log(JSON.stringify({bodies: bodies.length, frames, shown: shown.size, paused, at: named.frame.value}));
+const drawn = ['circle', 'line', 'path'].map(name => named.marks.innerHTML.split(`<${name} `).length - 1);
+console.log(JSON.stringify({bodies: bodies.length, frames, shown: shown.size, paused, at: named.frame.value, drawn}));
 """
 
 FOLDER = cli.ROOT / "corpus" / "scenes"
@@ -110,13 +109,19 @@ class Scenes(cli.TestCase):
         done = cli.run("draw", path, "-o", self.folder / "huge.svg")
         self.assertEqual((done.code, done.out), (2, ""), done.err)
 
-    @unittest.skipUnless(shutil.which("node"), "needs node")
     def test_the_page_of_an_animation_runs(self):
-        self.succeeds("simulate", FOLDER / "gears.json", "-o", self.folder / "gears", "--seconds", "0.5", "--no-svg")
-        done = subprocess.run(["node", "-e", PAGE, self.folder / "gears" / "animation.html"], text=True,
-                              capture_output=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(json.loads(done.stdout), {"bodies": 3, "frames": 16, "shown": 16, "paused": True, "at": 3})
+        for scene, bodies, drawn in (("gears", 3, None), ("space/slider-crank", 0, None), ("stack", 5, [10, 10, 0])):
+            folder = self.folder / scene
+            self.succeeds("simulate", FOLDER / f"{scene}.json", "-o", folder, "--seconds", "0.5", "--no-svg")
+            done = subprocess.run(["node", "-e", PAGE, folder / "animation.html"], text=True,
+                                  capture_output=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            page = json.loads(done.stdout)
+            circles, lines, paths = page.pop("drawn")
+            self.assertEqual(page, {"bodies": bodies, "frames": 16, "shown": 16, "paused": True, "at": 3})
+            self.assertEqual(paths > 0, bodies == 0, "bodies in space are drawn where they are")
+            if drawn:
+                self.assertEqual([circles, lines, paths], drawn)
 
     def test_a_frame_without_an_answer_is_exit_3_and_its_problem_is_written(self):
         jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}
@@ -248,7 +253,7 @@ class Scenes(cli.TestCase):
         solved = cli.run("solve", output, "--method", "complete", "--json").json()
         self.assertEqual((solved["outcome"], len(solved["f"])), ("solved", 5))
         drawn = cli.run("draw", FOLDER / "space" / "slider-crank.json", "-o", "-").out
-        for mark, count in (("stroke-width='3'", 1), ("stroke-dasharray", 1), ("rx='0'", 1), ("rx='4'", 3)):
+        for mark, count in (('stroke-width="3"', 1), ("stroke-dasharray", 1), ('rx="0"', 1), ('rx="4"', 3)):
             self.assertEqual(drawn.count(mark), count, mark)
         folder, problems = self.folder / "run", self.folder / "problems"
         done = cli.run("simulate", FOLDER / "space" / "ball-slides-then-rolls.json", "-o", folder, "--seconds", "0.5",

@@ -23,7 +23,7 @@ void CheckRefused(const std::string& text, const std::string& where, const std::
                   bool in_space = false) {
   INFO(text);
   try {
-    in_space ? void(ParseSceneInSpace(text, "file")) : void(ParseScene(text, "file"));
+    in_space ? void(ParseScene<Space>(text, "file")) : void(ParseScene(text, "file"));
     FAIL("accepted");
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -62,7 +62,7 @@ TEST_CASE("scene file: what is written reads back the same") {
 }
 
 TEST_CASE("scene file: of dimension 3, read exactly and written so that it reads back the same") {
-  const SceneFileInSpace file = ParseSceneInSpace(R"({"format": "stiction-scene", "version": 1, "name": "s",
+  const SceneFileInSpace file = ParseScene<Space>(R"({"format": "stiction-scene", "version": 1, "name": "s",
     "dimension": 3, "note": "n", "gravity": ["0", "0", "-981/100"], "mu": 0.5, "bodies": [
       {"name": "slope", "fixed": true, "rotation": [3, 0, -1, 0], "shapes": [{"box": [2, 4, 6], "center": [0, 0, -1]}]},
       {"name": "tip", "mass": "2", "inertia": [[2, "1/3", 0], ["1/3", 2, 0], [0, 0, 1]], "angle": 0.1, "axis": [0, 3, 4],
@@ -82,7 +82,7 @@ TEST_CASE("scene file: of dimension 3, read exactly and written so that it reads
   CHECK(scene.contacts[0].normal[0] == 0);  // the slope's own axis
   CHECK(scene.contacts[0].normal[2] == 1);
   const std::string text = Print(file);
-  CHECK(Print(ParseSceneInSpace(text, "again")) == text);
+  CHECK(Print(ParseScene<Space>(text, "again")) == text);
 }
 
 // A fixed door frame, turned so that its x axis is (4/5, 0, 3/5) in the world, and a door.
@@ -102,7 +102,7 @@ std::string JointText(const std::string& members) {
 TEST_CASE(
     "scene file: joints of dimension 3 have their direction and turn in the coordinates of their second body") {
   const auto joint = [](const std::string& members) {
-    return ParseSceneInSpace(JointText(members), "file").scene.joints.at(0);
+    return ParseScene<Space>(JointText(members), "file").scene.joints.at(0);
   };
   const auto hinge = joint(R"("kind": "hinge", "direction": ["8", "0", "6"])");
   CHECK(hinge.kind == JointKindInSpace::kHinge);
@@ -123,25 +123,25 @@ TEST_CASE("scene file: joints and accelerations of dimension 3 are written so th
   for (const char* members : {R"("kind": "ball")", R"("kind": "hinge", "direction": ["1", "1", "0"])",
                               R"("kind": "rail", "direction": ["1", "2", "3"])",
                               R"("kind": "slider", "axis": ["0", "0", "1"], "turn": ["1", "2", "3", "1/4"])"}) {
-    const std::string text = Print(ParseSceneInSpace(JointText(members), "file"));
-    CHECK(Print(ParseSceneInSpace(text, "again")) == text);
+    const std::string text = Print(ParseScene<Space>(JointText(members), "file"));
+    CHECK(Print(ParseScene<Space>(text, "again")) == text);
   }
-  const auto file = ParseSceneInSpace(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
+  const auto file = ParseScene<Space>(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
   CHECK(file.scene.bodies[0].acceleration[1] == Rational(1, 3));
-  CHECK(ParseSceneInSpace(Print(file), "again").scene.bodies[0].acceleration ==
+  CHECK(ParseScene<Space>(Print(file), "again").scene.bodies[0].acceleration ==
         file.scene.bodies[0].acceleration);
 }
 
 TEST_CASE("scene file: joints and accelerations of dimension 3 are rounded to doubles") {
   const auto text = JointText(R"("kind": "slider", "axis": ["0", "3", "4"], "turn": ["1", "2", "2", "4"])");
-  const auto scene = Round(ParseSceneInSpace(text, "file").scene);
+  const auto scene = Round(ParseScene<Space>(text, "file").scene);
   const auto& joint = scene.joints.at(0);
   CHECK(joint.kind == JointKindInSpace::kSlider);
   CHECK(std::pair(joint.a, joint.b) == std::pair(1, 0));
   CHECK(joint.at_b[1] == 2);
   CHECK((joint.direction - Vector3<double>(0, 0.6, 0.8)).norm() < 1e-15);
   CHECK((joint.relative_rotation - Quaternion<double>(0.2, 0.4, 0.4, 0.8)).norm() < 1e-15);
-  const auto file = ParseSceneInSpace(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
+  const auto file = ParseScene<Space>(SpaceText("", R"(, "acceleration": ["0", "1/3", "0"])"), "file");
   CHECK(Round(file.scene).bodies[0].acceleration[1] == 1.0 / 3);
 }
 

@@ -138,6 +138,13 @@ std::size_t BlockCount(const Store& store) { return store.Blocks().size(); }
 
 void WriteFile(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
+void Execute(const fs::path& file, const char* sql) {
+  sqlite3* db = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+  CHECK(sqlite3_exec(db, sql, nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(db);
+}
+
 // ---- Identity --------------------------------------------------------------------------------
 
 TEST_CASE("store: another campaign is refused, with the difference and the way to a new store") {
@@ -509,9 +516,13 @@ TEST_CASE("store: what is no store is refused by name and left as it is") {
     refused_to_read(scratch / "none.store");
     CHECK_FALSE(fs::exists(scratch / "none.store"));
   }
-  SECTION("an empty file") {
-    WriteFile(scratch / "empty", "");
-    refused_to_read(scratch / "empty");
+  SECTION("a file of no bytes, or of one") {
+    for (const std::string text : {"", "x"}) {
+      WriteFile(scratch / "short", text);
+      refused_to_read(scratch / "short");
+      refused_to_write(scratch / "short");
+      CHECK(fs::file_size(scratch / "short") == text.size());
+    }
   }
   SECTION("a text file") {
     const std::string text = "{\"format\": \"stiction-problem\"}" + std::string(2000, ' ');
@@ -551,12 +562,13 @@ TEST_CASE("store: what is no store is refused by name and left as it is") {
   SECTION("a store of another version") {
     const fs::path file = scratch / "a.store";
     { Store store(file, Identity()); }
-    sqlite3* db = nullptr;
-    REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
-    sqlite3_exec(db, "UPDATE campaign SET value = '1' WHERE key = 'version'", nullptr, nullptr, nullptr);
-    sqlite3_close(db);
+    Execute(file, "UPDATE campaign SET value = '1' WHERE key = 'version'");
     refused_to_read(file);
     refused_to_write(file);
+    Execute(file, "UPDATE campaign SET value = '2' WHERE key = 'version'");
+    Execute(file, "UPDATE campaign SET value = 'seven' WHERE key = 'seed'");
+    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("found seed 'seven'"));
+    Execute(file, "UPDATE campaign SET value = '1' WHERE key = 'version'");
     CHECK_THROWS_WITH(Store::OpenToRead(file),
                       Contains("found format stiction-store version 1, expected stiction-store version 2") &&
                           Contains("search anew with --store NEW_FILE"));

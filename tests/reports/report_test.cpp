@@ -20,6 +20,7 @@
 #include "corpus/problem_file.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
+#include "reports/draw.h"
 #include "reports/html.h"
 #include "reports/page.h"
 #include "solver/problem/check.h"
@@ -501,6 +502,47 @@ TEST_CASE("report: a signature becomes a file name of its own") {
 
 // ---- The page ----
 
+TEST_CASE("html: what a script holds neither ends it nor begins a comment") {
+  const std::string text = R"(["</script>", "<!--", "a / b"])";
+  CHECK(ScriptData(text).markup() == R"(["<\/script>", "<\!--", "a / b"])");
+}
+
+TEST_CASE("html: numbers of pictures") {
+  CHECK(Fixed(2.0 / 3) == "0.7");
+  CHECK(Fixed(800, 0) == "800");
+  CHECK(Significant(2.0 / 3) == "0.66667");
+  CHECK(Significant(1234567, 4) == "1.235e+06");
+}
+
+TEST_CASE("draw: a page escapes the name of its scene, and its frames are JSON, in the plane and in space") {
+  const auto check = [](const auto& scene, std::size_t transforms) {
+    using Kind = std::conditional_t<std::is_same_v<decltype(scene), const Scene<double>&>, Plane, Space>;
+    View view;
+    view.Include(scene);
+    view.AddMargin();
+    MarksIn<Kind> marks;
+    marks.contacts.push_back(scene.bodies[0].position);
+    const std::string page = DrawAnimation<Kind>(scene, view, {RecordFrame(scene, 0.5, marks)}, 1, 30);
+    CHECK(Has(page, "<h1>a&lt;b&gt;</h1>"));
+    const std::string begin = "const frames = ";
+    const std::size_t from = page.find(begin) + begin.size(), to = page.find(";\n", from);
+    const Json frames = ParseJson(page.substr(from, to - from), "frames");
+    REQUIRE(frames.size() == 1);
+    CHECK(frames[0][0] == 0.5);
+    CHECK(frames[0][1].size() == transforms);
+    CHECK(Has(frames[0][2].get<std::string>(), "#30c030"));
+    CHECK(Has(DrawSvg(scene, view, marks, 1), "#30c030"));
+  };
+  Scene<double> disc;
+  disc.name = "a<b>";
+  disc.bodies.emplace_back().shapes.emplace_back().radius = 1;
+  check(disc, 1);
+  SceneInSpace<double> ball;
+  ball.name = "a<b>";
+  ball.bodies.emplace_back().shapes.emplace_back().radius = 1;
+  check(ball, 0);
+}
+
 TEST_CASE("report: the page says what the store holds, with separated thousands") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
@@ -733,7 +775,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 7 + 5);
+  CHECK(contents.size() == 7 + 5 + 1)  // and the list of them;
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));
@@ -749,12 +791,15 @@ TEST_CASE("report: a directory that cannot be written is an input error that nam
   CHECK_THROWS_AS(WriteReport(store, scratch / "out"), InputError);
 }
 
-TEST_CASE("report: files of others in the directory stay") {
+TEST_CASE("report: files of others in the directory are refused by name, or kept in another directory") {
   const Scratch scratch;
+  const Store store = SampleStore(scratch / "s");
   fs::create_directories(scratch / "out/findings");
   std::ofstream(scratch / "out/findings/notes.json") << "mine";
-  WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  CHECK(ReadText(scratch / "out/findings/notes.json") == "mine");
+  CHECK_THROWS_WITH(WriteReport(store, scratch / "out"), Catch::Contains("found 'findings"));
+  CHECK(WriteReport(store, scratch / "out", Occupied::kSetAside) == scratch / "out.old");
+  CHECK(ReadText(scratch / "out.old/findings/notes.json") == "mine");
+  CHECK_FALSE(fs::exists(scratch / "out/findings/notes.json"));
 }
 
 // ---- Building blocks ----

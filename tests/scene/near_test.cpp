@@ -7,9 +7,9 @@
 
 #include "corpus/rational.h"
 #include "scene/contacts.h"
-#include "scene/contacts_space.h"
 #include "scene/mechanics.ipp"
 #include "scene/pair_facts.h"
+#include "scene/polyhedron.h"
 
 namespace stiction {
 namespace {
@@ -183,8 +183,8 @@ Scene<Rational> RandomPlanarScene(Random& random, int bodies) {
         continue;
       }
       for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-        shape.polygon.push_back(shape.center + MakeVector2<Rational>(x * w, y * h));
-      if (Below(random, 3) == 0) shape.polygon.pop_back();
+        shape.corners.push_back(shape.center + MakeVector2<Rational>(x * w, y * h));
+      if (Below(random, 3) == 0) shape.corners.pop_back();
     }
   });
 }
@@ -196,7 +196,7 @@ SceneInSpace<Rational> RandomSceneInSpace(Random& random, int bodies) {
   };
   return RandomScene<SceneInSpace<Rational>>(random, bodies, [&](BodyInSpace<Rational>& body) {
     body.position = vector(15);
-    body.rotation = MakeQuaternion<Rational>(2, Zero3<Rational>());
+    body.rotation = MakeQuaternion<Rational>(2, Zero<Vector3<Rational>>());
     if (Below(random, 2)) body.rotation[1 + Below(random, 3)] = 1;
     for (int i = Below(random, 3); i-- > 0;) {
       const Vector3<Rational> center = vector(5),
@@ -279,20 +279,11 @@ SceneType OfTwo(const SceneType& scene, int a, int b) {
   return two;
 }
 
-template <class Scalar>
-bool HaveSameRound(const TouchPoint<Scalar>& x, const TouchPoint<Scalar>& y) {
-  return x.flat_b == y.flat_b;
-}
-template <class Scalar>
-bool HaveSameRound(const TouchPointInSpace<Scalar>& x, const TouchPointInSpace<Scalar>& y) {
-  return x.meeting == y.meeting && x.edge_a == y.edge_a && x.edge_b == y.edge_b;
-}
-
 template <class Touch>
 bool AreSame(const Touch& x, const Touch& y) {
   return x.a == y.a && x.b == y.b && x.shape_a == y.shape_a && x.shape_b == y.shape_b && x.point == y.point &&
          x.normal == y.normal && x.gap == y.gap && x.mu == y.mu && x.radius_a == y.radius_a &&
-         x.radius_b == y.radius_b && HaveSameRound(x, y);
+         x.radius_b == y.radius_b && x.meeting == y.meeting && x.edge_a == y.edge_a && x.edge_b == y.edge_b;
 }
 
 // Scenes of two bodies are looked at without the sweep.

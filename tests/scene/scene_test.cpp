@@ -12,7 +12,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
 #include "scene/assemble.h"
-#include "solver/problem/reduction.ipp"
+#include "solver/problem/reduction.h"
 
 namespace stiction {
 namespace {
@@ -81,7 +81,7 @@ RigidBody<double> Polygon(const std::string& name, std::vector<Vector2<double>> 
                           double angle = 0) {
   RigidBody<double> body;
   body.name = name;
-  body.shapes.push_back({std::move(corners), {0, 0}, 0});
+  body.shapes.push_back({{}, std::move(corners), {0, 0}, 0});
   body.position = {x, y};
   body.rotation = {std::cos(angle), std::sin(angle)};
   return body;
@@ -93,7 +93,7 @@ RigidBody<double> Box(double w, double h, double x, double y, double angle = 0) 
 
 RigidBody<double> Disc(double r, double x, double y) {
   RigidBody<double> body;
-  body.shapes.push_back({{}, {0, 0}, r});
+  body.shapes.push_back({{}, {}, {0, 0}, r});
   body.position = {x, y};
   return body;
 }
@@ -138,16 +138,16 @@ TEST_CASE("contacts: discs against discs, edges and corners") {
   REQUIRE(two.size() == 1);
   CHECK(two[0].point[0] == Approx(0.6));
   CHECK(two[0].normal[0] == Approx(-0.6));
-  CHECK_FALSE(two[0].flat_b);
+  CHECK(two[0].meeting == Meeting::kPoint);
   const auto edge = FindContacts(SceneOf({Disc(1, 0, 1), Box(2, 2, 0, -1)}));
   REQUIRE(edge.size() == 1);
   CHECK(edge[0].a == 0);
-  CHECK(edge[0].flat_b);
+  CHECK(edge[0].meeting == Meeting::kFace);
   CHECK(edge[0].point[1] == 0.0);
   const auto corner = FindContacts(SceneOf({Box(2, 2, 0, -1), Disc(1, 1.6, 0.8)}));
   REQUIRE(corner.size() == 1);
   CHECK(corner[0].a == 1);
-  CHECK_FALSE(corner[0].flat_b);
+  CHECK(corner[0].meeting == Meeting::kPoint);
   CHECK(corner[0].point[0] == 1.0);
   CHECK(corner[0].normal[0] == Approx(0.6));
   CHECK(FindContacts(SceneOf({Box(2, 2, 0, -1), Disc(1, 1.6, 0.81)})).empty());

@@ -145,8 +145,7 @@ TEST_CASE(
 TEST_CASE("simulate: f = 0 is taken where it is a solution") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1, 1);
-  SolverOf<Scene<double>> solver{SimulationOptions()};
-  SimulationStatistics statistics;
+  SceneSolver solver;
   for (int repeat = 0; repeat < 200; ++repeat) {
     ContactProblem<double> problem;
     problem.contacts.assign(3, {ContactKind::kStatic, 1.0, {0, 0}});
@@ -155,9 +154,32 @@ TEST_CASE("simulate: f = 0 is taken where it is a solution") {
     problem.b = Eigen::VectorXd::NullaryExpr(6, [&] { return number(random); });
     for (const int normal : {0, 2, 4}) problem.b[normal] = std::abs(problem.b[normal]);
     if (repeat % 2 == 0) problem.b[2] = 0;
-    ContactProblem<double>::Vector f;
-    REQUIRE(SolveScene(solver, problem, f, statistics));
-    CHECK(f.isZero(0));
+    const SceneAnswer answer = solver.Solve(problem);
+    REQUIRE(answer.solved);
+    CHECK(answer.f.isZero(0));
+  }
+}
+
+TEST_CASE("simulate: without friction a problem has one answer, in the plane, in space and with a sparse A") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-1, 1);
+  SceneSolver solver;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    ContactProblem<double> problem;
+    problem.contacts.assign(4, {ContactKind::kFrictionless, 0.0, {0, 0}});
+    const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(4, 6, [&] { return number(random); });
+    problem.A = J * J.transpose();
+    problem.b = Eigen::VectorXd::NullaryExpr(4, [&] { return number(random); });
+    const SceneAnswer planar = solver.Solve(problem);
+    problem.dimension = 3;
+    const SceneAnswer spatial = solver.Solve(problem);
+    const SceneAnswer sparse =
+        solver.Solve(SparseContactProblem<double>{3, problem.contacts, problem.A.sparseView(), problem.b});
+    REQUIRE((planar.solved && spatial.solved && sparse.solved));
+    CHECK(planar.f == spatial.f);
+    CHECK((planar.f - sparse.f).norm() < 1e-6 * (1 + planar.f.norm()));
+    CHECK(planar.sparse + spatial.sparse == 0);
+    CHECK(sparse.sparse == 1);
   }
 }
 
@@ -189,7 +211,7 @@ Scene<double> Arch(double thickness, int count) {
   scene.gap = 1e-3;
   RigidBody<double> floor;
   floor.fixed = true;
-  floor.shapes.push_back({{{-3, -1}, {3, -1}, {3, 0}, {-3, 0}}, {0, 0}, 0});
+  floor.shapes.push_back({{}, {{-3, -1}, {3, -1}, {3, 0}, {-3, 0}}, {0, 0}, 0});
   scene.bodies.push_back(floor);
   const double angle = std::acos(-1.0) / count, inner = 1 - thickness / 2, outer = 1 + thickness / 2;
   for (int i = 0; i < count; ++i) {
@@ -205,7 +227,7 @@ Scene<double> Arch(double thickness, int count) {
     BodyShape<double> shape;
     for (const Vector2<double>& corner : {Vector2<double>(inner * from), Vector2<double>(outer * from),
                                           Vector2<double>(outer * to), Vector2<double>(inner * to)})
-      shape.polygon.push_back(corner - stone.position);
+      shape.corners.push_back(corner - stone.position);
     stone.shapes.push_back(shape);
     scene.bodies.push_back(stone);
   }
@@ -274,7 +296,7 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
     body.fixed = x != 0;
     body.position = {x, 0};
     body.velocity = {-x, 0};
-    body.shapes.push_back({{{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}}, {0, 0}, 0});
+    body.shapes.push_back({{}, {{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}}, {0, 0}, 0});
     scene.bodies.push_back(body);
   }
   Simulation simulation(scene);
@@ -370,14 +392,14 @@ Scene<double> Wall(int courses) {
   RigidBody<double> floor;
   floor.fixed = true;
   floor.position = {0, -1};
-  floor.shapes.push_back({{{-100, -1}, {100, -1}, {100, 1}, {-100, 1}}, {0, 0}, 0});
+  floor.shapes.push_back({{}, {{-100, -1}, {100, -1}, {100, 1}, {-100, 1}}, {0, 0}, 0});
   scene.bodies.push_back(floor);
   for (int course = 0; course < courses; ++course) {
     for (int k = 0; k < courses - course % 2; ++k) {
       RigidBody<double> brick;
       brick.inertia = (0.95 * 0.95 + 0.5 * 0.5) / 12;
       brick.position = {k + 0.5 * (course % 2), 0.25 + 0.5 * course};
-      brick.shapes.push_back({{{-0.475, -0.25}, {0.475, -0.25}, {0.475, 0.25}, {-0.475, 0.25}}, {0, 0}, 0});
+      brick.shapes.push_back({{}, {{-0.475, -0.25}, {0.475, -0.25}, {0.475, 0.25}, {-0.475, 0.25}}, {0, 0}, 0});
       scene.bodies.push_back(brick);
     }
   }
@@ -395,8 +417,8 @@ TEST_CASE("simulate: a block on the wall of a turning drum presses with m w^2 r,
   block.velocity = {0, 5};
   block.spin = drum.spin = 5;
   block.inertia = 1.0 / 6;
-  drum.shapes.push_back({{{1.5, -2}, {2, -2}, {2, 2}, {1.5, 2}}, {0, 0}, 0});
-  block.shapes.push_back({{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {0, 0}, 0});
+  drum.shapes.push_back({{}, {{1.5, -2}, {2, -2}, {2, 2}, {1.5, 2}}, {0, 0}, 0});
+  block.shapes.push_back({{}, {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {0, 0}, 0});
   SimulationOptions options;
   options.step = 1.0 / 240;
   Simulation simulation(scene, options);
@@ -450,13 +472,12 @@ TEST_CASE("simulate: a sparse A gives the answers of a dense one, with friction,
     options.step = 1.0 / 60;
     const auto model = Assemble(scene, FindContacts(scene), options);
     REQUIRE(model.islands.size() == 1);
-    SolverOf<Scene<double>> solver{SimulationOptions()};
-    SimulationStatistics counted;
-    ContactProblem<double>::Vector dense, sparse;
-    REQUIRE(SolveScene(solver, model.Problem(0), dense, counted));
-    REQUIRE(SolveSparse(solver, model.SparseProblem(0), sparse));
-    CHECK(LargestDifference(model, dense, sparse) < 1e-6);
-    CHECK(LargestDifference(model, dense, 0 * dense) > 1);
+    SceneSolver solver;
+    const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.SparseProblem(0));
+    REQUIRE(dense.solved);
+    REQUIRE(sparse.solved);
+    CHECK(LargestDifference(model, dense.f, sparse.f) < 1e-6);
+    CHECK(LargestDifference(model, dense.f, 0 * dense.f) > 1);
   }
 }
 

@@ -12,7 +12,8 @@
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
 #include "corpus/scene_file.h"
-#include "scene/assemble_space.h"
+#include "scene/assemble.h"
+#include "scene/polyhedron.h"
 
 namespace stiction {
 namespace {
@@ -51,7 +52,7 @@ TEST_CASE("polyhedron: a box has six faces of four corners, twelve edges, and it
     CHECK(c[face[0]].dot(box.shape.normals[f]) > 0);
   }
   const auto mass = MassPropertiesOf({box.shape});
-  CHECK(mass.volume == 48);
+  CHECK(mass.mass == 48);
   CHECK(mass.inertia(0, 0) == 48 * (16 + 36) / 12);
   CHECK(mass.inertia(1, 1) == 48 * (4 + 36) / 12);
   CHECK(mass.inertia(2, 2) == 48 * (4 + 16) / 12);
@@ -391,7 +392,7 @@ TEST_CASE("scene in space: the joint of a conical pendulum bears weight and cent
 
 // The force of a joint on its first body.
 Vector3<Rational> JointForce(const Solved& solved, int joint) {
-  Vector3<Rational> force = Zero3<Rational>();
+  Vector3<Rational> force = Zero<Vector3<Rational>>();
   for (std::size_t i = 0; i < solved.f.size(); ++i) {
     int at = 0;
     for (const int k : solved.model.islands[i].constraints) {

@@ -9,6 +9,7 @@
 
 #include "corpus/scene_file.h"
 #include "scene/assemble.h"
+#include "scene/polygon.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -49,7 +50,7 @@ void ForEachScene(Visit visit) {
 
 std::vector<Vector2<Rational>> Corners(const RigidBody<Rational>& body) {
   std::vector<Vector2<Rational>> corners;
-  for (const auto& corner : body.shapes.at(0).polygon) corners.push_back(body.At(corner));
+  for (const auto& corner : body.shapes.at(0).corners) corners.push_back(body.At(corner));
   return corners;
 }
 
@@ -101,7 +102,7 @@ TEST_CASE("scenes: bodies are convex polygons of uniform density, and no two ove
   ForEachScene([](int, const Made& made) {
     const auto& bodies = made.scene.bodies;
     for (std::size_t a = 0; a < bodies.size(); ++a) {
-      REQUIRE(PolygonFault(bodies[a].shapes.at(0).polygon) == "");
+      REQUIRE(PolygonFault(bodies[a].shapes.at(0).corners) == "");
       for (std::size_t b = 0; b < a; ++b) {
         const auto p = Corners(bodies[a]), q = Corners(bodies[b]);
         REQUIRE((bodies[a].fixed || HasSeparatingEdge(p, q) || HasSeparatingEdge(q, p)));
@@ -109,7 +110,7 @@ TEST_CASE("scenes: bodies are convex polygons of uniform density, and no two ove
       if (bodies[a].fixed) continue;
       const auto properties = MassPropertiesOf(bodies[a].shapes);
       REQUIRE((properties.center[0] == 0 && properties.center[1] == 0));
-      REQUIRE(properties.inertia * bodies[a].mass == bodies[a].inertia * properties.area);
+      REQUIRE(properties.inertia * bodies[a].mass == bodies[a].inertia * properties.mass);
     }
   });
 }

@@ -186,6 +186,13 @@ TEST_CASE(
   CHECK(RunIntervalsInSpace(problem, Reading(Slip::kRedirect)).verdict.outcome == Outcome::kSolved);
 }
 
+// Run again in long double where doubles do not solve.
+InexactAnswer SolveInDoubles(const ExactProblem& problem, const PublishedOptions& options) {
+  SolveRequest request{.method = "baraff", .arithmetic = Arithmetic::kDouble, .trace = KeepTrace::kYes};
+  request.options.policy = options.policy;
+  return std::get<InexactAnswer>(SolveIn(problem, request).answer);
+}
+
 TEST_CASE("space: both readings loop on a definite problem; a loop is a suspicion, over intervals undecided") {
   const ExactProblem problem = InSpace({3, 3},
                                        {{3, 0, 0, 0, 0, 1},
@@ -198,7 +205,8 @@ TEST_CASE("space: both readings loop on a definite problem; a loop is a suspicio
   for (const Slip slip : kSlips) {
     const PublishedSpaceVerdict verdict = Run(problem, Reading(slip)).verdict;
     CHECK(verdict.outcome == Outcome::kCycle);
-    const PublishedSpaceVerdict again = RunSuspicionInSpace<double>(problem, Reading(slip)).verdict;
+    const InexactAnswer again = SolveInDoubles(problem, Reading(slip));
+    CHECK(again.arithmetic == Arithmetic::kLongDouble);  // run again
     CHECK(again.outcome == Outcome::kCycle);
     CHECK(again.start == verdict.start);
     CHECK(again.period == verdict.period);
@@ -458,19 +466,19 @@ TEST_CASE("space: bilateral contacts leave the steps of the rest as they are") {
   for (const char* slip : {"slip=literal", "slip=redirect"}) {
     const PublishedOptions options{ParsePolicy(slip), {}, {}};
     const ExactProblem problem = Turning(), bordered = Bordered(problem);
-    const RoundedSpaceRun plain = RunRoundedInSpace<double>(problem, options, KeepTrace::kYes);
-    const RoundedSpaceRun run = RunRoundedInSpace<double>(bordered, options, KeepTrace::kYes);
-    CHECK(run.verdict.outcome == plain.verdict.outcome);
-    CHECK(run.verdict.statistics == plain.verdict.statistics);
+    const InexactAnswer plain = SolveInDoubles(problem, options);
+    const InexactAnswer run = SolveInDoubles(bordered, options);
+    CHECK(run.outcome == plain.outcome);
+    CHECK(run.counters == plain.counters);
     CHECK(run.residual < 1e-12);
-    CHECK(run.initial_f[0] == 1.5);
-    REQUIRE(run.trace.size() == plain.trace.size());
+    CHECK(run.first_f[0] == 1.5);
+    REQUIRE(run.pivots.size() == plain.pivots.size());
     const Eigen::MatrixXd A = As<double>(bordered).A;
     const Eigen::VectorXd b = As<double>(bordered).b;
-    for (std::size_t k = 0; k < run.trace.size(); ++k) {
-      const Pivot<double>& pivot = run.trace[k];
-      CHECK(pivot.s == plain.trace[k].s);
-      CHECK(pivot.driven == plain.trace[k].driven + 1);
+    for (std::size_t k = 0; k < run.pivots.size(); ++k) {
+      const Pivot<double>& pivot = run.pivots[k];
+      CHECK(pivot.s == plain.pivots[k].s);
+      CHECK(pivot.driven == plain.pivots[k].driven + 1);
       CHECK((pivot.a - A * pivot.f - b).norm() < 1e-9);
       CHECK((pivot.da - A * pivot.df).norm() < 1e-9);
       CHECK(std::abs(pivot.a[0]) < 1e-12);
@@ -478,21 +486,21 @@ TEST_CASE("space: bilateral contacts leave the steps of the rest as they are") {
       CHECK(pivot.sets.back() == IndexSet::kClamped);
       REQUIRE(pivot.recorded.size() == bordered.contacts.size());
       for (std::size_t i = 0; i < problem.contacts.size(); ++i)
-        CHECK(pivot.recorded[i + 1] == plain.trace[k].recorded[i]);
+        CHECK(pivot.recorded[i + 1] == plain.pivots[k].recorded[i]);
     }
   }
 }
 
 TEST_CASE("space: the recorded direction is that of the friction force in NCF") {
   int recorded = 0;
-  const RoundedSpaceRun run = RunRoundedInSpace<double>(Turning(), {}, KeepTrace::kYes);
+  const InexactAnswer run = SolveInDoubles(Turning(), {});
   const auto layout = [] {
     RowLayout<Eigen::Dynamic> result;
     result.Assign(Turning().contacts, 3);
     return result;
   }();
-  Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(run.initial_f.data(), run.initial_f.size());
-  for (const Pivot<double>& pivot : run.trace) {
+  Eigen::VectorXd f = run.first_f;
+  for (const Pivot<double>& pivot : run.pivots) {
     f += pivot.s * pivot.df;
     CHECK((pivot.f - f).norm() < 1e-9);
     for (int i = 0; i < layout.ContactCount(); ++i) {
@@ -511,8 +519,8 @@ TEST_CASE("space: the recorded direction is that of the friction force in NCF") 
 TEST_CASE("space: a sliding contact has friction against its slip, and can have an infinite step") {
   ExactProblem problem = InSpace({1}, {{4, 2, 0}, {2, 4, 1}, {0, 1, 3}}, {-3, 1, 2});
   problem.contacts[0] = {ContactKind::kSliding, 1, {Rational(3, 5), Rational(4, 5)}};
-  const RoundedSpaceRun run = RunRoundedInSpace<double>(problem, {});
-  CHECK(run.verdict.outcome == Outcome::kSolved);  // aN = (4 - 6/5) fN - 3
+  const InexactAnswer run = SolveInDoubles(problem, {});
+  CHECK(run.outcome == Outcome::kSolved);  // aN = (4 - 6/5) fN - 3
   CHECK(run.f[0] == Approx(15.0 / 14));
   CHECK(run.f[1] == Approx(-9.0 / 14));
   CHECK(run.f[2] == Approx(-12.0 / 14));
@@ -535,7 +543,7 @@ TEST_CASE("space: bilateral contacts that no forces hold are singular") {
   ExactProblem problem = MakeProblem({-1, -1}, {{1, 2}, {2, 4}}, {1, 3});
   for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
   problem.dimension = 3;
-  CHECK(RunRoundedInSpace<double>(problem, {}).verdict.outcome == Outcome::kSingular);
+  CHECK(SolveInDoubles(problem, {}).outcome == Outcome::kSingular);
   const IntervalSpaceRun run = RunIntervalsInSpace(problem, {});
   CHECK(run.verdict.outcome == Outcome::kSingular);
   CHECK(run.a[1].low == 3);

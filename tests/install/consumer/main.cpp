@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "solver/published/published.h"
+#include "solver/solve.h"
 
 int main() {
   stiction::ContactProblem<double> problem;
@@ -13,10 +13,7 @@ int main() {
   problem.A(0, 2) = problem.A(2, 0) = 1;
   problem.b = Eigen::Vector4d(-4, 0.5, -5, 3);
 
-  stiction::PublishedAlgorithm<double> algorithm;
-  const stiction::Verdict verdict = algorithm.Run(problem);
-  const Eigen::VectorXd& f = algorithm.state().f;
-  std::cout << Name(verdict.outcome) << ", f = " << f.transpose() << '\n';
-  const bool right = (f - Eigen::Vector4d(1, -0.5, 2, -2)).norm() < 1e-9;
-  return verdict.outcome == stiction::Outcome::kSolved && right ? 0 : 1;
+  const stiction::Answer<double> answer = stiction::Solve(problem);
+  std::cout << Name(answer.outcome) << " by " << answer.method << ", f = " << answer.f.transpose() << '\n';
+  return answer.Solved() && (answer.f - Eigen::Vector4d(1, -0.5, 2, -2)).norm() < 1e-7 ? 0 : 1;
 }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interval: CGAL's interval of doubles as a scalar of the methods. Included before their definitions, by the
+// units that run over it only.
+//
+// A comparison that the ends do not decide throws CGAL::Uncertain_conversion_exception.
+
+#ifndef STICTION_CERTIFY_INTERVAL_H_
+#define STICTION_CERTIFY_INTERVAL_H_
+
+#include <CGAL/Interval_nt.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "certify/solve.h"
+#include "corpus/rational.h"
+#include "solver/problem/enclosure.h"
+
+namespace stiction {
+
+using Interval = CGAL::Interval_nt<>;
+
+// The reason of an undecided run.
+inline constexpr std::string_view kUnsureSign = "a sign is unsure";
+
+template <>
+inline bool IsSurelyZero(const Interval& x) {
+  return x.inf() == 0 && x.sup() == 0;
+}
+
+template <>
+inline constexpr bool kEncloses<Interval> = true;
+
+template <>
+struct Approximation<Interval> {
+  static double Of(const Interval& x) { return (x.inf() + x.sup()) / 2; }
+};
+
+// The double nearest to x, or the two on either side of it.
+inline Interval Around(const Rational& x) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double nearest = ToDouble(x);
+  if (std::isinf(nearest)) return {-kInfinity, kInfinity};
+  const int side = cmp(Rational(nearest), x);
+  return {side > 0 ? std::nextafter(nearest, -kInfinity) : nearest,
+          side < 0 ? std::nextafter(nearest, kInfinity) : nearest};
+}
+
+template <class Vector>
+std::vector<Enclosure> Enclosures(const Vector& values) {
+  std::vector<Enclosure> result;
+  for (const Interval& x : values) result.push_back({x.inf(), x.sup()});
+  return result;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_INTERVAL_H_

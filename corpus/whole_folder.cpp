@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/whole_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "corpus/atomic_file.h"
+#include "corpus/input_error.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kList = ".stiction-files";
+
+void MakeFolders(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) RefuseOutput(folder, error.value());
+}
+
+// Without links, `..` and a slash at the end.
+fs::path RealPath(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path), ignored);
+  return real.has_filename() ? real : real.parent_path();
+}
+
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+// All entries below a folder, by their names in it.
+std::vector<fs::path> Entries(const fs::path& folder, bool folders_too) {
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const bool is_folder = entry.is_directory() && !entry.is_symlink();
+    if (folders_too || !is_folder) names.push_back(entry.path().lexically_relative(folder));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// What `writer` wrote into a folder, by its list there: the files and the folders that they are in.
+std::set<fs::path> Written(const fs::path& folder, const std::string& writer) {
+  std::set<fs::path> written;
+  if (!fs::is_regular_file(folder / kList)) return written;
+  std::istringstream list(ReadText(folder / kList));
+  std::string line;
+  if (!std::getline(list, line) || line != writer) return written;
+  written.insert(kList);
+  while (std::getline(list, line)) {
+    for (fs::path name = line; !name.empty(); name = name.parent_path()) written.insert(name);
+  }
+  return written;
+}
+
+// The first entry of a folder that `writer` did not write; nothing if there is none.
+fs::path ForeignEntry(const fs::path& folder, const std::string& writer) {
+  if (!fs::exists(folder)) return {};
+  const std::set<fs::path> written = Written(folder, writer);
+  for (const fs::path& name : Entries(folder, true)) {
+    if (!written.contains(name)) return name;
+  }
+  return {};
+}
+
+struct stat StatusOf(const fs::path& path) {
+  struct stat status = {};
+  if (stat(path.c_str(), &status) != 0) status.st_ino = 0;
+  return status;
+}
+
+Descriptor OpenFolder(const fs::path& folder) {
+  return Descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+// Where the file system has no locks, nobody holds one.
+bool IsLockedByAnother(const Descriptor& folder) {
+  return flock(folder.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+}  // namespace
+
+WholeFolder::WholeFolder(const fs::path& target, std::string writer, Occupied occupied)
+    : writer_(std::move(writer)), target_(RealPath(target)) {
+  RequireReplaceable(occupied);
+  building_ = target_.parent_path() / fmt::format(".{}.stiction", target_.filename().string());
+  MakeFolders(target_.parent_path());
+  LockAndEmpty();
+}
+
+WholeFolder::~WholeFolder() {
+  std::error_code ignored;
+  if (!committed_) fs::remove_all(building_, ignored);
+}
+
+void WholeFolder::RequireReplaceable(Occupied occupied) const {
+  const auto refuse = [this](const std::string& found, const std::string& expected) {
+    throw InputError(fmt::format("{}: found {}, expected {}", target_.string(), found, expected));
+  };
+  if (IsWithin(fs::current_path(), target_))
+    refuse("the current folder in it", "a folder that can be replaced");
+  if (!fs::exists(target_)) return;
+  if (!fs::is_directory(target_)) refuse("no folder", "one, or nothing");
+  if (StatusOf(target_).st_dev != StatusOf(target_.parent_path()).st_dev)
+    refuse("a mount point", "a folder that can be replaced");
+  const fs::path foreign = ForeignEntry(target_, writer_);
+  if (foreign.empty() || occupied == Occupied::kSetAside) return;
+  refuse(fmt::format("'{}', which '{}' did not write", foreign.string(), writer_),
+         "another folder, or --replace, which keeps this one under another name");
+}
+
+// Whoever holds the lock of the folder that has the name owns it; a killed process holds none.
+void WholeFolder::LockAndEmpty() {
+  do {
+    if (mkdir(building_.c_str(), 0777) != 0 && errno != EEXIST) RefuseOutput(target_, errno);
+    lock_ = OpenFolder(building_);
+    if (!lock_.valid() && errno != ENOENT) RefuseOutput(building_, errno);
+    if (lock_.valid() && IsLockedByAnother(lock_)) {
+      throw InputError(fmt::format("{}: found another process that writes it", target_.string()));
+    }
+  } while (!lock_.valid() ||
+           StatusOf(building_).st_ino != StatusOf(fmt::format("/proc/self/fd/{}", lock_.number())).st_ino);
+  for (const auto& entry : fs::directory_iterator(building_)) fs::remove_all(entry.path());
+}
+
+fs::path WholeFolder::Place(const fs::path& path) const {
+  const fs::path real = RealPath(path);
+  return IsWithin(real, target_) ? building_ / real.lexically_relative(target_) : path;
+}
+
+void WholeFolder::Write(const fs::path& name, std::string_view text) const {
+  const fs::path file = building_ / name;
+  MakeFolders(file.parent_path());
+  WriteDirectly(file, text);
+}
+
+fs::path WholeFolder::Commit() {
+  WriteList();
+  if (syncfs(lock_.number()) != 0) RefuseOutput(target_, errno);
+  // Somebody may have put something there meanwhile.
+  const fs::path aside = ForeignEntry(target_, writer_).empty() ? fs::path() : SetAside();
+  TakePlace();
+  return aside;
+}
+
+void WholeFolder::WriteList() const {
+  std::string list = writer_ + "\n";
+  for (const fs::path& name : Entries(building_, false)) list += name.string() + "\n";
+  Write(kList, list);
+}
+
+fs::path WholeFolder::SetAside() const {
+  fs::path aside = target_.string() + ".old";
+  for (int k = 2; fs::exists(fs::symlink_status(aside)); ++k)
+    aside = fmt::format("{}.old{}", target_.string(), k);
+  if (rename(target_.c_str(), aside.c_str()) != 0) RefuseOutput(target_, errno);
+  return aside;
+}
+
+// The lock of the old folder keeps others from its new name until it is removed.
+void WholeFolder::TakePlace() {
+  const Descriptor before = OpenFolder(target_);
+  if (before.valid()) IsLockedByAnother(before);
+  fs::path old = building_;
+  const bool exchanged =
+      before.valid() && renameat2(AT_FDCWD, building_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0;
+  if (!exchanged) {
+    fs::remove_all(old += "-old");
+    if (before.valid() && rename(target_.c_str(), old.c_str()) != 0) RefuseOutput(target_, errno);
+    if (rename(building_.c_str(), target_.c_str()) != 0) RefuseOutput(target_, errno);
+  }
+  committed_ = true;
+  SyncFolder(target_.parent_path());
+  std::error_code ignored;
+  fs::remove_all(old, ignored);
+}
+
+}  // namespace stiction

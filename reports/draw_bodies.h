@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What drawing bodies in the plane and in space have in common, and what each brings.
+
+#ifndef STICTION_REPORTS_DRAW_BODIES_H_
+#define STICTION_REPORTS_DRAW_BODIES_H_
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "reports/draw.h"
+#include "reports/html.h"
+
+namespace stiction {
+
+inline constexpr double kWidth = 800;  // pixels
+
+// From the picture's plane to pixels; y points up in the world.
+struct Screen {
+  double scale, left, top, width, height;
+
+  explicit Screen(const View& view)
+      : scale(kWidth / (view.right - view.left)),
+        left(view.left),
+        top(view.top),
+        width(kWidth),
+        height(std::ceil(scale * (view.top - view.bottom))) {}
+  double X(const Vector2<double>& p) const { return scale * (p[0] - left); }
+  double Y(const Vector2<double>& p) const { return scale * (top - p[1]); }
+};
+
+// Where a point of the world, or a vector, is in the picture's plane.
+inline Vector2<double> Seen(const Vector2<double>& p) { return p; }
+Vector2<double> Seen(const Vector3<double>& p);
+
+// The colour of a level, of those that a kind has.
+template <class Colours>
+const auto& ColourOfLevel(const Colours& colours, int level) {
+  const int count = static_cast<int>(colours.size());
+  return colours[static_cast<std::size_t>(((level % count) + count) % count)];
+}
+
+inline Html Dot(const Screen& screen, const Vector2<double>& at, const char* fill, int radius) {
+  return Tag("circle", {{"cx", Significant(screen.X(at))},
+                        {"cy", Significant(screen.Y(at))},
+                        {"r", std::to_string(radius)},
+                        {"fill", fill},
+                        {"stroke", "black"}})("") +
+         Html("\n");
+}
+
+// ---- What a kind brings ----------------------------------------------------------------------
+
+// Bodies in their own coordinates, each of which a transform (SVG) brings to where it is, and these. In space
+// there are none: what hides what changes with every picture.
+std::vector<Html> BodyPictures(const Scene<double>& scene, const Screen& screen);
+std::vector<Html> BodyPictures(const SceneInSpace<double>& scene, const Screen& screen);
+std::vector<std::string> Transforms(const Scene<double>& scene, const Screen& screen);
+std::vector<std::string> Transforms(const SceneInSpace<double>& scene, const Screen& screen);
+
+// What is drawn where it is: joints, and in space bodies.
+Html Placed(const Scene<double>& scene, const Screen& screen);
+Html Placed(const SceneInSpace<double>& scene, const Screen& screen);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_DRAW_BODIES_H_

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solving the problems of scenes, in the plane and in space, over doubles: a list of methods, each of which has
+// its turn until one ends in a solution.
+//
+//   of A with all its entries, after reduction.h, in the plane with friction
+//     cells       FastSolver without complete driving
+//     near cells  the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from
+//                 f = 0: two contacts of one face give A dependent rows of friction, so that a choice of cells
+//                 need not determine its forces; these it does determine, and their accelerations agree with
+//                 the problem's to rounding
+//     proximal    more proximal points, from large eps to small, with A sparse: counted
+//     complete    FastSolver with complete driving: counted
+//   in space with friction
+//     Coulomb     CoulombSolver: a few Gauss-Seidel sweeps from f = 0, then Newton's method, on the law and on
+//                 smoothed ones; complete driving on polygons behind it, counted. Loose answers: counted
+//   without friction, where plane and space have the same rows
+//     complete, proximal
+//
+//   of a sparse A, in which joints and sliding contacts stay: counted
+//     proximal in the plane and without friction, Coulomb without polygons in space
+//
+// Forces of a reduced problem are checked by the residual of the whole one.
+
+#ifndef STICTION_SCENE_SOLVE_SCENE_H_
+#define STICTION_SCENE_SOLVE_SCENE_H_
+
+#include <cstdint>
+
+#include "solver/numeric/coulomb.h"
+#include "solver/numeric/fast.h"
+#include "solver/numeric/proximal.h"
+
+namespace stiction {
+
+// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
+// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
+// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
+// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
+// tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
+// is accepted to this one, and counted.
+inline constexpr double kLooseResidual = 1e-5;
+
+inline constexpr double kProximalAim = 1e-13;  // a residual beyond which proximal points gain nothing
+
+inline CoulombOptions WithResidual(double residual) {
+  CoulombOptions options;
+  options.residual = residual;
+  return options;
+}
+
+struct SceneSolverOptions {
+  FastOptions fast;                             // in the plane, and without friction
+  CoulombOptions coulomb = WithResidual(1e-7);  // in space
+};
+
+struct SceneAnswer {
+  bool solved = false;
+  ContactProblem<double>::Vector f;  // N; of no meaning if not solved
+  std::int64_t fallbacks = 0;        // runs of complete driving
+  std::int64_t loose = 0;            // solved to kLooseResidual only
+  std::int64_t sparse = 0;           // solved with a sparse A
+};
+
+// Reusable. Memory is kept between runs; answers do not depend on earlier ones.
+class SceneSolver {
+ public:
+  explicit SceneSolver(const SceneSolverOptions& options = {});
+
+  // Of contacts of any kinds.
+  SceneAnswer Solve(const ContactProblem<double>& problem);
+  SceneAnswer Solve(const SparseContactProblem<double>& problem);
+
+ private:
+  using Dense = ContactProblem<double>;
+  using Sparse = SparseContactProblem<double>;
+
+  // A method, and whose turn it is.
+  template <class Problem>
+  struct Step {
+    int dimension;
+    bool friction;
+    bool (SceneSolver::*run)(const Problem&, SceneAnswer&);
+  };
+  static const Step<Dense> kDenseSteps[];
+  static const Step<Sparse> kSparseSteps[];
+
+  template <class Problem, std::size_t Count>
+  bool TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer);
+  bool IsAccepted(const Dense& problem, const Dense::Vector& f) const;
+  bool GuessCells(const Dense& problem, const std::vector<Cell>& guess);
+
+  bool Cells(const Dense& problem, SceneAnswer& answer);
+  bool NearCells(const Dense& problem, SceneAnswer& answer);
+  bool Proximal(const Dense& problem, SceneAnswer& answer);
+  bool Complete(const Dense& problem, SceneAnswer& answer);
+  bool Coulomb(const Dense& problem, SceneAnswer& answer);
+  bool SparseProximal(const Sparse& problem, SceneAnswer& answer);
+  bool SparseCoulomb(const Sparse& problem, SceneAnswer& answer);
+
+  FastSolver<double> fast_;
+  ProximalNewton<double> proximal_;
+  CoulombSolver<double> coulomb_;
+  CoulombSolver<double, Sparse> sparse_coulomb_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SCENE_SOLVE_SCENE_H_

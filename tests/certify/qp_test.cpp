@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frictionless contacts as a quadratic program, exactly and by Ipopt. STICTION_IPOPT: path of stiction-ipopt.
+
+#include "certify/qp.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/existence.h"
+#include "certify/qp_ipopt.h"
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// A = J J' of the given rank, fractions throughout; b in its range, or anything.
+ExactProblem RandomSingular(int contacts, int rank, bool in_range, std::uint64_t seed) {
+  Choices choices(seed);
+  ExactMatrix J(contacts, rank);
+  for (Rational& x : J.reshaped()) {
+    x = Rational(choices.Integer(-4, 4), choices.Integer(1, 3));
+    x.canonicalize();
+  }
+  ExactProblem problem;
+  problem.contacts.assign(contacts, {ContactKind::kFrictionless, 0, {}});
+  problem.A = J * J.transpose();
+  ExactVector y(rank);
+  for (Rational& x : y) x = choices.Integer(-5, 5);
+  problem.b = J * y;
+  for (int i = 0; i < contacts && !in_range; ++i) problem.b[i] = Rational(choices.Integer(-3, 3)) / 7;
+  return problem;
+}
+
+TEST_CASE("qp: random definite problems, as complete driving solves them") {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const ExactProblem problem = RandomFrictionless(1 + static_cast<int>(seed % 8), seed);
+    const QpRun run = SolveQp(problem);
+    REQUIRE(run.outcome == Outcome::kSolved);
+    CHECK(run.f == RunComplete(problem, {}).f);
+    CHECK(run.a == Accelerations(problem, run.f));
+    CHECK(run.ray.size() == 0);
+  }
+}
+
+TEST_CASE("qp: where A is singular forces are open, accelerations are not") {
+  int other_forces = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    CAPTURE(seed);
+    const int contacts = 1 + static_cast<int>(seed % 7);
+    const ExactProblem problem = RandomSingular(contacts, 1 + contacts / 2, true, seed);
+    const QpRun run = SolveQp(problem);
+    REQUIRE(run.outcome == Outcome::kSolved);
+    CHECK(!FindViolation(problem, run.f));
+    const CompleteRun complete = RunComplete(problem, {});
+    REQUIRE(complete.verdict.outcome == Outcome::kSolved);
+    CHECK(run.a == complete.a);
+    other_forces += run.f != complete.f;
+  }
+  CHECK(other_forces > 5);
+}
+
+TEST_CASE("qp: b out of range is solved, or the program is unbounded and shows it") {
+  int rays = 0, solved = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    CAPTURE(seed);
+    const int contacts = 2 + static_cast<int>(seed % 5);
+    const ExactProblem problem = RandomSingular(contacts, contacts / 2, false, seed);
+    const QpRun run = SolveQp(problem);
+    if (run.outcome == Outcome::kSolved) {
+      ++solved;
+      CHECK(!FindViolation(problem, run.f));
+      continue;
+    }
+    REQUIRE(run.outcome == Outcome::kRay);
+    ++rays;
+    CHECK(run.ray.minCoeff() >= 0);
+    CHECK((problem.A * run.ray).isZero(0));
+    CHECK(problem.b.dot(run.ray) < 0);
+    CHECK(run.f.size() == 0);
+    CHECK(RunComplete(problem, {}).verdict.outcome == Outcome::kRay);
+  }
+  CHECK(rays > 20);
+  CHECK(solved > 20);
+}
+
+TEST_CASE("qp: what is no program (5) is refused by name") {
+  using Catch::Contains;
+  CHECK(SolveQp(NoContacts()).outcome == Outcome::kSolved);
+  CHECK_THROWS_WITH(SolveQp(MakeProblem({-1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {1, 1, 1})),
+                    Contains("contacts[1].kind: found static, expected frictionless"));
+  ExactProblem held = MakeProblem({-1}, {{1}}, {1});
+  held.contacts[0].kind = ContactKind::kBilateral;
+  CHECK_THROWS_WITH(SolveQp(held), Contains("contacts[0].kind: found bilateral"));
+  CHECK_THROWS_WITH(SolveQp(MakeProblem({-1, -1}, {{1, 2}, {1, 1}}, {1, 1})), Contains("A[0][1], A[1][0]"));
+  CHECK_THROWS_WITH(SolveQp(MakeProblem({-1, -1, -1}, {{5, 0, 0}, {0, 1, 2}, {0, 2, 1}}, {1, 1, 1})),
+                    Contains("contacts[1, 2]") && Contains("positive semidefinite"));
+}
+
+TEST_CASE("qp: by Ipopt, over doubles, near the exact solution; its failure concludes nothing") {
+  IpoptProposer ipopt(STICTION_IPOPT);
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    const bool definite = seed % 2 == 0;
+    const int contacts = 1 + static_cast<int>(seed % 5);
+    const ExactProblem problem =
+        definite ? RandomFrictionless(contacts, seed) : RandomSingular(contacts, 1 + contacts / 2, true, seed);
+    const RoundedQpRun run = SolveQpByIpopt(problem, ipopt);
+    REQUIRE(run.f.size() == problem.contacts.size());
+    if (run.outcome != Outcome::kSolved) continue;
+    ++solved;
+    CHECK(run.residual <= 1e-6);
+    if (!definite) continue;
+    const QpRun exact = SolveQp(problem);
+    double largest = 0, error = 0;
+    for (int i = 0; i < problem.rows(); ++i) {
+      largest = std::max(largest, std::abs(ToDouble(exact.f[i])));
+      error = std::max(error, std::abs(run.f[i] - ToDouble(exact.f[i])));
+    }
+    CHECK(error <= 0.1 * largest);
+  }
+  CHECK(solved >= 18);
+  const RoundedQpRun open = SolveQpByIpopt(MakeProblem({-1, -1}, {{1, -1}, {-1, 1}}, {-1, 0}), ipopt);
+  CHECK(open.outcome == Outcome::kUndecided);
+  CHECK(!open.reason.empty());
+  CHECK_THROWS_WITH(SolveQpByIpopt(ReferenceProblem(), ipopt), Catch::Contains("contacts[0].kind"));
+}
+
+}  // namespace
+}  // namespace stiction

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every method in every arithmetic: what is called solved is a solution, whatever the scales of the problem.
+
+#include "certify/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/space.h"
+#include "corpus/rounded.h"
+#include "search/choices.h"
+#include "solver/problem/residual.h"
+#include "solver/problem/weak_residual.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+constexpr double kWrong = 1e-6;  // relative residual of a wrong answer
+
+Rational PowerOfTen(int exponent) { return *ParseRational("1e" + std::to_string(exponent)); }
+
+// One dial away from an ordinary problem.
+struct Dial {
+  int A = 0, b = 0, mu = 0;  // powers of ten
+};
+constexpr std::array kDials = {Dial{0, 0, 0},       Dial{-300, 0, 0},   Dial{300, 0, 0},    Dial{0, -300, 0},
+                               Dial{0, 300, 0},     Dial{-200, 200, 0}, Dial{200, -200, 0}, Dial{150, 150, 0},
+                               Dial{-150, -150, 0}, Dial{-38, 0, 0},    Dial{0, -100, 0},   Dial{20, 20, 0},
+                               Dial{0, 0, 8},       Dial{0, 0, 16},     Dial{0, 0, -16},    Dial{-100, 30, 16}};
+
+ExactProblem Turned(ExactProblem problem, const Dial& dial) {
+  problem.A *= PowerOfTen(dial.A);
+  problem.b *= PowerOfTen(dial.b);
+  for (auto& contact : problem.contacts) contact.mu *= PowerOfTen(dial.mu);
+  return problem;
+}
+
+// The problem that an inexact answer is of.
+ExactProblem Ran(const ExactProblem& problem, Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::kFloat) return Unrounded(Rounded<float>(problem));
+  if (arithmetic == Arithmetic::kExact || arithmetic == Arithmetic::kInterval) return problem;
+  return Unrounded(Rounded<double>(problem));
+}
+
+// Of forces, over rationals; in space under (21), (22) over long double, which holds all squares of doubles.
+double ExactResidual(const ExactProblem& problem, const ExactVector& f, FrictionLaw law) {
+  const ExactVector a = problem.A * f + problem.b;
+  if (problem.dimension == 2) return ToDouble(NaturalResidual(problem, f, a));
+  if (law == FrictionLaw::kCoulomb) return ToDouble(CoulombResidualBound(problem, f));
+  const auto wide = [](const Rational& x) { return static_cast<long double>(ToDouble(x)); };
+  const auto inexact = Converted<long double>(problem, wide);
+  return static_cast<double>(WeakResidual(inexact, ContactProblem<long double>::Vector(f.unaryExpr(wide)),
+                                          ContactProblem<long double>::Vector(a.unaryExpr(wide))));
+}
+
+double ResidualOf(const ExactProblem& problem, const Solution& solution) {
+  if (const auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
+    const bool round = problem.dimension == 3;  // verified exactly by SolveIn, square roots and all
+    return round ? 0 : ExactResidual(problem, exact->f, exact->law);
+  }
+  const auto& answer = std::get<InexactAnswer>(solution.answer);
+  const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
+  return ExactResidual(problem, f, answer.law);
+}
+
+struct Count {
+  int solved = 0, refused = 0, all = 0;
+};
+
+void Check(const ExactProblem& problem, const MethodFacts& facts, Arithmetic arithmetic, Count& count) {
+  ++count.all;
+  SolveRequest request{.method = std::string(facts.name), .arithmetic = arithmetic};
+  request.options.limits = {.drives = 200, .pivots = 400, .bits = 20000};
+  try {
+    const Solution solution = SolveIn(problem, request);
+    if (solution.outcome() != Outcome::kSolved) return;
+    ++count.solved;
+    const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);
+    const ExactProblem ran =
+        Ran(problem, inexact != nullptr || solution.suspected ? arithmetic : Arithmetic::kExact);
+    INFO(facts.name << " " << Name(arithmetic) << " in dimension " << problem.dimension);
+    CHECK(ResidualOf(ran, solution) <= kWrong);
+  } catch (const RangeError&) {
+    ++count.refused;
+  }
+}
+
+ExactProblem InSpace(const ExactProblem& planar, std::uint64_t seed) {
+  Choices choices(seed);
+  const int contacts = static_cast<int>(planar.contacts.size()), rows = 3 * contacts;
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = planar.contacts;
+  ExactMatrix J(rows, rows);
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    problem.b[i] = choices.Integer(-9, 9);
+    for (int j = 0; j < rows; ++j) J(i, j) = choices.Integer(-3, 3);
+  }
+  problem.A = J * J.transpose();
+  for (int i = 0; i < rows; ++i) problem.A(i, i) += 1;
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("solve: what any method in any arithmetic calls solved is a solution, at all scales") {
+  Count count;
+  for (int seed = 0; seed < 6; ++seed) {
+    const GeneratorId generator = seed % 2 == 0 ? GeneratorId::kIntegers : GeneratorId::kPsd;
+    const ExactProblem planar = Random<Rational>(generator, 1 + seed % 3, seed);
+    for (const ExactProblem& base : {planar, InSpace(planar, seed)}) {
+      for (const Dial& dial : kDials) {
+        const ExactProblem problem = Turned(base, dial);
+        for (const MethodFacts& facts : AllMethods()) {
+          if (facts.name == "ipopt") continue;  // a process each: tests/cli
+          for (int a = 0; a < kArithmeticCount; ++a) {
+            if (facts.IsBuilt(base.dimension, static_cast<Arithmetic>(a)))
+              Check(problem, facts, static_cast<Arithmetic>(a), count);
+          }
+        }
+      }
+    }
+  }
+  CHECK(count.solved > count.all / 3);
+  CHECK(count.refused > 0);
+}
+
+TEST_CASE("solve: a number that an arithmetic does not hold is refused by its place") {
+  ExactProblem problem = MakeProblem({1}, {{2, 0}, {0, 3}}, {-1, 1});
+  const auto message = [&problem](Arithmetic arithmetic) -> std::string {
+    try {
+      SolveIn(problem, {.method = "complete", .arithmetic = arithmetic});
+      return "";
+    } catch (const RangeError& error) {
+      return error.what();
+    }
+  };
+  problem.A(1, 1) = PowerOfTen(309);
+  CHECK(message(Arithmetic::kDouble).find("A[1][1]") == 0);
+  CHECK(message(Arithmetic::kLongDouble).find("A[1][1]") == 0);
+  CHECK(message(Arithmetic::kExact).empty());
+  problem.A(1, 1) = PowerOfTen(39);
+  CHECK(message(Arithmetic::kFloat).find("A[1][1]") == 0);
+  CHECK(message(Arithmetic::kDouble).empty());
+  problem.A(1, 1) = 3;
+  problem.b[0] = -PowerOfTen(-100);
+  CHECK(message(Arithmetic::kFloat).find("b[0]") == 0);  // would be zero, and f = 0 a solution
+  problem.b[0] = -1;
+  problem.contacts[0].mu = PowerOfTen(400);
+  CHECK(message(Arithmetic::kDouble).find("contacts[0].mu") == 0);
+}
+
+TEST_CASE("solve: an exact answer after a suspicion has exact forces, and says what was suspected") {
+  const ExactProblem problem = ReferenceProblem();
+  const Solution solution = SolveIn(problem, {.method = "baraff", .arithmetic = Arithmetic::kDouble});
+  REQUIRE(solution.suspected);
+  CHECK(solution.suspected->outcome == Outcome::kCycle);
+  const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
+  REQUIRE(exact != nullptr);
+  CHECK(exact->outcome == Outcome::kCycle);
+  CHECK(exact->arithmetic == Arithmetic::kExact);
+  CHECK(exact->period == 4);
+}
+
+TEST_CASE("solve: auto ends in a solution and names the method") {
+  const ExactProblem problem = ReferenceProblem();
+  for (const Arithmetic arithmetic :
+       {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble, Arithmetic::kExact}) {
+    const Solution solution = SolveIn(problem, {.arithmetic = arithmetic});
+    CHECK(solution.outcome() == Outcome::kSolved);
+    std::visit([](const auto& answer) { CHECK(FindMethodFacts(answer.method) != nullptr); }, solution.answer);
+  }
+}
+
+TEST_CASE("solve: forces that are none do not pass the gate") {
+  const ContactProblem<double> problem = Rounded<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-1, 1}));
+  Answer<double> answer;
+  answer.outcome = Outcome::kSolved;
+  answer.f.resize(2);
+  answer.f << 0.5, -1.0 / 3;
+  JudgeAnswer(problem, 1e-8, answer);
+  CHECK(answer.Solved());
+  for (const double wrong :
+       {0.6, 0.5 + 1e-7, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    answer.outcome = Outcome::kSolved;
+    answer.f[0] = wrong;
+    JudgeAnswer(problem, 1e-8, answer);
+    CHECK(answer.outcome == Outcome::kUndecided);
+    CHECK(!answer.reason.empty());
+  }
+}
+
+TEST_CASE("solve: a bound that is asked for is met or nothing is called solved") {
+  const ContactProblem<double> problem = Rounded<double>(MakeProblem({1}, {{2, 1}, {1, 3}}, {-1, 1}));
+  CHECK(Solve(problem, "complete", {.residual = 1e-12}).residual <= 1e-12);
+  CHECK(Solve(problem, "complete", {.residual = 1e-30}).outcome == Outcome::kUndecided);
+}
+
+TEST_CASE("solve: a run that is stopped is undecided and keeps its forces") {
+  const std::atomic<bool> stop = true;
+  const ExactProblem exact = ReferenceProblem();
+  SolveOptions options;
+  options.limits.stop = &stop;
+  for (const char* method : {"baraff", "complete", "lemke"}) {
+    const Answer<Rational> answer = Solve(exact, method, options);
+    CHECK(answer.outcome == Outcome::kUndecided);
+    CHECK(answer.reason == kStopped);
+  }
+}
+
+TEST_CASE("solve: combinations that are not built are refused with what is") {
+  for (const MethodFacts& facts : AllMethods()) {
+    for (const int dimension : {2, 3}) {
+      for (int a = 0; a < kArithmeticCount; ++a) {
+        const auto arithmetic = static_cast<Arithmetic>(a);
+        const std::string refusal = Refusal(facts.name, dimension, arithmetic);
+        CHECK(refusal.empty() == facts.IsBuilt(dimension, arithmetic));
+        if (!refusal.empty()) CHECK(refusal.find(facts.name) != std::string::npos);
+      }
+    }
+  }
+  CHECK(Refusal(kAutomatic, 3, Arithmetic::kExact).empty());
+  CHECK(!Refusal(kAutomatic, 2, Arithmetic::kQuad).empty());
+}
+
+}  // namespace stiction

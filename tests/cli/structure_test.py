@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What includes what: the order of the folders, and of the solver's rooms."""
+
+import functools
+import re
+
+import cli
+
+# What each folder may include besides itself; solver also names its rooms.
+FOLDERS = {
+    "solver": [],
+    "scene": ["solver"],
+    "corpus": ["scene", "solver"],
+    "certify": ["corpus", "scene", "solver"],
+    "reports": ["corpus", "scene", "solver"],
+    "search": ["certify", "corpus", "scene", "solver"],
+    "cli": ["reports", "search", "certify", "corpus", "scene", "solver"],
+    "bench": ["reports", "search", "certify", "corpus", "scene", "solver"],
+}
+ROOMS = {
+    "problem": [],
+    "linear": ["problem"],
+    "published": ["linear", "problem"],
+    "complete": ["published", "linear", "problem"],
+    "lemke": ["published", "linear", "problem"],
+    "numeric": ["complete", "lemke", "published", "linear", "problem"],
+}
+MOST_LEVELS = 10
+INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.M)
+
+
+def sources():
+    """Path -> (our own files that it includes, the others)."""
+    found = {}
+    for folder in FOLDERS:
+        for file in sorted((cli.ROOT / folder).rglob("*")):
+            if file.suffix in (".h", ".ipp", ".cpp"):
+                names = INCLUDE.findall(file.read_text())
+                found[file.relative_to(cli.ROOT).as_posix()] = [name for _, name in names]
+    return ({path: [name for name in names if name in found] for path, names in found.items()},
+            {path: [name for name in names if name not in found] for path, names in found.items()})
+
+
+class Structure(cli.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.ours, cls.others = sources()
+
+    def test_folders_include_only_those_before_them(self):
+        self.assertGreater(len(self.ours), 150)
+        for path, names in self.ours.items():
+            folder = path.split("/")[0]
+            for name in names:
+                with self.subTest(file=path, includes=name):
+                    self.assertIn(name.split("/")[0], [folder, *FOLDERS[folder]])
+
+    def test_rooms_of_the_solver_include_only_those_before_them(self):
+        for path, names in self.ours.items():
+            if path.count("/") == 2 and path.startswith("solver/"):
+                room = path.split("/")[1]
+                for name in names:
+                    with self.subTest(file=path, includes=name):
+                        self.assertIn(name.split("/")[1], [room, *ROOMS[room]])
+
+    def test_the_solver_includes_eigen_and_the_standard_library_alone(self):
+        for path, names in self.others.items():
+            if path.startswith("solver/"):
+                for name in names:
+                    with self.subTest(file=path, includes=name):
+                        self.assertRegex(name, r"^(Eigen/\w+|[a-z_]+)$")
+
+    def test_command_line_parsers_stand_in_the_programs_alone(self):
+        users = {path for path, names in self.others.items() if any(name.startswith("CLI/") for name in names)}
+        self.assertEqual({path for path in users if not path.startswith("bench/")}, {"cli/command_line.cpp"})
+
+    def test_includes_are_no_circle_and_at_most_ten_levels_deep(self):
+        open_files = []
+
+        @functools.cache
+        def chain(path):
+            self.assertNotIn(path, open_files, "a circle")
+            open_files.append(path)
+            longest = max((chain(name) for name in self.ours[path]), key=len, default=())
+            open_files.pop()
+            return path, *longest
+
+        for path in self.ours:
+            with self.subTest(file=path):
+                self.assertLessEqual(len(chain(path)) - 1, MOST_LEVELS, " > ".join(chain(path)))
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Problems with one extreme dial each, by every method in every arithmetic: does anything crash, or call solved
+what is not?
+
+    tests/setup/extremes.py build/release/stiction [--problems N] [--seed S]
+
+Forces are judged here over fractions, in space with roots to 80 digits, on the numbers that the arithmetic made of
+the problem: a relative natural residual above 1e-6 is a wrong answer. Prints a table by dial and exits 1 if
+there was a crash or a wrong answer. By hand: some minutes.
+"""
+
+import argparse
+import collections
+import decimal
+import itertools
+import json
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+WRONG = Fraction(1, 10**6)
+UNITS = [(3, 4, 5), (5, 12, 13), (8, 15, 17), (0, 1, 1), (-3, 4, 5), (4, -3, 5)]
+decimal.getcontext().prec = 80
+decimal.getcontext().Emax = decimal.MAX_EMAX
+decimal.getcontext().Emin = decimal.MIN_EMIN
+
+
+# ---- Problems --------------------------------------------------------------------------------
+
+def product(J, W):
+    return [[sum(x * w * y for x, w, y in zip(p, W, q)) for q in J] for p in J]
+
+
+def body_rows(draw, dimension, lever, parallel):
+    """Rows of one contact: normal, then tangential; columns are velocities and spins of one body."""
+    if dimension == 3:
+        return [[Fraction(draw.randint(-3, 3)) for _ in range(3)] +
+                [lever * draw.randint(-3, 3) for _ in range(3)] for _ in range(3)]
+    x, y, z = draw.choice(UNITS)
+    n = (Fraction(x, z) + parallel, Fraction(y, z))
+    r = (lever * draw.randint(-3, 3), lever * draw.randint(-3, 3))
+    t = (-n[1], n[0])
+    return [[*d, r[0] * d[1] - r[1] * d[0]] for d in (n, t)]
+
+
+def make(draw, dimension, dial, value):
+    """A problem of one to three contacts on two bodies, A = J W J', b = J v + what is out of its range."""
+    contacts, free = draw.randint(1, 3), 3 if dimension == 2 else 6
+    lever = value if dial == "levers" else Fraction(1)
+    W = [Fraction(1, draw.randint(1, 9)) for _ in range(2 * free)]
+    if dial == "masses":
+        W[free:] = [w / value for w in W[free:]]
+    J = []
+    first = body_rows(draw, dimension, lever, Fraction(0))
+    for i in range(contacts):
+        close = dial == "parallel" and i > 0
+        mine = [[x + (1 / value if close and k == 0 and j == 0 else 0) for j, x in enumerate(row)]
+                for k, row in enumerate(first)] if close else body_rows(draw, dimension, lever, Fraction(0))
+        other = body_rows(draw, dimension, lever, Fraction(0)) if draw.random() < 0.5 else None
+        for k, row in enumerate(mine):
+            J.append(row + ([-x for x in other[k]] if other else [Fraction(0)] * free))
+    A = product(J, W)
+    v = [Fraction(draw.randint(-9, 9)) for _ in range(2 * free)]
+    b = [sum(x * y for x, y in zip(row, v)) for row in J]
+    if dial == "range":
+        b = [x + Fraction(draw.randint(-3, 3)) / value for x in b]
+    if dial == "units":
+        scale = value
+        A, b = [[x * scale for x in row] for row in A], [x / scale for x in b]
+    mu = [Fraction(draw.choice([0, 1, 2, 5]), draw.choice([1, 2, 3])) for _ in range(contacts)]
+    if dial == "mu":
+        mu = [m * value if draw.random() < 0.7 else m / value for m in mu]
+    return {"dimension": dimension, "mu": mu, "A": A, "b": b}
+
+
+DIALS = {
+    "masses": [10**k for k in (0, 4, 8, 12, 16)],
+    "levers": [Fraction(10) ** k for k in (-150, -60, -8, 8, 60, 150)],
+    "units": [Fraction(10) ** k for k in (-300, -150, -40, 40, 150, 300)],
+    "parallel": [10**k for k in (4, 8, 12, 16)],
+    "mu": [10**k for k in (2, 4, 8, 12, 16)],
+    "range": [10**k for k in (0, 4, 8, 12, 16)],
+}
+
+
+def as_file(problem):
+    return {"format": "stiction-problem", "version": 1, "dimension": problem["dimension"],
+            "contacts": [{"kind": "static", "mu": str(m)} for m in problem["mu"]],
+            "A": [[str(x) for x in row] for row in problem["A"]], "b": [str(x) for x in problem["b"]]}
+
+
+# ---- Judging -----------------------------------------------------------------------------------
+
+def rounder(arithmetic):
+    if arithmetic in ("exact", "interval"):
+        return lambda x: x
+    if arithmetic == "float":
+        return lambda x: Fraction(struct.unpack("f", struct.pack("f", float(x)))[0])
+    return lambda x: Fraction(float(x))
+
+
+def rounded(problem, arithmetic):
+    to = rounder(arithmetic)
+    return {"dimension": problem["dimension"], "mu": [to(m) for m in problem["mu"]],
+            "A": [[to(x) for x in row] for row in problem["A"]], "b": [to(x) for x in problem["b"]]}
+
+
+def accelerations(problem, f):
+    return [sum(x * y for x, y in zip(row, f)) + b for row, b in zip(problem["A"], problem["b"])]
+
+
+def planar_residual(problem, f, a, r):
+    worst = Fraction(0)
+    for i, mu in enumerate(problem["mu"]):
+        n, t = 2 * i, 2 * i + 1
+        bound = mu * max(Fraction(0), f[n])
+        gap = min(f[t] + bound, max(f[t] - bound, r * a[t]))
+        worst = max(worst, abs(min(f[n], r * a[n])), abs(gap))
+    return worst, max(max(map(abs, f)), max(map(abs, problem["b"])) * r)
+
+
+def root(x):
+    return (decimal.Decimal(x.numerator) / decimal.Decimal(x.denominator)).sqrt()
+
+
+def exactly(x):
+    return Fraction(x)
+
+
+def length(*xs):
+    return exactly(root(sum(x * x for x in xs)))
+
+
+def coulomb_residual(problem, f, a, r):
+    worst = Fraction(0)
+    for i, mu in enumerate(problem["mu"]):
+        n = 3 * i
+        s = a[n] + mu * length(a[n + 1], a[n + 2])
+        x = [f[n] - r * s, f[n + 1] - r * a[n + 1], f[n + 2] - r * a[n + 2]]
+        size = length(x[1], x[2])
+        if size <= mu * x[0]:
+            to = x
+        elif mu * size <= -x[0]:
+            to = [Fraction(0)] * 3
+        else:
+            normal = (x[0] + mu * size) / (1 + mu * mu)
+            to = [normal, mu * normal / size * x[1], mu * normal / size * x[2]]
+        worst = max(worst, length(*(p - q for p, q in zip(f[n:n + 3], to))))
+    return worst, max(map(abs, problem["b"])) * r
+
+
+def weak_residual(problem, f, a, r):
+    worst = Fraction(0)
+    for i, mu in enumerate(problem["mu"]):
+        n = 3 * i
+        force, answer = length(f[n + 1], f[n + 2]), length(a[n + 1], a[n + 2])
+        slack = mu * f[n] - force
+        worst = max(worst, abs(min(f[n], r * a[n])), -slack, min(r * answer, slack))
+        if force > 0:
+            worst = max(worst, r * (f[n + 1] * a[n + 1] + f[n + 2] * a[n + 2]) / force)
+    return worst, max(max(map(abs, f)), max(map(abs, problem["b"])) * r)
+
+
+def residual(problem, f, law):
+    top = max(problem["A"][i][i] for i in range(len(f)))
+    r = 1 / top if top > 0 else Fraction(1)
+    a = accelerations(problem, f)
+    measure = planar_residual if problem["dimension"] == 2 else coulomb_residual if law == "coulomb" else weak_residual
+    worst, scale = measure(problem, f, a, r)
+    return worst / scale if scale > 0 else worst
+
+
+# ---- Runs --------------------------------------------------------------------------------------
+
+def number(x):
+    if isinstance(x, list):
+        return (Fraction(x[0]) + Fraction(x[1])) / 2
+    return Fraction(x)
+
+
+def judge(program, file, problem, method, arithmetic, counts):
+    done = subprocess.run([program, "solve", file, "--method", method, "--arithmetic", arithmetic, "--json",
+                           "--max-pivots", "2000", "--seconds", "20"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+    if done.returncode not in (0, 1, 2, 3):
+        counts["crash"] += 1
+        return f"exit {done.returncode}: {done.stderr.strip()}"
+    if done.returncode == 2:
+        counts["refused"] += 1
+        return "" if "holds with all its digits" in done.stderr else f"refused: {done.stderr.strip()}"
+    answer = json.loads(done.stdout)
+    if answer["outcome"] != "solved" or done.returncode != 0:
+        counts[answer["outcome"]] += 1
+        return "" if (answer["outcome"] == "solved") == (done.returncode == 0) else "exit code and outcome differ"
+    counts["solved"] += 1
+    f = [number(x) for x in answer["f"]]
+    size = residual(rounded(problem, arithmetic), f, answer.get("law", "baraff"))
+    if size > WRONG and not (answer["arithmetic"] == "exact" and problem["dimension"] == 3):
+        counts["wrong"] += 1
+        return f"solved with a residual of {float(size):.3g}"
+    return ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--problems", type=int, default=600, help="in all")
+    parser.add_argument("--seed", type=int, default=1)
+    o = parser.parse_args()
+    draw = random.Random(o.seed)
+    methods = [m for m in json.loads(subprocess.run([o.program, "methods", "--json"], stdout=subprocess.PIPE,
+                                                    text=True, check=True).stdout) if m["name"] != "ipopt"]
+    table, faults = collections.defaultdict(collections.Counter), 0
+    settings = list(itertools.product(DIALS.items(), (2, 3)))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "problem.json"
+        for index in range(o.problems):
+            (dial, values), dimension = settings[index % len(settings)]
+            problem = make(draw, dimension, dial, Fraction(draw.choice(values)))
+            file.write_text(json.dumps(as_file(problem)))
+            for method in methods:
+                for arithmetic in method["plane" if dimension == 2 else "space"]:
+                    fault = judge(o.program, file, problem, method["name"], arithmetic, table[dial])
+                    if fault:
+                        faults += 1
+                        print(f"problem {index} ({dial}, dimension {dimension}), {method['name']} {arithmetic}: {fault}")
+    columns = ["solved", "wrong", "crash", "refused", "undecided", "limit", "cycle", "ray", "singular"]
+    print(f"{'dial':10}", *(f"{c:>9}" for c in columns))
+    for dial, counts in table.items():
+        print(f"{dial:10}", *(f"{counts[c]:>9}" for c in columns))
+    print(f"{o.problems} problems, {sum(sum(c.values()) for c in table.values())} runs, {faults} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
