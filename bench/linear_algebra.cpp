@@ -110,8 +110,9 @@ std::map<int, std::vector<Augmented>> ReducedSystems(GeneratorId id, bool over_d
       const ExactProblem problem = MakeProblem(id, over_doubles, contacts, choices);
       const CompleteRun run = RunComplete(problem, Limits{}, KeepPath::kYes);
       std::map<int, int> taken;
-      for (const Piece<Rational>& piece : run.path) {
-        Augmented M = ReducedSystem(problem, piece.cell, piece.driven);
+      for (const Pivot<Rational>& piece : run.path) {
+        const auto sets = SetsDuring(piece.word, problem.contacts, piece.driven);
+        Augmented M = ReducedSystem(problem, sets, piece.driven);
         const int size = static_cast<int>(M.rows());
         auto& of_size = systems[size];
         if (taken[size] == 2 || static_cast<std::int64_t>(of_size.size()) == count || !IsRegular(M)) continue;
@@ -391,7 +392,7 @@ void AddRuns(GeneratorId id, int contacts, const BenchOptions& o, std::int64_t c
       {"baraff, fraction-free", [&](std::size_t i) { published.Run(problems[i]); }, 2}};
   for (std::size_t i = 0; i < problems.size(); ++i) {
     for (const Way& way : ways) way.run(i);
-    STICTION_CHECK(complete.state().f == plain_complete.state().f.cast<Rational>() &&
+    STICTION_CHECK(complete.f() == plain_complete.f().cast<Rational>() &&
                        published.state().f == plain_published.state().f.cast<Rational>(),
                    "runs by different eliminations disagree");
   }

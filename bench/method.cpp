@@ -94,7 +94,7 @@ BenchMethod CompleteMethod() {
                                           .work = verdict.statistics.pieces,
                                           .folds = verdict.statistics.folds,
                                           .descents = verdict.statistics.descents},
-                                         driving.state().f};
+                                         driving.f()};
             });
           }};
 }

@@ -52,7 +52,7 @@ class LinearContender : public Contender {
 };
 
 const Eigen::VectorXd& ForcesOf(const PublishedAlgorithm<double>& solver) { return solver.state().f; }
-const Eigen::VectorXd& ForcesOf(const CompleteDriving<double>& solver) { return solver.state().f; }
+const Eigen::VectorXd& ForcesOf(const CompleteDriving<double>& solver) { return solver.f(); }
 const Eigen::VectorXd& ForcesOf(const LemkeAlgorithm<double>& solver) { return solver.f(); }
 const Eigen::VectorXd& ForcesOf(const FastSolver<double>& solver) { return solver.f(); }
 const Eigen::VectorXd& ForcesOf(const CoulombSolver<double>& solver) { return solver.f(); }
@@ -84,7 +84,7 @@ class PolygonContender : public Contender {
  private:
   const std::vector<PeerProblem>* problems_ = nullptr;
   std::vector<FrictionPolygon<double>> polygons_;
-  SpatialDriving<double> driving_;
+  CompleteDriving<double> driving_;
 };
 
 // ---- One size of one table -------------------------------------------------------------------

@@ -13,9 +13,11 @@ CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepP
   options.limits = limits;
   CompleteDriving<Rational> driving(options);
   CompleteRun run;
-  run.verdict = driving.Run(problem, keep == KeepPath::kYes ? &run.path : nullptr);
-  run.f = driving.state().f;
-  run.a = driving.state().a;
+  Trace<Rational> trace;
+  run.verdict = driving.Run(problem, keep == KeepPath::kYes ? &trace : nullptr);
+  run.path = std::move(trace.pivots);
+  run.f = driving.f();
+  run.a = driving.a();
   if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
   run.word = driving.Word();
   return run;

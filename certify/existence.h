@@ -22,7 +22,7 @@ namespace stiction {
 
 struct CompleteRun {
   CompleteVerdict verdict;
-  Path<Rational> path;  // only where asked for
+  std::vector<Pivot<Rational>> path;  // only where asked for
   ExactVector f, a;
   ExactVector ray;  // of a ray, otherwise empty
   std::string word;

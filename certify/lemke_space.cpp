@@ -9,8 +9,8 @@ namespace stiction {
 namespace {
 
 // Of a contact that slips: the corner, or the edge, that its friction lies on.
-SpaceCell SlippingCell(const FrictionPolygon<Rational>& polygon, const Planar<Rational>& force,
-                       const Planar<Rational>& a) {
+LawCell SlippingCell(const FrictionPolygon<Rational>& polygon, const Planar<Rational>& force,
+                     const Planar<Rational>& a) {
   int least = 0;
   for (int k = 1; k < polygon.sides(); ++k) {
     if (Dot(polygon.corner(k), a) < Dot(polygon.corner(least), a)) least = k;
@@ -20,8 +20,8 @@ SpaceCell SlippingCell(const FrictionPolygon<Rational>& polygon, const Planar<Ra
   return {Law::kEdge, side > 0 ? least : polygon.Wrap(least - 1)};
 }
 
-SpaceCell CellOf(const Contact<Rational>& contact, const FrictionPolygon<Rational>& polygon, const Rational* f,
-                 const Rational* a) {
+LawCell CellOf(const Contact<Rational>& contact, const FrictionPolygon<Rational>& polygon, const Rational* f,
+               const Rational* a) {
   if (contact.kind == ContactKind::kBilateral) return {Law::kHold};
   if (f[0] == 0) return {Law::kBreak};
   if (contact.kind != ContactKind::kStatic || contact.mu == 0) return {Law::kFree};
@@ -29,9 +29,9 @@ SpaceCell CellOf(const Contact<Rational>& contact, const FrictionPolygon<Rationa
   return SlippingCell(polygon, {f[1], f[2]}, {a[1], a[2]});
 }
 
-SpaceWord WordOf(const ExactProblem& problem, const RationalPolygons& polygons, const ExactVector& f,
-                 const ExactVector& a) {
-  SpaceWord word;
+CellWord WordOf(const ExactProblem& problem, const RationalPolygons& polygons, const ExactVector& f,
+                const ExactVector& a) {
+  CellWord word;
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const Contact<Rational>& contact = problem.contacts[i];

@@ -26,13 +26,13 @@ constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `
 // ---- Runs ------------------------------------------------------------------------------------
 
 template <SpaceEngine kEngine>
-Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
   SpaceOptions space;
   space.engine = kEngine;
   space.law = options.law;
   space.sides = options.sides;
   space.limits = options.limits;
-  SpaceSolution solution = SolveInSpace(problem, space);
+  SpaceSolution solution = SolveInSpace(problem, space, trace);
   Answer<Rational> answer;
   answer.outcome = solution.outcome;
   answer.reason = solution.reason;
@@ -40,7 +40,7 @@ Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& 
   if (answer.Solved()) answer.f = std::move(solution.f);
   if (answer.Solved() && options.law == FrictionLaw::kCoulomb) answer.bound = ToString(solution.bound);
   answer.ray = std::move(solution.ray);
-  answer.word = Name(solution.word);
+  answer.word = Name(solution.word, 3);
   answer.counters = CountersOf(solution.statistics);
   answer.counters.push_back({"refinements", solution.refinements});
   return answer;

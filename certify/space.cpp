@@ -8,20 +8,17 @@
 #include "certify/linear_equations.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
-#include "solver/complete/complete_space.ipp"
 #include "solver/numeric/coulomb.h"
 
 namespace stiction {
 
-template class SpatialDriving<Rational>;
-
 SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                  std::vector<SpacePiece<Rational>>* path) {
+                  Trace<Rational>* trace) {
   CompleteOptions options;
   options.limits = limits;
-  SpatialDriving<Rational> driving(options);
+  CompleteDriving<Rational> driving(options);
   SpaceRun run;
-  run.verdict = driving.Run(problem, polygons, path);
+  run.verdict = driving.Run(problem, polygons, trace);
   run.f = driving.f();
   run.a = driving.a();
   if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
@@ -137,7 +134,7 @@ std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const RationalPolygo
   std::vector<SpaceMode> modes;
   int row = 0;
   for (std::size_t i = 0; i < run.word.size(); ++i) {
-    const SpaceCell& cell = run.word[i];
+    const LawCell& cell = run.word[i];
     SpaceMode mode = {cell.law, {Rational(0), Rational(0)}};
     if (cell.law == Law::kCorner) mode.direction = polygons[i].corner(cell.side);
     if (cell.law == Law::kEdge) {
@@ -260,14 +257,14 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
 
 }  // namespace
 
-SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options) {
+SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
   RationalPolygons polygons = MakePolygons(problem, options.sides);
   const bool coulomb = options.law == FrictionLaw::kCoulomb;
   const ContactProblem<double> rounded = coulomb ? Rounded<double>(problem) : ContactProblem<double>();
   SpaceSolution solution;
   for (;; ++solution.refinements) {
     SpaceRun run = options.engine == SpaceEngine::kLemke ? RunLemkeInSpace(problem, polygons, options.limits)
-                                                         : RunSpace(problem, polygons, options.limits);
+                                                         : RunSpace(problem, polygons, options.limits, trace);
     Add(solution.statistics, run.verdict.statistics);
     if (run.verdict.outcome != Outcome::kSolved) {
       if (solution.outcome == Outcome::kSolved) break;  // a bound that was not improved

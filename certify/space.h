@@ -2,7 +2,7 @@
 // Solutions in space, exact: of the conditions (21), (22) of [Baraff94], or of Coulomb's law up to a bound.
 //
 // Both begin with an exact solution on friction polygons, of complete driving
-// (solver/complete/complete_space.h) or of Lemke's method (lemke_space.h): the engine, which runs again on the
+// (solver/complete/complete.h) or of Lemke's method (lemke_space.h): the engine, which runs again on the
 // polygons with more corners.
 //
 //   Baraff    Contacts in a corner, separating or sticking meet (21), (22) as they are. Of one on an edge,
@@ -24,12 +24,10 @@
 #include <vector>
 
 #include "certify/properties.h"
-#include "solver/complete/complete_space.h"
+#include "solver/complete/complete.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {
-
-extern template class SpatialDriving<Rational>;
 
 using RationalPolygons = std::vector<FrictionPolygon<Rational>>;
 
@@ -37,12 +35,12 @@ struct SpaceRun {
   CompleteVerdict verdict;
   ExactVector f, a;
   ExactVector ray;  // of a ray, otherwise empty
-  SpaceWord word;
+  CellWord word;
 };
 
-// Complete driving over rationals; with `path`, every linear piece is recorded.
+// Complete driving over rationals; with `trace`, every linear piece is recorded.
 SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                  std::vector<SpacePiece<Rational>>* path = nullptr);
+                  Trace<Rational>* trace = nullptr);
 
 enum class SpaceEngine { kComplete, kLemke };
 
@@ -60,14 +58,15 @@ struct SpaceSolution {
   std::string_view reason;
   ExactVector f, a;  // where solved
   ExactVector ray;
-  SpaceWord word;      // of the last polygons
+  CellWord word;       // of the last polygons
   Rational bound = 0;  // Coulomb: c of FindCoulombViolation
   int refinements = 0;
   CompleteStatistics statistics;  // of all runs
 };
 
-// Requires dimension 3.
-SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options);
+// Requires dimension 3. The trace is that of the last polygons.
+SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
+                           Trace<Rational>* trace = nullptr);
 
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.

@@ -54,10 +54,10 @@ inline CompleteOptions CompleteOptionsOf(const SolveOptions& options) {
 
 template <class Scalar>
 Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                                  Trace<Scalar>*) {
+                                  Trace<Scalar>* trace) {
   CompleteDriving<Scalar> driving(CompleteOptionsOf(options));
-  auto answer = AnswerOf<Scalar>(driving.Run(problem));
-  answer.f = driving.state().f;
+  auto answer = AnswerOf<Scalar>(driving.Run(problem, trace));
+  answer.f = driving.f();
   if (answer.outcome == Outcome::kRay) answer.ray = driving.ray();
   answer.word = driving.Word();
   return answer;

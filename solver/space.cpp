@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods in space over floating-point scalars. Exact scalars are instantiated in certify.
 
-#include "solver/complete/complete_space.ipp"
 #include "solver/numeric/coulomb.ipp"
 
 namespace stiction {
-
-template class SpatialDriving<float>;
-template class SpatialDriving<double>;
-template class SpatialDriving<long double>;
 
 template class CoulombSolver<float>;
 template class CoulombSolver<double>;

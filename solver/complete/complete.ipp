@@ -10,18 +10,31 @@
 #include <utility>
 
 #include "solver/complete/complete.h"
+#include "solver/complete/complete_cells.ipp"
+#include "solver/complete/complete_end.ipp"
 #include "solver/complete/complete_ties.ipp"
 #include "solver/linear/direction.ipp"
-#include "solver/problem/check.h"
-#include "solver/problem/residual.h"
 
 namespace stiction {
 
 // ---- The run: from node to node --------------------------------------------------------------
 
 template <class Scalar, int Rows>
-CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, Path<Scalar>* path) {
-  Start(problem, path);
+CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
+  return Follow(problem, nullptr, trace);
+}
+
+template <class Scalar, int Rows>
+CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
+                                                   Trace<Scalar>* trace) requires(Rows == Eigen::Dynamic) {
+  return Follow(problem, &polygons, trace);
+}
+
+template <class Scalar, int Rows>
+CompleteVerdict CompleteDriving<Scalar, Rows>::Follow(const Problem& problem, const Polygons* polygons,
+                                                      Trace<Scalar>* trace) {
+  Start(problem, polygons, trace);
+  if (!Ended()) HoldBilateral();
   while (!Ended()) {
     if (up_) {
       Up();
@@ -33,35 +46,76 @@ CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, Path<
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, Path<Scalar>* path) {
-  const int rows = problem.rows();
+void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, const Polygons* polygons,
+                                          Trace<Scalar>* trace) {
   problem_ = &problem;
-  path_ = path;
-  if (path_ != nullptr) path_->clear();
-  layout_.Assign(problem.contacts);
+  polygons_ = polygons;
+  trace_ = trace;
+  if (trace_ != nullptr) trace_->pivots.clear();
+  if constexpr (Rows == Eigen::Dynamic) {
+    layout_.Assign(problem.contacts, problem.dimension);
+    f_.resize(problem.rows());
+  }
   scale_ = MakeScale(problem, options_.tolerances);
   direction_.Start(problem, options_.update_from);
-  if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
-  for (int row = 0; row < rows; ++row) state_.f[row] = Scalar(0);
-  state_.a = problem.b;
-  Reset<IndexSet, Rows>(state_.sets, rows, IndexSet::kNone);
+  for (int row = 0; row < problem.rows(); ++row) f_[row] = Scalar(0);
+  a_ = problem.b;
+  rho_ = Scalar(0);
+  word_.assign(layout_.ContactCount(), {});
+  unknowns_.Start(problem);
   verdict_ = {};
   most_pieces_ = MostPieces();
   ended_ = false;
-  driven_ = 0;
-  side_ = 1;
   up_ = true;
+  driven_ = 0;
+  stage_ = Stage::kNormal;
+  if (!IsFinite()) End(Outcome::kUndecided, "a number is not finite");
 }
 
-// One less than the number of words: four cells for a contact with mu > 0, two for any other.
+// Bilateral contacts one after the other: a = 0 there by their own forces. One whose acceleration follows from
+// those before keeps its force zero; if that acceleration is not zero, nothing can stop it.
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::HoldBilateral() {
+  const int contacts = static_cast<int>(word_.size());
+  for (int i = 0; i < contacts; ++i) {
+    if (!IsBilateral(i)) continue;
+    driven_ = i;
+    EnterNormal();
+    const int row = RowOf(i);
+    if (Direction() <= 0)
+      return End(Outcome::kUndecided, "A is not definite on independent bilateral contacts");
+    const Scalar& change = direction_.da()[row];
+    const int curvature = Sign(change, scale_.rate);
+    if (curvature < 0) return End(Outcome::kUndecided, "A is not semidefinite on bilateral contacts");
+    SetCell(i, {Law::kHold, curvature > 0 ? 0 : 1});
+    if (curvature > 0) {
+      Advance(Scalar(-a_[row] / change));
+      continue;
+    }
+    const int sign = Sign(a_[row], scale_.acceleration);
+    if (sign != 0) return Unlimited(-sign);
+  }
+  driven_ = 0;
+}
+
+// The cells of all stages: the stage of a contact has each of its own with every word of the contacts before.
 template <class Scalar, int Rows>
 std::int64_t CompleteDriving<Scalar, Rows>::MostPieces() const {
-  std::int64_t words = 1;
-  for (const auto& contact : problem_->contacts) {
-    if (words > std::numeric_limits<std::int64_t>::max() / 4) return std::numeric_limits<std::int64_t>::max();
-    words *= contact.HasFrictionRows() && Sign(contact.mu) > 0 ? 4 : 2;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  std::int64_t words = 1, pieces = 0;
+  const int contacts = static_cast<int>(word_.size());
+  for (int i = 0; i < contacts; ++i) {
+    if (IsBilateral(i)) continue;
+    std::int64_t cells = 2, of_stages = 1;
+    if (HasFriction(i)) {
+      cells = InSpace() ? 2 * (*polygons_)[i].sides() + 2 : 4;
+      of_stages = InSpace() ? cells : 3;
+    }
+    if (words > kMost / (2 * cells)) return kMost;
+    pieces += words * of_stages;
+    words *= cells;
   }
-  return words - 1;
+  return pieces;
 }
 
 template <class Scalar, int Rows>
@@ -69,23 +123,6 @@ void CompleteDriving<Scalar, Rows>::End(Outcome outcome, std::string_view reason
   verdict_.outcome = outcome;
   verdict_.reason = reason;
   ended_ = true;
-}
-
-// All contacts are finished. An inexact answer is measured, with accelerations free of the path's rounding.
-template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Solved() {
-  if constexpr (!kIsExact<Scalar>) {
-    if (!IsFinite()) return End(Outcome::kUndecided, "a number is not finite");
-    state_.a = problem_->b;
-    for (int i = 0; i < problem_->rows(); ++i) {
-      for (int j = 0; j < problem_->rows(); ++j) state_.a[i] += problem_->A(i, j) * state_.f[j];
-    }
-    const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-    const Scalar tolerance = std::max(Scalar(options_.residual), least);
-    const Scalar residual = NaturalResidual(*problem_, state_.f, state_.a);
-    if (!(residual <= tolerance)) return End(Outcome::kUndecided, "the residual is above the tolerance");
-  }
-  End(Outcome::kSolved);
 }
 
 // What the theory excludes is an internal error over exact scalars, and rounding over inexact ones.
@@ -97,76 +134,90 @@ void CompleteDriving<Scalar, Rows>::Impossible(const char* what) {
 
 // No facet ahead. Over inexact scalars one may have been lost to rounding.
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Unlimited() {
+void CompleteDriving<Scalar, Rows>::Unlimited(int sign) {
+  ray_ = direction_.df();
+  if (sign < 0) ray_ = -ray_;
   if constexpr (kIsExact<Scalar>) return End(Outcome::kRay);
   End(Outcome::kUndecided, "a ray");
 }
 
-// A node of P_v, reached from below: the next variable is at rest, or its stage begins.
+// A node reached from below: the driven contact is at rest, or its stage begins. The friction of a node is in
+// any corner.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Up() {
-  side_ = 1;
-  if (driven_ == problem_->rows()) return Solved();
-  const int row = driven_;
-  if (layout_.IsNormal(row)) {
-    const int sign = SignAt(DrivenForce(), {Facet::Kind::kAcceleration, row, 1});
-    if (Ended()) return;
-    if (sign < 0) return TraceStage(DrivenForce());
-    state_.sets[row] = IndexSet::kSeparating;
+  if (driven_ == static_cast<int>(word_.size())) return Solved();
+  if (IsBilateral(driven_)) {
     ++driven_;
-    if (!layout_.HasFriction(row)) return;
-    state_.sets[row + 1] = IndexSet::kSuspended;
-    ++driven_;
-  } else if (Sign(problem_->contacts[layout_.ContactOf(row)].mu) == 0) {
-    state_.sets[row] = IndexSet::kSuspended;
-    ++driven_;
-  } else {
-    const int sign = SignAt(DrivenForce(), {Facet::Kind::kAcceleration, row, 1});
-    if (Ended()) return;
-    side_ = -sign;
-    TraceStage(DrivenForce());
-  }
-}
-
-// A node of P_v, reached from above: the variable established last is driven again.
-template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Down() {
-  if (driven_ == 0) return Impossible("the path returned to f = 0");
-  if (layout_.IsNormal(driven_)) return DownToContactBefore();
-  side_ = 1;
-  Release(driven_ - 1, 1, {Facet::Kind::kAcceleration, driven_ - 1, -1});
-}
-
-template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::DownToContactBefore() {
-  const int normal = layout_.NormalRowOf(layout_.ContactOf(driven_) - 1);
-  const int friction = normal + 1;
-  if (state_.sets[normal] == IndexSet::kSeparating) {  // B: the same point is a node of the contact's normal
-    state_.sets[normal] = IndexSet::kNone;
-    if (layout_.HasFriction(normal)) state_.sets[friction] = IndexSet::kNone;
-    driven_ = normal;
     return;
   }
-  if (!layout_.HasFriction(normal) || state_.sets[friction] == IndexSet::kSuspended) {  // 0
-    if (layout_.HasFriction(normal)) state_.sets[friction] = IndexSet::kNone;
-    return Release(normal, 1, {Facet::Kind::kAcceleration, normal, -1});
-  }
-  if (state_.sets[friction] == IndexSet::kSticking) {  // S
-    const int side = SignAt(DrivenForce(), {Facet::Kind::kForce, friction, 1});
+  if (stage_ == Stage::kFriction) {
+    const int corner = CornerAt(driven_, DrivenAmount());
     if (Ended()) return;
-    return Release(friction, side, {Facet::Kind::kAcceleration, friction, -side});
+    if (corner != word_[driven_].side) SetCell(driven_, {Law::kCorner, corner});
+    return TraceStage(DrivenAmount());
   }
-  const int side = LimitSign(state_.sets[friction]);  // +, -
-  Release(friction, side, {Facet::Kind::kBound, friction, side});
+  EnterNormal();
+  const int sign = SignAt(DrivenAmount(), {Kind::kAcceleration, driven_});  // 0: the run has ended
+  if (sign < 0) TraceStage(DrivenAmount());
+  if (sign > 0) FinishDriven({Law::kBreak, 0});
 }
 
-// Enters the stage of a variable at its end, to leave that end.
+// A node reached from above: what was established last is driven again.
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Release(int row, int side, const Facet& entry) {
-  state_.sets[row] = IndexSet::kNone;
-  driven_ = row;
-  side_ = side;
-  TraceStage(entry);
+void CompleteDriving<Scalar, Rows>::Down() {
+  if (stage_ == Stage::kFriction) {  // back at rho = 0
+    EnterNormal();
+    return TraceStage(StageEnd());
+  }
+  int before = driven_;
+  do {
+    if (before == 0) return Impossible("the path returned to f = 0");
+    --before;
+  } while (IsBilateral(before));
+  const LawCell cell = word_[before];
+  if (cell.law == Law::kInside && !InSpace()) return DownToStick(before);
+  const int above = std::exchange(driven_, before);
+  SetCell(above, {});
+  if (cell.law != Law::kBreak && cell.law != Law::kFree) {
+    EnterFriction(cell, Scalar(problem_->contacts[driven_].mu * f_[RowOf(driven_)]));
+    return TraceStage(StageEnd());
+  }
+  EnterNormal();
+  // In B the same point is a node of this contact's normal.
+  if (cell.law == Law::kFree) TraceStage(StageEnd());
+}
+
+// In the plane a friction stage ended at aF = 0, on the side of its force.
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::DownToStick(int contact) {
+  const Facet upward = {Kind::kSide, contact};
+  const int sign = SignAt(DrivenAmount(), upward);
+  if (Ended()) return;
+  const int above = std::exchange(driven_, contact);
+  SetCell(above, {});
+  const int corner = sign > 0 ? 0 : 1;
+  EnterFriction({Law::kCorner, corner}, Present({Kind::kSide, contact, corner}));
+  TraceStage({Kind::kOpposed, contact, corner});
+}
+
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::EnterNormal() {
+  stage_ = Stage::kNormal;
+  SetCell(driven_, {});
+}
+
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::EnterFriction(LawCell cell, const Scalar& radius) {
+  stage_ = Stage::kFriction;
+  rho_ = radius;
+  SetCell(driven_, cell);
+}
+
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::FinishDriven(LawCell cell) {
+  stage_ = Stage::kNormal;
+  const int finished = driven_++;
+  SetCell(finished, cell);
 }
 
 // ---- One stage: from facet to facet ----------------------------------------------------------
@@ -174,26 +225,30 @@ void CompleteDriving<Scalar, Rows>::Release(int row, int side, const Facet& entr
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::TraceStage(Facet entry) {
   ++verdict_.statistics.stages;
+  PathTurn turn = up_ ? PathTurn::kNone : PathTurn::kDescent;
   int last_turn = 0;
   while (true) {
     if (BudgetSpent()) return;
-    const std::optional<int> determinant =
-        direction_.SolveOriented(*problem_, layout_, state_.sets, driven_, side_, scale_);
-    if (!determinant) return Impossible("the direction is not unique");
-    if (Sign(Value(entry, direction_.df(), direction_.da())) <= 0) {
+    const int determinant = Direction();
+    if (Ended()) return;
+    if (Sign(Value(entry, direction_.df(), direction_.da(), rate_)) <= 0) {
       return Impossible("the direction leads out of the cell");
     }
     ++verdict_.statistics.pieces;
-    verdict_.statistics.folds += *determinant * last_turn < 0;
-    if (*determinant != 0) last_turn = *determinant;
+    if (determinant * last_turn < 0) {
+      ++verdict_.statistics.folds;
+      turn = PathTurn::kFold;
+    }
+    if (determinant != 0) last_turn = determinant;
     CollectFacets();
-    Record(*determinant);
+    Record(determinant, std::exchange(turn, PathTurn::kNone));
     if (candidates_.empty()) return Unlimited();
     const int nearest = Nearest(entry);
     if (Ended()) return;
     const Candidate& reached = candidates_[nearest];
-    const bool ends = reached.facet.row == driven_;
-    Advance(reached);
+    const bool ends = reached.facet.beyond == Beyond::kStart || reached.facet.beyond == Beyond::kEnd;
+    Advance(reached.s);
+    if constexpr (!kIsExact<Scalar>) Snap(reached.facet);
     if (ends) {
       EndStage(reached.facet);
     } else {
@@ -204,46 +259,31 @@ void CompleteDriving<Scalar, Rows>::TraceStage(Facet entry) {
   }
 }
 
-// The facets that the direction leads to. In S the bounds imply fN >= 0, and so does the bound of a friction
-// stage for its own normal.
+// The oriented null vector of the present cell. Returns the sign of the reduced determinant.
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::CollectFacets() {
-  using enum Facet::Kind;
-  candidates_.clear();
-  for (int row = 0; row < driven_; ++row) {
-    switch (state_.sets[row]) {
-      case IndexSet::kSeparating:
-        Offer({kAcceleration, row, 1});
-        break;
-      case IndexSet::kClamped:
-        if (row + 1 != driven_ || !layout_.HasFriction(row)) {
-          if (!layout_.HasFriction(row) || state_.sets[row + 1] != IndexSet::kSticking) Offer({kForce, row, 1});
-        }
-        break;
-      case IndexSet::kSticking:
-        Offer({kBound, row, 1});
-        Offer({kBound, row, -1});
-        break;
-      case IndexSet::kAtUpper:
-      case IndexSet::kAtLower:
-        Offer({kAcceleration, row, -LimitSign(state_.sets[row])});
-        break;
-      case IndexSet::kNone:
-      case IndexSet::kSuspended:
-        break;
-    }
-  }
-  Offer(DrivenForce());
-  Offer({kAcceleration, driven_, -side_});
-  if (!layout_.IsNormal(driven_)) Offer({kBound, driven_, side_});
+int CompleteDriving<Scalar, Rows>::Direction() {
+  const std::optional<int> determinant = direction_.SolveOriented(*problem_, unknowns_, scale_);
+  if (!determinant) Impossible("the direction is not unique");
+  rate_ = Scalar(determinant.value_or(0));
+  return determinant.value_or(0);
 }
 
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Offer(const Facet& facet) {
-  Scalar rate = -Value(facet, direction_.df(), direction_.da());
-  const Scalar& tolerance = facet.kind == Facet::Kind::kAcceleration ? scale_.rate : scale_.pivot;
-  if (Sign(rate, tolerance) <= 0) return;
-  Scalar s = Value(facet, state_.f, state_.a) / rate;
+void CompleteDriving<Scalar, Rows>::CollectFacets() {
+  candidates_.clear();
+  for (int i = 0; i <= driven_; ++i)
+    ForEachFacet(i, [this](auto kind, const Facet& facet) { Offer(kind, facet); });
+}
+
+template <class Scalar, int Rows>
+template <class OfKind>
+void CompleteDriving<Scalar, Rows>::Offer(OfKind kind, const Facet& facet) {
+  const auto value = [&](const Vector& f, const Vector& a, const Scalar& radius) {
+    return InSpace() ? SpatialValue(facet, f, a, radius) : PlanarValue(kind, facet, f, a, radius);
+  };
+  Scalar rate = -value(direction_.df(), direction_.da(), rate_);
+  if (Sign(rate, facet.OfAcceleration() ? scale_.rate : scale_.pivot) <= 0) return;
+  Scalar s = value(f_, a_, rho_) / rate;
   if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // by rounding only
   candidates_.push_back({facet, std::move(rate), std::move(s)});
 }
@@ -265,7 +305,7 @@ int CompleteDriving<Scalar, Rows>::Nearest(const Facet& entry) {
       least = Gradient(entry, candidates_[nearest].facet) / candidates_[nearest].rate;
     }
     const Row parts = Gradient(entry, candidates_[i].facet) / candidates_[i].rate;
-    const int order = FirstSign(parts - *least, Facet::Kind::kForce);
+    const int order = FirstSign(parts - *least, false);
     if (order == 0) {
       Impossible("a tie");
       return nearest;
@@ -277,85 +317,81 @@ int CompleteDriving<Scalar, Rows>::Nearest(const Facet& entry) {
   return nearest;
 }
 
-// f += s df, a += s da. Over inexact scalars the facet that was reached is then met exactly.
+// f += s df, a += s da.
 template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Advance(const Candidate& reached) {
-  if (kIsExact<Scalar> && Sign(reached.s) == 0) return;
+void CompleteDriving<Scalar, Rows>::Advance(const Scalar& s) {
+  if (kIsExact<Scalar> && Sign(s) == 0) return;
   const auto& df = direction_.df();
   const auto& da = direction_.da();
   for (int row = 0; row < problem_->rows(); ++row) {
-    if (!kIsExact<Scalar> || Sign(df[row]) != 0) state_.f[row] += reached.s * df[row];
-    if (!kIsExact<Scalar> || Sign(da[row]) != 0) state_.a[row] += reached.s * da[row];
+    if (!kIsExact<Scalar> || Sign(df[row]) != 0) f_[row] += s * df[row];
+    if (!kIsExact<Scalar> || Sign(da[row]) != 0) a_[row] += s * da[row];
   }
-  if constexpr (!kIsExact<Scalar>) Snap(reached.facet);
+  if (stage_ == Stage::kFriction) rho_ += s * rate_;
 }
 
+// Over inexact scalars the facet that was reached is met exactly, and so are the equations of the cells, where
+// they are those of single rows.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Snap(const Facet& reached) {
-  if (reached.kind == Facet::Kind::kForce) state_.f[reached.row] = Scalar(0);
-  if (reached.kind == Facet::Kind::kAcceleration) state_.a[reached.row] = Scalar(0);
-  for (int row = 0; row < driven_; ++row) {
-    if (IsUnknown(state_.sets[row])) state_.a[row] = Scalar(0);
-    const int limit = LimitSign(state_.sets[row]);
-    if (limit == 0) continue;
-    state_.f[row] = Scalar(limit) * problem_->contacts[layout_.ContactOf(row)].mu * state_.f[row - 1];
-  }
-  if (reached.kind != Facet::Kind::kBound) return;
-  const Scalar& mu = problem_->contacts[layout_.ContactOf(reached.row)].mu;
-  state_.f[reached.row] = Scalar(reached.sign) * mu * state_.f[reached.row - 1];
+  const int row = RowOf(reached.contact);
+  const Scalar& mu = problem_->contacts[reached.contact].mu;
+  if (reached.kind == Kind::kForce) f_[row] = Scalar(0);
+  if (reached.kind == Kind::kAcceleration) a_[row] = Scalar(0);
+  if (reached.kind == Kind::kRadius) rho_ = Scalar(0);
+  if (reached.kind == Kind::kRest) rho_ = mu * f_[row];
+  if (reached.kind == Kind::kOpposed && !InSpace()) a_[row + 1] = Scalar(0);
+  if (reached.kind == Kind::kBound && !InSpace()) f_[row + 1] = Scalar(1 - 2 * reached.k) * mu * f_[row];
+  SnapToCells();
 }
 
-// The driven variable is established, or back at zero.
+// Accelerations that rest, and forces that follow another.
+template <class Scalar, int Rows>
+void CompleteDriving<Scalar, Rows>::SnapToCells() {
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (unknowns_.Rests(row)) a_[row] = Scalar(0);
+  }
+  for (int i = 0; i <= driven_; ++i) {
+    const Law law = word_[i].law;
+    if (law != Law::kCorner && law != Law::kFree) continue;
+    const int row = RowOf(i);
+    const RowCombination<Scalar>& force = unknowns_.Force(row);
+    for (int r = 1; r < force.size; ++r) f_[row + r] = force.factors[r] * f_[row];
+    if (!FrictionIsDriven(i)) continue;
+    const RowCombination<Scalar>& radial = unknowns_.Driven();
+    for (int r = 0; r < radial.size; ++r)
+      f_[radial.row + r] = radial.unit ? rho_ : Scalar(radial.factors[r] * rho_);
+  }
+}
+
+// The driven amount is established, or back at zero.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::EndStage(const Facet& reached) {
-  up_ = reached.kind != Facet::Kind::kForce;
-  if (!up_) {
-    ++verdict_.statistics.descents;
-    return;
-  }
-  const bool at_limit = reached.kind == Facet::Kind::kBound;
-  state_.sets[driven_] = at_limit                    ? (side_ > 0 ? IndexSet::kAtUpper : IndexSet::kAtLower)
-                         : layout_.IsNormal(driven_) ? IndexSet::kClamped
-                                                     : IndexSet::kSticking;
-  ++driven_;
+  up_ = reached.beyond == Beyond::kEnd;
+  verdict_.statistics.descents += !up_;
+  if (!up_) return;
+  if (stage_ == Stage::kNormal && HasFriction(driven_)) return EnterFriction({Law::kCorner, 0}, Scalar(0));
+  FinishDriven(reached.cell);
 }
 
-// Into the other cell of a facet of a finished contact; returns that facet as the new cell sees it.
+// Into the cell beyond; returns the facet as that cell sees it. The present point lies on `reached`.
 template <class Scalar, int Rows>
-Facet CompleteDriving<Scalar, Rows>::Cross(const Facet& reached) {
-  using enum Facet::Kind;
-  const int row = reached.row;
-  switch (reached.kind) {
-    case kForce:
-      return Open(row);
-    case kBound:
-      state_.sets[row] = reached.sign > 0 ? IndexSet::kAtUpper : IndexSet::kAtLower;
-      return {kAcceleration, row, -reached.sign};
-    case kAcceleration:
-      break;
-  }
-  if (layout_.IsNormal(row)) return Close(row);
-  const int side = LimitSign(state_.sets[row]);
-  state_.sets[row] = IndexSet::kSticking;
-  return {kBound, row, side};
-}
-
-template <class Scalar, int Rows>
-Facet CompleteDriving<Scalar, Rows>::Open(int normal) {
-  state_.sets[normal] = IndexSet::kSeparating;
-  if (layout_.HasFriction(normal)) state_.sets[normal + 1] = IndexSet::kSuspended;
-  return {Facet::Kind::kAcceleration, normal, 1};
-}
-
-template <class Scalar, int Rows>
-Facet CompleteDriving<Scalar, Rows>::Close(int normal) {
-  if (layout_.HasFriction(normal) && Sign(problem_->contacts[layout_.ContactOf(normal)].mu) > 0) {
-    const int sign =
-        SignAt({Facet::Kind::kAcceleration, normal, 1}, {Facet::Kind::kAcceleration, normal + 1, 1});
-    state_.sets[normal + 1] = sign < 0 ? IndexSet::kAtUpper : IndexSet::kAtLower;
-  }
-  state_.sets[normal] = IndexSet::kClamped;
-  return {Facet::Kind::kForce, normal, 1};
+auto CompleteDriving<Scalar, Rows>::Cross(const Facet& reached) -> Facet {
+  const int contact = reached.contact;
+  const LawCell from = word_[contact];
+  LawCell to = reached.cell;
+  if (reached.beyond == Beyond::kCorners) to = {Law::kCorner, CornerAt(contact, reached)};
+  SetCell(contact, to);
+  Facet entry = reached;
+  bool found = false;
+  ForEachFacet(contact, [&](auto, const Facet& facet) {
+    const bool back = facet.beyond == Beyond::kCell && facet.cell == from;
+    if (found || !(back || facet.beyond == Beyond::kCorners)) return;
+    found = true;
+    entry = facet;
+  });
+  if (!found) Impossible("a facet has one side only");
+  return entry;
 }
 
 template <class Scalar, int Rows>
@@ -364,6 +400,8 @@ bool CompleteDriving<Scalar, Rows>::BudgetSpent() {
     Impossible("more pieces than cells");
   } else if (verdict_.statistics.pieces >= options_.limits.pivots) {
     End(Outcome::kLimit, "pieces");
+  } else if (options_.limits.Stopped()) {
+    End(Outcome::kUndecided, kStopped);
   } else if (!IsFinite()) {
     End(Outcome::kUndecided, "a number is not finite");
   }
@@ -374,70 +412,10 @@ template <class Scalar, int Rows>
 bool CompleteDriving<Scalar, Rows>::IsFinite() const {
   if constexpr (!kIsExact<Scalar>) {
     Scalar sum = Scalar(0);
-    for (int row = 0; row < problem_->rows(); ++row) sum += Abs(state_.f[row]) + Abs(state_.a[row]);
+    for (int row = 0; row < problem_->rows(); ++row) sum += Abs(f_[row]) + Abs(a_[row]);
     return sum <= std::numeric_limits<Scalar>::max();
   }
   return true;
-}
-
-template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::Record(int determinant) {
-  if (path_ == nullptr) return;
-  Piece<Scalar>& piece = path_->emplace_back();
-  piece.drive = static_cast<int>(verdict_.statistics.stages);
-  piece.driven = driven_;
-  piece.df = direction_.df();
-  piece.da = direction_.da();
-  piece.limiting = -1;
-  piece.f = state_.f;
-  piece.a = state_.a;
-  piece.cell.assign(state_.sets.begin(), state_.sets.end());
-  piece.sets = piece.cell;
-  piece.side = side_;
-  piece.determinant = determinant;
-}
-
-template <class Scalar, int Rows>
-void CompleteDriving<Scalar, Rows>::RecordEnd(const Candidate& reached) {
-  if (path_ == nullptr) return;
-  Piece<Scalar>& piece = path_->back();
-  const int row = reached.facet.row;
-  piece.s = reached.s;
-  piece.limiting = row;
-  piece.from = piece.cell[row];
-  piece.to = piece.wanted = state_.sets[row];
-  piece.f = state_.f;
-  piece.a = state_.a;
-  piece.sets.assign(state_.sets.begin(), state_.sets.end());
-}
-
-// ---- The word --------------------------------------------------------------------------------
-
-template <class Scalar, int Rows>
-Cell CompleteDriving<Scalar, Rows>::CellOf(int contact) const {
-  const int normal = layout_.NormalRowOf(contact);
-  const IndexSet set = state_.sets[normal];
-  if (set == IndexSet::kSeparating) return Cell::kBreak;
-  if (set != IndexSet::kClamped) return Cell::kNone;
-  switch (layout_.HasFriction(normal) ? state_.sets[normal + 1] : IndexSet::kSuspended) {
-    case IndexSet::kSuspended:
-      return Cell::kFree;
-    case IndexSet::kSticking:
-      return Cell::kStick;
-    case IndexSet::kAtUpper:
-      return Cell::kUpper;
-    case IndexSet::kAtLower:
-      return Cell::kLower;
-    default:
-      return Cell::kNone;
-  }
-}
-
-template <class Scalar, int Rows>
-std::string CompleteDriving<Scalar, Rows>::Word() const {
-  std::string word;
-  for (int contact = 0; contact < layout_.ContactCount(); ++contact) word += Name(CellOf(contact));
-  return word;
 }
 
 }  // namespace stiction

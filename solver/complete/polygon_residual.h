@@ -6,7 +6,7 @@
 //   friction   abs(fF - the nearest point of mu max(0, fN) times the polygon to fF - r aF), by component
 //   sliding    abs(fF + mu fN slip), by component           bilateral   abs(r aN)
 //
-// which vanish together exactly at the solutions of the law on polygons (complete_space.h). r = 1 / max A_ii;
+// which vanish together exactly at the solutions of the law on polygons (complete.h). r = 1 / max A_ii;
 // the largest of these, relative to max abs(b) / max A_ii. Shapes: f, a rows x 1; one polygon per contact.
 
 #ifndef STICTION_SOLVER_COMPLETE_POLYGON_RESIDUAL_H_

@@ -16,8 +16,11 @@
 // Oriented   Complete driving goes on where the matrix is singular, and backwards where its determinant is
 //            negative: it asks for the null vector of the k x (k + 1) system, driven variable included,
 //            with the orientation of Cramer's rule (complete_driving.md, 4).
-// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, a column
-//            with friction at its limit by the denominator of mu; df and da become fractions at the end.
+// Unknowns   may also be other forces and rests than those of the sets: unknowns.h.
+// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, in space
+// by
+//            contacts, the factors of forces and rests by their denominators; df and da become fractions at the
+//            end.
 // Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart. Over
 //            floating-point scalars and with dynamic sizes, O(k^2) from some number of unknowns on, if few sets
 //            have changed since the call before (updated_system.h).
@@ -30,8 +33,8 @@
 #include <vector>
 
 #include "solver/linear/elimination.h"
+#include "solver/linear/unknowns.h"
 #include "solver/linear/updated_system.h"
-#include "solver/problem/state.h"
 
 namespace stiction {
 
@@ -52,20 +55,24 @@ class DirectionSystem {
   // unknowns, at least 1, from which on the system is updated.
   void Start(const Problem& problem, int update_from = kUpdateFrom);
 
+  template <class Unknowns>
+  Status Solve(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale);
   // Requires: the driven variable is in neither C nor CF. `sign` is df_d, +1 or -1.
   Status Solve(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
-               int sign, const Scale<Scalar>& scale);
+               int sign, const Scale<Scalar>& scale) {
+    return Solve(problem, SetUnknowns<Scalar, Rows>{problem, layout, sets, driven, sign}, scale);
+  }
 
-  // The sign d of the determinant of the reduced matrix; df and da are then the oriented null vector, with
-  // df_d = d * side for the driven variable: at rest for d = 0. Empty if the null vector is not unique.
-  std::optional<int> SolveOriented(const Problem& problem, const RowLayout<Rows>& layout,
-                                   const IndexSets<Rows>& sets, int driven, int side,
+  // The sign d of the determinant of the reduced matrix; df and da are then the oriented null vector, in which
+  // the driven force changes by d times itself: at rest for d = 0. Empty if the null vector is not unique.
+  template <class Unknowns>
+  std::optional<int> SolveOriented(const Problem& problem, const Unknowns& unknowns,
                                    const Scale<Scalar>& scale);
 
-  // df() becomes the forces of the unknowns and of friction at its limits at which a = A f + b rests in C and
-  // CF, all other forces zero; da() becomes a. Allocates where it does not update.
-  Status SolveForces(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
-                     const Scale<Scalar>& scale);
+  // df() becomes the forces of the unknowns at which a = A f + b rests there, all other forces zero; da()
+  // becomes a. Allocates where it does not update.
+  template <class Unknowns>
+  Status SolveForces(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale);
 
   const Vector& df() const { return df_; }
   const Vector& da() const { return da_; }
@@ -74,27 +81,34 @@ class DirectionSystem {
  private:
   using Entry = typename Fractions<Scalar>::Integer;
 
-  void TurnRound();
-  void Assemble(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int driven,
-                int sign);
-  Entry ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row, int column,
-                    int limit) const;
+  // A force or rest with integer factors: those of the combination times `scale`.
+  struct Scaled {
+    RowCombination<Entry> combination;
+    Entry scale = Entry(1);
+  };
+
+  void ScaleToIntegers(const Problem& problem);
+  static void Convert(const RowCombination<Scalar>& combination, Scaled& scaled);
+  template <class Unknowns>
+  void Assemble(const Problem& problem, const Unknowns& unknowns);
   Status Eliminate(const Scale<Scalar>& scale);
   int SolveHomogeneous();
-  void Spread(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets, int held,
-              int driven, int sign);
-  void SpreadIntegers(const Problem& problem, const RowLayout<Rows>& layout, const IndexSets<Rows>& sets,
-                      int held, int driven, int sign);
+  template <class Unknowns>
+  void Spread(const Problem& problem, const Unknowns& unknowns, int held, int rate);
+  template <class Unknowns>
+  void SpreadIntegers(const Unknowns& unknowns, int held, int rate);
 
   int unknowns_ = 0;
-  RowArray<int, Rows> unknown_;       // row of each unknown
+  RowArray<int, Rows> unknown_;       // the row that names each unknown
   Elimination<Scalar, Rows> system_;  // reduced matrix, right side in column unknowns_
   Vector df_, da_;
   [[no_unique_address]] Updated updated_;
 
-  // Of fraction-free scalars: A_ij = integer_A_(i, j) / row_scale_[i]; numerators of df.
+  // Of fraction-free scalars: A_ij = integer_A_(i, j) / row_scale_[i]; numerators of df; the forces of the
+  // unknowns and the driven one, and the rests.
   Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> integer_A_;
   std::vector<Entry> row_scale_, numerator_;
+  std::vector<Scaled> forces_, rests_;
 };
 
 }  // namespace stiction

@@ -22,81 +22,96 @@ void DirectionSystem<Scalar, Rows>::Start(const Problem& problem, int update_fro
     df_.resize(rows);
     da_.resize(rows);
   }
-  if constexpr (kFractionFree<Scalar>) {
-    integer_A_.resize(rows, rows);
-    row_scale_.resize(rows);
-    numerator_.resize(rows);
-    for (int i = 0; i < rows; ++i) {
-      row_scale_[i] = CommonDenominator<Scalar>(problem.A.row(i));
-      for (int j = 0; j < rows; ++j) {
-        integer_A_(i, j) = Fractions<Scalar>::Numerator(problem.A(i, j), row_scale_[i]);
-      }
+  if constexpr (kFractionFree<Scalar>) ScaleToIntegers(problem);
+}
+
+// In space the rows of a contact have one scale, so that rests may combine them.
+template <class Scalar, int Rows>
+void DirectionSystem<Scalar, Rows>::ScaleToIntegers(const Problem& problem) {
+  const int rows = problem.rows();
+  integer_A_.resize(rows, rows);
+  row_scale_.resize(rows);
+  numerator_.resize(rows);
+  forces_.resize(rows + 1);
+  rests_.resize(rows);
+  const auto scale_rows = [&](int first, int count) {
+    const Entry scale = CommonDenominator<Scalar>(problem.A.middleRows(first, count).reshaped());
+    for (int i = first; i < first + count; ++i) {
+      row_scale_[i] = scale;
+      for (int j = 0; j < rows; ++j) integer_A_(i, j) = Fractions<Scalar>::Numerator(problem.A(i, j), scale);
     }
+  };
+  if (problem.dimension == 2) {
+    for (int i = 0; i < rows; ++i) scale_rows(i, 1);
+    return;
+  }
+  int first = 0;
+  for (const auto& contact : problem.contacts) {
+    const int count = contact.HasFrictionRows() ? problem.dimension : 1;
+    scale_rows(first, count);
+    first += count;
   }
 }
 
 template <class Scalar, int Rows>
-auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const RowLayout<Rows>& layout,
-                                          const IndexSets<Rows>& sets, int driven, int sign,
+template <class Unknowns>
+auto DirectionSystem<Scalar, Rows>::Solve(const Problem& problem, const Unknowns& unknowns,
                                           const Scale<Scalar>& scale) -> Status {
   if constexpr (kUpdates) {
-    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
-      if (sign < 0) TurnRound();
-      return Status::kRegular;
-    }
+    if (updated_.Solve(problem, unknowns, scale, df_, da_)) return Status::kRegular;
   }
-  Assemble(problem, layout, sets, driven, sign);
+  Assemble(problem, unknowns);
   const Status status = Eliminate(scale);
-  if (status != Status::kInconsistent) Spread(problem, layout, sets, driven, driven, sign);
+  if (status != Status::kInconsistent) Spread(problem, unknowns, unknowns_, 1);
   return status;
 }
 
 template <class Scalar, int Rows>
+template <class Unknowns>
 std::optional<int> DirectionSystem<Scalar, Rows>::SolveOriented(const Problem& problem,
-                                                                const RowLayout<Rows>& layout,
-                                                                const IndexSets<Rows>& sets, int driven,
-                                                                int side, const Scale<Scalar>& scale) {
+                                                                const Unknowns& unknowns,
+                                                                const Scale<Scalar>& scale) {
   if constexpr (kUpdates) {
-    if (updated_.Solve(problem, layout, sets, driven, scale, df_, da_)) {
-      if (updated_.determinant_sign() * side < 0) TurnRound();
+    if (updated_.Solve(problem, unknowns, scale, df_, da_)) {
+      if (updated_.determinant_sign() < 0) {
+        df_ = -df_;
+        da_ = -da_;
+      }
       return updated_.determinant_sign();
     }
   }
-  Assemble(problem, layout, sets, driven, side);
+  Assemble(problem, unknowns);
   const Status status = Eliminate(scale);
   if (status == Status::kSingular || system_.rank() + 1 < unknowns_) return std::nullopt;
   if (status == Status::kInconsistent) {
-    const int free = SolveHomogeneous();
-    Spread(problem, layout, sets, unknown_[free], driven, 0);
+    Spread(problem, unknowns, SolveHomogeneous(), 0);
     return 0;
   }
   const int sign = system_.Orientation();
   if (sign < 0) {
     for (int i = 0; i < unknowns_; ++i) system_.numerator(i) = -system_.numerator(i);
   }
-  Spread(problem, layout, sets, driven, driven, sign * side);
+  Spread(problem, unknowns, unknowns_, sign);
   return sign;
 }
 
 template <class Scalar, int Rows>
-auto DirectionSystem<Scalar, Rows>::SolveForces(const Problem& problem, const RowLayout<Rows>& layout,
-                                                const IndexSets<Rows>& sets, const Scale<Scalar>& scale)
-    -> Status {
+template <class Unknowns>
+auto DirectionSystem<Scalar, Rows>::SolveForces(const Problem& problem, const Unknowns& unknowns,
+                                                const Scale<Scalar>& scale) -> Status {
   if constexpr (kUpdates) {
-    if (updated_.Solve(problem, layout, sets, Updated::kLoads, scale, df_, da_)) return Status::kRegular;
+    if (updated_.Solve(problem, unknowns, scale, df_, da_, Updated::Load::kFree)) return Status::kRegular;
   }
-  std::vector<int> unknowns;
+  std::vector<int> rows;
   for (int row = 0; row < problem.rows(); ++row) {
-    if (IsUnknown(sets[row])) unknowns.push_back(row);
+    if (unknowns.IsUnknown(row)) rows.push_back(row);
   }
-  const int size = static_cast<int>(unknowns.size());
+  const int size = static_cast<int>(rows.size());
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M(size, size + 1);
   for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) {
-      const int limit = FrictionLimitSign(layout, sets, unknowns[j]);
-      M(i, j) = ReducedEntry(problem, layout, unknowns[i], unknowns[j], limit);
-    }
-    M(i, size) = -problem.b[unknowns[i]];
+    for (int j = 0; j < size; ++j)
+      M(i, j) = EntryOf<Scalar>(unknowns.Rest(rows[i]), problem.A, unknowns.Force(rows[j]));
+    M(i, size) = -Dot(unknowns.Rest(rows[i]), problem.b);
   }
   Elimination<Scalar> system;
   system.Assign(M);
@@ -104,63 +119,55 @@ auto DirectionSystem<Scalar, Rows>::SolveForces(const Problem& problem, const Ro
   if (!system.IsConsistent(size, scale.rate)) return Status::kInconsistent;
   system.BackSubstitute(size);
   for (int row = 0; row < problem.rows(); ++row) df_[row] = Scalar(0);
-  for (int i = 0; i < size; ++i) df_[unknowns[i]] = system.Solution(i);
-  FollowLimits(problem, layout, sets, df_);
+  for (int i = 0; i < size; ++i) AddTo<Scalar>(df_, unknowns.Force(rows[i]), system.Solution(i));
   da_ = problem.A * df_ + problem.b;
-  for (const int row : unknowns) da_[row] = Scalar(0);
+  for (const int row : rows) {
+    if (unknowns.Rests(row)) da_[row] = Scalar(0);
+  }
   return system.rank() == size ? Status::kRegular : Status::kSingular;
-}
-
-template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::TurnRound() {
-  df_ = -df_;
-  da_ = -da_;
 }
 
 // The reduced system of equation (9): A_CC x = -v_1, where a normal's column takes +-mu times the column
 // of its friction along while that friction is in NC+ or NC- (5.3).
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const RowLayout<Rows>& layout,
-                                             const IndexSets<Rows>& sets, int driven, int sign) {
+template <class Unknowns>
+void DirectionSystem<Scalar, Rows>::Assemble(const Problem& problem, const Unknowns& unknowns) {
   const int rows = problem.rows();
   unknowns_ = 0;
   for (int row = 0; row < rows; ++row) {
-    if (IsUnknown(sets[row])) unknown_[unknowns_++] = row;
+    if (unknowns.IsUnknown(row)) unknown_[unknowns_++] = row;
   }
-  const auto fill_column = [&](int column, int row, int factor) {
-    const int limit = FrictionLimitSign(layout, sets, row);
-    for (int i = 0; i < unknowns_; ++i) {
-      Entry entry = ColumnEntry(problem, layout, unknown_[i], row, limit);
-      if (factor > 0) {
-        system_(i, column) = std::move(entry);
-      } else {
-        system_(i, column) = -entry;
-      }
+  if constexpr (kFractionFree<Scalar>) {
+    for (int j = 0; j < unknowns_; ++j) {
+      Convert(unknowns.Force(unknown_[j]), forces_[j]);
+      Convert(unknowns.Rest(unknown_[j]), rests_[j]);
     }
-  };
-  for (int j = 0; j < unknowns_; ++j) fill_column(j, unknown_[j], 1);
-  fill_column(unknowns_, driven, -sign);
+    Convert(unknowns.Driven(), forces_[unknowns_]);
+    for (int j = 0; j <= unknowns_; ++j) {
+      for (int i = 0; i < unknowns_; ++i)
+        system_(i, j) = EntryOf<Scalar>(rests_[i].combination, integer_A_, forces_[j].combination);
+    }
+    for (int i = 0; i < unknowns_; ++i) system_(i, unknowns_) = -system_(i, unknowns_);
+  } else {
+    for (int j = 0; j < unknowns_; ++j) {
+      const auto column = unknowns.Column(unknown_[j]);
+      for (int i = 0; i < unknowns_; ++i) system_(i, j) = column(unknown_[i]);
+    }
+    const auto driven = unknowns.DrivenColumn();
+    for (int i = 0; i < unknowns_; ++i) system_(i, unknowns_) = -driven(unknown_[i]);
+  }
 }
 
-// Entry of A in `row` for the variable of `column`, whose friction is at `limit` (0: it is not). Integers are
-// those of A_ij row_scale_i, times the denominator of mu where there is a limit.
 template <class Scalar, int Rows>
-auto DirectionSystem<Scalar, Rows>::ColumnEntry(const Problem& problem, const RowLayout<Rows>& layout, int row,
-                                                int column, int limit) const -> Entry {
-  if constexpr (kFractionFree<Scalar>) {
-    Entry entry = integer_A_(row, column);
-    if (limit == 0) return entry;
-    const Scalar& mu = problem.contacts[layout.ContactOf(column)].mu;
-    entry *= Fractions<Scalar>::Denominator(mu);
-    if (limit > 0) {
-      Fractions<Scalar>::AddProduct(entry, Fractions<Scalar>::Numerator(mu), integer_A_(row, column + 1));
-    } else {
-      Fractions<Scalar>::SubtractProduct(entry, Fractions<Scalar>::Numerator(mu), integer_A_(row, column + 1));
-    }
-    return entry;
-  } else {
-    return ReducedEntry(problem, layout, row, column, limit);
-  }
+void DirectionSystem<Scalar, Rows>::Convert(const RowCombination<Scalar>& combination, Scaled& scaled) {
+  scaled.combination.row = combination.row;
+  scaled.combination.size = combination.size;
+  scaled.combination.unit = combination.unit;
+  scaled.scale = 1;
+  if (combination.unit) return;
+  for (int r = 0; r < combination.size; ++r) Fractions<Scalar>::Include(scaled.scale, combination.factors[r]);
+  for (int r = 0; r < combination.size; ++r)
+    scaled.combination.factors[r] = Fractions<Scalar>::Numerator(combination.factors[r], scaled.scale);
 }
 
 template <class Scalar, int Rows>
@@ -197,24 +204,29 @@ int DirectionSystem<Scalar, Rows>::SolveHomogeneous() {
   return free;
 }
 
-// df from the unknowns, the driven variable and the limits; da = A df, exactly zero in C and CF. `held` is the
-// variable whose change is given: the driven one, or the free unknown of a homogeneous system.
+// df from the unknowns and the driven force; da = A df, exactly zero where rows rest. `held` is the column
+// whose change is given: the driven one, whose force changes by `rate` times itself, or the free unknown of a
+// homogeneous system.
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayout<Rows>& layout,
-                                           const IndexSets<Rows>& sets, int held, int driven, int sign) {
+template <class Unknowns>
+void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const Unknowns& unknowns, int held,
+                                           int rate) {
   if constexpr (kFractionFree<Scalar>) {
-    SpreadIntegers(problem, layout, sets, held, driven, sign);
+    SpreadIntegers(unknowns, held, rate);
     return;
   }
   const int rows = problem.rows();
   for (int row = 0; row < rows; ++row) df_[row] = Scalar(0);
-  for (int i = 0; i < unknowns_; ++i) df_[unknown_[i]] = system_.numerator(i);  // over 1
-  df_[driven] = Scalar(sign);
-  FollowLimits(problem, layout, sets, df_);
+  for (int i = 0; i < unknowns_; ++i) unknowns.Place(unknown_[i], system_.numerator(i), df_);  // over 1
+  if (rate != 0) unknowns.PlaceDriven(Scalar(rate), df_);
+  int used = rows;  // df is zero from here on
+  if constexpr (Rows == Eigen::Dynamic) {
+    while (used > 0 && IsSurelyZero(df_[used - 1])) --used;
+  }
   for (int row = 0; row < rows; ++row) {
     Scalar change = Scalar(0);
-    if (!IsUnknown(sets[row])) {
-      for (int j = 0; j < rows; ++j) {
+    if (!unknowns.Rests(row)) {
+      for (int j = 0; j < used; ++j) {
         if (kIsExact<Scalar> && IsSurelyZero(df_[j])) continue;
         change += problem.A(row, j) * df_[j];
       }
@@ -226,30 +238,22 @@ void DirectionSystem<Scalar, Rows>::Spread(const Problem& problem, const RowLayo
 // The same over integers. Columns were scaled, so that an unknown is its number times the scale of its column,
 // over that of the held one.
 template <class Scalar, int Rows>
-void DirectionSystem<Scalar, Rows>::SpreadIntegers(const Problem& problem, const RowLayout<Rows>& layout,
-                                                   const IndexSets<Rows>& sets, int held, int driven,
-                                                   int sign) {
+template <class Unknowns>
+void DirectionSystem<Scalar, Rows>::SpreadIntegers(const Unknowns& unknowns, int held, int rate) {
   using F = Fractions<Scalar>;
-  const int rows = problem.rows();
+  const int rows = static_cast<int>(numerator_.size());
   for (Entry& numerator : numerator_) numerator = 0;
-  const auto place = [&](int row, const Entry& number) {
-    numerator_[row] = number;
-    const int limit = FrictionLimitSign(layout, sets, row);
-    if (limit == 0) return;
-    const Scalar& mu = problem.contacts[layout.ContactOf(row)].mu;
-    numerator_[row] *= F::Denominator(mu);
-    numerator_[row + 1] = limit * F::Numerator(mu) * number;
-  };
   Entry denominator = system_.denominator();
-  for (int i = 0; i < unknowns_; ++i) place(unknown_[i], system_.numerator(i));
-  place(driven, sign * denominator);
-  if (FrictionLimitSign(layout, sets, held) != 0) {
-    denominator *= F::Denominator(problem.contacts[layout.ContactOf(held)].mu);
+  for (int i = 0; i < unknowns_; ++i) {
+    const Entry& x = system_.numerator(i);
+    AddTo<Scalar>(numerator_, forces_[i].combination, x);
   }
+  if (rate != 0) AddTo<Scalar>(numerator_, forces_[unknowns_].combination, Entry(rate * denominator));
+  denominator *= forces_[held].scale;
   for (int row = 0; row < rows; ++row) df_[row] = F::Quotient(numerator_[row], denominator);
   for (int row = 0; row < rows; ++row) {
     da_[row] = Scalar(0);
-    if (IsUnknown(sets[row])) continue;
+    if (unknowns.Rests(row)) continue;
     Entry change(0);
     for (int j = 0; j < rows; ++j) F::AddProduct(change, integer_A_(row, j), numerator_[j]);
     da_[row] = F::Quotient(change, Entry(denominator * row_scale_[row]));

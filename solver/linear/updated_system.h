@@ -2,10 +2,10 @@
 // The direction system of many unknowns over floating-point scalars: updated, not solved afresh.
 //
 // From one step to the next a few variables change their sets. The inverse of the reduced matrix M
-// (direction.h) follows them: a new unknown is a row and a column more, a friction that reaches its limit or
-// leaves it changes the column of its normal. The sets are compared with those that the inverse was made for,
-// so that callers say nothing. Rows and columns stand in any order, the same for both, which leaves det(M) as
-// it is.
+// (unknowns.h) follows them: a new unknown is a row and a column more, a friction that reaches its limit or
+// leaves it changes the column of its normal. The unknowns are compared with those that the inverse was made
+// for, so that callers say nothing. Rows and columns stand in any order, the same for both, which leaves det(M)
+// as it is.
 //
 // Errors     of the inverse are seen in da = A df, which is needed anyway and should be zero at the unknowns: a
 //            step of refinement mends them; if it does not, M is inverted anew. Where that fails too, or M is
@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "solver/linear/inverse.h"
-#include "solver/problem/state.h"
+#include "solver/linear/unknowns.h"
 
 namespace stiction {
 
@@ -30,8 +30,6 @@ template <class Scalar>
 class UpdatedSystem {
  public:
   using Problem = ContactProblem<Scalar>;
-  using Layout = RowLayout<Eigen::Dynamic>;
-  using Sets = IndexSets<Eigen::Dynamic>;
   using Vector = typename Problem::Vector;
 
   struct Counts {
@@ -44,13 +42,15 @@ class UpdatedSystem {
   // `least`: unknowns below which nothing is done here.
   void Start(const Problem& problem, int least);
 
-  // The direction for df_d = 1, where the reduced matrix is regular. Returns false if it was not found; df and
-  // da are then anything.
-  bool Solve(const Problem& problem, const Layout& layout, const Sets& sets, int driven,
-             const Scale<Scalar>& scale, Vector& df, Vector& da);
+  // What the unknowns answer to: the driven force, or b; with b, df becomes the forces at which a = A df + b
+  // rests at the unknowns, and da becomes a.
+  enum class Load { kDriven, kFree };
 
-  // With kLoads for `driven`: df becomes the forces at which a = A df + b rests at the unknowns, da becomes a.
-  static constexpr int kLoads = -1;
+  // The direction while the driven force grows, where the reduced matrix is regular. Returns false if it was
+  // not found; df and da are then anything.
+  template <class Unknowns>
+  bool Solve(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale, Vector& df,
+             Vector& da, Load load = Load::kDriven);
 
   // Of the reduced matrix of the last direction found.
   int determinant_sign() const { return inverse_.determinant_sign(); }
@@ -61,17 +61,29 @@ class UpdatedSystem {
   const Counts& counts() const { return counts_; }
 
  private:
-  bool Follow(const Problem& problem, const Layout& layout, const Sets& sets, const Scale<Scalar>& scale);
-  bool InvertAnew(const Problem& problem, const Layout& layout, const Sets& sets, const Scale<Scalar>& scale);
-  int AppendNew(const Problem& problem, const Layout& layout, const Sets& sets);
-  int ReplaceColumns(const Problem& problem, const Layout& layout, const Sets& sets);
-  int RemoveOld(const Sets& sets);
-  bool FindDirection(const Problem& problem, const Layout& layout, const Sets& sets, int driven, Vector& df,
-                     Vector& da);
-  void Spread(const Problem& problem, const Layout& layout, const Sets& sets, int driven, Vector& df,
-              Vector& da) const;
-  void GatherColumn(const Problem& problem, const Layout& layout, int column, int limit);
-  void GatherRightSide(const Problem& problem, const Layout& layout, const Sets& sets, int driven);
+  // One row and column of M.
+  struct Slot {
+    int row;  // that names the unknown
+    RowCombination<Scalar> force, rest;
+  };
+
+  template <class Unknowns>
+  bool Follow(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale);
+  template <class Unknowns>
+  int CountChanges(const Problem& problem, const Unknowns& unknowns) const;
+  template <class Unknowns>
+  bool InvertAnew(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale);
+  template <class Unknowns>
+  int AppendNew(const Problem& problem, const Unknowns& unknowns);
+  template <class Unknowns>
+  int ReplaceColumns(const Problem& problem, const Unknowns& unknowns);
+  template <class Unknowns>
+  int RemoveOld(const Unknowns& unknowns);
+  template <class Unknowns>
+  bool FindDirection(const Problem& problem, const Unknowns& unknowns, Load load, Vector& df, Vector& da);
+  template <class Unknowns>
+  void Spread(const Problem& problem, const Unknowns& unknowns, Load load, Vector& df, Vector& da) const;
+  void GatherColumn(const Problem& problem, const RowCombination<Scalar>& force);
 
   int least_ = 0;
   bool valid_ = false;
@@ -79,8 +91,8 @@ class UpdatedSystem {
   Scalar largest_ = Scalar(0);
   Counts counts_;
   Inverse<Scalar> inverse_;
-  std::vector<int> row_of_, limit_of_;  // by slot, a row and column of M
-  std::vector<int> slot_of_;            // by row, -1: no unknown
+  std::vector<Slot> slots_;
+  std::vector<int> slot_of_;  // by row, -1: no unknown
   Vector row_, column_, x_, correction_;
 };
 

@@ -21,22 +21,22 @@ void UpdatedSystem<Scalar>::Start(const Problem& problem, int least) {
   counts_ = {};
   if (rows < least) return;
   inverse_.Reserve(rows);
-  row_of_.clear();
-  limit_of_.clear();
+  slots_.clear();
   slot_of_.assign(rows, -1);
   for (Vector* v : {&row_, &column_, &x_, &correction_}) v->resize(rows);
   largest_ = problem.A.cwiseAbs().maxCoeff();
 }
 
 template <class Scalar>
-bool UpdatedSystem<Scalar>::Solve(const Problem& problem, const Layout& layout, const Sets& sets, int driven,
-                                  const Scale<Scalar>& scale, Vector& df, Vector& da) {
+template <class Unknowns>
+bool UpdatedSystem<Scalar>::Solve(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale,
+                                  Vector& df, Vector& da, Load load) {
   if (problem.rows() < least_) return false;
   const std::int64_t inverted = counts_.inverted;
-  bool found = Follow(problem, layout, sets, scale);
-  if (found && !FindDirection(problem, layout, sets, driven, df, da)) {
-    found = counts_.inverted == inverted && InvertAnew(problem, layout, sets, scale) &&
-            FindDirection(problem, layout, sets, driven, df, da);
+  bool found = Follow(problem, unknowns, scale);
+  if (found && !FindDirection(problem, unknowns, load, df, da)) {
+    found = counts_.inverted == inverted && InvertAnew(problem, unknowns, scale) &&
+            FindDirection(problem, unknowns, load, df, da);
     if (!found) pause_ = kPause;
   }
   if (found) {
@@ -47,137 +47,153 @@ bool UpdatedSystem<Scalar>::Solve(const Problem& problem, const Layout& layout, 
   return found;
 }
 
-// Brings the inverse from the sets that it was made for to those of now. Unknowns come before columns change,
-// and go after that: between sticking and sliding a column operation apart, M then stays what it was.
+// Brings the inverse from the unknowns that it was made for to those of now. Unknowns come before columns
+// change, and go after that: between sticking and sliding a column operation apart, M then stays what it was.
 template <class Scalar>
-bool UpdatedSystem<Scalar>::Follow(const Problem& problem, const Layout& layout, const Sets& sets,
+template <class Unknowns>
+bool UpdatedSystem<Scalar>::Follow(const Problem& problem, const Unknowns& unknowns,
                                    const Scale<Scalar>& scale) {
-  int unknowns = 0, changes = 0;
-  for (int row = 0; row < problem.rows(); ++row) {
-    const bool unknown = IsUnknown(sets[row]);
-    const int slot = slot_of_[row];
-    unknowns += unknown;
-    changes += unknown != (slot >= 0) || (unknown && limit_of_[slot] != FrictionLimitSign(layout, sets, row));
-  }
-  if (unknowns < least_) return false;
+  int count = 0;
+  for (int row = 0; row < problem.rows(); ++row) count += unknowns.IsUnknown(row);
+  if (count < least_) return false;
   if (pause_ > 0) {
     --pause_;
     return false;
   }
-  if (!valid_ || 3 * changes > unknowns) return InvertAnew(problem, layout, sets, scale);
+  int changes = CountChanges(problem, unknowns);
+  if (!valid_ || 3 * changes > count) return InvertAnew(problem, unknowns, scale);
   while (changes > 0) {
-    int made = AppendNew(problem, layout, sets);
-    made += ReplaceColumns(problem, layout, sets);
-    made += RemoveOld(sets);
+    int made = AppendNew(problem, unknowns);
+    made += ReplaceColumns(problem, unknowns);
+    made += RemoveOld(unknowns);
     if (made == 0) return false;
     changes -= made;
   }
   return true;
 }
 
+// An unknown that keeps another acceleration at rest goes, and comes again.
 template <class Scalar>
-bool UpdatedSystem<Scalar>::InvertAnew(const Problem& problem, const Layout& layout, const Sets& sets,
+template <class Unknowns>
+int UpdatedSystem<Scalar>::CountChanges(const Problem& problem, const Unknowns& unknowns) const {
+  int changes = 0;
+  for (int row = 0; row < problem.rows(); ++row) {
+    const int slot = slot_of_[row];
+    if (!unknowns.IsUnknown(row)) {
+      changes += slot >= 0;
+    } else if (slot < 0) {
+      ++changes;
+    } else if (!(slots_[slot].rest == unknowns.Rest(row))) {
+      changes += 2;
+    } else {
+      changes += !(slots_[slot].force == unknowns.Force(row));
+    }
+  }
+  return changes;
+}
+
+template <class Scalar>
+template <class Unknowns>
+bool UpdatedSystem<Scalar>::InvertAnew(const Problem& problem, const Unknowns& unknowns,
                                        const Scale<Scalar>& scale) {
   ++counts_.inverted;
-  row_of_.clear();
-  limit_of_.clear();
+  slots_.clear();
   for (int row = 0; row < problem.rows(); ++row) {
     slot_of_[row] = -1;
-    if (!IsUnknown(sets[row])) continue;
-    slot_of_[row] = static_cast<int>(row_of_.size());
-    row_of_.push_back(row);
-    limit_of_.push_back(FrictionLimitSign(layout, sets, row));
+    if (!unknowns.IsUnknown(row)) continue;
+    slot_of_[row] = static_cast<int>(slots_.size());
+    slots_.push_back({row, unknowns.Force(row), unknowns.Rest(row)});
   }
-  const auto entry = [&](int i, int j) {
-    return ReducedEntry(problem, layout, row_of_[i], row_of_[j], limit_of_[j]);
-  };
-  valid_ = inverse_.Invert(static_cast<int>(row_of_.size()), entry, scale.rate);
+  const auto entry = [&](int i, int j) { return EntryOf<Scalar>(slots_[i].rest, problem.A, slots_[j].force); };
+  valid_ = inverse_.Invert(static_cast<int>(slots_.size()), entry, scale.rate);
   if (!valid_) pause_ = kPause;
   return valid_;
 }
 
 template <class Scalar>
-int UpdatedSystem<Scalar>::AppendNew(const Problem& problem, const Layout& layout, const Sets& sets) {
+template <class Unknowns>
+int UpdatedSystem<Scalar>::AppendNew(const Problem& problem, const Unknowns& unknowns) {
   int made = 0;
   for (int row = 0; row < problem.rows(); ++row) {
-    if (!IsUnknown(sets[row]) || slot_of_[row] >= 0) continue;
-    const int size = inverse_.size(), limit = FrictionLimitSign(layout, sets, row);
-    GatherColumn(problem, layout, row, limit);
-    for (int j = 0; j < size; ++j) row_[j] = ReducedEntry(problem, layout, row, row_of_[j], limit_of_[j]);
-    const Scalar corner = ReducedEntry(problem, layout, row, row, limit);
+    if (!unknowns.IsUnknown(row) || slot_of_[row] >= 0) continue;
+    const int size = inverse_.size();
+    const Slot slot = {row, unknowns.Force(row), unknowns.Rest(row)};
+    GatherColumn(problem, slot.force);
+    for (int j = 0; j < size; ++j) row_[j] = EntryOf<Scalar>(slot.rest, problem.A, slots_[j].force);
+    const Scalar corner = EntryOf<Scalar>(slot.rest, problem.A, slot.force);
     if (!inverse_.Append(row_.head(size), column_.head(size), corner)) continue;
     slot_of_[row] = size;
-    row_of_.push_back(row);
-    limit_of_.push_back(limit);
+    slots_.push_back(slot);
     ++made;
   }
   return made;
 }
 
 template <class Scalar>
-int UpdatedSystem<Scalar>::ReplaceColumns(const Problem& problem, const Layout& layout, const Sets& sets) {
+template <class Unknowns>
+int UpdatedSystem<Scalar>::ReplaceColumns(const Problem& problem, const Unknowns& unknowns) {
   int made = 0;
-  for (int slot = 0; slot < inverse_.size(); ++slot) {
-    const int row = row_of_[slot], limit = FrictionLimitSign(layout, sets, row);
-    if (!IsUnknown(sets[row]) || limit == limit_of_[slot]) continue;
-    GatherColumn(problem, layout, row, limit);
-    if (!inverse_.ReplaceColumn(slot, column_.head(inverse_.size()))) continue;
-    limit_of_[slot] = limit;
+  for (int i = 0; i < inverse_.size(); ++i) {
+    Slot& slot = slots_[i];
+    if (!unknowns.IsUnknown(slot.row) || !(slot.rest == unknowns.Rest(slot.row))) continue;
+    const RowCombination<Scalar>& force = unknowns.Force(slot.row);
+    if (slot.force == force) continue;
+    GatherColumn(problem, force);
+    if (!inverse_.ReplaceColumn(i, column_.head(inverse_.size()))) continue;
+    slot.force = force;
     ++made;
   }
   return made;
 }
 
 template <class Scalar>
-int UpdatedSystem<Scalar>::RemoveOld(const Sets& sets) {
+template <class Unknowns>
+int UpdatedSystem<Scalar>::RemoveOld(const Unknowns& unknowns) {
   int made = 0;
-  for (int slot = inverse_.size() - 1; slot >= 0; --slot) {
-    if (IsUnknown(sets[row_of_[slot]]) || !inverse_.Remove(slot)) continue;
-    slot_of_[row_of_.back()] = slot;
-    slot_of_[row_of_[slot]] = -1;
-    row_of_[slot] = row_of_.back();
-    limit_of_[slot] = limit_of_.back();
-    row_of_.pop_back();
-    limit_of_.pop_back();
+  for (int i = inverse_.size() - 1; i >= 0; --i) {
+    const int row = slots_[i].row;
+    if (unknowns.IsUnknown(row) && slots_[i].rest == unknowns.Rest(row)) continue;
+    if (!inverse_.Remove(i)) continue;
+    slot_of_[slots_.back().row] = i;
+    slot_of_[row] = -1;
+    slots_[i] = slots_.back();
+    slots_.pop_back();
     ++made;
   }
   return made;
 }
 
 template <class Scalar>
-void UpdatedSystem<Scalar>::GatherColumn(const Problem& problem, const Layout& layout, int column, int limit) {
-  for (int i = 0; i < inverse_.size(); ++i)
-    column_[i] = ReducedEntry(problem, layout, row_of_[i], column, limit);
-}
-
-template <class Scalar>
-void UpdatedSystem<Scalar>::GatherRightSide(const Problem& problem, const Layout& layout, const Sets& sets,
-                                            int driven) {
-  if (driven == kLoads) {
-    for (int i = 0; i < inverse_.size(); ++i) column_[i] = problem.b[row_of_[i]];
-  } else {
-    GatherColumn(problem, layout, driven, FrictionLimitSign(layout, sets, driven));
-  }
-  column_.head(inverse_.size()) *= Scalar(-1);
+void UpdatedSystem<Scalar>::GatherColumn(const Problem& problem, const RowCombination<Scalar>& force) {
+  for (int i = 0; i < inverse_.size(); ++i) column_[i] = EntryOf<Scalar>(slots_[i].rest, problem.A, force);
 }
 
 // The residuals of the unknowns are told beside the rounding of da, and have to be as small; more than the root
 // of rounding is more than a step of refinement mends.
 template <class Scalar>
-bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Layout& layout, const Sets& sets,
-                                          int driven, Vector& df, Vector& da) {
+template <class Unknowns>
+bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Unknowns& unknowns, Load load,
+                                          Vector& df, Vector& da) {
   constexpr Scalar kEpsilon = std::numeric_limits<Scalar>::epsilon();
   const int size = inverse_.size();
-  GatherRightSide(problem, layout, sets, driven);
-  const Scalar load = driven == kLoads ? problem.b.cwiseAbs().maxCoeff() : Scalar(0);
+  const bool driven = load == Load::kDriven;
+  if (driven) {
+    GatherColumn(problem, unknowns.Driven());
+  } else {
+    for (int i = 0; i < size; ++i) column_[i] = Dot(slots_[i].rest, problem.b);
+  }
+  column_.head(size) *= Scalar(-1);
+  const Scalar free = driven ? Scalar(0) : Scalar(problem.b.cwiseAbs().maxCoeff());
   inverse_.Multiply(column_.head(size), x_.head(size));
   for (const bool refined : {false, true}) {
-    Spread(problem, layout, sets, driven, df, da);
-    for (int i = 0; i < size; ++i) column_[i] = da[row_of_[i]];
+    Spread(problem, unknowns, load, df, da);
+    for (int i = 0; i < size; ++i) column_[i] = Dot(slots_[i].rest, da);
     const Scalar residual = column_.head(size).cwiseAbs().maxCoeff();
-    const Scalar unit = load + largest_ * df.cwiseAbs().maxCoeff();
+    const Scalar unit = free + largest_ * df.cwiseAbs().maxCoeff();
     if (residual <= 64 * kEpsilon * unit) {
-      for (int i = 0; i < size; ++i) da[row_of_[i]] = Scalar(0);
+      for (const Slot& slot : slots_) {
+        if (slot.rest.unit) da[slot.row] = Scalar(0);
+      }
       counts_.refined += refined;
       return true;
     }
@@ -188,18 +204,18 @@ bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Layout& 
   return false;
 }
 
-// df from the unknowns and the limits; da = A df, in the unknowns' rows too.
+// df from the unknowns and the driven force; da = A df, in the unknowns' rows too.
 template <class Scalar>
-void UpdatedSystem<Scalar>::Spread(const Problem& problem, const Layout& layout, const Sets& sets, int driven,
-                                   Vector& df, Vector& da) const {
+template <class Unknowns>
+void UpdatedSystem<Scalar>::Spread(const Problem& problem, const Unknowns& unknowns, Load load, Vector& df,
+                                   Vector& da) const {
   df.setZero();
-  for (int i = 0; i < inverse_.size(); ++i) df[row_of_[i]] = x_[i];
-  if (driven != kLoads) df[driven] = Scalar(1);
-  FollowLimits(problem, layout, sets, df);
-  if (driven == kLoads) {
-    da = problem.b;
-  } else {
+  for (int i = 0; i < inverse_.size(); ++i) AddTo<Scalar>(df, slots_[i].force, x_[i]);
+  if (load == Load::kDriven) {
+    AddTo<Scalar>(df, unknowns.Driven(), Scalar(1));
     da.setZero();
+  } else {
+    da = problem.b;
   }
   for (int j = 0; j < problem.rows(); ++j) {
     if (df[j] != Scalar(0)) da += df[j] * problem.A.col(j);

@@ -35,7 +35,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "solver/complete/complete_space.h"
+#include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"
 #include "solver/problem/sparse_problem.h"
 
@@ -130,7 +130,7 @@ class CoulombSolver {
   ContactSlope<Scalar> SlopeOf(int i) const;
 
   CoulombOptions options_;
-  SpatialDriving<Scalar> driving_;
+  CompleteDriving<Scalar> driving_;
   const Problem* problem_ = nullptr;
   std::vector<int> first_row_;
   std::vector<Scalar> r_;    // by contact

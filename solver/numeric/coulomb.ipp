@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/complete_space.ipp"
+#include "solver/complete/complete.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/one_contact.h"
 #include "solver/numeric/smooth_law.h"

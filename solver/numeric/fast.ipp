@@ -130,7 +130,7 @@ void FastSolver<Scalar>::FallBack() {
   ++verdict_.statistics.fallbacks;
   driving_.options() = {options_.tolerances, options_.limits, options_.residual};
   const CompleteVerdict driven = driving_.Run(*problem_);
-  f_ = driving_.state().f;
+  f_ = driving_.f();
   SetAccelerations();
   for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i] = driving_.CellOf(static_cast<int>(i));
   const bool verified = Verify();

@@ -34,38 +34,6 @@ int FrictionLimitSign(const RowLayout<Rows>& layout, const IndexSets<Rows>& sets
   return layout.IsNormal(row) && layout.HasFriction(row) ? LimitSign(sets[row + 1]) : 0;
 }
 
-// Entry of the reduced matrix (direction.h): da_row per unit of the force of `column`, whose friction is at
-// `limit` (0: it is not).
-template <class Scalar, int Rows>
-Scalar ReducedEntry(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout, int row,
-                    int column, int limit) {
-  Scalar entry = problem.A(row, column);
-  if (limit == 0) return entry;
-  const Scalar along = problem.contacts[layout.ContactOf(column)].mu * problem.A(row, column + 1);
-  if (limit > 0) {
-    entry += along;
-  } else {
-    entry -= along;
-  }
-  return entry;
-}
-
-// Sets the friction forces that are held at a limit, of the forces f or of their change.
-template <class Scalar, int Rows>
-void FollowLimits(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout,
-                  const IndexSets<Rows>& sets, typename ContactProblem<Scalar, Rows>::Vector& f) {
-  for (int row = 0; row < problem.rows(); ++row) {
-    const int limit = FrictionLimitSign(layout, sets, row);
-    if (limit == 0) continue;
-    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * f[row];
-    if (limit > 0) {
-      f[row + 1] = bound;
-    } else {
-      f[row + 1] = -bound;
-    }
-  }
-}
-
 // Tolerances in the units of the problem; exact zeros for exact scalars.
 template <class Scalar>
 struct Scale {

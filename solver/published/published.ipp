@@ -14,6 +14,22 @@
 
 namespace stiction {
 
+// Sets the friction forces that are held at a limit.
+template <class Scalar, int Rows>
+void FollowLimits(const ContactProblem<Scalar, Rows>& problem, const RowLayout<Rows>& layout,
+                  const IndexSets<Rows>& sets, typename ContactProblem<Scalar, Rows>::Vector& f) {
+  for (int row = 0; row < problem.rows(); ++row) {
+    const int limit = FrictionLimitSign(layout, sets, row);
+    if (limit == 0) continue;
+    const Scalar bound = problem.contacts[layout.ContactOf(row)].mu * f[row];
+    if (limit > 0) {
+      f[row + 1] = bound;
+    } else {
+      f[row + 1] = -bound;
+    }
+  }
+}
+
 // ---- Main loop: 4.3 compute-forces, 5.5 ------------------------------------------------------
 
 template <class Scalar, int Rows>
@@ -87,7 +103,8 @@ bool PublishedAlgorithm<Scalar, Rows>::Adopt(std::span<const IndexSet> guess) {
   using System = DirectionSystem<Scalar, Rows>;
   std::copy(guess.begin(), guess.end(), state_.sets.begin());
   do {
-    const auto status = direction_.SolveForces(*problem_, layout_, state_.sets, scale_);
+    const auto status =
+        direction_.SolveForces(*problem_, SetUnknowns<Scalar, Rows>{*problem_, layout_, state_.sets}, scale_);
     if (status == System::Status::kInconsistent) return false;
     state_.f = direction_.df();
     state_.a = direction_.da();

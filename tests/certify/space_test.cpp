@@ -142,7 +142,7 @@ TEST_CASE("space: every problem in range is certified, under either law") {
     CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
     refined += weak.refinements > 0;
-    for (const SpaceCell& cell : weak.word) edges += cell.law == Law::kEdge;
+    for (const LawCell& cell : weak.word) edges += cell.law == Law::kEdge;
     options.law = FrictionLaw::kCoulomb;
     const SpaceSolution strict = SolveInSpace(problem, options);
     REQUIRE(strict.outcome == Outcome::kSolved);

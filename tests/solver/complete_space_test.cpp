@@ -1,34 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complete driving in space: what the proof promises of every path, and exact solutions of the polygonal law.
 
-#include "solver/complete/complete_space.ipp"
-
+#include <array>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
+#include "solver/complete/complete.ipp"
 #include "tests/support.h"
 
 namespace stiction {
 namespace {
 
 using namespace testing;
-using Driving = SpatialDriving<Rational>;
+using Driving = CompleteDriving<Rational>;
 using Polygons = Driving::Polygons;
+
+// A piece of the path, its word taken apart.
+struct SpacePiece {
+  int driven = 0;  // contact
+  bool friction = false;
+  CellWord word;
+  int drive = 0, determinant = 0;
+  PathTurn turn = PathTurn::kNone;
+  ExactVector df, da;
+  Rational s;
+  bool ends = false, descends = false;  // the stage
+};
 
 struct SpaceRun {
   CompleteVerdict verdict;
-  Driving::Path path;
+  std::vector<SpacePiece> path;
+  std::int64_t most_pieces = 0;
   ExactVector f, ray;
-  SpaceWord word;
+  CellWord word;
 };
+
+LawCell ParseCell(const std::string& name) {
+  const std::string kLaws = "?HB0VEI";
+  return {static_cast<Law>(kLaws.find(name[0])), name.size() > 1 ? std::stoi(name.substr(1)) : 0};
+}
+
+SpacePiece PieceOf(const ExactProblem& problem, const Pivot<Rational>& pivot) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts, 3);
+  std::istringstream names(pivot.word);
+  CellWord word;
+  for (std::string name; names >> name;) word.push_back(ParseCell(name));
+  return {layout.ContactOf(pivot.driven),
+          !layout.IsNormal(pivot.driven),
+          word,
+          pivot.drive,
+          pivot.determinant,
+          pivot.turn,
+          pivot.df,
+          pivot.da,
+          pivot.s,
+          false,
+          false};
+}
 
 SpaceRun RunSpace(const ExactProblem& problem, const Polygons& polygons) {
   Driving driving;
   SpaceRun run;
-  run.verdict = driving.Run(problem, polygons, &run.path);
+  Trace<Rational> trace;
+  run.verdict = driving.Run(problem, polygons, &trace);
+  for (const auto& pivot : trace.pivots) {
+    run.path.push_back(PieceOf(problem, pivot));
+    if (run.path.size() == 1 || run.path.end()[-2].drive == pivot.drive) continue;
+    run.path.end()[-2].descends = pivot.turn == PathTurn::kDescent;
+    run.path.end()[-2].ends = pivot.turn != PathTurn::kDescent;
+  }
+  if (!run.path.empty()) run.path.back().ends = run.verdict.outcome == Outcome::kSolved;
+  run.most_pieces = driving.most_pieces();
   run.f = driving.f();
   run.ray = driving.ray();
   run.word = driving.word();
@@ -102,14 +149,33 @@ void CheckLaw(const ExactProblem& problem, const Polygons& polygons, const Exact
 
 // ---- The path --------------------------------------------------------------------------------
 
+int RankOf(const ExactProblem& problem, const std::vector<int>& rows) {
+  Elimination<Rational> elimination;
+  elimination.Assign(ExactMatrix(problem.A(rows, rows)));
+  const int size = static_cast<int>(rows.size());
+  elimination.Run(size, size, size);
+  return elimination.rank();
+}
+
+// Whether a bilateral contact depends on those before it.
+bool IsDependent(const ExactProblem& problem, int contact) {
+  std::vector<int> rows;
+  int row = 0;
+  for (int i = 0; i <= contact; ++i) {
+    if (problem.contacts[i].kind == ContactKind::kBilateral) rows.push_back(row);
+    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
+  }
+  const std::vector<int> before(rows.begin(), rows.end() - 1);
+  return RankOf(problem, rows) == RankOf(problem, before);
+}
+
 // Determinant of the reduced matrix of a word, from its definition.
-int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
-                       const SpacePiece<Rational>& piece) {
+int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons, const SpacePiece& piece) {
   std::vector<ExactVector> columns, rows;
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const auto& contact = problem.contacts[i];
-    const bool driven = static_cast<int>(i) == piece.driven && piece.stage == SpaceStage::kFriction;
+    const bool driven = static_cast<int>(i) == piece.driven && piece.friction;
     const auto unit = [&](Rational n, Planar<Rational> t = {0, 0}) {
       ExactVector v = ExactVector::Zero(problem.rows());
       v[row] = n;
@@ -119,7 +185,7 @@ int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
       }
       return v;
     };
-    const SpaceCell cell = piece.word[i];
+    const LawCell cell = piece.word[i];
     const Rational mu = driven ? Rational(0) : contact.mu;
     const auto corner = [&] {
       const Planar<Rational>& d = polygons[i].corner(cell.side);
@@ -130,7 +196,7 @@ int ReducedDeterminant(const ExactProblem& problem, const Polygons& polygons,
       case Law::kBreak:
         break;
       case Law::kHold:
-        if (cell.side == 1) break;  // dependent
+        if (IsDependent(problem, static_cast<int>(i))) break;
         [[fallthrough]];
       case Law::kFree:
         columns.push_back(unit(1));
@@ -181,13 +247,12 @@ struct PathCounts {
 };
 
 void CheckPath(const ExactProblem& problem, const Polygons& polygons, const SpaceRun& run, PathCounts& counts) {
-  std::set<std::tuple<int, SpaceStage, SpaceWord>> visited;
+  std::set<std::tuple<int, bool, CellWord>> visited;
   for (const auto& piece : run.path) {
     const int determinant = ReducedDeterminant(problem, polygons, piece);
     CHECK(piece.determinant == determinant);
-    CHECK(Sign(piece.driven_rate) == determinant);
     CHECK(piece.da == ExactVector(problem.A * piece.df));
-    CHECK(visited.emplace(piece.driven, piece.stage, piece.word).second);
+    CHECK(visited.emplace(piece.driven, piece.friction, piece.word).second);
     CHECK(piece.s >= 0);
     counts.flat += determinant == 0;
   }
@@ -203,12 +268,12 @@ void CheckNodes(const ExactProblem& problem, const Polygons& polygons, const Spa
     if (piece.descends) CHECK(piece.determinant <= 0);
     if (!piece.ends && !piece.descends) continue;
     // The word of the node: the next piece of another stage holds all contacts before it in the same cells.
-    SpacePiece<Rational> node = piece;
-    node.stage = SpaceStage::kNone;
+    SpacePiece node = piece;
+    node.friction = false;
     if (piece.descends) {
       node.word[piece.driven] = {};
-      if (piece.stage == SpaceStage::kFriction) node.word[piece.driven] = {Law::kFree, 0};
-    } else if (piece.stage == SpaceStage::kNormal) {
+      if (piece.friction) node.word[piece.driven] = {Law::kFree, 0};
+    } else if (!piece.friction) {
       node.word[piece.driven] = {Law::kFree, 0};
     }
     CHECK(ReducedDeterminant(problem, polygons, node) == (piece.descends ? -1 : 1));
@@ -221,13 +286,16 @@ void CheckSolved(const ExactProblem& problem, const Polygons& polygons, PathCoun
   CheckLaw(problem, polygons, run.f);
   CheckPath(problem, polygons, run, counts);
   CheckNodes(problem, polygons, run);
-  std::int64_t words = 1;
+  std::int64_t words = 1, cells_of_stages = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const auto& contact = problem.contacts[i];
     if (contact.kind == ContactKind::kBilateral) continue;
-    words *= contact.kind == ContactKind::kStatic && contact.mu > 0 ? 2 * polygons[i].sides() + 2 : 2;
+    const bool rough = contact.kind == ContactKind::kStatic && contact.mu > 0;
+    cells_of_stages += words * (rough ? 1 + 2 * polygons[i].sides() + 1 : 1);
+    words *= rough ? 2 * polygons[i].sides() + 2 : 2;
   }
-  CHECK(run.verdict.statistics.pieces <= words - 1);
+  CHECK(run.verdict.statistics.pieces <= cells_of_stages);
+  CHECK(run.most_pieces == cells_of_stages);
 }
 
 TEST_CASE("space: definite problems are solved, and every path is as the proof says") {
@@ -481,6 +549,18 @@ TEST_CASE("space: bilateral contacts that contradict each other are a ray") {
   CHECK(torn.ray == Vector({1, -1}));
 }
 
+// A stage of n has a cell for its normal and 2K + 1 for its friction with every word of the contacts before.
+TEST_CASE("space: the bound of the pieces is the number of the cells of all stages") {
+  Choices choices(3);
+  const std::array<std::int64_t, 3> of_square = {10, 110, 1110};
+  for (int n = 1; n <= 3; ++n) {
+    const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 3 * n + 1, 1000, true, choices);
+    Driving driving;
+    driving.Run(problem, AllWith(problem, 4));
+    CHECK(driving.most_pieces() == of_square[n - 1]);
+  }
+}
+
 TEST_CASE("space: a budget ends the run") {
   Choices choices(1);
   const ExactProblem problem = RandomInSpace(StaticContacts(3, choices), 10, 1000, true, choices);
@@ -500,10 +580,10 @@ TEST_CASE("space: doubles take the exact path, or are undecided") {
     const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 3 * n + 1, index % 2 == 0 ? 1000 : 2,
                                                index % 2 == 0, choices);
     const Polygons polygons = AllWith(problem, 8);
-    SpatialDriving<double>::Polygons rounded;
+    CompleteDriving<double>::Polygons rounded;
     for (const auto& polygon : polygons)
       rounded.emplace_back(polygon, [](const Rational& x) { return ToDouble(x); });
-    SpatialDriving<double> driving;
+    CompleteDriving<double> driving;
     const CompleteVerdict verdict = driving.Run(As<double>(problem), rounded);
     undecided += verdict.outcome == Outcome::kUndecided;
     if (verdict.outcome != Outcome::kSolved) continue;
@@ -560,12 +640,34 @@ TEST_CASE("polygon: the projection is the nearest point") {
 
 // ---- Null vectors ----------------------------------------------------------------------------
 
+// The oriented null vector by way of a direction: M's rows are those of A, its last column that of the driven
+// one.
+std::optional<ExactVector> NullVector(const ExactMatrix& M) {
+  const int k = static_cast<int>(M.rows());
+  ExactProblem problem;
+  problem.contacts.assign(k + 1, {ContactKind::kFrictionless, 0, {}});
+  problem.A = ExactMatrix::Zero(k + 1, k + 1);
+  problem.A.topRows(k) = M;
+  problem.b = ExactVector::Zero(k + 1);
+  ListedUnknowns<Rational, Eigen::Dynamic> unknowns;
+  unknowns.Start(problem);
+  const auto unit = [](int row) { return RowCombination<Rational>::Unit(row); };
+  for (int row = 0; row < k; ++row) unknowns.forces[row] = unknowns.rests[row] = unit(row);
+  unknowns.driven = unit(k);
+  DirectionSystem<Rational, Eigen::Dynamic> system;
+  system.Start(problem);
+  const auto determinant = system.SolveOriented(problem, unknowns, Scale<Rational>());
+  if (!determinant) return std::nullopt;
+  CHECK(*determinant == Sign(system.df()[k]));
+  return system.df();
+}
+
 TEST_CASE("null vector: components are the minors, up to one positive factor") {
   Choices choices(7);
   int singular = 0, dependent = 0;
   for (int index = 0; index < 400; ++index) {
     const int k = 1 + index % 4;
-    RowMajorMatrix<Rational> M(k, k + 1);
+    Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic> M(k, k + 1);
     for (Rational& x : M.reshaped()) x = choices.Integer(-1, 1);
     const auto minor = [&M, k](int without) {
       ExactMatrix square(k, k);
@@ -589,8 +691,7 @@ TEST_CASE("null vector: components are the minors, up to one positive factor") {
     };
     std::vector<Rational> wanted;
     for (int j = 0; j <= k; ++j) wanted.push_back(((k - j) % 2 == 0 ? 1 : -1) * minor(j));
-    RowMajorMatrix<Rational> copy = M;
-    const auto z = OrientedNullVector(copy, Rational(0));
+    const auto z = NullVector(M);
     const bool zero = std::all_of(wanted.begin(), wanted.end(), [](const Rational& x) { return x == 0; });
     CHECK(z.has_value() == !zero);
     dependent += zero;

@@ -3,9 +3,12 @@
 
 #include "solver/complete/complete.ipp"
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
@@ -19,7 +22,7 @@ using Complete = CompleteDriving<Rational>;
 
 struct CompleteRun {
   CompleteVerdict verdict;
-  Path<Rational> path;
+  std::vector<Pivot<Rational>> path;
   ExactVector f;
   std::string word;
   ExactVector ray;
@@ -28,8 +31,10 @@ struct CompleteRun {
 CompleteRun RunComplete(const ExactProblem& problem) {
   Complete algorithm;
   CompleteRun run;
-  run.verdict = algorithm.Run(problem, &run.path);
-  run.f = algorithm.state().f;
+  Trace<Rational> trace;
+  run.verdict = algorithm.Run(problem, &trace);
+  run.path = trace.pivots;
+  run.f = algorithm.f();
   run.word = algorithm.Word();
   run.ray = algorithm.ray();
   return run;
@@ -102,29 +107,48 @@ int ReducedDeterminant(const ExactProblem& problem, const std::vector<IndexSet>&
   return DeterminantSign(ReducedSystem(problem, sets).columns);
 }
 
-bool EndsStage(const Piece<Rational>& piece) { return piece.limiting == piece.driven; }
+template <class Scalar>
+bool EndsStage(const Pivot<Scalar>& piece) {
+  return piece.limiting == piece.driven;
+}
 
-bool Descends(const Piece<Rational>& piece) { return EndsStage(piece) && piece.to == IndexSet::kNone; }
+// Of the driven variable: -1 in the cell - of a friction stage.
+int SideOf(const ExactProblem& problem, const Pivot<Rational>& piece) {
+  const int contact = LayoutOf(problem).ContactOf(piece.driven);
+  return piece.word[2 * contact] == '-' ? -1 : 1;
+}
+
+template <class Scalar>
+bool Descends(const Pivot<Scalar>& piece) {
+  return EndsStage(piece) && piece.to == IndexSet::kNone;
+}
 
 // What complete_driving.md proves of a path.
 void CheckPath(const ExactProblem& problem, const CompleteRun& run) {
-  std::set<std::tuple<int, int, std::vector<IndexSet>>> visited;
-  std::int64_t descents = 0;
-  for (const Piece<Rational>& piece : run.path) {
+  std::set<std::pair<int, std::string>> visited;
+  std::int64_t descents = 0, folds = 0;
+  int before = 0, drive = 0;  // the determinant before that was not zero, and its stage
+  for (const Pivot<Rational>& piece : run.path) {
     // Orientation: side f_v moves with the sign of the determinant.
-    const int determinant = ReducedDeterminant(problem, piece.cell);
+    const int determinant = ReducedDeterminant(problem, SetsDuring(piece.word, problem.contacts, piece.driven));
     CHECK(piece.determinant == determinant);
-    CHECK(Sign(piece.df[piece.driven]) == piece.side * determinant);
+    CHECK(Sign(piece.df[piece.driven]) == SideOf(problem, piece) * determinant);
     ExactProblem unloaded = problem;
     for (Rational& x : unloaded.b) x = 0;
     CHECK(piece.da == Accelerations(unloaded, piece.df));
-    CHECK(visited.emplace(piece.driven, piece.side, piece.cell).second);
+    CHECK(visited.emplace(piece.driven, piece.word).second);
+    const bool enters = piece.drive != drive;
+    CHECK((piece.turn == PathTurn::kFold) == (!enters && determinant * before < 0));
+    if (enters || determinant != 0) before = determinant;
+    drive = piece.drive;
+    folds += piece.turn == PathTurn::kFold;
     if (EndsStage(piece)) CHECK(ReducedDeterminant(problem, piece.sets) == (Descends(piece) ? -1 : 1));
     descents += Descends(piece);
     CHECK(piece.s >= 0);
   }
   CHECK(run.verdict.statistics.pieces == static_cast<std::int64_t>(run.path.size()));
   CHECK(run.verdict.statistics.descents == descents);
+  CHECK(run.verdict.statistics.folds == folds);
 }
 
 void CheckSolved(const ExactProblem& problem, const CompleteRun& run) {
@@ -165,8 +189,9 @@ TEST_CASE("complete: the example with a descent goes down and up again as the no
 TEMPLATE_TEST_CASE("complete: every arithmetic takes the path with the descent", "", float, double,
                    long double) {
   CompleteDriving<TestType> algorithm;
-  Path<TestType> path;
-  const CompleteVerdict verdict = algorithm.Run(As<TestType>(DescentProblem()), &path);
+  Trace<TestType> trace;
+  const CompleteVerdict verdict = algorithm.Run(As<TestType>(DescentProblem()), &trace);
+  const auto& path = trace.pivots;
   CHECK(verdict.outcome == Outcome::kSolved);
   const CompleteRun exact = RunComplete(DescentProblem());
   CHECK(verdict.statistics == exact.verdict.statistics);
@@ -354,17 +379,17 @@ enum class Parting { kNever, kFold, kOtherSets, kUnexplained };
 // Where the published algorithm and complete driving first take different steps. Up to there both are at the
 // same point; they part at the first fold, where the published algorithm bounces, or where they maintain
 // different sets: complete driving leaves the contacts after the driven one alone.
-Parting FirstDifference(const ExactProblem& problem, const Path<Rational>& path,
+Parting FirstDifference(const ExactProblem& problem, const std::vector<Pivot<Rational>>& path,
                         const std::vector<Pivot<Rational>>& pivots) {
   std::vector<IndexSet> before(problem.rows(), IndexSet::kNone);  // of the published algorithm
   for (std::size_t k = 0; k < std::max(path.size(), pivots.size()); ++k) {
     if (k == path.size() || k == pivots.size())
       return Parting::kOtherSets;  // a later contact rests in one only
-    const Piece<Rational>& piece = path[k];
+    const Pivot<Rational>& piece = path[k];
     const Pivot<Rational>& pivot = pivots[k];
     if (piece.driven != pivot.driven) return Parting::kOtherSets;
-    if (!std::equal(before.begin(), before.begin() + piece.driven, piece.cell.begin()))
-      return Parting::kOtherSets;
+    const auto sets = SetsDuring(piece.word, problem.contacts, piece.driven);
+    if (!std::equal(before.begin(), before.begin() + piece.driven, sets.begin())) return Parting::kOtherSets;
     const bool folds = piece.determinant < 0;
     const bool bounces = pivot.s == 0 && pivot.gave_up;
     if (folds && bounces) return Parting::kFold;
@@ -471,7 +496,7 @@ TEST_CASE("complete: ties are told as a small perturbation of b tells them") {
       REQUIRE(symbolic.path.size() == real.path.size());
       for (std::size_t k = 0; k < real.path.size(); ++k) {
         CHECK(symbolic.path[k].driven == real.path[k].driven);
-        CHECK(symbolic.path[k].cell == real.path[k].cell);
+        CHECK(symbolic.path[k].word == real.path[k].word);
         CHECK(symbolic.path[k].sets == real.path[k].sets);
         CHECK(symbolic.path[k].df == real.path[k].df);
       }
@@ -543,7 +568,90 @@ TEST_CASE("complete: a budget ends the run") {
   CHECK(verdict.statistics.pieces == 5);
 }
 
+TEST_CASE("complete: the bound of the pieces is the number of the cells of all stages") {
+  Complete algorithm;
+  std::int64_t words = 1;
+  for (int n = 1; n <= 5; ++n) {
+    algorithm.Run(RandomDefinite(n, 1));
+    CHECK(algorithm.most_pieces() == (words *= 4) - 1);
+  }
+  algorithm.Run(ExponentialFamily(6));
+  CHECK(algorithm.most_pieces() == 63);
+}
+
+// ---- Paths as they were ----------------------------------------------------------------------
+
+std::string Digits(const Rational& x) { return ToString(x); }
+std::string Digits(double x) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%a", x + 0.0);  // zeros have no sign
+  return text.data();
+}
+
+// FNV-1a of the pieces of the paths of the first problems of every generator.
+template <class Scalar>
+std::uint64_t HashOfPaths(int problems) {
+  CompleteDriving<Scalar> algorithm;
+  std::uint64_t hash = 14695981039346656037u;
+  for (int n = 1; n <= 6; ++n) {
+    for (int g = 0; g < kGeneratorCount; ++g) {
+      for (int index = 0; index < problems; ++index) {
+        Trace<Scalar> trace;
+        algorithm.Run(Random<Scalar>(static_cast<GeneratorId>(g), n, index), &trace);
+        std::string text;
+        for (const auto& piece : trace.pivots)
+          text += std::to_string(piece.driven) + " [" + piece.word + "] " + std::to_string(piece.determinant) +
+                  " " + Digits(piece.s) + "\n";
+        for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+      }
+    }
+  }
+  return hash;
+}
+
+// Recorded when plane and space were two programs, from that of the plane.
+TEST_CASE("complete: paths in the plane are the recorded ones, piece by piece") {
+  CHECK(HashOfPaths<Rational>(8) == 8322339580969750204u);
+  CHECK(HashOfPaths<double>(8) == 7199014673233552254u);
+}
+
 // ---- Inexact arithmetic ----------------------------------------------------------------------
+
+TEST_CASE(
+    "complete: over doubles every step ends on its facet, and its cells' equations hold, to the last bit") {
+  CompleteDriving<double> algorithm;
+  std::int64_t steps = 0;
+  for (int index = 0; index < 300; ++index) {
+    CAPTURE(index);
+    const auto problem = As<double>(RandomDefinite(2 + index % 4, index));
+    Trace<double> trace;
+    algorithm.Run(problem, &trace);
+    for (const auto& pivot : trace.pivots) {
+      ++steps;
+      for (int row = 0; row < problem.rows(); ++row) {
+        const IndexSet set = pivot.sets[row];
+        if (IsUnknown(set)) CHECK(pivot.a[row] == 0);
+        if (set == IndexSet::kSeparating) CHECK(pivot.f[row] == 0);
+        if (LimitSign(set) == 0) continue;
+        CHECK(pivot.f[row] == LimitSign(set) * problem.contacts[row / 2].mu * pivot.f[row - 1]);
+      }
+      if (pivot.limiting >= 0 && Descends(pivot)) CHECK(pivot.f[pivot.driven] == 0);
+    }
+  }
+  CHECK(steps > 1500);
+}
+
+TEST_CASE("complete: where no sign stands out of the tolerance no stage is entered") {
+  CompleteDriving<double> algorithm;
+  algorithm.options().tolerances.pivot = 2;
+  const auto problem = As<double>(MakeProblem({1}, {{1, 0}, {0, 1}}, {0, 0}));
+  const CompleteVerdict verdict = algorithm.Run(problem);
+  CHECK(verdict.outcome == Outcome::kUndecided);
+  CHECK(verdict.reason == "a sign");
+  CHECK(verdict.statistics.ties == 1);
+  CHECK(verdict.statistics.stages == 0);
+  CHECK(algorithm.Word() == "?");
+}
 
 // The problem that a Scalar sees, exactly.
 template <class Scalar>
@@ -569,7 +677,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
       CHECK((verdict.outcome == Outcome::kUndecided) == !verdict.reason.empty());
       if (verdict.outcome != Outcome::kSolved) continue;
       ExactVector f(exact.rows());
-      for (int i = 0; i < exact.rows(); ++i) f[i] = Rational(static_cast<double>(algorithm.state().f[i]));
+      for (int i = 0; i < exact.rows(); ++i) f[i] = Rational(static_cast<double>(algorithm.f()[i]));
       CHECK(NaturalResidual(exact, f, Accelerations(exact, f)) <= Rational(1, 1000000));
     }
   }
@@ -597,7 +705,7 @@ TEST_CASE("complete: fixed and dynamic sizes take the same path") {
     CHECK(a.outcome == b.outcome);
     CHECK(a.statistics == b.statistics);
     CHECK(dynamic.Word() == fixed.Word());
-    for (int i = 0; i < 6; ++i) CHECK(dynamic.state().f[i] == fixed.state().f[i]);
+    for (int i = 0; i < 6; ++i) CHECK(dynamic.f()[i] == fixed.f()[i]);
   }
 }
 

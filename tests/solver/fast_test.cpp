@@ -37,7 +37,7 @@ ExactProblem Frictionless(const ExactProblem& problem) {
 ExactVector CompleteForces(const ExactProblem& problem) {
   CompleteDriving<Rational> driving;
   REQUIRE(driving.Run(problem).outcome == Outcome::kSolved);
-  return driving.state().f;
+  return driving.f();
 }
 
 template <class Scalar>

@@ -143,7 +143,7 @@ TEST_CASE("doubles: forces of the reduction leave a residual of rounding size") 
     REQUIRE(reduction.end() == ReductionEnd::kReduced);
     CompleteDriving<double> driving;
     if (driving.Run(reduction.problem()).outcome != Outcome::kSolved) continue;
-    const Eigen::VectorXd f = reduction.Forces(driving.state().f);
+    const Eigen::VectorXd f = reduction.Forces(driving.f());
     CHECK(NaturalResidual(problem, f, Eigen::VectorXd(problem.A * f + problem.b)) < 1e-9);
   }
 }
