@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/lemke_space.h"
 
+#include <utility>
+
 #include "certify/exact.h"
-#include "certify/verify_solution.h"
-#include "solver/problem/reduction.h"
+#include "solver/problem/remainder.h"
 
 namespace stiction {
 namespace {
@@ -43,24 +44,28 @@ CellWord WordOf(const ExactProblem& problem, const RationalPolygons& polygons, c
 
 }  // namespace
 
-SpaceRun RunLemkeInSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits) {
-  const Reduction<Rational> reduction(problem);
+SpaceRun RunLemkeInSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                         Trace<Rational>* trace) {
+  const Remainder<Rational> remainder(problem);
   SpaceRun run;
-  if (reduction.end() != ReductionEnd::kReduced) {
-    run.verdict = {Outcome::kSingular, Reason(reduction.end()), {}};
+  if (!remainder.Obstacle().empty()) {
+    run.verdict = {Outcome::kSingular, remainder.Obstacle(), {}};
     return run;
   }
   RationalPolygons kept;
-  for (const int contact : reduction.contact_of()) kept.push_back(polygons[contact]);
+  for (std::size_t i = 0; i < remainder.problem().contacts.size(); ++i)
+    kept.push_back(polygons[remainder.ContactOf(static_cast<int>(i))]);
   LemkeOptions options;
   options.limits = limits;
   LemkeAlgorithm<Rational> lemke(options);
-  const Verdict verdict = lemke.Run(reduction.problem(), kept);
+  const Verdict verdict = lemke.Run(remainder.problem(), kept, trace);
+  if (trace != nullptr)
+    for (Pivot<Rational>& pivot : trace->pivots) pivot = remainder.Restored(std::move(pivot));
   run.verdict = {verdict.outcome, verdict.reason, {.pieces = verdict.statistics.pivots}};
-  if (verdict.outcome == Outcome::kRay) run.ray = reduction.Direction(lemke.ray());
+  if (verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(lemke.ray());
   if (verdict.outcome != Outcome::kSolved) return run;
-  run.f = reduction.Forces(lemke.f());
-  run.a = Accelerations(problem, run.f);
+  run.f = remainder.Forces(lemke.f());
+  run.a = remainder.Accelerations(run.f);
   run.word = WordOf(problem, polygons, run.f, run.a);
   return run;
 }

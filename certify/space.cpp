@@ -263,8 +263,9 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
   const ContactProblem<double> rounded = coulomb ? Rounded<double>(problem) : ContactProblem<double>();
   SpaceSolution solution;
   for (;; ++solution.refinements) {
-    SpaceRun run = options.engine == SpaceEngine::kLemke ? RunLemkeInSpace(problem, polygons, options.limits)
-                                                         : RunSpace(problem, polygons, options.limits, trace);
+    SpaceRun run = options.engine == SpaceEngine::kLemke
+                       ? RunLemkeInSpace(problem, polygons, options.limits, trace)
+                       : RunSpace(problem, polygons, options.limits, trace);
     Add(solution.statistics, run.verdict.statistics);
     if (run.verdict.outcome != Outcome::kSolved) {
       if (solution.outcome == Outcome::kSolved) break;  // a bound that was not improved

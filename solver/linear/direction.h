@@ -17,10 +17,9 @@
 //            negative: it asks for the null vector of the k x (k + 1) system, driven variable included,
 //            with the orientation of Cramer's rule (complete_driving.md, 4).
 // Unknowns   may also be other forces and rests than those of the sets: unknowns.h.
-// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, in space
-// by
-//            contacts, the factors of forces and rests by their denominators; df and da become fractions at the
-//            end.
+// Exact      over scalars with known integers (elimination.h): A is scaled to integers once, by rows, in
+//            space by contacts, the factors of forces and rests by their denominators; df and da become
+//            fractions at the end.
 // Cost       O(k^3) for k unknowns, O(rows k) for da. Allocates nothing once sized, integers apart. Over
 //            floating-point scalars and with dynamic sizes, O(k^2) from some number of unknowns on, if few sets
 //            have changed since the call before (updated_system.h).
