@@ -19,6 +19,7 @@
 #include "corpus/output_error.h"
 #include "corpus/scene_file.h"
 #include "reports/draw.h"
+#include "scene/simulate.h"
 
 namespace stiction {
 namespace {

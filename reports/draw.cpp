@@ -7,6 +7,7 @@
 
 #include "corpus/json_text.h"
 #include "reports/draw_bodies.h"
+#include "scene/simulate.h"
 
 namespace stiction {
 

@@ -13,9 +13,16 @@
 #include <string>
 #include <vector>
 
-#include "scene/simulate.h"
+#include "scene/plane.h"
+#include "scene/scene.h"
 
 namespace stiction {
+
+// scene/simulate.h
+template <class Kind>
+struct AppliedForceIn;
+template <class Kind>
+class SimulationIn;
 
 // The part of the plane, or of the picture's plane, that is shown.
 struct View {

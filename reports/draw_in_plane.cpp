@@ -6,6 +6,7 @@
 #include <array>
 
 #include "reports/draw_bodies.h"
+#include "scene/simulate.h"
 
 namespace stiction {
 namespace {

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "reports/draw_bodies.h"
+#include "scene/simulate.h"
 
 namespace stiction {
 namespace {
