@@ -23,6 +23,7 @@
 #include "reports/draw.h"
 #include "reports/html.h"
 #include "reports/page.h"
+#include "scene/simulate.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
