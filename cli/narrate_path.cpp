@@ -97,8 +97,8 @@ class CompleteNarrator {
     for (std::size_t k = 0; k < published_.size(); ++k) {
       const Step& step = published_[k];
       if (step.gave_up && step.f == fold.f)
-        return fmt::format(". Here, at step {}, the published algorithm gives {} up (5.4, 5.5)", k + 1,
-                           names_.Variable(step.limiting));
+        return fmt::format(". Here, at step {}, the published algorithm gives {} up under `paper` (5.4, 5.5)",
+                           k + 1, names_.Variable(step.limiting));
     }
     return "";
   }
