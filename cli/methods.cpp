@@ -53,7 +53,7 @@ std::string Facts() {
   return text;
 }
 
-Json InJson() {
+Json TableInJson() {
   Json json = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
     Json row = {{"name", facts.name},    {"title", facts.title},   {"source", facts.source},
@@ -73,7 +73,7 @@ struct MethodsOptions {
 };
 
 int List(const MethodsOptions& o) {
-  std::cout << (o.json ? JsonText(InJson()) + "\n" : Table() + Facts());
+  std::cout << (o.json ? JsonText(TableInJson()) + "\n" : Table() + Facts());
   return kExitDone;
 }
 

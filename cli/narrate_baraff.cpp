@@ -146,7 +146,7 @@ class BaraffNarrator {
 
   // Whether ax = 0 is kept, and ay is not (readings.md, 8).
   bool IsHalf(const Step& step) const {
-    return names_.in_space() && step.limiting == step.driven && names_.IsNormal(step.driven - 1) &&
+    return names_.in_space() && step.limiting == step.driven && names_.IsTangential(step.driven) &&
            step.to == IndexSet::kSticking;
   }
 

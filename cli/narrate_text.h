@@ -46,8 +46,10 @@ class VariableTexts {
   const RowLayout<Eigen::Dynamic>& layout() const { return layout_; }
   bool in_space() const { return dimension_ == 3; }
   bool IsNormal(int row) const { return layout_.IsNormal(row); }
+  // Whether a row is the first, or in the plane the only, tangential row of its contact.
+  bool IsTangential(int row) const { return row > 0 && IsNormal(row - 1); }
   // Whether a row stands for a variable: in space the second tangential row does not.
-  bool IsVariable(int row) const { return IsNormal(row) || IsNormal(row - 1); }
+  bool IsVariable(int row) const { return IsNormal(row) || IsTangential(row); }
   int Normal(int row) const { return layout_.NormalRowOf(layout_.ContactOf(row)); }
 
   // "N1"; "F1", in space of both components of friction.

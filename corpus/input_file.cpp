@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 }
 
 // What a process has open may be a pipe; a pipe with a name of its own may wait for ever.
-bool IsDescriptor(const fs::path& file) {
+bool IsOpenAlready(const fs::path& file) {
   return file == "-" || file == "/dev/stdin" || file.native().starts_with("/dev/fd/") ||
          file.native().starts_with("/proc/self/fd/");
 }
@@ -36,7 +36,7 @@ void RefuseKind(const fs::path& file, int descriptor, std::size_t most) {
   if (fstat(descriptor, &status) != 0) Refuse(file, std::strerror(errno));
   const mode_t mode = status.st_mode;
   if (S_ISDIR(mode)) Refuse(file, "a directory");
-  if (S_ISFIFO(mode) && !IsDescriptor(file)) Refuse(file, "a named pipe");
+  if (S_ISFIFO(mode) && !IsOpenAlready(file)) Refuse(file, "a named pipe");
   if (S_ISBLK(mode) || (S_ISCHR(mode) && isatty(descriptor) == 0)) Refuse(file, "a device");
   if (S_ISREG(mode) && static_cast<std::size_t>(status.st_size) > most) Refuse(file, TooLarge(most));
 }
@@ -63,7 +63,7 @@ std::string ReadInput(const fs::path& file, std::size_t most) {
     return text;
   }
   // Without O_NONBLOCK a named pipe would keep us here.
-  const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC | (IsDescriptor(file) ? 0 : O_NONBLOCK)));
+  const Descriptor in(open(file.c_str(), O_RDONLY | O_CLOEXEC | (IsOpenAlready(file) ? 0 : O_NONBLOCK)));
   if (!in.valid()) Refuse(file, std::strerror(errno));
   return ReadAll(file, in.number(), most);
 }

@@ -13,17 +13,17 @@
 
 namespace stiction {
 
-inline constexpr double kWidth = 800;  // pixels
+inline constexpr double kPageWidth = 800;  // pixels
 
 // From the picture's plane to pixels; y points up in the world.
 struct Screen {
   double scale, left, top, width, height;
 
   explicit Screen(const View& view)
-      : scale(kWidth / (view.right - view.left)),
+      : scale(kPageWidth / (view.right - view.left)),
         left(view.left),
         top(view.top),
-        width(kWidth),
+        width(kPageWidth),
         height(std::ceil(scale * (view.top - view.bottom))) {}
   double X(const Vector2<double>& p) const { return scale * (p[0] - left); }
   double Y(const Vector2<double>& p) const { return scale * (top - p[1]); }

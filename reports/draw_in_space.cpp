@@ -152,7 +152,7 @@ Html Drawn(const Screen& screen, const SceneInSpace<double>& scene, const JointI
   Html html = Tag("path", {{"d", Path(screen, {a.position, p})}, {"stroke", "black"}})("");
   if (joint.kind == kHinge) html += LineAlong(screen, p, along, 16, {"stroke-width", "3"});
   if (joint.kind == kRail || joint.kind == kSlider)
-    html += LineAlong(screen, b.At(joint.at_b), along, 2 * kWidth, {"stroke-dasharray", "6 4"});
+    html += LineAlong(screen, b.At(joint.at_b), along, 2 * kPageWidth, {"stroke-dasharray", "6 4"});
   const Vector2<double> at = Seen(p);
   return html + Tag("rect", {{"x", Fixed(screen.X(at) - 4)},
                              {"y", Fixed(screen.Y(at) - 4)},

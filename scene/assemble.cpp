@@ -21,6 +21,10 @@ namespace stiction {
   template SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Kind::kDof>>&, \
                                                         const std::vector<ConstraintIn<Kind, Scalar>>&,       \
                                                         const Island&);                                       \
+  template void AddResponse(const std::vector<BodyDynamics<Scalar, Kind::kDof>>&,                             \
+                            const std::vector<ConstraintIn<Kind, Scalar>>&, const Island&,                    \
+                            const typename ContactProblem<Scalar>::Vector&,                                   \
+                            std::vector<Eigen::Matrix<Scalar, Kind::kDof, 1>>&);                              \
   template std::vector<Eigen::Matrix<Scalar, Kind::kDof, 1>> BodyAccelerations(                               \
       const ModelIn<Kind, Scalar>&, const std::vector<typename ContactProblem<Scalar>::Vector>&);             \
   template typename ContactProblem<Scalar>::Vector ExtendForces(                                              \

@@ -272,7 +272,7 @@ template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::CollectFacets() {
   candidates_.clear();
   for (int i = 0; i <= driven_; ++i)
-    ForEachFacet(i, [this](auto kind, const Facet& facet) { Offer(kind, facet); });
+    ForEachFacet(i, [this](auto kind, const Facet& facet) { this->Offer(kind, facet); });
 }
 
 template <class Scalar, int Rows>

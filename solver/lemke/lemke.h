@@ -145,7 +145,7 @@ class LemkeAlgorithm {
   bool IsBasic(int variable) const;
   bool FollowsCover(int i, int entering) const;
   void MeetEnd(int entering);
-  void Renew() requires(kEncloses<Scalar>);
+  void Renew();
   Scalar BasisEntry(int row, int variable) const;
   bool BudgetSpent();
 

@@ -318,28 +318,30 @@ Scalar LemkeAlgorithm<Scalar, Rows>::BasisEntry(int row, int variable) const {
 // T = inv(B) (q, I) over enclosures, from the basis: with R near inv(B) in doubles, R B is near I, and to
 // eliminate it keeps the ends close. Any R will do.
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::Renew() requires(kEncloses<Scalar>) {
-  using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Dense B(size_, size_), q(size_, 1);
-  Eigen::MatrixXd middle(size_, size_);
-  for (int i = 0; i < size_; ++i) {
-    q(i, 0) = RightSide(components_[i]);
-    for (int j = 0; j < size_; ++j) B(i, j) = BasisEntry(i, basis_[j]);
-    for (int j = 0; j < size_; ++j) middle(i, j) = Approximation<Scalar>::Of(B(i, j));
-  }
-  const Eigen::MatrixXd inverse = middle.inverse();
-  const Dense R = inverse.unaryExpr([](double x) { return Scalar(x); });
-  Dense C = R * B;
-  T_ << R * q, R;
-  for (int c = 0; c < size_; ++c) {
-    const Scalar pivot = C(c, c);
-    C.row(c) /= pivot;
-    T_.row(c) /= pivot;
+void LemkeAlgorithm<Scalar, Rows>::Renew() {
+  if constexpr (kEncloses<Scalar>) {  // over other scalars nothing calls it
+    using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Dense B(size_, size_), q(size_, 1);
+    Eigen::MatrixXd middle(size_, size_);
     for (int i = 0; i < size_; ++i) {
-      if (i == c) continue;
-      const Scalar factor = C(i, c);
-      C.row(i) -= factor * C.row(c);
-      T_.row(i) -= factor * T_.row(c);
+      q(i, 0) = RightSide(components_[i]);
+      for (int j = 0; j < size_; ++j) B(i, j) = BasisEntry(i, basis_[j]);
+      for (int j = 0; j < size_; ++j) middle(i, j) = Approximation<Scalar>::Of(B(i, j));
+    }
+    const Eigen::MatrixXd inverse = middle.inverse();
+    const Dense R = inverse.unaryExpr([](double x) { return Scalar(x); });
+    Dense C = R * B;
+    T_ << R * q, R;
+    for (int c = 0; c < size_; ++c) {
+      const Scalar pivot = C(c, c);
+      C.row(c) /= pivot;
+      T_.row(c) /= pivot;
+      for (int i = 0; i < size_; ++i) {
+        if (i == c) continue;
+        const Scalar factor = C(i, c);
+        C.row(i) -= factor * C.row(c);
+        T_.row(i) -= factor * T_.row(c);
+      }
     }
   }
 }

@@ -16,27 +16,14 @@
 #include "corpus/output_error.h"
 #include "corpus/store_lock.h"
 #include "corpus/whole_folder.h"
+#include "tests/scratch.h"
 
 namespace stiction {
 namespace {
 
 namespace fs = std::filesystem;
 using Catch::Contains;
-
-class Scratch {
- public:
-  Scratch() : path_((fs::temp_directory_path() / "stiction-files-XXXXXX").string()) {
-    REQUIRE(mkdtemp(path_.data()) != nullptr);
-  }
-  ~Scratch() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return fs::path(path_) / name; }
-
-  // Hidden ones too.
-  int Entries() const { return static_cast<int>(std::distance(fs::directory_iterator(path_), {})); }
-
- private:
-  std::string path_;
-};
+using testing::Scratch;
 
 void Put(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -19,33 +19,18 @@
 #include "corpus/input_error.h"
 #include "corpus/kinds.h"
 #include "solver/problem/check.h"
+#include "tests/scratch.h"
 
 namespace stiction {
 namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using testing::Scratch;
 
 constexpr std::int64_t kBlock = Store::kUnitsPerBlock;
 
 // ---- Stores to test --------------------------------------------------------------------------
-
-class Scratch {
- public:
-  Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "stiction-store-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(path_); }
-
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 CampaignIdentity Identity() { return {R"({"contacts":[2,3]})", 7, R"(["paper"])", "0.1.0 abc, g++"}; }
 

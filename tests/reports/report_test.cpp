@@ -25,30 +25,15 @@
 #include "reports/page.h"
 #include "scene/simulate.h"
 #include "solver/problem/check.h"
+#include "tests/scratch.h"
 
 namespace stiction {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Scratch;
 
 // ---- Stores to report on ----
-
-class Scratch {
- public:
-  Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "stiction-report-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(path_); }
-
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 const std::string kProblem =
     R"({"format":"stiction-problem","version":1,"name":"as-found","dimension":2,)"

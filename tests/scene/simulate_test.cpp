@@ -16,12 +16,12 @@
 namespace stiction {
 namespace {
 
-Scene<double> NamedScene(const std::string& name) {
+Scene<double> SceneInDoubles(const std::string& name) {
   return Round(ReadScene(std::filesystem::path(STICTION_SCENES) / (name + ".json")).scene);
 }
 
 Simulation Run(const std::string& name, int steps, const SimulationOptions& options = {}) {
-  Simulation simulation(NamedScene(name), options);
+  Simulation simulation(SceneInDoubles(name), options);
   for (int i = 0; i < steps; ++i) simulation.Step();
   return simulation;
 }
@@ -36,21 +36,21 @@ double LargestMove(const Scene<double>& before, const Scene<double>& after) {
 }
 
 TEST_CASE("simulate: a stack of five does not creep over 10,000 steps") {
-  CHECK(LargestMove(NamedScene("stack"), Run("stack", 10000).scene()) < 1e-10);
+  CHECK(LargestMove(SceneInDoubles("stack"), Run("stack", 10000).scene()) < 1e-10);
 }
 
 TEST_CASE("simulate: on a slope a block rests above mu = tan, and slides below as it must") {
-  CHECK(LargestMove(NamedScene("incline-rests"), Run("incline-rests", 1000).scene()) < 1e-10);
+  CHECK(LargestMove(SceneInDoubles("incline-rests"), Run("incline-rests", 1000).scene()) < 1e-10);
   const int steps = 120;
   const double h = 1.0 / 60, down = 10 * (0.6 - 0.8 * 0.74975);
   const Simulation slides = Run("incline-slides", steps);
-  const double way = LargestMove(NamedScene("incline-slides"), slides.scene());
+  const double way = LargestMove(SceneInDoubles("incline-slides"), slides.scene());
   CHECK(way == Approx(down * steps * h * steps * h / 2).epsilon(1e-9));
 }
 
 TEST_CASE("simulate: a ladder stands above its mu and slides below") {
-  CHECK(LargestMove(NamedScene("ladder-stands"), Run("ladder-stands", 300).scene()) < 1e-9);
-  CHECK(LargestMove(NamedScene("ladder-slides"), Run("ladder-slides", 300).scene()) > 1e-3);
+  CHECK(LargestMove(SceneInDoubles("ladder-stands"), Run("ladder-stands", 300).scene()) < 1e-9);
+  CHECK(LargestMove(SceneInDoubles("ladder-slides"), Run("ladder-slides", 300).scene()) > 1e-3);
 }
 
 TEST_CASE("simulate: joints hold, and a pendulum keeps its energy but for the step") {
@@ -58,8 +58,8 @@ TEST_CASE("simulate: joints hold, and a pendulum keeps its energy but for the st
     INFO(name);
     SimulationOptions options;
     options.step = 1.0 / 480;
-    const double energy = EnergyOf(NamedScene(name)).total();
-    Simulation simulation(NamedScene(name), options);
+    const double energy = EnergyOf(SceneInDoubles(name)).total();
+    Simulation simulation(SceneInDoubles(name), options);
     double worst = 0, joints = 0;
     for (int i = 0; i < 960; ++i) {
       simulation.Step();
@@ -75,7 +75,7 @@ TEST_CASE("simulate: energy errors fall with the step") {
   const auto error = [](int steps_a_second) {
     SimulationOptions options;
     options.step = 1.0 / steps_a_second;
-    const double before = EnergyOf(NamedScene("double-pendulum")).total();
+    const double before = EnergyOf(SceneInDoubles("double-pendulum")).total();
     return std::abs(EnergyOf(Run("double-pendulum", steps_a_second, options).scene()).total() - before);
   };
   CHECK(error(1920) < 0.6 * error(240));
@@ -84,7 +84,7 @@ TEST_CASE("simulate: energy errors fall with the step") {
 TEST_CASE("simulate: falling bodies lose energy, overlap by no more than the gap, and come to rest") {
   SimulationOptions options;
   options.step = 1.0 / 120;
-  Simulation simulation(NamedScene("falling-boxes"), options);
+  Simulation simulation(SceneInDoubles("falling-boxes"), options);
   double energy = EnergyOf(simulation.scene()).total(), gained = 0, overlap = 0;
   for (int i = 0; i < 1200; ++i) {
     simulation.Step();
@@ -104,7 +104,7 @@ TEST_CASE("simulate: a step that ends deep is taken back, and done in halves tha
     SimulationOptions options;
     options.step = 1.0 / 15;
     options.halvings = halvings;
-    Simulation simulation(NamedScene("falling-boxes"), options);
+    Simulation simulation(SceneInDoubles("falling-boxes"), options);
     double overlap = 0;
     for (int i = 0; i < 30; ++i) {
       simulation.Step();
@@ -118,7 +118,7 @@ TEST_CASE("simulate: a step that ends deep is taken back, and done in halves tha
 }
 
 TEST_CASE("simulate: a collision is inelastic") {
-  Scene<double> scene = NamedScene("incline-rests");
+  Scene<double> scene = SceneInDoubles("incline-rests");
   scene.gravity = {0, 0};
   scene.bodies[1].velocity = {0.6, -0.8};  // into the slope
   Simulation simulation(scene);
@@ -184,13 +184,13 @@ TEST_CASE("simulate: without friction a problem has one answer, in the plane, in
 }
 
 TEST_CASE("simulate: the wedge that jams has no answer, neither near nor far") {
-  Simulation simulation(NamedScene("scripted-wedge-jams"));
+  Simulation simulation(SceneInDoubles("scripted-wedge-jams"));
   CHECK_THROWS_AS(simulation.Step(), SimulationError);
 }
 
 TEST_CASE("simulate: what a stopped body stops in the same step does not sink into it") {
   // Both fall at 6 m/s; the lower one reaches the floor within the step, the upper one is 2 mm above it.
-  Scene<double> scene = NamedScene("stack");
+  Scene<double> scene = SceneInDoubles("stack");
   scene.bodies.erase(scene.bodies.begin() + 3, scene.bodies.end());
   scene.bodies[1].position[1] += 0.05;
   scene.bodies[2].position[1] += 0.052;
@@ -243,7 +243,7 @@ TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls
     INFO(move);
     CHECK((thickness > 0.1075 ? move < 1e-10 : move > 1e-5));
   }
-  CHECK(LargestMove(NamedScene("arch-stands"), Run("arch-stands", 600).scene()) < 1e-10);
+  CHECK(LargestMove(SceneInDoubles("arch-stands"), Run("arch-stands", 600).scene()) < 1e-10);
   SimulationOptions options;
   options.step = 1.0 / 120;
   const Simulation falls = Run("arch-falls", 120, options);
@@ -251,13 +251,13 @@ TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls
 }
 
 TEST_CASE("simulate: a house of cards stands") {
-  CHECK(LargestMove(NamedScene("card-house"), Run("card-house", 600).scene()) < 1e-9);
+  CHECK(LargestMove(SceneInDoubles("card-house"), Run("card-house", 600).scene()) < 1e-9);
 }
 
 TEST_CASE("simulate: gears keep the ratio of their teeth, but for play") {
   SimulationOptions options;
   options.step = 1.0 / 240;
-  Simulation simulation(NamedScene("gears"), options);
+  Simulation simulation(SceneInDoubles("gears"), options);
   double turned = 0;
   for (int i = 0; i < 1440; ++i) {
     simulation.Step();
@@ -268,7 +268,7 @@ TEST_CASE("simulate: gears keep the ratio of their teeth, but for play") {
 }
 
 TEST_CASE("simulate: a sliding block stops and stays") {
-  Scene<double> scene = NamedScene("incline-rests");
+  Scene<double> scene = SceneInDoubles("incline-rests");
   scene.mu = 1;
   scene.bodies[1].velocity = {-0.8, -0.6};  // down the slope at 1 m/s; friction 8, weight 6: stops after 1/2 s
   Simulation simulation(scene);
@@ -316,7 +316,7 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
 TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes") {
   SimulationOptions options;
   options.step = 1.0 / 120;
-  Simulation feeder(NamedScene("block-feeder"), options);
+  Simulation feeder(SceneInDoubles("block-feeder"), options);
   double overlap = 0;
   for (int i = 0; i < 1200; ++i) {
     feeder.Step();
@@ -329,7 +329,7 @@ TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes"
     out += body.name.starts_with("block") && body.position[0] > 0.9;
   CHECK(out >= 2);
   options.step = 1.0 / 240;
-  Simulation jack(NamedScene("double-action-jack"), options);
+  Simulation jack(SceneInDoubles("double-action-jack"), options);
   std::vector<double> heights;  // of the load, after every half turn of the crank
   for (int i = 0; i < 2000; ++i) {
     if (i % 250 == 0) heights.push_back(jack.scene().bodies[7].position[1]);
@@ -341,7 +341,7 @@ TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes"
 
 // `count` copies of the stack, side by side on floors of their own, the k-th pushed by k centimetres a second.
 Scene<double> Towers(int count) {
-  const Scene<double> stack = NamedScene("stack");
+  const Scene<double> stack = SceneInDoubles("stack");
   Scene<double> towers = stack;
   towers.bodies.clear();
   for (int k = 0; k < count; ++k) {
@@ -370,7 +370,7 @@ TEST_CASE("simulate: islands have the same answers on any number of threads") {
 
 TEST_CASE("simulate: a block that leaves, but is pressed back within the step, does not sink") {
   for (const bool minimal : {true, false}) {
-    Scene<double> scene = NamedScene("incline-rests");
+    Scene<double> scene = SceneInDoubles("incline-rests");
     scene.bodies[1].velocity = {-0.6, 0.8};  // off the slope, faster than `rest`
     scene.bodies[1].force = {600, -800};     // and back
     SimulationOptions options;
@@ -438,7 +438,7 @@ TEST_CASE("simulate: a block on the wall of a turning drum presses with m w^2 r,
 TEST_CASE("simulate: a pendulum at the bottom pulls with m (g + w^2 l) in the first frame") {
   SimulationOptions options;
   options.step = 1.0 / 240;
-  Simulation simulation(NamedScene("pendulum-at-the-bottom"), options);
+  Simulation simulation(SceneInDoubles("pendulum-at-the-bottom"), options);
   for (int i = 0; i < 2; ++i) {
     simulation.Step();
     Eigen::Vector2d pull(0, 0);
@@ -526,7 +526,7 @@ TEST_CASE("simulate: discs of one centre part") {
 
 TEST_CASE("simulate: joined and given pairs of fixed bodies are in no problem, full or minimal") {
   for (const bool minimal : {true, false}) {
-    Scene<double> scene = NamedScene("stack");
+    Scene<double> scene = SceneInDoubles("stack");
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies.back().level = 7;
     Joint<double> pin;
@@ -544,7 +544,7 @@ TEST_CASE("simulate: joined and given pairs of fixed bodies are in no problem, f
 
 TEST_CASE("simulate: every problem is shown, and the same run twice is the same") {
   std::int64_t seen = 0;
-  Simulation simulation(NamedScene("falling-boxes"), {}, [&seen](const FrameProblem& met) {
+  Simulation simulation(SceneInDoubles("falling-boxes"), {}, [&seen](const FrameProblem& met) {
     CHECK(met.problem.rows() > 0);
     ++seen;
   });

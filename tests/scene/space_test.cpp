@@ -20,7 +20,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-SceneInSpace<Rational> NamedScene(const std::string& name) {
+SceneInSpace<Rational> SpatialScene(const std::string& name) {
   const auto path = std::filesystem::path(STICTION_SCENES) / "space" / (name + ".json");
   return std::get<SceneFileInSpace>(ReadAnyScene(path)).scene;
 }
@@ -350,10 +350,10 @@ Solved SolveScene(const SceneInSpace<Rational>& scene) {
 }
 
 TEST_CASE("scene in space: a box on a slope rests above mu = tan and slides below") {
-  const auto rests = SolveScene(NamedScene("box-on-slope-rests"));
+  const auto rests = SolveScene(SpatialScene("box-on-slope-rests"));
   REQUIRE(rests.model.constraints.size() == 4);
   for (int i = 0; i < 6; ++i) CHECK(rests.accelerations[1][i] == 0);
-  const auto slides = SolveScene(NamedScene("box-on-slope-slides"));
+  const auto slides = SolveScene(SpatialScene("box-on-slope-slides"));
   const double down = 10 * (0.6 - 2999.0 / 4000 * 0.8);
   CHECK(slides.accelerations[1][0].get_d() == Approx(-0.8 * down).epsilon(1e-12));
   CHECK(slides.accelerations[1][2].get_d() == Approx(-0.6 * down).epsilon(1e-12));
@@ -361,7 +361,7 @@ TEST_CASE("scene in space: a box on a slope rests above mu = tan and slides belo
 }
 
 TEST_CASE("scene in space: a thrown ball slides at mu g and gains spin") {
-  const auto ball = SolveScene(NamedScene("ball-slides-then-rolls"));
+  const auto ball = SolveScene(SpatialScene("ball-slides-then-rolls"));
   REQUIRE(ball.model.constraints.size() == 1);
   CHECK(ball.model.constraints[0].law.kind == ContactKind::kSliding);
   CHECK(ball.accelerations[1][0] == -2);
@@ -370,20 +370,20 @@ TEST_CASE("scene in space: a thrown ball slides at mu g and gains spin") {
 }
 
 TEST_CASE("scene in space: three legs bear what statics asks, four stand too") {
-  const auto tripod = SolveScene(NamedScene("tripod"));
+  const auto tripod = SolveScene(SpatialScene("tripod"));
   REQUIRE(tripod.f.size() == 1);
   REQUIRE(tripod.f[0].size() == 3);
   CHECK(tripod.f[0][0] == 20);
   CHECK(tripod.f[0][1] == Q("20/3"));
   CHECK(tripod.f[0][2] == Q("40/3"));
-  const auto table = SolveScene(NamedScene("table"));
+  const auto table = SolveScene(SpatialScene("table"));
   REQUIRE(table.f[0].size() == 4);
   CHECK(Rational(table.f[0].sum()) == 40);
   for (int i = 0; i < 6; ++i) CHECK(table.accelerations[1][i] == 0);
 }
 
 TEST_CASE("scene in space: the joint of a conical pendulum bears weight and centripetal force") {
-  const auto pendulum = SolveScene(NamedScene("conical-pendulum"));
+  const auto pendulum = SolveScene(SpatialScene("conical-pendulum"));
   REQUIRE(pendulum.f[0].size() == 3);
   CHECK(pendulum.f[0][0] == Q("-15/2"));
   CHECK(pendulum.f[0][1] == 0);
@@ -407,7 +407,7 @@ Vector3<Rational> JointForce(const Solved& solved, int joint) {
 }
 
 TEST_CASE("scene in space: a car hung from a slanted rail slides with g sin and does not swing") {
-  const auto car = SolveScene(NamedScene("cable-car"));
+  const auto car = SolveScene(SpatialScene("cable-car"));
   REQUIRE(car.f.at(0).size() == 2);
   CHECK(car.accelerations[1].head<3>() == Exact(-6 * 4, 0, -6 * 3) / Rational(5));
   CHECK(car.accelerations[1].tail<3>() == Exact(0, 0, 0));
@@ -416,14 +416,14 @@ TEST_CASE("scene in space: a car hung from a slanted rail slides with g sin and 
 
 TEST_CASE(
     "scene in space: a gate on a leaning hinge is a pendulum of g sin, exactly, and on two hinges the same") {
-  const auto gate = SolveScene(NamedScene("leaning-gate"));
+  const auto gate = SolveScene(SpatialScene("leaning-gate"));
   REQUIRE(gate.f.at(0).size() == 5);
   const Rational spin = Q("1800/401");
   CHECK(gate.accelerations[1].tail<3>() == spin * Exact(0, 3, 4) / Rational(5));
   const Vector3<Rational> fall = spin * Exact(0, 4, -3) / Rational(5);
   CHECK(gate.accelerations[1].head<3>() == fall);
   CHECK(JointForce(gate, 0) == 3 * (fall + Exact(0, 0, 10)));
-  auto scene = NamedScene("leaning-gate");
+  auto scene = SpatialScene("leaning-gate");
   scene.joints.push_back(scene.joints[0]);
   for (auto* z : {&scene.joints[1].at_a[2], &scene.joints[1].at_b[2]}) *z -= Q("2/5");
   const auto twice = SolveScene(scene);
@@ -435,7 +435,7 @@ TEST_CASE(
 // crank pin (-4/5, 0, 3/5), piston (-7/5, 0, 0), the rod's centre their mean, its spin their difference over
 // its length 6/5.
 TEST_CASE("scene in space: a slider-crank starts as its reduced inertia asks, exactly") {
-  const auto linkage = SolveScene(NamedScene("slider-crank"));
+  const auto linkage = SolveScene(SpatialScene("slider-crank"));
   REQUIRE(linkage.f.size() == 1);
   CHECK(linkage.f[0].size() == 16);
   const Rational crank = Q("1/12") * Q("26/25") + Q("1/4");
@@ -448,7 +448,7 @@ TEST_CASE("scene in space: a slider-crank starts as its reduced inertia asks, ex
 }
 
 TEST_CASE("scene in space: a sledge on a slider pushes a box that would rest alone, both with 2 m/s^2") {
-  const auto scene = NamedScene("sledge-pushes-box");
+  const auto scene = SpatialScene("sledge-pushes-box");
   const auto pushed = SolveScene(scene);
   for (const int body : {1, 2}) {
     CHECK(pushed.accelerations[body][0].get_d() == Approx(-2 * 0.8).epsilon(1e-9));
@@ -467,12 +467,12 @@ TEST_CASE("scene in space: a sledge on a slider pushes a box that would rest alo
 }
 
 TEST_CASE("scene in space: a trapdoor leans on a box with 15 N; the floor holds it above mu = 3/8 only") {
-  const auto rests = SolveScene(NamedScene("trapdoor-rests"));
+  const auto rests = SolveScene(SpatialScene("trapdoor-rests"));
   for (int body = 0; body < 4; ++body) {
     for (int i = 0; i < 6; ++i) CHECK(rests.accelerations[body][i] == 0);
   }
   CHECK(JointForce(rests, 0) == Exact(9, 0, 13));
-  auto below = NamedScene("trapdoor-rests");
+  auto below = SpatialScene("trapdoor-rests");
   below.mu = Q("37/100");
   const auto opens = SolveScene(below);
   CHECK(opens.accelerations[3][0] > 0);
@@ -480,7 +480,7 @@ TEST_CASE("scene in space: a trapdoor leans on a box with 15 N; the floor holds 
 }
 
 TEST_CASE("scene in space: a truck that accelerates leaves its crate behind with mu g, or takes it along") {
-  auto scene = NamedScene("crate-on-a-truck");
+  auto scene = SpatialScene("crate-on-a-truck");
   const auto left = SolveScene(scene);
   CHECK(left.accelerations[0][0] == 6);
   CHECK(left.accelerations[2][0].get_d() == Approx(5).epsilon(1e-9));
@@ -511,7 +511,7 @@ TEST_CASE(
                            "table", "conical-pendulum", "cable-car", "leaning-gate", "slider-crank",
                            "trapdoor-rests", "trapdoor-opens", "sledge-pushes-box"}) {
     INFO(name);
-    const auto scene = NamedScene(name);
+    const auto scene = SpatialScene(name);
     const auto solved = SolveScene(scene);
     for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
       const ExactProblem problem = solved.model.Problem(i);
@@ -560,7 +560,7 @@ TEST_CASE(
 }
 
 TEST_CASE("assemble in space: the direction of slip is a unit vector exactly") {
-  SceneInSpace<Rational> scene = NamedScene("ball-slides-then-rolls");
+  SceneInSpace<Rational> scene = SpatialScene("ball-slides-then-rolls");
   scene.bodies[1].velocity = Exact(0.3, -0.7, 0);
   const auto model = Assemble(scene, FindContacts(scene));
   const auto& slip = model.constraints.at(0).law.slip;

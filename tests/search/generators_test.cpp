@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "certify/exact.h"
+#include "certify/properties.h"
 #include "corpus/rational.h"
 #include "search/exponential.h"
 
@@ -20,7 +21,7 @@ namespace stiction {
 namespace {
 
 using DoubleProblem = ContactProblem<double>;
-using Record = std::vector<std::int64_t>;
+using ChoiceList = std::vector<std::int64_t>;
 
 constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
@@ -71,15 +72,6 @@ bool Equal(const P& p, const Q& q) {
     if (p.b[i] != q.b[i]) return false;
     for (int j = 0; j < p.rows(); ++j) {
       if (p.A(i, j) != q.A(i, j)) return false;
-    }
-  }
-  return true;
-}
-
-bool IsSymmetric(const ExactProblem& problem) {
-  for (int i = 0; i < problem.rows(); ++i) {
-    for (int j = 0; j < i; ++j) {
-      if (problem.A(i, j) != problem.A(j, i)) return false;
     }
   }
   return true;
@@ -202,8 +194,8 @@ TEST_CASE("choices: numbers that share a word are independent in pairs") {
 }
 
 TEST_CASE("choices: a replay clamps into the range and goes on with the value nearest zero") {
-  const Record sequence = {100, -100, 3, kLowest, kHighest};
-  Record used;
+  const ChoiceList sequence = {100, -100, 3, kLowest, kHighest};
+  ChoiceList used;
   Choices choices = Choices::Replay(sequence, &used);
   CHECK(choices.Integer(-5, 5) == 5);
   CHECK(choices.Integer(-5, 5) == -5);
@@ -212,7 +204,7 @@ TEST_CASE("choices: a replay clamps into the range and goes on with the value ne
   CHECK(choices.Integer(-5, 5) == 0);
   CHECK(choices.Integer(2, 5) == 2);
   CHECK(choices.Integer(-5, -2) == -2);
-  CHECK(used == Record{5, -5, 3, -5, kHighest, 0, 2, -2});
+  CHECK(used == ChoiceList{5, -5, 3, -5, kHighest, 0, 2, -2});
 }
 
 TEST_CASE("choices: seeds differ between the problems of a unit, between units and between campaigns") {
@@ -303,7 +295,7 @@ TEST_CASE("generators: the largest problems are exact in double too") {
     for (int index = 0; index < 60; ++index) {
       CAPTURE(index);
       Choices ends(index);
-      Record sequence(2000, kHighest);
+      ChoiceList sequence(2000, kHighest);
       for (std::int64_t& value : sequence) {
         if (index > 0 && ends.Integer(0, index % 10) == 0) value = kLowest;
       }
@@ -369,7 +361,7 @@ TEST_CASE("generators: a problem depends on nothing that was in its memory befor
 TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals") {
   ForEachKind([](GeneratorId id, int contacts) {
     for (int index = 0; index < 50; ++index) {
-      Record record, again;
+      ChoiceList record, again;
       const std::uint64_t seed = Seed(id, contacts, index);
       const auto problem = Make<DoubleProblem>(id, contacts, Choices(seed, &record));
       REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices(seed))));
@@ -386,7 +378,7 @@ TEST_CASE("generators: any sequence of choices makes a problem that meets the as
   ForEachKind([](GeneratorId id, int contacts) {
     Choices edits(Seed(id, contacts, 77));
     for (int index = 0; index < 20; ++index) {
-      Record sequence;
+      ChoiceList sequence;
       Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &sequence));
       sequence.resize(edits.Integer(0, static_cast<std::int64_t>(sequence.size())));
       for (std::int64_t& value : sequence) {
@@ -502,11 +494,11 @@ TEST_CASE("near-degenerate: rows are nearly dependent") {
 // One contact, one column, mu = 1/2: J = 2^2 (1, 2) + (1, -1) = (5, 7), f0 = 2 (2, 1), so that J' f0 = 34.
 TEST_CASE("near-degenerate: forces at a friction limit balance b up to the noise") {
   constexpr std::array<MuChoice, 1> kHalf = {{{1, 2}}};
-  const Record exactly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 2, 2, 0};
+  const ChoiceList exactly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 2, 2, 0};
   auto problem = Make<ExactProblem>(GeneratorId::kNearDegenerate, 1, Choices::Replay(exactly), kHalf);
   CHECK((problem.A(0, 0) == 25 && problem.A(1, 0) == 35 && problem.A(0, 1) == 35 && problem.A(1, 1) == 49));
   CHECK((problem.b[0] == -34 * 5 && problem.b[1] == -34 * 7));
-  const Record nearly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 3, 2, 1, 1};  // f0 = 2 (2, -1): J' f0 = 6; e = 1
+  const ChoiceList nearly = {0, 0, 1, 1, 2, 1, 2, 1, -1, 3, 2, 1, 1};  // f0 = 2 (2, -1): J' f0 = 6; e = 1
   problem = Make<ExactProblem>(GeneratorId::kNearDegenerate, 1, Choices::Replay(nearly), kHalf);
   CHECK((problem.b[0] == -5 * 5 && problem.b[1] == -5 * 7));
 }
@@ -537,13 +529,13 @@ TEST_CASE("conditioned: eigenvalues fall geometrically from 1 to 100^-k, k = 0..
 // One rigid body at rest on two contacts: W = diag(1/3, 1/3, 4/3), F = (1, -15, 18).
 TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed by hand") {
   constexpr std::array<MuChoice, 2> kPalette = {{{2, 1}, {10, 1}}};
-  const Record choices = {1, 0,   1,              // mu = (2, 10)
+  const ChoiceList choices = {1, 0,   1,              // mu = (2, 10)
                           1, 1,                   // one body, applied force only
                           0, 0,   3,  1,  3, 4,   // centre, mass 3, inertia 3/4
                           1, -15, 18,             // F
                           0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
                           5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
-  Record used;
+  ChoiceList used;
   const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices, &used), kPalette);
   CHECK(used == choices);
   CHECK((problem.contacts[0].mu == 2 && problem.contacts[1].mu == 10));
@@ -572,7 +564,7 @@ TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed
 // Two equal bodies of mass 1 and inertia 1, contact 0 between them, contact 1 between the second and the
 // world: the shared point pushes the bodies apart, so that body 2 feels contact 0 with the opposite sign.
 TEST_CASE("bodies: a contact between two bodies moves them in opposite directions") {
-  const Record choices = {0, 0,                // one mu
+  const ChoiceList choices = {0, 0,                // one mu
                           2, 0,                // two bodies, gravity only
                           0, 10,  1, 1, 1, 1,  // first: centre (0, 1)
                           0, -10, 1, 1, 1, 1,  // second: centre (0, -1)
@@ -599,7 +591,7 @@ TEST_CASE("bodies: the rank is at most three per body, and normals point into al
   std::set<std::pair<int, int>> quadrants;
   for (int p = -7; p <= 7; ++p) {
     for (int q = -7; q <= 7; ++q) {
-      const Record choices = {0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, p, q};
+      const ChoiceList choices = {0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, p, q};
       const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 1, Choices::Replay(choices));
       const Rational ny = problem.b[0] / -10, nx = problem.b[1] / -10;
       REQUIRE(nx * nx + ny * ny == 1);
@@ -631,13 +623,13 @@ TEST_CASE("exponential: the simplest choices make the family itself, with fricti
     CAPTURE(contacts);
     std::vector<int> order(contacts);
     for (int i = 0; i < contacts; ++i) order[i] = i;
-    const auto plain = Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(Record{}));
+    const auto plain = Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(ChoiceList{}));
     CHECK(Equal(Normals(plain, order), ExponentialFamily(contacts)));
     for (int i = 0; i < 2 * contacts; ++i) {
       for (int j = 0; j < contacts; ++j) CHECK(plain.A(i, 2 * j + 1) == (i == 2 * j + 1 ? 1 : 0));
     }
     const auto scaled =
-        Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(Record{0, 0, 1}));
+        Make<ExactProblem>(GeneratorId::kExponential, contacts, Choices::Replay(ChoiceList{0, 0, 1}));
     CHECK(Equal(Normals(scaled, order), ExponentialFamily(contacts, true)));
     CHECK(scaled.A(1, 1) == scaled.A(0, 0) / plain.A(0, 0));
   }
@@ -646,15 +638,15 @@ TEST_CASE("exponential: the simplest choices make the family itself, with fricti
 TEST_CASE("exponential: contacts change places, entries of J move, friction is coupled, columns are missing") {
   constexpr GeneratorId kId = GeneratorId::kExponential;
   // Three contacts, each changed for the one after it: 0 1 2 -> 1 2 0.
-  const auto moved = Make<ExactProblem>(kId, 3, Choices::Replay(Record{0, 0, 0, 1, 1, 1}));
+  const auto moved = Make<ExactProblem>(kId, 3, Choices::Replay(ChoiceList{0, 0, 0, 1, 1, 1}));
   CHECK(Equal(Normals(moved, {1, 2, 0}), ExponentialFamily(3)));
   // One contact: entries 1 + 2^-8 and -1 of J, its friction without a column; y = (-7/8, -1).
   const auto coupled =
-      Make<ExactProblem>(kId, 1, Choices::Replay(Record{0, 0, 0, 0, 1, 8, 1, 0, 1, 1, 1, -1, -4}));
+      Make<ExactProblem>(kId, 1, Choices::Replay(ChoiceList{0, 0, 0, 0, 1, 8, 1, 0, 1, 1, 1, -1, -4}));
   const Rational entry(257, 256);
   CHECK((coupled.A(0, 0) == entry * entry && coupled.A(0, 1) == -entry && coupled.A(1, 1) == 1));
   CHECK((coupled.b[0] == entry * Rational(-7, 8) && coupled.b[1] == Rational(7, 8)));
-  const auto apart = Make<ExactProblem>(kId, 1, Choices::Replay(Record{0, 0, 0, 0, 0, 0, 0, -4}));
+  const auto apart = Make<ExactProblem>(kId, 1, Choices::Replay(ChoiceList{0, 0, 0, 0, 0, 0, 0, -4}));
   CHECK((apart.A(0, 1) == 0 && apart.A(1, 1) == 1 && apart.b[1] == -1));
 }
 

@@ -404,7 +404,7 @@ TEST_CASE("space: duplicated contacts are solved") {
 }
 
 // b + e e_N + (e^2, e^3, ...) for a number e that is small enough here.
-ExactProblem Perturbed(ExactProblem problem) {
+ExactProblem PerturbedInSpace(ExactProblem problem) {
   Rational e = 1;
   mpz_mul_2exp(e.get_den_mpz_t(), e.get_den_mpz_t(), 300);
   Rational power = e;
@@ -427,7 +427,7 @@ TEST_CASE("space: ties are told as a small perturbation of b tells them") {
     const int n = 1 + index % 3;
     const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 1 + index % 6, 1, false, choices);
     const Polygons polygons = AllWith(problem, index % 2 == 0 ? 8 : 4);
-    const SpaceRun symbolic = RunSpace(problem, polygons), real = RunSpace(Perturbed(problem), polygons);
+    const SpaceRun symbolic = RunSpace(problem, polygons), real = RunSpace(PerturbedInSpace(problem), polygons);
     tied += symbolic.verdict.statistics.ties > 0;
     CHECK(real.verdict.statistics.ties == 0);
     REQUIRE(symbolic.path.size() == real.path.size());
@@ -511,7 +511,6 @@ TEST_CASE("space: a problem of the plane, put into space, is solved by forces of
 }
 
 TEST_CASE("space: sliding contacts end in a solution or a ray") {
-  PathCounts counts;
   std::map<Outcome, int> outcomes;
   for (int index = 0; index < 120; ++index) {
     CAPTURE(index);

@@ -19,7 +19,7 @@ using namespace testing;
 
 // The problem that a Scalar sees, exactly.
 template <class Scalar>
-ExactProblem Rounded(ExactProblem problem) {
+ExactProblem RoundedTo(ExactProblem problem) {
   const auto round = [](Rational& x) { x = Rational(static_cast<double>(To<Scalar>(x))); };
   for (auto& contact : problem.contacts) round(contact.mu);
   for (Rational& x : problem.b) round(x);
@@ -58,7 +58,7 @@ TEMPLATE_TEST_CASE("fast: problems of every generator are solved, or undecided, 
       for (const bool friction : {true, false}) {
         CAPTURE(g, index, friction);
         const ExactProblem drawn = Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index);
-        const ExactProblem exact = Rounded<TestType>(friction ? drawn : Frictionless(drawn));
+        const ExactProblem exact = RoundedTo<TestType>(friction ? drawn : Frictionless(drawn));
         const FastVerdict verdict = solver.Run(As<TestType>(exact));
         ++runs;
         CHECK((verdict.outcome == Outcome::kSolved) == verdict.reason.empty());

@@ -14,7 +14,7 @@
 namespace stiction::testing {
 namespace {
 
-ContactProblem<double> Rounded(const ExactProblem& problem) {
+ContactProblem<double> InDoubles(const ExactProblem& problem) {
   ContactProblem<double> rounded = As<double>(problem);
   for (std::size_t i = 0; i < problem.contacts.size(); ++i)
     rounded.contacts[i].slip[0] = ToDouble(problem.contacts[i].slip[0]);
@@ -71,19 +71,19 @@ TEST_CASE("bilateral constraints that no forces keep are inconsistent") {
   ExactProblem problem = MakeProblem({-1, -1}, {{1, 2}, {2, 4}}, {1, 3});
   for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
   CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kInconsistent);
-  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kInconsistent);
+  CHECK(Reduction<double>(InDoubles(problem)).end() == ReductionEnd::kInconsistent);
   problem.b = Vector({1, 2});
   const Reduction<Rational> reduction(problem);
   CHECK(reduction.end() == ReductionEnd::kReduced);
   CHECK(problem.A * reduction.Forces(ExactVector(0)) + problem.b == Vector({0, 0}));
-  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kReduced);
+  CHECK(Reduction<double>(InDoubles(problem)).end() == ReductionEnd::kReduced);
 }
 
 TEST_CASE("a singular bilateral block that acts on other contacts is refused") {
   ExactProblem problem = MakeProblem({-1, -1}, {{0, 1}, {1, 0}}, {0, 1});  // indefinite
   problem.contacts[0].kind = ContactKind::kBilateral;
   CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kSingular);
-  CHECK(Reduction<double>(Rounded(problem)).end() == ReductionEnd::kSingular);
+  CHECK(Reduction<double>(InDoubles(problem)).end() == ReductionEnd::kSingular);
 }
 
 TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where there is one") {
@@ -138,7 +138,7 @@ TEST_CASE("in space the friction of a sliding contact opposes a velocity in the 
 
 TEST_CASE("doubles: forces of the reduction leave a residual of rounding size") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const ContactProblem<double> problem = Rounded(RandomMixed(seed, seed % 2 == 0));
+    const ContactProblem<double> problem = InDoubles(RandomMixed(seed, seed % 2 == 0));
     const Reduction<double> reduction(problem);
     REQUIRE(reduction.end() == ReductionEnd::kReduced);
     CompleteDriving<double> driving;
