@@ -66,12 +66,11 @@ void LemkeAlgorithm<Scalar, Rows>::Start() {
     column_.resize(size_);
     cover_.resize(size_);
   }
-  const Scalar limit_cover = LimitCover();
+  SetCover();
   basis_.resize(size_);
   for (int i = 0; i < problem.rows(); ++i) f_[i] = ray_[i] = Scalar(0);
   for (int i = 0; i < size_; ++i) {
     basis_[i] = i;
-    cover_[i] = components_[i].block == Block::kMultiplier ? limit_cover : Scalar(1);
     T_(i, 0) = RightSide(components_[i]);
     for (int j = 0; j < size_; ++j) {
       T_(i, j + 1) = Scalar(i == j ? 1 : 0);
@@ -174,6 +173,17 @@ Scalar LemkeAlgorithm<Scalar, Rows>::LimitCover() const {
   Scalar A = Scalar(0);
   for (int i = 0; i < problem.rows(); ++i) A = std::max<Scalar>(A, problem.A(i, i));
   return Sign(A) > 0 ? Scalar(unit_A_ / A) : Scalar(1);
+}
+
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::SetCover() {
+  const bool graded = options_.cover == Cover::kGraded;
+  const Scalar grade = Grade<Scalar>(), limit = graded ? Scalar(1 / grade) : LimitCover();
+  for (int i = 0; i < size_; ++i) {
+    const Component& w = components_[i];
+    cover_[i] = w.block == Block::kMultiplier ? limit : Scalar(1);
+    for (int r = 0; graded && w.block != Block::kMultiplier && r < w.row; ++r) cover_[i] *= grade;
+  }
 }
 
 template <class Scalar, int Rows>

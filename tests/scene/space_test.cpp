@@ -25,7 +25,7 @@ SceneInSpace<Rational> SpatialScene(const std::string& name) {
   return std::get<SceneFileInSpace>(ReadAnyScene(path)).scene;
 }
 
-Rational Q(const std::string& text) { return *ParseRational(text); }
+Rational Exactly(const std::string& text) { return *ParseRational(text); }
 
 Vector3<Rational> Exact(double x, double y, double z) { return MakeVector3<Rational>(x, y, z); }
 
@@ -327,15 +327,15 @@ TEST_CASE("rows in space: velocity and bias of given contacts are the derivative
 
 // ---- Closed forms ----------------------------------------------------------------------------
 
-struct Solved {
+struct SolvedInSpace {
   SceneModel<Rational, 6> model;
   std::vector<ExactVector> f;
   std::vector<Eigen::Matrix<Rational, 6, 1>> accelerations;
   Rational bound = 1;  // of FindCoulombViolation, the least of all problems
 };
 
-Solved SolveScene(const SceneInSpace<Rational>& scene) {
-  Solved solved;
+SolvedInSpace SolveScene(const SceneInSpace<Rational>& scene) {
+  SolvedInSpace solved;
   solved.model = Assemble(scene, FindContacts(scene));
   for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
     SpaceOptions options;
@@ -374,8 +374,8 @@ TEST_CASE("scene in space: three legs bear what statics asks, four stand too") {
   REQUIRE(tripod.f.size() == 1);
   REQUIRE(tripod.f[0].size() == 3);
   CHECK(tripod.f[0][0] == 20);
-  CHECK(tripod.f[0][1] == Q("20/3"));
-  CHECK(tripod.f[0][2] == Q("40/3"));
+  CHECK(tripod.f[0][1] == Exactly("20/3"));
+  CHECK(tripod.f[0][2] == Exactly("40/3"));
   const auto table = SolveScene(SpatialScene("table"));
   REQUIRE(table.f[0].size() == 4);
   CHECK(Rational(table.f[0].sum()) == 40);
@@ -385,13 +385,13 @@ TEST_CASE("scene in space: three legs bear what statics asks, four stand too") {
 TEST_CASE("scene in space: the joint of a conical pendulum bears weight and centripetal force") {
   const auto pendulum = SolveScene(SpatialScene("conical-pendulum"));
   REQUIRE(pendulum.f[0].size() == 3);
-  CHECK(pendulum.f[0][0] == Q("-15/2"));
+  CHECK(pendulum.f[0][0] == Exactly("-15/2"));
   CHECK(pendulum.f[0][1] == 0);
   CHECK(pendulum.f[0][2] == 10);
 }
 
 // The force of a joint on its first body.
-Vector3<Rational> JointForce(const Solved& solved, int joint) {
+Vector3<Rational> JointForce(const SolvedInSpace& solved, int joint) {
   Vector3<Rational> force = Zero<Vector3<Rational>>();
   for (std::size_t i = 0; i < solved.f.size(); ++i) {
     int at = 0;
@@ -418,14 +418,14 @@ TEST_CASE(
     "scene in space: a gate on a leaning hinge is a pendulum of g sin, exactly, and on two hinges the same") {
   const auto gate = SolveScene(SpatialScene("leaning-gate"));
   REQUIRE(gate.f.at(0).size() == 5);
-  const Rational spin = Q("1800/401");
+  const Rational spin = Exactly("1800/401");
   CHECK(gate.accelerations[1].tail<3>() == spin * Exact(0, 3, 4) / Rational(5));
   const Vector3<Rational> fall = spin * Exact(0, 4, -3) / Rational(5);
   CHECK(gate.accelerations[1].head<3>() == fall);
   CHECK(JointForce(gate, 0) == 3 * (fall + Exact(0, 0, 10)));
   auto scene = SpatialScene("leaning-gate");
   scene.joints.push_back(scene.joints[0]);
-  for (auto* z : {&scene.joints[1].at_a[2], &scene.joints[1].at_b[2]}) *z -= Q("2/5");
+  for (auto* z : {&scene.joints[1].at_a[2], &scene.joints[1].at_b[2]}) *z -= Exactly("2/5");
   const auto twice = SolveScene(scene);
   CHECK(twice.f.at(0).size() == 10);
   CHECK(twice.accelerations == gate.accelerations);
@@ -438,12 +438,12 @@ TEST_CASE("scene in space: a slider-crank starts as its reduced inertia asks, ex
   const auto linkage = SolveScene(SpatialScene("slider-crank"));
   REQUIRE(linkage.f.size() == 1);
   CHECK(linkage.f[0].size() == 16);
-  const Rational crank = Q("1/12") * Q("26/25") + Q("1/4");
-  const Rational rod = Q("121/100") + Q("9/100") + Q("1/12") * Q("29/20") * Q("1/2"), piston = Q("49/25");
-  const Rational moment = 10 * (Q("1/2") * Q("3/5") + Q("3/10"));
+  const Rational crank = Exactly("1/12") * Exactly("26/25") + Exactly("1/4");
+  const Rational rod = Exactly("121/100") + Exactly("9/100") + Exactly("1/12") * Exactly("29/20") * Exactly("1/2"), piston = Exactly("49/25");
+  const Rational moment = 10 * (Exactly("1/2") * Exactly("3/5") + Exactly("3/10"));
   const Rational angular = -moment / (crank + rod + piston);
   CHECK(linkage.accelerations[1].tail<3>() == Vector3<Rational>(0, -angular, 0));
-  CHECK(linkage.accelerations[3].head<3>() == Vector3<Rational>(-Q("7/5") * angular, 0, 0));
+  CHECK(linkage.accelerations[3].head<3>() == Vector3<Rational>(-Exactly("7/5") * angular, 0, 0));
   CHECK(linkage.accelerations[3].tail<3>() == Exact(0, 0, 0));
 }
 
@@ -473,7 +473,7 @@ TEST_CASE("scene in space: a trapdoor leans on a box with 15 N; the floor holds 
   }
   CHECK(JointForce(rests, 0) == Exact(9, 0, 13));
   auto below = SpatialScene("trapdoor-rests");
-  below.mu = Q("37/100");
+  below.mu = Exactly("37/100");
   const auto opens = SolveScene(below);
   CHECK(opens.accelerations[3][0] > 0);
   CHECK(opens.accelerations[2][4] > 0);
@@ -484,7 +484,7 @@ TEST_CASE("scene in space: a truck that accelerates leaves its crate behind with
   const auto left = SolveScene(scene);
   CHECK(left.accelerations[0][0] == 6);
   CHECK(left.accelerations[2][0].get_d() == Approx(5).epsilon(1e-9));
-  scene.mu = Q("3/5");
+  scene.mu = Exactly("3/5");
   const auto taken = SolveScene(scene);
   CHECK(taken.accelerations[2][0].get_d() == Approx(6).epsilon(1e-9));
 }
@@ -499,7 +499,7 @@ TEST_CASE("scene in space: the gyroscopic moment is -w x (I w)") {
   // Euler's equations: I1 w1' = (I2 - I3) w2 w3, ...
   CHECK(accelerations[0][3] == -1);
   CHECK(accelerations[0][4] == 1);
-  CHECK(accelerations[0][5] == Q("-1/3"));
+  CHECK(accelerations[0][5] == Exactly("-1/3"));
 }
 
 // ---- Minimal models --------------------------------------------------------------------------
