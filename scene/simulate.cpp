@@ -2,13 +2,13 @@
 #include "scene/simulate.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "scene/motion.h"
+#include "scene/parallel.h"
 
 namespace stiction {
 namespace {
@@ -185,7 +185,7 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   std::vector<SceneAnswer> answers(count);
   const auto solve = [&](std::size_t i) { answers[i] = SolveIsland(solvers_.local(), model, i); };
   if (count > 1 && largest >= kParallelRows) {
-    tbb::parallel_for(std::size_t{0}, count, solve);
+    ForEachInParallel(count, solve);
   } else {
     for (std::size_t i = 0; i < count; ++i) solve(i);
   }
