@@ -7,6 +7,7 @@
 #include <set>
 
 #include "certify/certificate.h"
+#include "certify/condition.h"
 #include "certify/exact.h"
 #include "certify/hypothesis.h"
 #include "certify/no_solution.h"
@@ -251,6 +252,7 @@ const std::map<std::string, WitnessCheck*>& Checks() {
       {"coulomb-solution", CheckCoulomb},
       {"no-solution", CheckNoSolution},
       {"safe", CheckSafe},
+      {"safe-by-condition", CheckSafeByCondition},
       {"unsafe", CheckUnsafe},
       {"symmetric", CheckSymmetric},
       {"not-symmetric", CheckNotSymmetric},

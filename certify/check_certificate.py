@@ -599,6 +599,42 @@ def check_safe(problem, witness):
     return f"{count} words, smallest determinant {brief(smallest)}"
 
 
+def is_semidefinite(M):
+    """By elimination down the diagonal: pivots >= 0, and where one is zero its column, too."""
+    M = [list(row) for row in M]
+    for k in range(len(M)):
+        if M[k][k] < 0 or (M[k][k] == 0 and any(M[i][k] for i in range(k, len(M)))):
+            return False
+        for i in range(k + 1, len(M)):
+            if M[i][k]:
+                factor = M[i][k] / M[k][k]
+                M[i] = [x - factor * y for x, y in zip(M[i], M[k])]
+    return True
+
+
+def check_safe_by_condition(problem, witness):
+    """Eigenvalues of DAD in [l, u], and m^2 (u - l)^2 < 4 u l, m = max mu d_N / d_F (condition_number.md)."""
+    fields(witness, "$.witness", "scaling", "least", "most")
+    words_of(problem)  # static and frictionless contacts only
+    check_symmetric(problem, {})
+    n = len(problem.b)
+    d = vector(witness["scaling"], "$.witness.scaling", n)
+    for i in range(n):
+        need(d[i] > 0, f"$.witness.scaling[{i}]", d[i], "a number > 0")
+    least, most = exact(witness["least"], "$.witness.least"), exact(witness["most"], "$.witness.most")
+    need(least > 0, "$.witness.least", least, "a number > 0")
+    B = [[d[i] * problem.A[i][j] * d[j] for j in range(n)] for i in range(n)]
+    below = [[B[i][j] - least * (i == j) for j in range(n)] for i in range(n)]
+    above = [[most * (i == j) - B[i][j] for j in range(n)] for i in range(n)]
+    need(is_semidefinite(below), "$.witness.least", least, "no more than the least eigenvalue of DAD")
+    need(is_semidefinite(above), "$.witness.most", most, "no less than the largest eigenvalue of DAD")
+    friction = max((contact.mu * d[rows[0]] / d[rows[1]]
+                    for _, contact, rows in planar_contacts(problem) if contact.kind == "static"), default=Fraction(0))
+    need(friction ** 2 * (most - least) ** 2 < 4 * most * least, "$.witness", friction,
+         "a largest mu d_N / d_F with m^2 (u - l)^2 < 4 u l")
+    return f"condition {brief(most / least)}, friction {brief(friction)}"
+
+
 def check_unsafe(problem, witness):
     fields(witness, "$.witness", "word", "determinant")
     choices = words_of(problem)[1]
@@ -993,6 +1029,7 @@ CLAIMS = {
     "psd": check_psd,
     "not-psd": check_not_psd,
     "safe": check_safe,
+    "safe-by-condition": check_safe_by_condition,
     "unsafe": check_unsafe,
     "in-range": check_in_range,
     "not-in-range": check_not_in_range,
@@ -1039,7 +1076,8 @@ EPILOG = """claims:
                    acceleration is at least the bound of the witness
   no-solution      for planar problems, by a Farkas vector for every word of
                    contact modes, or prefix of words
-  safe, unsafe     for planar problems of static and frictionless contacts:
+  safe, unsafe, safe-by-condition
+                   for planar problems of static and frictionless contacts:
                    whether all determinants of reduced matrices are positive
   cycle, stall     for planar problems: run the published algorithm again,
                    from f = 0, under every policy that the certificate names

@@ -119,6 +119,12 @@ void RequireSafetyDecidable(const ExactProblem& problem) {
   }
 }
 
+bool HasFewWords(const ExactProblem& problem) {
+  ExactProblem rough = problem;  // mu = 1: a static contact has all its modes
+  for (auto& contact : rough.contacts) contact.mu = contact.HasFrictionRows() ? 1 : 0;
+  return Completions(rough, 0) <= kMaxSafetyWords;
+}
+
 Safety DecideSafety(const ExactProblem& problem) {
   RequireSafetyDecidable(problem);
   WordTree tree{problem, {}, {}};
@@ -150,12 +156,12 @@ Json SafetyCertificate(const ExactProblem& problem) {
 
 // ---- Checking ----------------------------------------------------------------------------------
 
-namespace {
-
-void RequireClaimable(const ExactProblem& problem) {
+void RequireClaimableSafety(const ExactProblem& problem) {
   if (PublishedHandles(problem)) return;
   throw Rejected{"problem", "a kind or dimension other than planar frictionless and static contacts", "those"};
 }
+
+namespace {
 
 // The determinant of the word, which must be the number that is stated.
 Rational ReadDeterminant(const ExactProblem& problem, const ModeWord& word, const Json& stated,
@@ -170,7 +176,7 @@ Rational ReadDeterminant(const ExactProblem& problem, const ModeWord& word, cons
 
 Json CheckSafe(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"determinants"});
-  RequireClaimable(problem);
+  RequireClaimableSafety(problem);
   const Json& stated = witness["determinants"];
   RequireList(stated, "witness.determinants");
   const mpz_class count = Completions(problem, 0);
@@ -191,7 +197,7 @@ Json CheckSafe(const ExactProblem& problem, const Json& witness) {
 
 Json CheckUnsafe(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"determinant", "word"});
-  RequireClaimable(problem);
+  RequireClaimableSafety(problem);
   const Json& stated = witness["word"];
   RequireList(stated, "witness.word", problem.contacts.size(), "modes");
   const ModeWord word = ReadPrefix(stated, "witness.word", problem);

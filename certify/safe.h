@@ -66,6 +66,12 @@ struct Safety {
 // functions below, and FindSafetyThreshold, require it.
 void RequireSafetyDecidable(const ExactProblem& problem);
 
+// The same, of a certificate: otherwise Rejected.
+void RequireClaimableSafety(const ExactProblem& problem);
+
+// Whether there are at most kMaxSafetyWords words, whatever mu.
+bool HasFewWords(const ExactProblem& problem);
+
 Safety DecideSafety(const ExactProblem& problem);
 
 // Whether it is safe; empty for more than kMostContactsOfSafety contacts, 4^n determinants.

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "certify/certificate.h"
+#include "certify/condition.h"
 #include "certify/existence.h"
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
@@ -89,36 +90,68 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   if (o.claim == "in-range") return RangeCertificate(file.problem);
   if (o.claim == "h") return HypothesisCertificate(file.problem);
   if (o.claim == "safe") return SafetyCertificate(file.problem);
+  if (o.claim == "safe-by-condition") return ConditionCertificate(file.problem).value_or(Json());
   const Outcome loop = o.claim == "cycle" ? Outcome::kCycle : Outcome::kStall;
   return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
 }
 
-// Whether all reduced determinants are positive, and for which uniform friction they are.
-int ShowThreshold(const CertifyOptions& o, const ProblemFile& file) {
-  Json result = {{"safe", !DecideSafety(file.problem).unsafe_word.has_value()}};
-  if (const auto threshold = FindSafetyThreshold(file.problem)) {
-    Json polynomial = Json::array();
-    for (const Rational& coefficient : threshold->polynomial) polynomial.push_back(ToString(coefficient));
-    result["threshold"] = {{"low", ToString(threshold->low)},
-                           {"high", ToString(threshold->high)},
-                           {"word", WordToJson(threshold->word)},
-                           {"polynomial", polynomial}};
-  }
-  if (!o.output.empty()) WriteText(o.output, JsonText(SafetyCertificate(file.problem), 1) + "\n");
-  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  if (o.json) {
-    out << JsonText(result) << "\n";
-    return kExitDone;
-  }
-  out << (result["safe"].get<bool>() ? "safe" : "unsafe") << "\n";
-  if (!result.contains("threshold")) {
-    out << "safe for every uniform mu > 0\n";
-  } else {
+// ---- Safety ----
+
+// By the determinants of all words, and for which uniform friction they are positive.
+void AddWords(const ExactProblem& problem, Json& result) {
+  result["safe"] = !DecideSafety(problem).unsafe_word.has_value();
+  const auto threshold = FindSafetyThreshold(problem);
+  if (!threshold) return;
+  Json polynomial = Json::array();
+  for (const Rational& coefficient : threshold->polynomial) polynomial.push_back(ToString(coefficient));
+  result["threshold"] = {{"low", ToString(threshold->low)},
+                         {"high", ToString(threshold->high)},
+                         {"word", WordToJson(threshold->word)},
+                         {"polynomial", polynomial}};
+}
+
+// By the condition number of A after scaling: any number of contacts.
+void AddCondition(const ExactProblem& problem, Json& result) {
+  const auto bound = FindConditionBound(problem, FrictionWeights::kUniform);
+  if (!bound) return;
+  const auto mu = bound->SafeFriction();
+  result["condition"] = {{"number", ToString(Rational(bound->most / bound->least))},
+                         {"scaling", VectorToJson(bound->scaling)},
+                         {"mu", mu ? Json(ToString(*mu)) : Json()}};
+}
+
+std::string SafetyText(const Json& result, bool has_words) {
+  const Json& safe = result["safe"];
+  std::string text = safe.is_null() ? "undecided: too many words, and the condition does not tell\n"
+                     : safe.get<bool>() ? "safe\n"
+                                        : "unsafe\n";
+  if (result.contains("threshold")) {
     const Json& t = result["threshold"];
-    out << fmt::format("uniform mu: safe below mu* in [{}, {}], where the determinant of {} vanishes\n",
-                       t["low"].get<std::string>(), t["high"].get<std::string>(), t["word"].dump());
+    text += fmt::format("uniform mu: safe below mu* in [{}, {}], where the determinant of {} vanishes\n",
+                        t["low"].get<std::string>(), t["high"].get<std::string>(), t["word"].dump());
+  } else if (has_words) {
+    text += "safe for every uniform mu > 0\n";
   }
-  return kExitDone;
+  if (result.contains("condition")) {
+    const Json& mu = result["condition"]["mu"];
+    text += mu.is_null() ? "its condition alone: safe for every uniform mu\n"
+                         : fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
+  }
+  return text;
+}
+
+int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
+  const bool has_words = HasFewWords(file.problem);
+  const auto by_condition = ConditionCertificate(file.problem);
+  Json result = {{"safe", by_condition ? Json(true) : Json()}};
+  if (has_words) AddWords(file.problem, result);
+  AddCondition(file.problem, result);
+  const bool decided = !result["safe"].is_null();
+  if (!o.output.empty() && decided)
+    WriteText(o.output, JsonText(has_words ? SafetyCertificate(file.problem) : *by_condition, 1) + "\n");
+  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  out << (o.json ? JsonText(result) + "\n" : SafetyText(result, has_words));
+  return decided ? kExitDone : kExitUndecided;
 }
 
 // Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
@@ -130,14 +163,14 @@ ProblemFile ReadFor(const CertifyOptions& o) {
     if (file.problem.dimension == 3) return file;
     throw InputError(o.file, "dimension", "2", "3: in the plane the claim is solution-exists");
   }
-  return o.safe || o.claim == "safe" ? ReadHandledProblem(o.file, "safety") : ReadProblem(o.file);
+  return o.safe || o.claim.starts_with("safe") ? ReadHandledProblem(o.file, "safety") : ReadProblem(o.file);
 }
 
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all && !o.safe) throw InputError("certify: expected -o CERT, --all or --safe");
   const ProblemFile file = ReadFor(o);
   if (o.all) return ListSolutions(o, file);
-  if (o.safe) return ShowThreshold(o, file);
+  if (o.safe) return ShowSafety(o, file);
   const Json certificate = Certify(o, file);
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
@@ -199,6 +232,7 @@ void AddCertify(CommandLine& program) {
                 {"in-range", "b is in the range of A"},
                 {"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
                 {"safe", "A is safe for the published algorithm"},
+                {"safe-by-condition", "its condition number alone shows that it is"},
                 {"cycle", "the published algorithm repeats a state of its outer loop"},
                 {"stall", "it repeats a state of one drive"}});
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
