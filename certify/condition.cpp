@@ -36,9 +36,7 @@ Rational LargestRatio(const ExactProblem& problem, const ExactVector& d, Frictio
 
 ExactMatrix Scaled(const ExactMatrix& A, const ExactVector& d) { return d.asDiagonal() * A * d.asDiagonal(); }
 
-bool IsSemidefinite(const ExactMatrix& A) {
-  return std::holds_alternative<LdltFactors>(DecideSemidefinite(A));
-}
+bool IsSemidefinite(const ExactMatrix& A) { return std::holds_alternative<LdltFactors>(DecideSemidefinite(A)); }
 
 // least I <= B <= most I.
 bool Encloses(const Rational& least, const Rational& most, const ExactMatrix& B) {
@@ -53,7 +51,7 @@ bool IsGoodEnough(const Rational& friction, const Rational& least, const Rationa
 
 // ---- Searching over doubles ----
 
-constexpr double kWork = 2e9;      // of a search, in multiplications
+constexpr double kWork = 2e9;       // of a search, in multiplications
 constexpr double kLastStep = 0.02;  // of a logarithm of d
 
 // Ascending.

@@ -122,7 +122,7 @@ void AddCondition(const ExactProblem& problem, Json& result) {
 
 std::string SafetyText(const Json& result, bool has_words) {
   const Json& safe = result["safe"];
-  std::string text = safe.is_null() ? "undecided: too many words, and the condition does not tell\n"
+  std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
                      : safe.get<bool>() ? "safe\n"
                                         : "unsafe\n";
   if (result.contains("threshold")) {
@@ -134,8 +134,9 @@ std::string SafetyText(const Json& result, bool has_words) {
   }
   if (result.contains("condition")) {
     const Json& mu = result["condition"]["mu"];
-    text += mu.is_null() ? "its condition alone: safe for every uniform mu\n"
-                         : fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
+    text += mu.is_null()
+                ? "its condition alone: safe for every uniform mu\n"
+                : fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
   }
   return text;
 }

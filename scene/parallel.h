@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop over several threads: TBB's. How its library hands work from thread to thread the thread sanitizer does not
-// see, as it instruments our code only; there the loop is one over threads of our own.
+// A loop over several threads: TBB's. How its library hands work from thread to thread the thread sanitizer
+// does not see, as it instruments our code only; there the loop is one over threads of our own.
 
 #ifndef STICTION_SCENE_PARALLEL_H_
 #define STICTION_SCENE_PARALLEL_H_

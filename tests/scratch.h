@@ -25,7 +25,9 @@ class Scratch {
   std::filesystem::path operator/(const std::string& name) const { return std::filesystem::path(path_) / name; }
 
   // Hidden ones too.
-  int Entries() const { return static_cast<int>(std::distance(std::filesystem::directory_iterator(path_), {})); }
+  int Entries() const {
+    return static_cast<int>(std::distance(std::filesystem::directory_iterator(path_), {}));
+  }
 
  private:
   std::string path_;

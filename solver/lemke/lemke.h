@@ -66,9 +66,9 @@ namespace stiction {
 
 // The covering vector d of q + d z0: 1 in every row; or 1 m/s^2 in the rows of accelerations
 // and 1/max A_ii N in those of force limits. The second path does not depend on the units of the data, and is
-// the one to take over inexact scalars: where A is far from 1 the first mixes magnitudes. Graded: kGrade^r in the
-// rows of accelerations, r the row of A, and 1/kGrade in those of force limits. For exact scalars; the path is that
-// of complete driving (complete/equivalence.md).
+// the one to take over inexact scalars: where A is far from 1 the first mixes magnitudes. Graded: g^r, g =
+// Grade(), in the rows of accelerations, r the row of A, and 1/g in those of force limits. For exact scalars;
+// the path is that of complete driving (complete/equivalence.md).
 enum class Cover : std::uint8_t { kOnes, kUnits, kGraded };
 
 // Large beside the quotients of a problem, whose bits are few beside 200.

@@ -15,7 +15,8 @@ namespace {
 
 using namespace testing;
 
-// One contact, eigenvalues 1 and root^2, turned so that the slips have the least determinant; mu = `share` of the bound.
+// One contact, eigenvalues 1 and root^2, turned so that the slips have the least determinant; mu = `share` of
+// the bound.
 ExactProblem AtTheBound(const Rational& root, const Rational& share) {
   const Rational k = root * root, sum = k + 1;
   const Rational normal = 2 * k / sum, mixed = (k - 1) * root / sum, other = (k * k + 1) / sum;
@@ -27,7 +28,8 @@ Json CertificateOf(const ExactProblem& problem) { return ConditionCertificate(pr
 TEST_CASE("condition: the bound is sharp for one contact") {
   for (const Rational& root : {Rational(3, 2), Rational(2), Rational(12, 5), Rational(10)}) {
     CAPTURE(root.get_d());
-    const ExactProblem below = AtTheBound(root, Rational(999, 1000)), above = AtTheBound(root, Rational(1001, 1000));
+    const ExactProblem below = AtTheBound(root, Rational(999, 1000)),
+                       above = AtTheBound(root, Rational(1001, 1000));
     CHECK_FALSE(DecideSafety(below).unsafe_word);
     CHECK(DecideSafety(above).unsafe_word);
     CHECK_FALSE(ConditionCertificate(above));

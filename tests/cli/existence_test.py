@@ -71,6 +71,34 @@ class Existence(cli.TestCase):
         checker = independent_checker()
         checker.check(checker.load(certificate))
 
+    def test_a_condition_number_that_shows_safety_is_accepted_by_both_checkers_or_undecided(self):
+        contacts = 10  # 4^10 words
+        rows = 2 * contacts
+        A = [["4" if i == j else "1" if abs(i - j) == 1 else "0" for j in range(rows)] for i in range(rows)]
+        document = {"format": "stiction-problem", "version": 1, "name": "chain", "dimension": 2,
+                    "contacts": [{"kind": "static", "mu": "1/2"}] * contacts, "A": A, "b": ["-1"] * rows}
+        problem, certificate = self.folder / "chain.json", self.folder / "chain.certificate.json"
+        problem.write_text(json.dumps(document))
+        told = self.succeeds("certify", problem, "--safe", "-o", certificate, "--json").json()
+        self.assertIs(told["safe"], True)
+        self.assertNotIn("threshold", told)
+        self.assertEqual(json.loads(certificate.read_text())["claim"], "safe-by-condition")
+        self.succeeds("check", certificate)
+        checker = independent_checker()
+        checker.check(checker.load(certificate))
+        for key, value in (("least", "5"), ("most", "1"), ("most", "100000"), ("scaling", ["1"] * (rows - 1))):
+            false = json.loads(certificate.read_text())
+            false["witness"][key] = value
+            with self.assertRaises(checker.Rejected):
+                checker.check(false)
+
+        document["contacts"] = [{"kind": "static", "mu": "50"}] * contacts
+        problem.write_text(json.dumps(document))
+        done = self.succeeds("certify", problem, "--safe", code=3)
+        self.assertIn("too many words", done.out)
+        self.assertIn("its condition alone: safe for uniform mu <= ", done.out)
+        self.succeeds("certify", problem, "--claim", "safe-by-condition", "-o", certificate, code=3)
+
     def test_a_sliding_contact_without_a_solution(self):
         problem = self.folder / "rod.json"
         problem.write_text(json.dumps({

@@ -65,8 +65,8 @@ bool IsBetween(const ExactVector& p, const ExactVector& q, const ExactVector& x)
 }
 
 // Every breakpoint of `path` in its order, and between two of them only points of their segment: Lemke's method
-// has a breakpoint more where the friction of a sticking contact changes its sign, or the tangential acceleration
-// of an open one.
+// has a breakpoint more where the friction of a sticking contact changes its sign, or the tangential
+// acceleration of an open one.
 void CheckFollows(const Points& path, const Points& points) {
   std::size_t reached = 0;  // the last breakpoint that was met
   const auto advance = [&](const ExactVector& x) {
@@ -87,7 +87,8 @@ TEST_CASE("equivalence: Lemke's method with a graded covering vector takes the p
     REQUIRE(index < 20000);
     const ExactProblem problem = Random<Rational>(GeneratorId::kPsd, 2 + static_cast<int>(index % 3), index);
     const Path path = Driven(problem);
-    const bool chosen = path.statistics.ties == 0 && (path.statistics.folds > 0 || path.statistics.descents > 0);
+    const bool chosen =
+        path.statistics.ties == 0 && (path.statistics.folds > 0 || path.statistics.descents > 0);
     if (!chosen && index >= 60) continue;
     if (path.statistics.ties > 0) continue;
     CAPTURE(index);
