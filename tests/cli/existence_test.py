@@ -72,6 +72,9 @@ class Existence(cli.TestCase):
         checker.check(checker.load(certificate))
 
     def test_a_condition_number_that_shows_safety_is_accepted_by_both_checkers_or_undecided(self):
+        small = self.folder / "small.certificate.json"
+        self.succeeds("certify", SOURCES / "corpus/safe-by-condition.json", "--claim", "safe-by-condition", "-o", small)
+        self.succeeds("check", small)
         contacts = 10  # 4^10 words
         rows = 2 * contacts
         A = [["4" if i == j else "1" if abs(i - j) == 1 else "0" for j in range(rows)] for i in range(rows)]
