@@ -24,19 +24,24 @@ Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector&
 Json SymmetryCertificate(const ExactProblem& problem);
 // `psd` or `not-psd`. Of an asymmetric matrix only `not-psd` can be certified: otherwise InputError.
 Json SemidefiniteCertificate(const ExactProblem& problem);
+// `definite` or `not-definite`, in the same way.
+Json DefiniteCertificate(const ExactProblem& problem);
 // `in-range` or `not-in-range`.
 Json RangeCertificate(const ExactProblem& problem);
 // `h` or `not-h` (hypothesis.h); null if neither is shown, which happens in space only. InputError for problems
 // with sliding contacts.
 Json HypothesisCertificate(const ExactProblem& problem);
-// `cycle` or `stall`, for those of the policies that end in it; a null value if none does.
-Json LoopCertificate(const ExactProblem& problem, Outcome loop, const std::vector<Policy>& policies,
-                     const Limits& limits);
+// `cycle`, for those of the policies that end in one; a null value if none does.
+Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
+// `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that they
+// miss; a null value if one of these is not so, or if no solution was found.
+Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
+                               const Limits& limits);
 
 // Steps as certificates and `replay --json` write them.
 Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names);
-// The state that recurs, for a cycle or a stall.
-Json LoopStateToJson(const ExactRun& run, const std::vector<std::string>& names);
+// The outer state that recurs.
+Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names);
 Json VectorToJson(const ExactProblem::Vector& values);
 
 // ---- Checking --------------------------------------------------------------------------------
@@ -45,14 +50,21 @@ struct CheckReport {
   bool accepted = false;
   std::string claim;   // as far as it could be read
   std::string reason;  // why it was rejected: JSON path, found, expected
+  std::string digest;  // of the problem (corpus/digest.h), as far as it could be read
   Json facts;          // of an accepted certificate: policies, start, period, ...
 };
 
-// `source` names the certificate in reasons. Never throws for a bad certificate.
-CheckReport CheckCertificate(const Json& certificate, const std::string& source);
+// A certificate comes from anywhere; no honest one has come near these, nor near kMostJsonDepth and
+// kMostCharactersOfNumber.
+inline constexpr std::size_t kMostBytesOfCertificate = std::size_t{1} << 26;
+inline constexpr std::size_t kMostContactsOfCertificate = 2000;
 
-// What a certificate claims: outcome of a loop certificate, policies it names.
-std::vector<Policy> CertifiedPolicies(const Json& loop_certificate);
+// `source` names the certificate in reasons; `digest`, where it is not empty, is that of the problem which the
+// certificate must speak of. Never throws for a bad certificate.
+CheckReport CheckCertificate(const Json& certificate, const std::string& source, const std::string& digest = {});
+
+// The policies that a `cycle` or a `counterexample` names.
+std::vector<Policy> CertifiedPolicies(const Json& certificate);
 
 }  // namespace stiction
 

@@ -15,6 +15,7 @@
 #include "certify/safe.h"
 #include "certify/verify_solution.h"
 #include "certify/witness.h"
+#include "corpus/digest.h"
 
 namespace stiction {
 namespace {
@@ -30,11 +31,15 @@ ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
   return f;
 }
 
-Json CheckSolution(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {"a", "f"});
+void RequireSolution(const ExactProblem& problem, const Json& witness) {
   const ExactVector f = ReadForces(problem, witness);
   const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
   if (violation) throw Rejected{"witness.f", *violation, "a solution"};
+}
+
+Json CheckSolution(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "f"});
+  RequireSolution(problem, witness);
   return Json::object();
 }
 
@@ -68,8 +73,8 @@ Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {"D", "L"});
+// D, once A = L diag(D) L' with D >= 0, which is symmetric.
+ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
   const int rows = problem.rows();
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
   RequireList(witness["L"], "witness.L", static_cast<std::size_t>(rows), "rows");
@@ -87,15 +92,47 @@ Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
       RequireEqual(problem.A(i, j), entry, fmt::format("problem.A[{}][{}]", i, j));
     }
   }
+  return D;
+}
+
+Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L"});
+  RequireFactors(problem, witness);
   return Json::object();
 }
 
-Json CheckNotSemidefinite(const ExactProblem& problem, const Json& witness) {
+void RequireDefinite(const ExactProblem& problem, const Json& witness) {
+  const ExactVector D = RequireFactors(problem, witness);
+  for (int i = 0; i < D.size(); ++i) {
+    if (D[i] <= 0) throw Rejected{fmt::format("witness.D[{}]", i), ToString(D[i]), "a number > 0"};
+  }
+}
+
+Json CheckDefinite(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L"});
+  RequireDefinite(problem, witness);
+  return Json::object();
+}
+
+// witness.x, and x'Ax, which must be witness.value.
+std::pair<ExactVector, Rational> ReadCurvature(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
   const Rational curvature = x.dot(problem.A * x);
   RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");
+  return {x, curvature};
+}
+
+Json CheckNotSemidefinite(const ExactProblem& problem, const Json& witness) {
+  const auto [x, curvature] = ReadCurvature(problem, witness);
   if (curvature >= 0) throw Rejected{"witness.value", ToString(curvature), "x'Ax < 0"};
+  return Json::object();
+}
+
+Json CheckNotDefinite(const ExactProblem& problem, const Json& witness) {
+  const auto [x, curvature] = ReadCurvature(problem, witness);
+  if (x.isZero()) throw Rejected{"witness.x", "0", "another vector"};
+  if (curvature > 0) throw Rejected{"witness.value", ToString(curvature), "x'Ax <= 0"};
   return Json::object();
 }
 
@@ -147,7 +184,7 @@ Json CheckNotHypothesis(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-// ---- Loops -----------------------------------------------------------------------------------
+// ---- Cycles ----------------------------------------------------------------------------------
 
 Policy ReadPolicy(const Json& json, const std::string& path) {
   if (!json.is_string()) throw Rejected{path, Shown(json), "a policy"};
@@ -158,92 +195,126 @@ Policy ReadPolicy(const Json& json, const std::string& path) {
     if (policy.slip != Slip{}) throw Rejected{path, Shown(json), "a policy of the planar grid"};
     return policy;
   } catch (const std::invalid_argument& error) {
-    throw Rejected{path, Shown(json), error.what()};
+    throw Rejected{path, Shown(json), Shortened(error.what(), 200)};
   }
 }
 
-// The run that the certificate describes, against the run that the algorithm makes.
-void CompareRun(const ExactRun& run, const Json& described, const std::string& path, Outcome loop,
-                const std::vector<std::string>& names) {
-  if (run.verdict.outcome != loop) {
-    throw Rejected{path, fmt::format("outcome {} under {}", Name(run.verdict.outcome), PolicyName(run.policy)),
-                   std::string(Name(loop))};
-  }
-  const auto compare = [&path](const Json& found, const Json& expected, const std::string& where) {
-    const bool same_type = !expected.is_number_integer() || found.is_number_integer();
-    // nlohmann::json, unlike ordered_json, compares objects whatever the order of their keys.
-    if (!same_type || nlohmann::json(found) != nlohmann::json(expected)) {
-      throw Rejected{path + where, Shown(found), Shown(expected)};
-    }
-  };
-  const Json& pivots = described["pivots"];
-  RequireList(pivots, path + ".pivots");
+// nlohmann::json, unlike ordered_json, compares objects whatever the order of their keys.
+void RequireSame(const Json& found, const Json& expected, const std::string& path) {
+  const bool same_type = !expected.is_number_integer() || found.is_number_integer();
+  if (same_type && nlohmann::json(found) == nlohmann::json(expected)) return;
+  throw Rejected{path, Shown(found), Shown(expected)};
+}
+
+// What is stated of the steps that a run took, as far as either goes.
+void CompareSteps(const ExactRun& run, const Json& pivots, const std::string& path,
+                  const std::vector<std::string>& names) {
   for (std::size_t k = 0; k < std::min(pivots.size(), run.trace.pivots.size()); ++k) {
-    const std::string where = fmt::format("{}.pivots[{}]", path, k);
+    const Pivot<Rational>& pivot = run.trace.pivots[k];
+    const std::string where = ElementPath(path, k);
     Json found = pivots[k];
     RequireKeys(found, where, {"drive", "driven", "from", "goal", "limiting", "step", "to"});
-    RequireEqual(ReadNumber(found["step"], where + ".step"), run.trace.pivots[k].s, where + ".step");
+    RequireEqual(ReadNumber(found["step"], where + ".step"), pivot.s, where + ".step");
     ReadInteger(found["drive"], where + ".drive", 1);
-    found["step"] = ToString(run.trace.pivots[k].s);  // any spelling of the same number
-    compare(found, PivotToJson(run.trace.pivots[k], names), fmt::format(".pivots[{}]", k));
+    found["step"] = ToString(pivot.s);  // any spelling of the same number
+    RequireSame(found, PivotToJson(pivot, names), where);
   }
-  compare(pivots.size(), run.trace.pivots.size(), ".pivots: number");
-  compare(ReadInteger(described["start"], path + ".start", 0), run.verdict.start, ".start");
-  compare(ReadInteger(described["period"], path + ".period", 1), run.verdict.period, ".period");
-  const Json expected = LoopStateToJson(run, names);
+}
+
+// The run of the algorithm, as long as its steps are those stated: in rounds, lest a long list of false steps
+// take as long a run.
+ExactRun RunAsStated(const ExactProblem& problem, const Policy& policy, const Json& pivots,
+                     const std::string& path, const std::vector<std::string>& names) {
+  const auto stated = static_cast<std::int64_t>(pivots.size());
+  for (std::int64_t most = 64;; most *= 16) {
+    Limits limits;
+    limits.pivots = std::min(most, stated + 1);
+    ExactRun run = RunExact(problem, {policy, {}, limits});
+    CompareSteps(run, pivots, path, names);
+    if (run.verdict.outcome != Outcome::kLimit || limits.pivots > stated) return run;
+  }
+}
+
+void CompareState(const ExactRun& run, Json state, const std::string& path,
+                  const std::vector<std::string>& names) {
+  const Json expected = CycleStateToJson(run, names);
   std::set<std::string> keys;
   for (const auto& [key, value] : expected.items()) keys.insert(key);
-  Json state = described["state"];
-  RequireKeys(state, path + ".state", keys);
-  const ExactVector f = ReadVector(state["f"], path + ".state.f", static_cast<int>(names.size()));
-  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.state.f[i], fmt::format("{}.state.f[{}]", path, i));
-  for (const std::string& key : keys) {
-    if (key == "f") continue;
-    compare(state[key], expected[key], ".state." + key);
+  RequireKeys(state, path, keys);
+  const ExactVector f = ReadVector(state["f"], path + ".f", static_cast<int>(names.size()));
+  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.state.f[i], ElementPath(path + ".f", i));
+  keys.erase("f");
+  for (const std::string& key : keys) RequireSame(state[key], expected[key], path + "." + key);
+}
+
+// The run that the certificate describes, against the run that the algorithm makes, which is returned.
+ExactRun RequireCycle(const ExactProblem& problem, const Policy& policy, const Json& stated,
+                      const std::string& path, const std::vector<std::string>& names) {
+  ExactRun run = RunAsStated(problem, policy, stated["pivots"], path + ".pivots", names);
+  if (run.verdict.outcome != Outcome::kCycle) {
+    throw Rejected{path, fmt::format("outcome {} under {}", Name(run.verdict.outcome), PolicyName(policy)),
+                   "cycle"};
   }
+  RequireSame(stated["pivots"].size(), run.trace.pivots.size(), path + ".pivots: number");
+  RequireSame(ReadInteger(stated["start"], path + ".start", 0), run.verdict.start, path + ".start");
+  RequireSame(ReadInteger(stated["period"], path + ".period", 1), run.verdict.period, path + ".period");
+  CompareState(run, stated["state"], path + ".state", names);
+  return run;
 }
 
 // Tells runs apart, however a certificate writes their numbers.
 std::string StepsAsText(const ExactRun& run, const std::vector<std::string>& names) {
-  Json steps = Json::array({LoopStateToJson(run, names)});
+  Json steps = Json::array({CycleStateToJson(run, names)});
   for (const Pivot<Rational>& pivot : run.trace.pivots) steps.push_back(PivotToJson(pivot, names));
   return steps.dump();
 }
 
-template <Outcome loop>
-Json CheckLoop(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {"runs"});
+// The different values of a key, in order.
+Json NumbersOf(const Json& runs, const char* key) {
+  std::set<std::int64_t> numbers;
+  for (const Json& run : runs) numbers.insert(run[key].get<std::int64_t>());
+  return numbers;
+}
+
+Json CheckRuns(const ExactProblem& problem, const Json& witness) {
   if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
   const Json& runs = witness["runs"];
   if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shown(runs), "at least one run"};
   const std::vector<std::string> names = VariableNames(problem);
-  std::set<std::string> policies;
-  std::set<std::string> described;
+  std::set<std::string> policies, different;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const std::string path = fmt::format("witness.runs[{}]", k);
+    const std::string path = ElementPath("witness.runs", k);
     RequireKeys(runs[k], path, {"period", "pivots", "policies", "start", "state"});
+    RequireList(runs[k]["pivots"], path + ".pivots");
     const Json& named = runs[k]["policies"];
     if (!named.is_array() || named.empty())
       throw Rejected{path + ".policies", Shown(named), "at least one policy"};
-    // A run of as many steps as the certificate describes is enough to confirm or refute it.
-    Limits limits;
-    limits.pivots = static_cast<std::int64_t>(runs[k]["pivots"].size()) + 1;
     for (std::size_t p = 0; p < named.size(); ++p) {
-      const std::string where = fmt::format("{}.policies[{}]", path, p);
+      const std::string where = ElementPath(path + ".policies", p);
       const Policy policy = ReadPolicy(named[p], where);
       if (!policies.insert(PolicyName(policy)).second)
         throw Rejected{where, Shown(named[p]), "each policy once"};
-      const ExactRun run = RunExact(problem, {policy, {}, limits});
-      CompareRun(run, runs[k], path, loop, names);
-      if (p == 0 && !described.insert(StepsAsText(run, names)).second) {
+      const ExactRun run = RequireCycle(problem, policy, runs[k], path, names);
+      if (p == 0 && !different.insert(StepsAsText(run, names)).second)
         throw Rejected{path, "a run that stands before", "different runs"};
-      }
     }
   }
   return {{"policies", policies.size()},
           {"runs", runs.size()},
-          {"start", runs[0]["start"]},
-          {"period", runs[0]["period"]}};
+          {"start", NumbersOf(runs, "start")},
+          {"period", NumbersOf(runs, "period")}};
+}
+
+Json CheckCycle(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"runs"});
+  return CheckRuns(problem, witness);
+}
+
+Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L", "a", "f", "runs"});
+  RequireDefinite(problem, witness);
+  RequireSolution(problem, witness);
+  return CheckRuns(problem, witness);
 }
 
 const std::map<std::string, WitnessCheck*>& Checks() {
@@ -258,37 +329,57 @@ const std::map<std::string, WitnessCheck*>& Checks() {
       {"not-symmetric", CheckNotSymmetric},
       {"psd", CheckSemidefinite},
       {"not-psd", CheckNotSemidefinite},
+      {"definite", CheckDefinite},
+      {"not-definite", CheckNotDefinite},
       {"in-range", CheckInRange},
       {"not-in-range", CheckNotInRange},
       {"h", CheckHypothesis},
       {"not-h", CheckNotHypothesis},
-      {"cycle", CheckLoop<Outcome::kCycle>},
-      {"stall", CheckLoop<Outcome::kStall>},
+      {"cycle", CheckCycle},
+      {"counterexample", CheckCounterexample},
   };
   return checks;
 }
 
+// The check of the claim, which the report names from now on.
+const WitnessCheck& ReadClaim(const Json& certificate, CheckReport& report) {
+  RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
+  if (certificate["format"] != "stiction-certificate") {
+    throw Rejected{"format", Shown(certificate["format"]), "\"stiction-certificate\""};
+  }
+  if (!certificate["version"].is_number_integer() || certificate["version"] != 1) {
+    throw Rejected{"version", Shown(certificate["version"]), "1"};
+  }
+  if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
+  const auto check = Checks().find(report.claim);
+  if (check != Checks().end()) return *check->second;
+  std::vector<std::string> claims;
+  for (const auto& known : Checks()) claims.push_back(known.first);
+  throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
+}
+
+// Before a matrix is made of them.
+void RequireFewContacts(const Json& problem) {
+  if (!problem.is_object() || !problem.contains("contacts")) return;  // refused where it is read
+  const std::size_t contacts = problem["contacts"].size();
+  if (contacts <= kMostContactsOfCertificate) return;
+  throw Rejected{"problem.contacts", fmt::format("{} contacts", contacts),
+                 fmt::format("at most {}", kMostContactsOfCertificate)};
+}
+
 }  // namespace
 
-CheckReport CheckCertificate(const Json& certificate, const std::string& source) {
+CheckReport CheckCertificate(const Json& certificate, const std::string& source, const std::string& digest) {
   CheckReport report;
   try {
-    RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
-    if (certificate["format"] != "stiction-certificate") {
-      throw Rejected{"format", Shown(certificate["format"]), "\"stiction-certificate\""};
-    }
-    if (!certificate["version"].is_number_integer() || certificate["version"] != 1) {
-      throw Rejected{"version", Shown(certificate["version"]), "1"};
-    }
-    if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
-    const auto check = Checks().find(report.claim);
-    if (check == Checks().end()) {
-      std::vector<std::string> claims;
-      for (const auto& known : Checks()) claims.push_back(known.first);
-      throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
-    }
+    const WitnessCheck& check = ReadClaim(certificate, report);
+    RequireFewContacts(certificate["problem"]);
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
-    report.facts = check->second(problem, certificate["witness"]);
+    report.digest = ProblemDigest(problem);
+    if (!digest.empty() && report.digest != digest) {
+      throw Rejected{"problem", report.digest, digest + ", the problem that was asked for"};
+    }
+    report.facts = check(problem, certificate["witness"]);
     report.accepted = true;
   } catch (const Rejected& rejected) {
     report.reason = rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;
@@ -298,9 +389,9 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source)
   return report;
 }
 
-std::vector<Policy> CertifiedPolicies(const Json& loop_certificate) {
+std::vector<Policy> CertifiedPolicies(const Json& certificate) {
   std::vector<Policy> policies;
-  for (const Json& run : loop_certificate["witness"]["runs"]) {
+  for (const Json& run : certificate["witness"]["runs"]) {
     for (const Json& name : run["policies"]) policies.push_back(ParsePolicy(name.get<std::string>()));
   }
   return policies;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Making certificates.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "certify/certificate.h"
 #include "certify/exact.h"
+#include "certify/existence.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
 #include "certify/verify_solution.h"
@@ -26,6 +29,17 @@ Json SetsToJson(const std::vector<IndexSet>& sets, const std::vector<std::string
   return json;
 }
 
+Json FactorsToJson(const LdltFactors& factors) {
+  return {{"L", MatrixToJson(factors.L)}, {"D", VectorToJson(factors.D)}};
+}
+
+void RequireSymmetric(const ExactProblem& problem, const std::string& claim) {
+  if (IsSymmetric(problem)) return;
+  throw InputError(fmt::format("claim {}: A is not symmetric, and its symmetric part meets the claim; it is made "
+                               "of symmetric A only",
+                               claim));
+}
+
 Json RunToJson(const ExactRun& run, const std::vector<std::string>& names) {
   Json pivots = Json::array();
   for (const Pivot<Rational>& pivot : run.trace.pivots) pivots.push_back(PivotToJson(pivot, names));
@@ -33,7 +47,29 @@ Json RunToJson(const ExactRun& run, const std::vector<std::string>& names) {
           {"start", run.verdict.start},
           {"period", run.verdict.period},
           {"pivots", std::move(pivots)},
-          {"state", LoopStateToJson(run, names)}};
+          {"state", CycleStateToJson(run, names)}};
+}
+
+// A run for each sequence of steps that ends in a cycle, whichever policies led to it.
+Json CyclesToJson(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+  const std::vector<std::string> names = VariableNames(problem);
+  Json runs = Json::array();
+  for (const PolicyClass& equal : RunPolicies(problem, policies, limits)) {
+    if (equal.verdict.outcome != Outcome::kCycle) continue;
+    Json run = RunToJson(RunExact(problem, {equal.policies.front(), {}, limits}), names);
+    Json named = Json::array();
+    for (const Policy& policy : equal.policies) named.push_back(PolicyName(policy));
+    const auto same = std::find_if(runs.begin(), runs.end(), [&run](const Json& other) {
+      return other["pivots"] == run["pivots"] && other["state"] == run["state"];
+    });
+    if (same == runs.end()) {
+      run["policies"] = std::move(named);
+      runs.push_back(std::move(run));
+    } else {
+      (*same)["policies"].insert((*same)["policies"].end(), named.begin(), named.end());
+    }
+  }
+  return runs;
 }
 
 }  // namespace
@@ -50,16 +86,9 @@ Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& n
           {"to", Name(pivot.to)}};
 }
 
-Json LoopStateToJson(const ExactRun& run, const std::vector<std::string>& names) {
+Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names) {
   Json state = {{"sets", SetsToJson(run.state.sets, names)}, {"f", VectorToJson(run.state.f)}};
-  if (run.verdict.outcome == Outcome::kStall) {
-    Json left = Json::object();
-    for (std::size_t row = 0; row < names.size(); ++row) {
-      if (run.state.last_left[row] != IndexSet::kNone) left[names[row]] = Name(run.state.last_left[row]);
-    }
-    state["left"] = std::move(left);
-    state["zero"] = run.state.last_step_zero;
-  } else if (run.policy.resume == Resume::kRound && run.state.last_driven_contact >= 0) {
+  if (run.policy.resume == Resume::kRound && run.state.last_driven_contact >= 0) {
     state["contact"] = run.state.last_driven_contact + 1;
   }
   return state;
@@ -92,12 +121,18 @@ Json SemidefiniteCertificate(const ExactProblem& problem) {
     return MakeCertificate("not-psd", problem,
                            {{"x", VectorToJson(negative->x)}, {"value", ToString(negative->value)}});
   }
-  if (!IsSymmetric(problem)) {
-    throw InputError(
-        "claim psd: A is not symmetric, and x'Ax >= 0 for all x; `psd` is claimed of symmetric A only");
+  RequireSymmetric(problem, "psd");
+  return MakeCertificate("psd", problem, FactorsToJson(std::get<LdltFactors>(decision)));
+}
+
+Json DefiniteCertificate(const ExactProblem& problem) {
+  const auto decision = DecideDefinite(problem.A);
+  if (const auto* flat = std::get_if<NoCurvature>(&decision)) {
+    return MakeCertificate("not-definite", problem,
+                           {{"x", VectorToJson(flat->x)}, {"value", ToString(flat->value)}});
   }
-  const auto& factors = std::get<LdltFactors>(decision);
-  return MakeCertificate("psd", problem, {{"L", MatrixToJson(factors.L)}, {"D", VectorToJson(factors.D)}});
+  RequireSymmetric(problem, "definite");
+  return MakeCertificate("definite", problem, FactorsToJson(std::get<LdltFactors>(decision)));
 }
 
 Json RangeCertificate(const ExactProblem& problem) {
@@ -131,27 +166,24 @@ Json HypothesisCertificate(const ExactProblem& problem) {
                          {{"v", VectorToJson(obstacle.v)}, {"value", ToString(obstacle.value)}});
 }
 
-Json LoopCertificate(const ExactProblem& problem, Outcome loop, const std::vector<Policy>& policies,
-                     const Limits& limits) {
-  const std::vector<std::string> names = VariableNames(problem);
-  std::vector<Json> runs;  // one per sequence of steps, whichever switches led to it
-  for (const PolicyClass& equal : RunPolicies(problem, policies, limits)) {
-    if (equal.verdict.outcome != loop) continue;
-    Json run = RunToJson(RunExact(problem, {equal.policies.front(), {}, limits}), names);
-    Json named = Json::array();
-    for (const Policy& policy : equal.policies) named.push_back(PolicyName(policy));
-    const auto same = std::find_if(runs.begin(), runs.end(), [&run](const Json& other) {
-      return other["pivots"] == run["pivots"] && other["state"] == run["state"];
-    });
-    if (same == runs.end()) {
-      run["policies"] = std::move(named);
-      runs.push_back(std::move(run));
-    } else {
-      (*same)["policies"].insert((*same)["policies"].end(), named.begin(), named.end());
-    }
-  }
+Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+  const Json runs = CyclesToJson(problem, policies, limits);
+  return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
+}
+
+Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
+                               const Limits& limits) {
+  if (!IsSymmetric(problem)) return nullptr;
+  const auto decision = DecideDefinite(problem.A);
+  const auto* factors = std::get_if<LdltFactors>(&decision);
+  const Json solution = DecideExistence(problem, limits).certificate;
+  if (factors == nullptr || solution.is_null()) return nullptr;  // a definite A has a solution
+  const Json runs = CyclesToJson(problem, policies, limits);
   if (runs.empty()) return nullptr;
-  return MakeCertificate(Name(loop).data(), problem, {{"runs", runs}});
+  Json witness = FactorsToJson(*factors);
+  witness.update(solution["witness"]);
+  witness["runs"] = runs;
+  return MakeCertificate("counterexample", problem, std::move(witness));
 }
 
 }  // namespace stiction

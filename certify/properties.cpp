@@ -100,6 +100,18 @@ std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatri
   return factors;
 }
 
+std::variant<LdltFactors, NoCurvature> DecideDefinite(const ExactMatrix& A) {
+  const auto decision = DecideSemidefinite(A);
+  if (const auto* negative = std::get_if<NegativeCurvature>(&decision)) {
+    return NoCurvature{negative->x, negative->value};
+  }
+  const auto& factors = std::get<LdltFactors>(decision);
+  for (int k = 0; k < factors.D.size(); ++k) {
+    if (factors.D[k] == 0) return NoCurvature{SolveTransposed(factors.L, Identity(A.rows()).col(k)), 0};
+  }
+  return factors;
+}
+
 // Row echelon form of [A | b | I]: a row that is zero in A names the obstacle in its last part.
 std::variant<RangePoint, RangeObstacle> DecideRange(const ExactMatrix& A, const ExactVector& b) {
   const int size = static_cast<int>(b.size());

@@ -3,6 +3,7 @@
 //
 //   symmetric                A = A'
 //   positive semidefinite    A = L diag(D) L', D >= 0        or x with x'Ax < 0
+//   positive definite        A = L diag(D) L', D > 0         or x /= 0 with x'Ax <= 0
 //   in range                 x with A x = b                  or y with y'A = 0, y'b /= 0
 //
 // Assumed in section 3 of [Baraff94] ("A is symmetric and positive semidefinite, and b is a vector in the
@@ -35,6 +36,13 @@ struct NegativeCurvature {
 };
 // For an asymmetric matrix the answer is that of (A + A')/2, which has the same x'Ax.
 std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatrix& A);
+
+struct NoCurvature {
+  ExactVector x;   // not 0
+  Rational value;  // x'Ax <= 0
+};
+// As above; D > 0.
+std::variant<LdltFactors, NoCurvature> DecideDefinite(const ExactMatrix& A);
 
 struct RangePoint {
   ExactVector x;  // A x = b

@@ -25,7 +25,7 @@ int RowsOf(const Contact<Rational>& contact) { return contact.HasFrictionRows() 
 
 }  // namespace
 
-Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word) {
+ExactMatrix ReducedMatrix(const ExactProblem& problem, const ModeWord& word) {
   std::vector<int> rows;         // of A, and the columns that stand alone or first
   std::vector<Rational> factor;  // of the column behind it, which is added
   int row = 0;
@@ -48,10 +48,31 @@ Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word) {
       if (factor[j] != 0) R(i, j) += factor[j] * problem.A(rows[i], rows[j] + 1);
     }
   }
+  return R;
+}
+
+Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word) {
+  const ExactMatrix R = ReducedMatrix(problem, word);
+  const int n = static_cast<int>(R.rows());
   Elimination<Rational> elimination;
   elimination.Assign(R);
   elimination.Run(n, n, n);
   return elimination.Determinant();
+}
+
+// By the recurrence of Faddeev and Le Verrier.
+std::vector<Rational> ShiftedDeterminant(const ExactMatrix& R) {
+  const auto n = R.rows();
+  std::vector<Rational> coefficients(n + 1, Rational(1));
+  const ExactMatrix I = ExactMatrix::Identity(n, n);
+  ExactMatrix M = I;
+  for (Eigen::Index k = 1; k <= n; ++k) {
+    const ExactMatrix product = R * M;
+    const Rational trace = product.trace() / Rational(k);
+    coefficients[n - k] = trace;
+    M = trace * I - product;
+  }
+  return coefficients;
 }
 
 // ---- Deciding ----------------------------------------------------------------------------------
@@ -130,6 +151,21 @@ Safety DecideSafety(const ExactProblem& problem) {
   WordTree tree{problem, {}, {}};
   tree.Visit(problem.A, 1);
   return std::move(tree.safety);
+}
+
+WeakSafety DecideWeakSafety(const ExactProblem& problem) {
+  RequireSafetyDecidable(problem);
+  WeakSafety safety;
+  for (const ModeWord& word : AllWords(problem)) {
+    const int sign = sgn(ReducedDeterminant(problem, word));
+    safety.vanishing += sign == 0;
+    if (sign < 0 && !safety.negative_word) safety.negative_word = word;
+    if (safety.limit_word || sign > 0) continue;
+    const auto coefficients = ShiftedDeterminant(ReducedMatrix(problem, word));
+    const auto first = std::ranges::find_if(coefficients, [](const Rational& x) { return x != 0; });
+    if (*first < 0) safety.limit_word = word;
+  }
+  return safety;
 }
 
 std::optional<bool> IsSafeIfSmall(const ExactProblem& problem) {

@@ -33,6 +33,16 @@
 // contacts in which `paper` gives up. If the determinants with this mode are positive too, none was seen to
 // (checked).
 //
+// A body with two sticking contacts has a singular word, so A of most scenes is not safe. *Weakly safe*: no
+// determinant is negative. That is enough for complete driving (proved; complete_driving.md, 4): there is no fold
+// and no descent, only pieces with df_v = 0, and b(eps) of part 5 has one solution. The published algorithm gives
+// nothing up under `apex=suspended` as long as the matrices that it meets are regular; what it does at singular
+// ones is open. *Safe in the limit*: A + eps I is safe for all small eps > 0, as a solver makes it that softens
+// its constraints. The determinants of A + eps I are det(R(W) + eps I), whose coefficients are those of the
+// characteristic polynomial of -R(W); the last of them is 1, so that the sign for small eps > 0, that of the first
+// which is not zero, is always known. Safe in the limit implies weakly safe (eps = 0), not conversely. (Units
+// matter here: A + eps D, D diagonal and positive, may differ where A is weakly safe and no more.)
+//
 // A positive definite is safe for all mu small enough: for mu = 0 the determinants are principal minors.
 //
 // Decided by elimination down the tree of words: det R(W) is the product of the pivot blocks of its contacts in
@@ -52,7 +62,8 @@ namespace stiction {
 // More words than these, the first so many of them positive, are not decided: InputError.
 inline constexpr int kMaxSafetyWords = 1 << 16;
 
-// det R(W). Requires: one mode for every contact, of its kind; slip+-, stick for mu = 0 too.
+// R(W), and its determinant. Requires: one mode for every contact, of its kind; slip+-, stick for mu = 0 too.
+ExactMatrix ReducedMatrix(const ExactProblem& problem, const ModeWord& word);
 Rational ReducedDeterminant(const ExactProblem& problem, const ModeWord& word);
 
 struct Safety {
@@ -73,6 +84,17 @@ void RequireClaimableSafety(const ExactProblem& problem);
 bool HasFewWords(const ExactProblem& problem);
 
 Safety DecideSafety(const ExactProblem& problem);
+
+// As above, with as many words.
+struct WeakSafety {
+  int vanishing = 0;                      // words whose determinant is zero
+  std::optional<ModeWord> negative_word;  // the first whose determinant is negative: not weakly safe
+  std::optional<ModeWord> limit_word;     // the first whose determinant is negative for A + eps I: not safe in the limit
+};
+WeakSafety DecideWeakSafety(const ExactProblem& problem);
+
+// det(R + eps I): coefficients of 1, eps, ..., eps^n = 1.
+std::vector<Rational> ShiftedDeterminant(const ExactMatrix& R);
 
 // Whether it is safe; empty for more than kMostContactsOfSafety contacts, 4^n determinants.
 inline constexpr int kMostContactsOfSafety = 5;

@@ -23,17 +23,47 @@ Rational ValueAt(const Polynomial& p, const Rational& x) {
   return value;
 }
 
-// det R(word) as a polynomial in mu: Newton's interpolation at 0, 1, ..., as many slips as there are.
-Polynomial DeterminantPolynomial(ExactProblem problem, const ModeWord& word) {
-  const auto is_slip = [](Mode mode) { return mode == kSlipPlus || mode == kSlipMinus; };
+// Newton's interpolation of values at 0, 1, ....
+Polynomial Interpolate(const std::vector<Rational>& values) {
   Polynomial p(Rational(0)), basis(Rational(1));
-  for (int point = 0; point <= std::ranges::count_if(word, is_slip); ++point) {
-    for (auto& contact : problem.contacts) contact.mu = point;
-    const Rational missing = ReducedDeterminant(problem, word) - ValueAt(p, point);
+  for (int point = 0; point < static_cast<int>(values.size()); ++point) {
+    const Rational missing = values[point] - ValueAt(p, point);
     p += basis * Polynomial(Rational(missing / ValueAt(basis, point)));
     basis *= Polynomial(Rational(-point), Rational(1));
   }
   return p;
+}
+
+// For mu = 0, 1, ..., as many as a polynomial needs whose degree is the number of slips in the word.
+template <class Function>
+auto ValuesOverMu(ExactProblem problem, const ModeWord& word, const Function& value) {
+  const auto is_slip = [](Mode mode) { return mode == kSlipPlus || mode == kSlipMinus; };
+  std::vector<decltype(value(problem, word))> values;
+  for (int point = 0; point <= std::ranges::count_if(word, is_slip); ++point) {
+    for (auto& contact : problem.contacts) contact.mu = point;
+    values.push_back(value(problem, word));
+  }
+  return values;
+}
+
+// det R(word).
+Polynomial DeterminantPolynomial(const ExactProblem& problem, const ModeWord& word) {
+  return Interpolate(ValuesOverMu(problem, word, ReducedDeterminant));
+}
+
+// The first coefficient of det(R(word) + eps I) that is not zero for all mu. The last is 1.
+Polynomial LimitPolynomial(const ExactProblem& problem, const ModeWord& word) {
+  const Polynomial determinant = DeterminantPolynomial(problem, word);
+  if (!determinant.is_zero()) return determinant;
+  const auto coefficients = ValuesOverMu(problem, word, [](const ExactProblem& at, const ModeWord& w) {
+    return ShiftedDeterminant(ReducedMatrix(at, w));
+  });
+  for (std::size_t k = 1;; ++k) {
+    std::vector<Rational> values;
+    for (const auto& of_point : coefficients) values.push_back(of_point[k]);
+    const Polynomial p = Interpolate(values);
+    if (!p.is_zero()) return p;
+  }
 }
 
 // Distinct real roots of a polynomial that is not zero, counted by Sturm's theorem.
@@ -134,9 +164,9 @@ void Refine(SafetyThreshold& threshold, FirstRoot root) {
   threshold.high = is_root ? simplest : root.high;
 }
 
-}  // namespace
+using PolynomialOfWord = Polynomial(const ExactProblem&, const ModeWord&);
 
-std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem) {
+std::optional<SafetyThreshold> FirstThreshold(const ExactProblem& problem, PolynomialOfWord& polynomial) {
   RequireSafetyDecidable(problem);
   ExactProblem rough = problem;  // mu = 1: a static contact has all its modes
   for (auto& contact : rough.contacts) contact.mu = contact.HasFrictionRows() ? 1 : 0;
@@ -146,7 +176,7 @@ std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem) 
   std::optional<SafetyThreshold> threshold;
   std::optional<FirstRoot> smallest;
   for (const ModeWord& word : AllWords(rough)) {
-    const Polynomial p = DeterminantPolynomial(rough, word);
+    const Polynomial p = polynomial(rough, word);
     if (!IsPositiveAboveZero(p)) return MakeThreshold(word, p);
     const Rational bound = smallest ? smallest->high : RootBound(p);
     SturmChain chain(p);
@@ -158,6 +188,16 @@ std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem) 
   }
   if (smallest) Refine(*threshold, *smallest);
   return threshold;
+}
+
+}  // namespace
+
+std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem) {
+  return FirstThreshold(problem, DeterminantPolynomial);
+}
+
+std::optional<SafetyThreshold> FindLimitThreshold(const ExactProblem& problem) {
+  return FirstThreshold(problem, LimitPolynomial);
 }
 
 }  // namespace stiction

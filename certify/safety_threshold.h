@@ -28,6 +28,12 @@ struct SafetyThreshold {
 // Empty if A is safe for all mu > 0. The problem's own mu, and b, do not matter. At most kMaxSafetyWords words.
 std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem);
 
+// The same in the limit (safe.h): for 0 < mu < mu* the matrix A + eps I is safe for all eps > 0 small enough.
+// `polynomial` is the first coefficient of det(R(word) + eps I), as a polynomial in eps, that is not zero for all
+// mu; mu* is the smallest positive root of any such, or zero, where one is negative for small mu > 0. At mu* itself
+// the next coefficient would decide.
+std::optional<SafetyThreshold> FindLimitThreshold(const ExactProblem& problem);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_SAFETY_THRESHOLD_H_

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "corpus/exact_number.h"
+
 namespace stiction {
 
 Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witness) {
@@ -40,8 +42,12 @@ void RequireList(const Json& json, const std::string& path, std::size_t size, co
 }
 
 Rational ReadNumber(const Json& json, const std::string& path) {
-  if (json.is_string()) {
-    if (const auto value = ParseRational(json.get_ref<const std::string&>())) return *value;
+  const auto* text = json.get_ptr<const std::string*>();  // null if it is no text
+  if (text != nullptr && text->size() > kMostCharactersOfNumber) {
+    throw Rejected{path, Shown(json), fmt::format("at most {} characters", kMostCharactersOfNumber)};
+  }
+  if (text != nullptr) {
+    if (const auto value = ParseRational(*text)) return *value;
   }
   throw Rejected{path, Shown(json), "an exact number as a string"};
 }

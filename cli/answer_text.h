@@ -18,7 +18,7 @@ template <class End>
 Json EndToJson(const End& end) {
   Json json = {{"outcome", Name(end.outcome)}};
   if (!end.reason.empty()) json["reason"] = end.reason;
-  if (end.outcome == Outcome::kCycle || end.outcome == Outcome::kStall) {
+  if (IsLoop(end.outcome)) {
     json["start"] = end.start;
     json["period"] = end.period;
   }

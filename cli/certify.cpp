@@ -15,6 +15,7 @@
 #include "certify/space.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/digest.h"
 #include "corpus/json_text.h"
 
 namespace stiction {
@@ -87,27 +88,44 @@ Json Certify(const CertifyOptions& o, const ProblemFile& file) {
   if (o.claim == "coulomb-solution") return CertifyCoulomb(file.problem, o.limits);
   if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
   if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
+  if (o.claim == "definite") return DefiniteCertificate(file.problem);
   if (o.claim == "in-range") return RangeCertificate(file.problem);
   if (o.claim == "h") return HypothesisCertificate(file.problem);
   if (o.claim == "safe") return SafetyCertificate(file.problem);
   if (o.claim == "safe-by-condition") return ConditionCertificate(file.problem).value_or(Json());
-  const Outcome loop = o.claim == "cycle" ? Outcome::kCycle : Outcome::kStall;
-  return LoopCertificate(file.problem, loop, PoliciesNamed(o.policy), o.limits);
+  const std::vector<Policy> policies = PoliciesNamed(o.policy);
+  if (o.claim == "cycle") return CycleCertificate(file.problem, policies, o.limits);
+  return CounterexampleCertificate(file.problem, policies, o.limits);
 }
 
 // ---- Safety ----
 
+Json ThresholdToJson(const SafetyThreshold& threshold) {
+  Json polynomial = Json::array();
+  for (const Rational& coefficient : threshold.polynomial) polynomial.push_back(ToString(coefficient));
+  return {{"low", ToString(threshold.low)},
+          {"high", ToString(threshold.high)},
+          {"word", WordToJson(threshold.word)},
+          {"polynomial", polynomial}};
+}
+
 // By the determinants of all words, and for which uniform friction they are positive.
 void AddWords(const ExactProblem& problem, Json& result) {
   result["safe"] = !DecideSafety(problem).unsafe_word.has_value();
-  const auto threshold = FindSafetyThreshold(problem);
-  if (!threshold) return;
-  Json polynomial = Json::array();
-  for (const Rational& coefficient : threshold->polynomial) polynomial.push_back(ToString(coefficient));
-  result["threshold"] = {{"low", ToString(threshold->low)},
-                         {"high", ToString(threshold->high)},
-                         {"word", WordToJson(threshold->word)},
-                         {"polynomial", polynomial}};
+  if (const auto threshold = FindSafetyThreshold(problem)) result["threshold"] = ThresholdToJson(*threshold);
+}
+
+// What can be said of a problem that is not safe since determinants vanish.
+void AddWeakSafety(const ExactProblem& problem, Json& result) {
+  const WeakSafety weak = DecideWeakSafety(problem);
+  result["weakly_safe"] = !weak.negative_word;
+  result["vanishing_words"] = weak.vanishing;
+  if (weak.negative_word) result["negative_word"] = WordToJson(*weak.negative_word);
+  result["limit"] = {{"safe", !weak.limit_word}};
+  if (weak.limit_word) result["limit"]["word"] = WordToJson(*weak.limit_word);
+  if (const auto threshold = FindLimitThreshold(problem)) {
+    result["limit"]["threshold"] = ThresholdToJson(*threshold);
+  }
 }
 
 // By the condition number of A after scaling: any number of contacts.
@@ -120,24 +138,43 @@ void AddCondition(const ExactProblem& problem, Json& result) {
                          {"mu", mu ? Json(ToString(*mu)) : Json()}};
 }
 
+std::string ThresholdText(const Json& threshold) {
+  return fmt::format("mu* in [{}, {}], by {}", threshold["low"].get<std::string>(),
+                     threshold["high"].get<std::string>(), threshold["word"].dump());
+}
+
+std::string WeakSafetyText(const Json& result) {
+  const Json& limit = result["limit"];
+  std::string text = fmt::format("{} words of determinant zero; ", result["vanishing_words"].get<int>());
+  text += result["weakly_safe"].get<bool>()
+              ? "none negative, so weakly safe: complete driving neither folds nor descends\n"
+              : fmt::format("negative: {}\n", result["negative_word"].dump());
+  text += limit["safe"].get<bool>()
+              ? "safe in the limit: A + eps I is safe for all small eps > 0\n"
+              : fmt::format("not safe in the limit: A + eps I is unsafe by {}\n", limit["word"].dump());
+  return text + (limit.contains("threshold")
+                     ? "uniform mu: safe in the limit below " + ThresholdText(limit["threshold"]) + "\n"
+                     : "safe in the limit for every uniform mu > 0\n");
+}
+
+std::string ConditionText(const Json& condition) {
+  const Json& mu = condition["mu"];
+  if (mu.is_null()) return "its condition alone: safe for every uniform mu\n";
+  return fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
+}
+
 std::string SafetyText(const Json& result, bool has_words) {
   const Json& safe = result["safe"];
   std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
                      : safe.get<bool>() ? "safe\n"
                                         : "unsafe\n";
   if (result.contains("threshold")) {
-    const Json& t = result["threshold"];
-    text += fmt::format("uniform mu: safe below mu* in [{}, {}], where the determinant of {} vanishes\n",
-                        t["low"].get<std::string>(), t["high"].get<std::string>(), t["word"].dump());
+    text += "uniform mu: safe below " + ThresholdText(result["threshold"]) + "\n";
   } else if (has_words) {
     text += "safe for every uniform mu > 0\n";
   }
-  if (result.contains("condition")) {
-    const Json& mu = result["condition"]["mu"];
-    text += mu.is_null()
-                ? "its condition alone: safe for every uniform mu\n"
-                : fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
-  }
+  if (result.contains("limit")) text += WeakSafetyText(result);
+  if (result.contains("condition")) text += ConditionText(result["condition"]);
   return text;
 }
 
@@ -146,6 +183,7 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   const auto by_condition = ConditionCertificate(file.problem);
   Json result = {{"safe", by_condition ? Json(true) : Json()}};
   if (has_words) AddWords(file.problem, result);
+  if (result["safe"] == false) AddWeakSafety(file.problem, result);
   AddCondition(file.problem, result);
   const bool decided = !result["safe"].is_null();
   if (!o.output.empty() && decided)
@@ -155,10 +193,12 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   return decided ? kExitDone : kExitUndecided;
 }
 
+bool SpeaksOfRuns(std::string_view claim) { return claim == "cycle" || claim == "counterexample"; }
+
 // Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
 // Coulomb's law is that of problems in space.
 ProblemFile ReadFor(const CertifyOptions& o) {
-  if (o.all || o.claim == "cycle" || o.claim == "stall") return ReadPlanarProblem(o.file);
+  if (o.all || SpeaksOfRuns(o.claim)) return ReadPlanarProblem(o.file);
   if (o.claim == "coulomb-solution") {
     ProblemFile file = ReadProblem(o.file);
     if (file.problem.dimension == 3) return file;
@@ -190,30 +230,48 @@ int RunCertify(const CertifyOptions& o) {
 
 struct CheckOptions {
   std::vector<std::string> files;
+  std::string problem;
   bool json = false;
 };
+
+CheckReport CheckFile(const std::string& file, const std::string& digest) {
+  const std::string text = ReadText(file);
+  if (text.size() > kMostBytesOfCertificate) {
+    throw InputError(file, "", fmt::format("{} bytes", text.size()),
+                     fmt::format("a certificate of at most {}", kMostBytesOfCertificate));
+  }
+  return CheckCertificate(ParseJson(text, file), file, digest);
+}
+
+std::string ReportText(const CheckReport& report) {
+  if (!report.accepted) return "REJECTED: " + report.reason;
+  return fmt::format("accepted: {} {}, problem {}", report.claim, report.facts.dump(), report.digest);
+}
+
+Json ReportToJson(const std::string& file, const CheckReport& report) {
+  return {{"file", file},
+          {"accepted", report.accepted},
+          {"claim", report.claim},
+          {"problem", report.digest},
+          {report.accepted ? "facts" : "reason", report.accepted ? report.facts : Json(report.reason)}};
+}
 
 // One line, or one object, per file. A file that cannot be read does not keep the others from being checked.
 int RunCheck(const CheckOptions& o) {
   int exit = kExitDone;
+  const std::string digest = o.problem.empty() ? "" : ProblemDigest(ReadProblem(o.problem).problem);
   Json reports = Json::array();
   for (const std::string& file : o.files) {
-    Json entry = {{"file", file}, {"accepted", false}};
     try {
-      const CheckReport report = CheckCertificate(ParseJson(ReadText(file), file), file);
-      entry["accepted"] = report.accepted;
-      entry["claim"] = report.claim;
-      entry[report.accepted ? "facts" : "reason"] = report.accepted ? report.facts : Json(report.reason);
+      const CheckReport report = CheckFile(file, digest);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
-      if (!o.json && report.accepted)
-        fmt::print("{}: accepted: {} {}\n", file, report.claim, report.facts.dump());
-      if (!o.json && !report.accepted) fmt::print("{}: REJECTED: {}\n", file, report.reason);
+      if (!o.json) fmt::print("{}: {}\n", file, ReportText(report));
+      reports.push_back(ReportToJson(file, report));
     } catch (const InputError& error) {
-      entry["reason"] = error.what();
       exit = kExitBadInput;
       fmt::print(stderr, "stiction: {}\n", error.what());
+      reports.push_back({{"file", file}, {"accepted", false}, {"reason", error.what()}});
     }
-    reports.push_back(std::move(entry));
   }
   if (o.json) std::cout << JsonText(reports) << "\n";
   return exit;
@@ -230,12 +288,13 @@ void AddCertify(CommandLine& program) {
                 {"coulomb-solution", "the same for Coulomb's law, in space"},
                 {"symmetric", "A = A'"},
                 {"psd", "A is positive semidefinite"},
+                {"definite", "A is positive definite"},
                 {"in-range", "b is in the range of A"},
                 {"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
                 {"safe", "A is safe for the published algorithm"},
                 {"safe-by-condition", "its condition number alone shows that it is"},
                 {"cycle", "the published algorithm repeats a state of its outer loop"},
-                {"stall", "it repeats a state of one drive"}});
+                {"counterexample", "it does, though A is definite and there is a solution: all in one file"}});
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
@@ -247,6 +306,7 @@ void AddCertify(CommandLine& program) {
 void AddCheck(CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
+  verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");
   verb.Flag("--json", o.json, "machine output");
 }
 

@@ -84,7 +84,6 @@ Json NumbersToJson(const Numbers& numbers) {
   return json;
 }
 
-inline bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 std::string Describe(const Verdict& verdict);
 

@@ -8,8 +8,11 @@
 
 namespace stiction {
 
+// Of a certificate, which comes from anywhere.
+inline constexpr std::size_t kMostCharactersOfNumber = 20000;
+
 // A string is exact, a JSON number is taken at its double value; anything else is refused. Strict: strings
-// only.
+// only, of at most kMostCharactersOfNumber characters.
 Rational ExactNumber(const JsonPlace& place, bool strict = false);
 
 }  // namespace stiction

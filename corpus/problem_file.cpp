@@ -340,6 +340,9 @@ std::optional<Rational> ExactValue(const Json& json) {
 Rational ExactNumber(const JsonPlace& place, bool strict) {
   const Json& json = place.json();
   std::optional<Rational> x;
+  if (strict && json.is_string() && json.get_ref<const std::string&>().size() > kMostCharactersOfNumber) {
+    place.Refuse(fmt::format("a number of at most {} characters", kMostCharactersOfNumber));
+  }
   if (!strict || json.is_string()) x = ExactValue(json);
   if (x.has_value()) return *std::move(x);
   if (!strict && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");

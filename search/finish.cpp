@@ -29,8 +29,6 @@ std::string Checked(const Json& certificate, const std::string& source) {
 // The grid of a larger problem as it was found takes seconds; that of its minimized form is run all the same.
 constexpr int kMostContactsOfGrid = 4;
 
-bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
-
 // `safe` is null where it is not decided.
 Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
   const auto safe = IsSafeIfSmall(problem);
@@ -142,9 +140,9 @@ void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, cons
 void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits,
                   const std::function<bool()>& cancelled) {
   const Outcome outcome = found.run.verdict.outcome;
-  if (IsLoop(outcome)) {
+  if (outcome == Outcome::kCycle) {
     finding.certificate =
-        Checked(LoopCertificate(found.problem, outcome, {found.run.policy}, limits), finding.signature);
+        Checked(CycleCertificate(found.problem, {found.run.policy}, limits), finding.signature);
   } else if (outcome == Outcome::kSolved && !FindViolation(found.problem, found.run.state.f)) {
     finding.certificate = Checked(SolutionCertificate(found.problem, found.run.state.f), finding.signature);
   }
@@ -167,10 +165,10 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   if (cancelled()) return;
   const bool whole = IsWhole(grid, outcome);
   finding.minimized = ToJson(Describe(small, finding, policy, whole, found.has_scene)).dump();
-  if (IsLoop(outcome)) {
+  if (outcome == Outcome::kCycle) {
     const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
     finding.minimized_certificate =
-        Checked(LoopCertificate(small, outcome, certified, limits), finding.signature);
+        Checked(CycleCertificate(small, certified, limits), finding.signature);
   }
   Decided existence = DecideExistenceOf(small, finding.signature, limits, cancelled);
   finding.minimized_existence = std::move(existence.certificate);

@@ -75,8 +75,6 @@ std::uint64_t Hash(std::string_view text) {  // FNV-1a
   return hash;
 }
 
-bool IsLoop(Outcome outcome) { return outcome == Outcome::kCycle || outcome == Outcome::kStall; }
-
 }  // namespace
 
 std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {

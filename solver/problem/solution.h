@@ -23,6 +23,11 @@ inline constexpr std::array<std::string_view, kOutcomeCount> kOutcomeNames = {
 
 inline constexpr std::string_view Name(Outcome outcome) { return kOutcomeNames[static_cast<int>(outcome)]; }
 
+// Endless: a state stands again, with `start` and `period`. (No run has stalled: readings.md, 6.)
+inline constexpr bool IsLoop(Outcome outcome) {
+  return outcome == Outcome::kCycle || outcome == Outcome::kStall;
+}
+
 // Counters of one run; readings.md, 4.
 struct Statistics {
   std::int64_t drives = 0;

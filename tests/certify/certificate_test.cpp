@@ -7,9 +7,12 @@
 
 #include "certify/certificate.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <set>
 
+#include "corpus/digest.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 
@@ -39,14 +42,18 @@ std::vector<Json> OneOfEveryClaim() {
           SemidefiniteCertificate(indefinite),
           RangeCertificate(singular),
           RangeCertificate(NoSolution()),
-          LoopCertificate(ReferenceProblem(), Outcome::kCycle, policies, {})};
+          DefiniteCertificate(ReferenceProblem()),
+          DefiniteCertificate(singular),
+          CycleCertificate(ReferenceProblem(), policies, {}),
+          CounterexampleCertificate(ReferenceProblem(), policies, {})};
 }
 
 std::string ClaimOf(const Json& certificate) { return certificate["claim"].get<std::string>(); }
 
 TEST_CASE("certificate: every maker's certificate is accepted") {
   const std::vector<std::string> claims = {"solution-exists", "symmetric", "not-symmetric", "psd",
-                                           "not-psd",         "in-range",  "not-in-range",  "cycle"};
+                                           "not-psd",         "in-range",  "not-in-range",
+                                           "definite",  "not-definite",  "cycle",  "counterexample"};
   const auto certificates = OneOfEveryClaim();
   REQUIRE(certificates.size() == claims.size());
   for (std::size_t i = 0; i < claims.size(); ++i) {
@@ -79,7 +86,7 @@ TEST_CASE("certificate: those of random problems are accepted") {
 }
 
 TEST_CASE("certificate: of the whole grid, each cycling policy is certified once and none else") {
-  const Json certificate = LoopCertificate(ReferenceProblem(), Outcome::kCycle, PlanarGrid(), {});
+  const Json certificate = CycleCertificate(ReferenceProblem(), PlanarGrid(), {});
   CHECK(CertifiedPolicies(certificate).size() == 1320);
   const CheckReport report = CheckCertificate(certificate, "c");
   CAPTURE(report.reason);
@@ -94,36 +101,77 @@ TEST_CASE("certificate: no contacts at all can be certified") {
 }
 
 TEST_CASE("certificate: what is not so is not certified") {
-  CHECK(LoopCertificate(ThreeSolutions(), Outcome::kCycle, PlanarGrid(), {}).is_null());
-  CHECK(LoopCertificate(ReferenceProblem(), Outcome::kStall, PlanarGrid(), {}).is_null());
+  CHECK(CycleCertificate(ThreeSolutions(), PlanarGrid(), {}).is_null());
   CHECK_THROWS_AS(SolutionCertificate(ThreeSolutions(), Vector({1, 0})), InternalError);
   ExactProblem skew = ThreeSolutions();
   skew.A = Matrix({{1, 5}, {-5, 1}});
   CHECK_THROWS_AS(SemidefiniteCertificate(skew), InputError);
 }
 
-TEST_CASE("certificate: a stall made by hand is refused") {
-  // The cycle's run, called a stall: the state of the zero step in the middle of it.
-  Json certificate = LoopCertificate(ReferenceProblem(), Outcome::kCycle, {Policy{}}, {});
-  certificate["claim"] = "stall";
-  CHECK_FALSE(CheckCertificate(certificate, "c").accepted);
-  Json& run = certificate["witness"]["runs"][0];
-  run["state"]["left"] = {{"F1", "CF"}};
-  run["state"]["zero"] = true;
-  run["start"] = 8;
-  run["period"] = 2;
-  CHECK_FALSE(CheckCertificate(certificate, "c").accepted);
-  // Steps of 6.3, where a variable goes to and fro, repeated by hand.
-  const ExactRun found = RunExact(GiveUpProblem(), {});
-  Json pivots = Json::array();
-  for (const auto& pivot : found.trace.pivots) {
-    pivots.push_back(PivotToJson(pivot, VariableNames(GiveUpProblem())));
-    if (pivot.gave_up) break;
+TEST_CASE("certificate: definite or not, and the direction that shows it") {
+  const auto claim = [](const ExactProblem& problem) {
+    const Json certificate = DefiniteCertificate(problem);
+    CHECK(CheckCertificate(certificate, "c").accepted);
+    return ClaimOf(certificate);
+  };
+  CHECK(claim(ReferenceProblem()) == "definite");
+  CHECK(claim(NoContacts()) == "definite");
+  const ExactProblem singular = MakeProblem({1}, {{1, 1}, {1, 1}}, {0, 0});
+  CHECK(claim(singular) == "not-definite");
+  CHECK(DefiniteCertificate(singular)["witness"]["value"] == "0");
+  CHECK(claim(MakeProblem({1}, {{1, 2}, {2, 1}}, {0, 0})) == "not-definite");
+  CHECK_THROWS_AS(DefiniteCertificate(MakeProblem({1}, {{1, 5}, {-5, 1}}, {0, 0})), InputError);
+  for (int index = 0; index < 100; ++index) {
+    const ExactProblem problem = Random<Rational>(GeneratorId::kDuplicates, 1 + index % 3, index);
+    const Json D = SemidefiniteCertificate(problem)["witness"]["D"];
+    CHECK((claim(problem) == "definite") == (std::ranges::find(D, Json("0")) == D.end()));
   }
-  run["pivots"] = pivots;
-  run["start"] = pivots.size() - 2;
-  certificate["problem"] = ProblemToJson(GiveUpProblem());
-  CHECK_THAT(CheckCertificate(certificate, "c").reason, Contains("expected stall"));
+}
+
+TEST_CASE("certificate: a counterexample is a cycle, a definite A and a solution, of one problem") {
+  const Json certificate = CounterexampleCertificate(ReferenceProblem(), PlanarGrid(), {});
+  const CheckReport report = CheckCertificate(certificate, "c", ProblemDigest(ReferenceProblem()));
+  CAPTURE(report.reason);
+  REQUIRE(report.accepted);
+  CHECK(report.facts["policies"] == 1320);
+  CHECK(certificate["witness"]["f"] == Json({"1", "-6/7", "25/14", "-25/14"}));
+  CHECK(CounterexampleCertificate(ThreeSolutions(), PlanarGrid(), {}).is_null());  // no cycle
+  ExactProblem bordered = ReferenceProblem();  // a contact more that nothing moves: A is semidefinite only
+  bordered.contacts.push_back({ContactKind::kFrictionless});
+  bordered.A = ExactMatrix::Constant(5, 5, 0);
+  bordered.A.topLeftCorner(4, 4) = ReferenceProblem().A;
+  bordered.b = ExactVector::Constant(5, 0);
+  bordered.b.head(4) = ReferenceProblem().b;
+  CHECK_FALSE(CycleCertificate(bordered, {Policy{}}, {}).is_null());
+  CHECK(CounterexampleCertificate(bordered, {Policy{}}, {}).is_null());
+}
+
+TEST_CASE("certificate: one of another problem is refused by its digest") {
+  const Json certificate = SymmetryCertificate(ReferenceProblem());
+  CHECK(CheckCertificate(certificate, "c", ProblemDigest(ReferenceProblem())).accepted);
+  const CheckReport report = CheckCertificate(certificate, "c", ProblemDigest(ThreeSolutions()));
+  CHECK_FALSE(report.accepted);
+  CHECK_THAT(report.reason, Contains(ProblemDigest(ThreeSolutions())) && Contains(report.digest));
+}
+
+TEST_CASE("digest: of what a problem says, not of how it is spelled") {
+  const ExactProblem problem = ThreeSolutions();
+  const std::string text = Print({"a name", problem, {}, {}, {}});
+  CHECK(ProblemDigest(ParseProblem(text, "p").problem) == ProblemDigest(problem));
+  std::vector<ExactProblem> others(6, problem);
+  others[0].A(0, 1) += Rational(1, 7);
+  others[1].b[0] = 5;
+  others[2].contacts[0].mu += 1;
+  others[3].contacts[0].kind = ContactKind::kSliding;
+  others[3].contacts[0].slip = {1, 0};
+  others[4] = others[3];
+  others[4].contacts[0].slip = {-1, 0};
+  others[5] = NoContacts();
+  std::set<std::string> digests = {ProblemDigest(problem)};
+  for (const ExactProblem& other : others) CHECK(digests.insert(ProblemDigest(other)).second);
+  // sha256sum of the five lines of digest.h.
+  CHECK(ProblemDigest(MakeProblem({Rational(3, 4)}, {{3, -4}, {-4, Rational(7, 2)}}, {-1, 0})) ==
+        "sha256:4fb571f4aa488768b8b00d2a66c43e9602392a3e0a4c2616d3287cba6fc2cf22");
 }
 
 // ---- The truth of a claim, by its equation ----------------------------------------------------
@@ -221,8 +269,14 @@ bool IsPartOf(const Json& altered, const Json& original) {
   return !altered["witness"]["runs"].empty();
 }
 
+bool ArePositive(const Json& list) {
+  return std::ranges::all_of(ReadNumbers(list), [](const Rational& x) { return x > 0; });
+}
+
 bool IsTrue(const Json& certificate, const Json& original) {
-  const std::string claim = ClaimOf(original);
+  // A witness of `definite` is one of `psd`, too.
+  const bool weaker = ClaimOf(original) == "definite" && certificate["claim"] == "psd";
+  const std::string claim = weaker ? "psd" : ClaimOf(original);
   if (certificate["claim"] != claim) return false;
   if (claim == "cycle") return IsPartOf(certificate, original);
   const Json &problem = certificate["problem"], &witness = certificate["witness"];
@@ -230,6 +284,11 @@ bool IsTrue(const Json& certificate, const Json& original) {
   const Numbers b = ReadNumbers(problem["b"]);
   if (claim == "solution-exists") return SolutionIsTrue(problem["contacts"], A, b, witness);
   if (claim == "psd") return FactorsAreTrue(A, witness);
+  if (claim == "definite") return FactorsAreTrue(A, witness) && ArePositive(witness["D"]);
+  if (claim == "counterexample") {
+    return IsPartOf(certificate, original) && FactorsAreTrue(A, witness) && ArePositive(witness["D"]) &&
+           SolutionIsTrue(problem["contacts"], A, b, witness);
+  }
   if (claim == "symmetric") {
     for (std::size_t i = 0; i < A.size(); ++i) {
       if (A[i] != Column(A, i)) return false;
@@ -247,12 +306,12 @@ bool IsTrue(const Json& certificate, const Json& original) {
     }
     return true;
   }
-  const Numbers x = ReadNumbers(witness[claim == "not-psd" ? "x" : "y"]);
+  const Numbers x = ReadNumbers(witness[claim == "not-in-range" ? "y" : "x"]);
   const Rational value = Number(witness["value"].get<std::string>());
-  if (claim == "not-psd") {
+  if (claim == "not-psd" || claim == "not-definite") {
     Rational curvature = 0;
     for (std::size_t i = 0; i < A.size(); ++i) curvature += x.at(i) * Dot(A[i], x);
-    return value < 0 && value == curvature;
+    return value == curvature && (claim == "not-psd" ? value < 0 : value <= 0 && Dot(x, x) > 0);
   }
   for (std::size_t j = 0; j < A.size(); ++j) {
     if (Dot(x, Column(A, j)) != 0) return false;
@@ -405,7 +464,7 @@ TEST_CASE("certificate: numbers may be written in any way, and mean the same") {
 
 TEST_CASE("certificate: one run in two is refused, however its numbers are written") {
   Json certificate =
-      LoopCertificate(ReferenceProblem(), Outcome::kCycle, {Policy{}, ParsePolicy("ties=contacts")}, {});
+      CycleCertificate(ReferenceProblem(), {Policy{}, ParsePolicy("ties=contacts")}, {});
   Json& runs = certificate["witness"]["runs"];
   REQUIRE(runs.size() == 1);
   REQUIRE(runs[0]["policies"].size() == 2);
@@ -420,7 +479,7 @@ TEST_CASE("certificate: one run in two is refused, however its numbers are writt
 }
 
 TEST_CASE("certificate: a policy that is not of the planar grid is refused") {
-  Json certificate = LoopCertificate(ReferenceProblem(), Outcome::kCycle, {Policy{}}, {});
+  Json certificate = CycleCertificate(ReferenceProblem(), {Policy{}}, {});
   certificate["witness"]["runs"][0]["policies"][0] = "slip=redirect";
   CHECK_FALSE(CheckCertificate(certificate, "c").accepted);
 }

@@ -171,7 +171,7 @@ TEST_CASE("runs with bilateral contacts: steps and loops of what they leave, und
 
 TEST_CASE("runs with bilateral contacts: a certificate of a cycle speaks of the whole problem") {
   const ExactProblem bordered = Bordered(ReferenceProblem());
-  Json certificate = LoopCertificate(bordered, Outcome::kCycle, {Policy{}}, {});
+  Json certificate = CycleCertificate(bordered, {Policy{}}, {});
   REQUIRE(certificate.is_object());
   Json& state = certificate["witness"]["runs"][0]["state"];
   CHECK(state["sets"]["N1"] == "C");
@@ -190,7 +190,7 @@ TEST_CASE("bilateral contacts that no forces hold: singular before the first ste
   CHECK(run.trace.pivots.empty());
   CHECK(run.a == problem.b);
   CHECK(RunPolicies(problem, PlanarGrid(), {}).size() == 1);
-  CHECK(LoopCertificate(problem, Outcome::kCycle, {Policy{}}, {}).is_null());
+  CHECK(CycleCertificate(problem, {Policy{}}, {}).is_null());
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "certify/enumerate.h"
+#include "certify/existence.h"
 #include "certify/safety_threshold.h"
 #include "certify/witness.h"
 #include "solver/problem/check.h"
@@ -368,6 +370,96 @@ TEST_CASE("safe: below the threshold a problem is safe, at and just above it is 
     CHECK(DecideSafety(WithMu(problem, threshold->high)).unsafe_word);
   }
   CHECK(found > 40);
+}
+
+// ---- Singular A --------------------------------------------------------------------------------
+
+// J J' of a J with fewer columns than rows, with a uniform mu: positive semidefinite, and b = J c in range.
+ExactProblem Singular(std::uint64_t seed, int contacts, const Rational& mu) {
+  std::mt19937_64 draw(seed);
+  const auto number = [&draw] { return Rational(static_cast<int>(draw() % 7) - 3); };
+  ExactMatrix J(2 * contacts, 2 * contacts - 1);
+  for (auto& x : J.reshaped()) x = number();
+  ExactVector c(J.cols());
+  for (auto& x : c) x = number();
+  ExactProblem problem;
+  problem.contacts.assign(contacts, {ContactKind::kStatic, mu});
+  problem.A = J * J.transpose();
+  problem.b = J * c;
+  return problem;
+}
+
+TEST_CASE("safe: the determinant of R + eps I is that of its coefficients") {
+  for (int seed = 0; seed < 40; ++seed) {
+    const ExactProblem problem = Singular(seed, 1 + seed % 3, Rational(1, 1 + seed % 4));
+    for (const ModeWord& word : AllWords(problem)) {
+      const ExactMatrix R = ReducedMatrix(problem, word);
+      const auto coefficients = ShiftedDeterminant(R);
+      REQUIRE(coefficients.size() == static_cast<std::size_t>(R.rows()) + 1);
+      CHECK(coefficients.front() == ReducedDeterminant(problem, word));
+      const Rational eps(3, 7);
+      Rational value = 0, power = 1;
+      for (const Rational& coefficient : coefficients) {
+        value += coefficient * power;
+        power *= eps;
+      }
+      const ExactMatrix shifted = R + eps * ExactMatrix::Identity(R.rows(), R.cols());
+      CHECK(value == Laplace(shifted));
+    }
+  }
+}
+
+// A + eps I itself.
+ExactProblem Softened(ExactProblem problem, const Rational& eps) {
+  for (int i = 0; i < problem.rows(); ++i) problem.A(i, i) += eps;
+  return problem;
+}
+
+TEST_CASE("safe: in the limit is what A + eps I is for small eps, and below the threshold of the limit") {
+  int safe = 0, unsafe = 0, at_threshold = 0;
+  const Rational eps(1, 1000000000000);
+  for (int seed = 0; seed < 120; ++seed) {
+    const ExactProblem problem = Singular(seed, 1 + seed % 3, Rational(1, 1 + seed % 6));
+    const WeakSafety weak = DecideWeakSafety(problem);
+    CHECK(weak.vanishing > 0);
+    CHECK(weak.limit_word.has_value() == DecideSafety(Softened(problem, eps)).unsafe_word.has_value());
+    if (!weak.limit_word) CHECK_FALSE(weak.negative_word);
+    weak.limit_word ? ++unsafe : ++safe;
+    const auto threshold = FindLimitThreshold(problem);
+    if (!threshold || threshold->low == 0) continue;
+    ++at_threshold;
+    CHECK_FALSE(DecideWeakSafety(WithMu(problem, threshold->low * Rational(99, 100))).limit_word);
+    CHECK(FindSafetyThreshold(problem)->high == 0);
+  }
+  CAPTURE(safe, unsafe, at_threshold);
+  CHECK((safe > 10 && unsafe > 10 && at_threshold > 10));
+}
+
+TEST_CASE("safe: where no determinant is negative complete driving neither folds nor descends") {
+  int weakly = 0, turned = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    const ExactProblem problem = Singular(seed, 1 + seed % 3, Rational(6, 1 + seed % 17));
+    const CompleteRun run = RunComplete(problem, {});
+    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    const auto& s = run.verdict.statistics;
+    const bool is_weakly_safe = !DecideWeakSafety(problem).negative_word;
+    weakly += is_weakly_safe;
+    turned += s.folds + s.descents > 0;
+    if (is_weakly_safe) CHECK((s.folds == 0 && s.descents == 0));
+  }
+  CAPTURE(weakly, turned);
+  CHECK((weakly > 30 && turned > 2));
+}
+
+TEST_CASE("safe: a block that cannot tip, at the mu where its slip is singular, is weakly safe") {
+  const ExactProblem problem = MakeProblem({1}, {{1, 1}, {1, 1}}, {0, 0});
+  const WeakSafety weak = DecideWeakSafety(problem);
+  CHECK_FALSE(weak.negative_word);
+  CHECK(weak.vanishing == 2);  // stick; slip+: 1 - 1
+  CHECK_FALSE(weak.limit_word);
+  const auto threshold = FindLimitThreshold(problem);
+  REQUIRE(threshold);
+  CHECK((threshold->low == 1 && threshold->high == 1));
 }
 
 // ---- Certificates ----------------------------------------------------------------------------

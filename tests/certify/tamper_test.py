@@ -11,7 +11,7 @@ the numbers alone, that it is true all the same. Python standard library only.
 """
 
 import copy
-import importlib.util
+import importlib
 import json
 import subprocess
 import sys
@@ -50,20 +50,23 @@ SPACE = {"format": "stiction-problem", "version": 1, "name": "tampered", "dimens
 # claim that is made, what is asked for, problem
 CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symmetric", SINGULAR),
           ("not-symmetric", "symmetric", ASYMMETRIC), ("psd", "psd", SINGULAR), ("not-psd", "psd", INDEFINITE),
+          ("definite", "definite", REFERENCE), ("not-definite", "definite", SINGULAR),
           ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
           ("solution-exists", "solution-exists", SPACE), ("coulomb-solution", "coulomb-solution", SPACE),
-          ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE)]
+          ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE),
+          ("counterexample", "counterexample", REFERENCE)]
+OF_RUNS = ("cycle", "counterexample")
 
 
 def make(stiction, folder, claim, asked, described):
-    """The certificate; of a cycle only the policies of POLICIES."""
+    """The certificate; of runs only the policies of POLICIES."""
     file = folder / "problem.json"
     file.write_text(json.dumps(described))
     command = [stiction, "certify", file, "--claim", asked, "-o", "-"]
-    command += ["--policy", "*"] if claim == "cycle" else []
+    command += ["--policy", "*"] if claim in OF_RUNS else []
     certificate = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     assert certificate["claim"] == claim, (certificate["claim"], claim)
-    if claim == "cycle":
+    if claim in OF_RUNS:
         runs = certificate["witness"]["runs"]
         for run in runs:
             run["policies"] = [policy for policy in run["policies"] if policy in POLICIES]
@@ -165,11 +168,17 @@ def part_of(altered, original):
 
 def is_true(altered, original):
     claim, witness = original["claim"], altered["witness"]
+    if (claim, altered["claim"]) == ("definite", "psd"):
+        claim = "psd"  # of which it is a witness, too
     if altered["claim"] != claim:
         return False
     if claim == "cycle":
         return part_of(altered, original)
     A, b = rows(altered["problem"]["A"]), numbers(altered["problem"]["b"])
+    if claim == "counterexample":
+        return (part_of(altered, original) and factors(A, rows(witness["L"]), numbers(witness["D"]))
+                and min(numbers(witness["D"])) > 0
+                and solves(altered["problem"]["contacts"], A, b, numbers(witness["f"]), numbers(witness["a"])))
     if altered["problem"]["dimension"] == 3 and claim in ("solution-exists", "coulomb-solution"):
         bound = Fraction(witness["bound"]) if claim == "coulomb-solution" else None
         return solves_in_space(altered["problem"]["contacts"], A, b, numbers(witness["f"]), numbers(witness["a"]), bound)
@@ -179,8 +188,9 @@ def is_true(altered, original):
         return A == [list(column) for column in zip(*A)]
     if claim == "not-symmetric":
         return A[witness["i"]][witness["j"]] != A[witness["j"]][witness["i"]]
-    if claim == "psd":
-        return factors(A, rows(witness["L"]), numbers(witness["D"]))
+    if claim in ("psd", "definite"):
+        D = numbers(witness["D"])
+        return factors(A, rows(witness["L"]), D) and (claim == "psd" or min(D) > 0)
     if claim == "in-range":
         return [dot(row, numbers(witness["x"])) for row in A] == b
     if claim == "h":
@@ -191,9 +201,10 @@ def is_true(altered, original):
         v = numbers(witness["v"])
         return (in_cones(altered["problem"]["contacts"], v, dual=False) and dot(b, v) == value < 0
                 and all(dot(row, v) == 0 for row in A))
-    if claim == "not-psd":
+    if claim in ("not-psd", "not-definite"):
         x = numbers(witness["x"])
-        return dot(x, [dot(row, x) for row in A]) == value < 0
+        curvature = dot(x, [dot(row, x) for row in A])
+        return curvature == value and (value < 0 or (claim == "not-definite" and value == 0 and any(x)))
     y = numbers(witness["y"])
     return all(dot(y, column) == 0 for column in zip(*A)) and dot(y, b) == value != 0
 
@@ -274,7 +285,7 @@ def alterations(original):
                     original, path + (i,), lambda parent, key: parent.__delitem__(key))
                 yield f"{name}: item {i} twice", True, edited(
                     original, path + (i,), lambda parent, key: parent.insert(key, copy.deepcopy(parent[key])))
-    if original["claim"] == "cycle":
+    if original["claim"] in OF_RUNS:
         yield from split_runs(original)
 
 
@@ -319,16 +330,17 @@ def program_verdicts(stiction, files):
 
 def script_verdict(script, file):
     try:
-        script.check(script.load(file))
+        script.reader.check(script.reader.load(file), script.CLAIMS)
         return True
-    except script.Rejected:
+    except script.reader.Rejected:
         return False
 
 
-def load_script(path):
-    specification = importlib.util.spec_from_file_location("check_certificate", path)
-    script = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(script)
+def load_script(folder):
+    """check_certificate.py, and beside it what it reads with."""
+    sys.path.insert(0, str(folder))
+    script = importlib.import_module("check_certificate")
+    script.reader = importlib.import_module("certificate_reader")
     return script
 
 
@@ -367,12 +379,12 @@ def judge_texts(stiction, script, folder, original, failures):
 
 
 def main(stiction, sources):
-    script, failures = load_script(Path(sources) / "certify/check_certificate.py"), []
+    script, failures = load_script(Path(sources) / "certify"), []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for claim, asked, described in CLAIMS:
             original = make(stiction, folder, claim, asked, described)
-            if script.check(original) is None or not is_true(original, original):
+            if not script.reader.check(original, script.CLAIMS) or not is_true(original, original):
                 failures.append(f"{claim}: the certificate itself is not true")
             refused, accepted = judge(stiction, script, folder, original, failures)
             if refused < 100:

@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Existence of every corpus problem, decided by the program, accepted by both checkers; methods side by side."""
 
-import importlib.util
 import json
 import pathlib
+import sys
 
 import cli
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCES / "certify"))
+from certificate_reader import Rejected, check, load  # noqa: E402
+from check_certificate import CLAIMS  # noqa: E402
 NO_SOLUTION = {"no-solution-scripted-wedge", "no-solution-zero-matrix"}
-
-
-def independent_checker():
-    specification = importlib.util.spec_from_file_location("checker", SOURCES / "certify/check_certificate.py")
-    checker = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(checker)
-    return checker
 
 
 class Existence(cli.TestCase):
@@ -25,7 +21,6 @@ class Existence(cli.TestCase):
         return found
 
     def test_every_problem_of_the_corpus_is_decided_and_both_checkers_agree(self):
-        checker = independent_checker()
         for problem in self.problems():
             with self.subTest(problem=problem.name):
                 certificate = self.folder / f"{problem.stem}.certificate.json"
@@ -33,7 +28,7 @@ class Existence(cli.TestCase):
                 claim = json.loads(certificate.read_text())["claim"]
                 self.assertEqual(claim, "no-solution" if problem.stem in NO_SOLUTION else "solution-exists")
                 self.succeeds("check", certificate)
-                self.assertTrue(checker.check(checker.load(certificate)).startswith(claim))
+                self.assertTrue(check(load(certificate), CLAIMS).startswith(claim))
 
     def test_complete_driving_and_lemke_solve_what_the_published_algorithm_loops_on(self):
         for problem in self.problems():
@@ -68,8 +63,7 @@ class Existence(cli.TestCase):
         self.assertEqual((done["safe"], done["threshold"]["low"], done["threshold"]["high"]), (False, "1/3", "1/3"))
         self.assertEqual(json.loads(certificate.read_text())["claim"], "unsafe")
         self.succeeds("check", certificate)
-        checker = independent_checker()
-        checker.check(checker.load(certificate))
+        check(load(certificate), CLAIMS)
 
     def test_a_condition_number_that_shows_safety_is_accepted_by_both_checkers_or_undecided(self):
         small = self.folder / "small.certificate.json"
@@ -87,13 +81,12 @@ class Existence(cli.TestCase):
         self.assertNotIn("threshold", told)
         self.assertEqual(json.loads(certificate.read_text())["claim"], "safe-by-condition")
         self.succeeds("check", certificate)
-        checker = independent_checker()
-        checker.check(checker.load(certificate))
+        check(load(certificate), CLAIMS)
         for key, value in (("least", "5"), ("most", "1"), ("most", "100000"), ("scaling", ["1"] * (rows - 1))):
             false = json.loads(certificate.read_text())
             false["witness"][key] = value
-            with self.assertRaises(checker.Rejected):
-                checker.check(false)
+            with self.assertRaises(Rejected):
+                check(false, CLAIMS)
 
         document["contacts"] = [{"kind": "static", "mu": "50"}] * contacts
         problem.write_text(json.dumps(document))
@@ -112,8 +105,7 @@ class Existence(cli.TestCase):
         self.succeeds("certify", problem, "-o", certificate)
         self.assertEqual(json.loads(certificate.read_text())["claim"], "no-solution")
         self.succeeds("check", certificate)
-        checker = independent_checker()
-        checker.check(checker.load(certificate))
+        check(load(certificate), CLAIMS)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ A store that is there already is taken as far as it goes. Exit 0 if there was no
 """
 import argparse
 import concurrent.futures
-import importlib.util
 import json
 import os
 import pathlib
@@ -20,13 +19,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def independent_checker():
-    specification = importlib.util.spec_from_file_location("checker", ROOT / "certify/check_certificate.py")
-    checker = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(checker)
-    return checker
+sys.path.insert(0, str(ROOT / "certify"))
+from certificate_reader import Rejected, check, load  # noqa: E402
+from check_certificate import CLAIMS  # noqa: E402
 
 
 def draw(program, store, units, indices, count, seed, folder):
@@ -52,14 +47,14 @@ def certify(program, problem):
     return certificate
 
 
-def accepted(checker, problem, certificate):
+def accepted(problem, certificate):
     """Whether the certificate proves that this very problem has a solution."""
-    stated = checker.load(certificate)
+    stated = load(certificate)
     found = json.loads(problem.read_text())
     same = all(stated["problem"][key] == found[key] for key in ("contacts", "A", "b"))
     try:
-        return same and checker.check(stated).startswith("solution-exists")
-    except checker.Rejected as reason:
+        return same and check(stated, CLAIMS).startswith("solution-exists")
+    except Rejected as reason:
         print(f"{problem.name}: {reason}")
         return False
 
@@ -80,13 +75,12 @@ def main():
     with sqlite3.connect(o.store) as db:
         definition, = db.execute("SELECT value FROM campaign WHERE key = 'definition'").fetchone()
     db.close()
-    checker = independent_checker()
     with tempfile.TemporaryDirectory() as folder:
         problems = draw(program, o.store, summary["units"], json.loads(definition)["unit_problems"], o.sample, o.seed,
                         pathlib.Path(folder))
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             certificates = list(pool.map(lambda problem: certify(program, problem), problems))
-        good = sum(accepted(checker, *pair) for pair in zip(problems, certificates))
+        good = sum(accepted(*pair) for pair in zip(problems, certificates))
     checked = summary["existence_checked"]
     exceptions = checked - summary["existence_solved"] + summary["disagreements_of_methods"]
     print(f"{checked} exact runs of {summary['problems']} problems, {summary['compared']} by Lemke's method too, all "

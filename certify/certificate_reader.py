@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads stiction certificates and problem files strictly: nothing is guessed or repaired.
+
+What check_certificate.py and check_runs.py have in common: JSON, exact numbers, problems and their digests,
+and the command line. All numbers are fractions.Fraction. Trusted: Python, its json, fractions and hashlib
+modules, and this file, which was written from certify/README.md and shares no code or tables with the C++.
+
+A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number and
+MOST_CONTACTS keep it from taking memory or time; no honest one has come near.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import re
+import sys
+from collections import namedtuple
+from fractions import Fraction
+from math import isinf
+from stat import S_ISREG
+
+MOST_BYTES = 1 << 26
+MOST_DEPTH = 100
+MOST_CHARACTERS = 20000
+MOST_CONTACTS = 2000
+sys.set_int_max_str_digits(0)  # of what is computed
+
+
+class Rejected(Exception):
+    """The certificate does not prove its claim; the text says where and why."""
+
+
+def brief(value):
+    kind = {dict: "an object", list: "a list"}.get(type(value))
+    text = kind or (str(value) if isinstance(value, Fraction) else json.dumps(value))
+    return text if len(text) <= 100 else f"{text[:80]}... ({len(text)} characters)"
+
+
+def need(ok, place, found, expected, meaning=""):
+    if not ok:
+        expected = brief(expected) if isinstance(expected, Fraction) else expected
+        raise Rejected(f"{place}: found {brief(found)}, expected {expected}{meaning}")
+
+
+# --- JSON --------------------------------------------------------------------------
+
+def object_of(pairs):
+    """A JSON object, with each key once, however it is escaped."""
+    result = dict(pairs)
+    if len(result) < len(pairs):
+        raise ValueError("a key stands twice in an object")
+    return result
+
+
+def number_of(text):
+    """A JSON number that 64 bits hold, or a double exactly."""
+    nearest, whole = float(text), text.lstrip("-").isdecimal()
+    if not text.isascii() or isinf(nearest) or (
+            whole and not -2**63 <= int(text) < 2**64 and int(text) != nearest):
+        raise ValueError(f"the number {text[:60]} is not finite, or is rounded")
+    return int(text) if whole else nearest
+
+
+def refuse_constant(text):
+    raise ValueError(f"{text} is no JSON")
+
+
+def depth(value):
+    """Arrays and objects within each other."""
+    inner = value.values() if type(value) is dict else value if type(value) is list else None
+    return 0 if inner is None else 1 + max(map(depth, inner), default=0)
+
+
+def text_of(path):
+    """The text of a regular file, or of standard input as -; a named pipe might wait for ever."""
+    if path == "-":
+        return sys.stdin.buffer.read(MOST_BYTES + 1)
+    mode = os.stat(path)
+    if not S_ISREG(mode.st_mode) or mode.st_size > MOST_BYTES:
+        raise ValueError(f"no regular file of at most {MOST_BYTES} bytes")
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def load(path):
+    text = text_of(path)
+    if len(text) > MOST_BYTES or b"\0" in text:
+        raise ValueError(f"a NUL byte, or more than {MOST_BYTES} bytes")
+    value = json.loads(text.decode("utf-8"), object_pairs_hook=object_of, parse_constant=refuse_constant,
+                       parse_int=number_of, parse_float=number_of)
+    if depth(value) > MOST_DEPTH:
+        raise ValueError(f"more than {MOST_DEPTH} levels of arrays and objects")
+    return value
+
+
+def fields(value, place, *keys, optional=()):
+    """The object `value`, which must have exactly these keys, beside optional ones."""
+    need(type(value) is dict, place, value, "an object")
+    for key in value:
+        need(key in (*keys, *optional), place, key, f"no key but {', '.join(keys)}" if keys else "no key")
+    for key in keys:
+        need(key in value, place, tuple(value), f"a key {key} as well")
+    return value
+
+
+def items(value, place, length=None):
+    """(place, item) for each item of the list `value`."""
+    need(type(value) is list, place, value, "a list")
+    need(length in (None, len(value)), place, len(value), f"{length} items")
+    return [(f"{place}[{i}]", item) for i, item in enumerate(value)]
+
+
+def one_of(value, place, allowed):
+    need(type(value) is str and value in allowed, place, value, f"one of {', '.join(allowed)}")
+    return value
+
+
+def integer(value, place, least, below):
+    """A JSON integer with least <= value < below; true and 1.0 are none."""
+    need(type(value) is int and least <= value < below, place, value, f"an integer >= {least} and < {below}")
+    return value
+
+
+# --- Numbers -----------------------------------------------------------------------
+
+RATIO = re.compile(r"-?[0-9]+/([0-9]+)")
+DECIMAL = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE]([+-]?[0-9]+))?")
+
+
+def exact(value, place):
+    """The rational that an exact string stands for."""
+    need(type(value) is str, place, value, "an exact number as a string")
+    need(len(value) <= MOST_CHARACTERS, place, value, f"at most {MOST_CHARACTERS} characters")
+    if ratio := RATIO.fullmatch(value):
+        need(int(ratio[1]) != 0, place, value, "a denominator that is not zero")
+    else:
+        decimal = DECIMAL.fullmatch(value)
+        need(decimal, place, value, "an exact number such as -3/2, 7 or 1.5e-3")
+        need(abs(int(decimal[1] or 0)) <= 10000, place, value, "an exponent within 10000")
+    return Fraction(value)
+
+
+def exact_or_double(value, place):
+    """A number of a problem file: an exact string, or a JSON number at its double value."""
+    if type(value) is float or (type(value) is int and float(value) == value):
+        return Fraction(value)
+    return exact(value, place)
+
+
+def vector(value, place, length, number=exact):
+    return [number(item, at) for at, item in items(value, place, length)]
+
+
+def rows(value, place, size, number=exact):
+    return [vector(row, at, size, number) for at, row in items(value, place, size)]
+
+
+def matrix(value, place, size, number):
+    """Dense rows; or entries [i, j, "v"], one below the diagonal standing for its mirror
+    image too unless that is listed as well."""
+    if type(value) is list:
+        return rows(value, place, size, number)
+    need(type(value) is dict, place, value, "rows, or an object of size and entries")
+    fields(value, place, "size", "entries")
+    integer(value["size"], place + ".size", size, size + 1)
+    entries = {}
+    for at, item in items(value["entries"], place + ".entries"):
+        items(item, at, 3)
+        i, j = (integer(item[k], f"{at}[{k}]", 0, size) for k in (0, 1))
+        need((i, j) not in entries, at, (i, j), "each entry once")
+        entries[i, j] = number(item[2], at + "[2]")
+    A = [[Fraction(0)] * size for _ in range(size)]
+    for (i, j), x in entries.items():
+        need(i >= j or (j, i) in entries, place + ".entries", (i, j), f"{[j, i]} as well")
+        A[i][j] = x
+        A[j][i] = entries.get((j, i), x)
+    return A
+
+
+def dot(x, y):
+    return sum((u * v for u, v in zip(x, y) if u and v), Fraction(0))
+
+
+def times(A, x):
+    return [dot(row, x) for row in A]
+
+
+# --- Problems ----------------------------------------------------------------------
+
+Contact = namedtuple("Contact", "kind mu slip")  # slip: one component in the plane, two in space
+Problem = namedtuple("Problem", "dimension contacts A b")
+KEYS = {"bilateral": ("kind",), "frictionless": ("kind",), "static": ("kind", "mu"),
+        "sliding": ("kind", "mu", "slip")}
+
+
+def read_contact(value, place, dimension, number):
+    need(type(value) is dict and "kind" in value, place, value, "an object with a key kind")
+    kind = one_of(value["kind"], place + ".kind", KEYS)
+    fields(value, place, *KEYS[kind])
+    mu, slip = None, ()
+    if "mu" in value:
+        mu = number(value["mu"], place + ".mu")
+        need(mu >= 0, place + ".mu", mu, "mu >= 0")
+    if "slip" in value and dimension == 2:
+        slip = (Fraction(one_of(value["slip"], place + ".slip", ("1", "-1"))),)
+    elif "slip" in value:
+        slip = tuple(vector(value["slip"], place + ".slip", 2, number))
+        need(dot(slip, slip) == 1, place + ".slip", value["slip"], "a unit vector")
+    return Contact(kind, mu, slip)
+
+
+def read_problem(value, place="$.problem", number=exact, optional=()):
+    """The problem of a certificate; rows follow contacts, normal first."""
+    fields(value, place, "format", "version", "dimension", "contacts", "A", "b", optional=optional)
+    one_of(value["format"], place + ".format", ("stiction-problem",))
+    integer(value["version"], place + ".version", 1, 2)
+    dimension = integer(value["dimension"], place + ".dimension", 2, 4)
+    listed = items(value["contacts"], place + ".contacts")
+    need(len(listed) <= MOST_CONTACTS, place + ".contacts", len(listed), f"at most {MOST_CONTACTS}")
+    contacts = [read_contact(item, at, dimension, number) for at, item in listed]
+    size = sum(dimension if "mu" in KEYS[contact.kind] else 1 for contact in contacts)
+    return Problem(dimension, contacts, matrix(value["A"], place + ".A", size, number),
+                   vector(value["b"], place + ".b", size, number))
+
+
+def read_problem_file(path):
+    return read_problem(load(path), "$", exact_or_double, ("name", "scene", "origin", "expect"))
+
+
+def digest(problem):
+    """SHA-256 of the problem written in one way: a line for each contact and row, numbers in lowest terms."""
+    lines = ["stiction-problem 1", f"dimension {problem.dimension}"]
+    lines += [" ".join([kind, *map(str, [] if mu is None else [mu]), *map(str, slip)])
+              for kind, mu, slip in problem.contacts]
+    lines += [" ".join([letter, *map(str, row)])
+              for letter, row in [*(("A", row) for row in problem.A), ("b", problem.b)]]
+    return "sha256:" + hashlib.sha256("".join(line + "\n" for line in lines).encode("ascii")).hexdigest()
+
+
+def planar_contacts(problem):
+    """(number, contact, its rows) for each contact of a planar problem."""
+    need(problem.dimension == 2, "$.problem.dimension", problem.dimension,
+         "2: others are not supported by this checker for this claim")
+    row = 0
+    for i, contact in enumerate(problem.contacts):
+        span = range(row, row + (1 if contact.mu is None else 2))
+        yield i, contact, span
+        row = span.stop
+
+
+# --- The command line --------------------------------------------------------------
+
+def check(certificate, claims, expected=None):
+    """The claim, facts about it and the problem's digest, of a certificate that proves it; or raises Rejected.
+
+    claims: name -> (keys of the witness, check(problem, witness), which returns the facts); expected: the
+    digest that is asked for."""
+    fields(certificate, "$", "format", "version", "claim", "problem", "witness")
+    one_of(certificate["format"], "$.format", ("stiction-certificate",))
+    integer(certificate["version"], "$.version", 1, 2)
+    claim = one_of(certificate["claim"], "$.claim", claims)
+    problem = read_problem(certificate["problem"])
+    found = digest(problem)
+    need(expected in (None, found), "$.problem", found, f"{expected}, the problem that was asked for")
+    keys, facts = claims[claim]
+    witness = fields(certificate["witness"], "$.witness", *keys.split())
+    return f"{claim} ({facts(problem, witness)}), problem {found}"
+
+
+def check_file(path, claims, expected):
+    """Prints the verdict on one file; returns its exit status."""
+    try:
+        certificate = load(path)
+    except (OSError, ValueError, RecursionError) as error:
+        print(f"{path}: unreadable: {error}", file=sys.stderr)
+        return 2
+    try:
+        print(f"{path}: accepted: {check(certificate, claims, expected)}")
+        return 0
+    except Rejected as reason:
+        print(f"{path}: REJECTED: {reason}")
+        return 1
+
+
+EXITS = """
+exit status:
+  0  every certificate was accepted
+  1  one was rejected; its line says where and why
+  2  a file could not be read or is no JSON; bad usage
+"""
+
+
+def main(claims, description, epilog):
+    parser = argparse.ArgumentParser(description=description, epilog=epilog + EXITS,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("certificates", nargs="+", metavar="CERT", help="a certificate file; - is standard input")
+    parser.add_argument("--problem", metavar="FILE", help="the problem file that all of them must speak of")
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="backslashreplace")
+    arguments = parser.parse_args()
+    try:
+        expected = arguments.problem and digest(read_problem_file(arguments.problem))
+    except (OSError, ValueError, RecursionError, Rejected) as error:
+        parser.exit(2, f"{arguments.problem}: no problem: {error}\n")
+    return max([check_file(path, claims, expected) for path in arguments.certificates])
