@@ -28,6 +28,8 @@ class Certificates(cli.TestCase):
             (cli.REFERENCE, "cycle", "cycle"),
             (cli.SOLVED, "symmetric", "symmetric"), (asymmetric, "symmetric", "not-symmetric"),
             (cli.SOLVED, "psd", "psd"), (indefinite, "psd", "not-psd"),
+            (cli.SOLVED, "definite", "definite"), (outside, "definite", "not-definite"),
+            (cli.REFERENCE, "counterexample", "counterexample"),
             (cli.SOLVED, "in-range", "in-range"), (outside, "in-range", "not-in-range"),
             (cli.SOLVED, "h", "h"), (outside, "h", "not-h"),
         ]:
@@ -43,7 +45,7 @@ class Certificates(cli.TestCase):
 
     def test_no_claim_is_made_without_a_witness(self):
         out = self.folder / "c.json"
-        for problem, claim in [(cli.SOLVED, "cycle"), (cli.REFERENCE, "stall")]:
+        for problem, claim in [(cli.SOLVED, "cycle"), (cli.SOLVED, "counterexample")]:
             done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, code=3)
             self.assertIn("undecided", done.out)
             done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, "--json", code=3)
@@ -56,6 +58,19 @@ class Certificates(cli.TestCase):
         self.succeeds("certify", file, "-o", out, "--claim", "cycle", "--policy", "*")
         cycles = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]["cycle"]
         self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
+
+    def test_the_counterexample_of_the_corpus(self):
+        file, problem = cli.ROOT / "corpus/certificates/counterexample.json", cli.ROOT / "corpus/cycle-every-policy-mu-1.json"
+        report = self.succeeds("check", file, "--problem", problem, "--json").json()[0]
+        self.assertEqual((report["claim"], report["facts"]["policies"]), ("counterexample", 1536))
+        for script in ("check_certificate.py", "check_runs.py"):
+            done = subprocess.run([sys.executable, cli.ROOT / "certify" / script, file, "--problem", problem],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn(report["problem"], done.stdout)
+        again = self.folder / "again.json"
+        self.succeeds("certify", problem, "--claim", "counterexample", "--policy", "*", "-o", again)
+        self.assertEqual(again.read_bytes(), file.read_bytes())
 
     def test_a_changed_certificate_is_rejected(self):
         out, bad = self.folder / "c.json", self.folder / "bad.json"

@@ -8,7 +8,6 @@ STICTION_SAFETY_PROBLEMS: how many problems are generated, 120 if it is not set.
 """
 
 import itertools
-import json
 import os
 import pathlib
 import random
@@ -50,10 +49,7 @@ class Safety(cli.TestCase):
     def agree(self, file):
         """What is said of the problem; fails where the determinants say otherwise."""
         said = self.succeeds("certify", file, "--safe", "--json").json()
-        problem = read_problem_file(file)
-        if word_count(problem) > MOST_WORDS:
-            return said
-        values = determinants(problem)
+        values = determinants(read_problem_file(file))
         self.assertEqual(said["safe"], min(values) > 0)
         if min(values) <= 0:
             self.assertEqual(said["weakly_safe"], min(values) == 0)
@@ -74,15 +70,17 @@ class Safety(cli.TestCase):
                 self.assertLessEqual(done.code == 0, said["safe"])
         self.assertTrue(all(seen.values()), seen)
 
-    def test_scenes_of_the_corpus(self):
+    def test_scenes_of_the_corpus_with_few_contacts(self):
         spoken = 0
         for scene in sorted((cli.ROOT / "corpus/scenes").glob("*.json")):
             file = self.folder / "p.json"
             with self.subTest(scene=scene.name):
-                if cli.run("assemble", scene, "-o", file).code != 0:
+                file.unlink(missing_ok=True)
+                if cli.run("assemble", scene, "-o", file).code != 0 or not file.exists():
                     continue
-                kinds = {contact["kind"] for contact in json.loads(file.read_text())["contacts"]}
-                if kinds <= {"static", "frictionless"} and cli.run("certify", file, "--safe").code == 0:
+                problem = read_problem_file(file)
+                kinds = {contact.kind for contact in problem.contacts}
+                if kinds <= {"static", "frictionless"} and word_count(problem) <= MOST_WORDS:
                     spoken += 1
                     said = self.agree(file)
                     # Two sticking contacts of one body: a singular word, of which "unsafe" alone says nothing.
