@@ -340,6 +340,8 @@ false("safe", "stick is singular", problem(["1/4"], [[1, 2], [2, 4]], [0, 0]), d
 false("safe", "stick is negative", problem(["1/4"], [[1, 2], [2, 1]], [0, 0]),
       determinants=texts([1, -3, "1/2", "3/2"]))
 false("safe", "a sliding contact", problem([("1/4", "1")], COUPLED, [0, 0]), determinants=texts([1, "1/2"]))
+false("safe", "a sliding contact, without its friction", problem([("1/4", "1")], COUPLED, [0, 0]),
+      determinants=texts([1, 1]))
 false("safe", "a bilateral contact", problem(["hold"], [[1]], [0]), determinants=texts([1]))
 false("safe", "two contacts, the last word", smooth([[1, 1], [1, 1]], [0, 0]), determinants=texts([1, 1, 1, 0]))
 
@@ -377,6 +379,9 @@ by_condition(false, "a sliding contact", problem([("1/4", "1")], IDENTITY, [0, 0
 by_condition(false, "a bilateral contact", problem(["hold"], [[1]], [0]), [1], 1, 1)
 by_condition(false, "the second contact has the friction",
              problem([0, 1], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 2, 5]], [0] * 4),
+             [1, 1, 1, 1], ONE_SIXTH, 6)
+by_condition(false, "the first contact has the friction",
+             problem([1, 0], [[1, 2, 0, 0], [2, 5, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], [0] * 4),
              [1, 1, 1, 1], ONE_SIXTH, 6)
 
 # --- cycle -------------------------------------------------------------------------
@@ -418,6 +423,9 @@ false("cycle", "the friction of another problem", {**CYCLING, "contacts": [conta
       runs=[run(["paper"])])
 false("cycle", "a run that has not come back yet", CYCLING,
       runs=[run(["paper"], start=3, period=3, count=11)])
+false("cycle", "a run without its last step", CYCLING, runs=[run(["paper"], count=12)])
+false("cycle", "a run with a step too many", CYCLING,
+      runs=[{**run(["paper"]), "pivots": pivots() + pivots()[-1:]}])
 false("cycle", "no runs", CYCLING, runs=[])
 false("cycle", "a run of no policy", CYCLING, runs=[run([])])
 false("cycle", "a policy twice", CYCLING, runs=[run(["paper", "paper"])])
