@@ -26,7 +26,9 @@ from collections import namedtuple
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from mutants import LABELS, MUTANTS, PROGRAMS
+sys.dont_write_bytecode = True  # beside the sources
+
+from mutants import LABELS, MUTANTS, PROGRAMS  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
