@@ -10,7 +10,8 @@ step by step. Of the random problems those are taken on which something is given
 a few others. Python standard library only.
 """
 
-import importlib.util
+import importlib
+import inspect
 import json
 import random
 import subprocess
@@ -24,17 +25,32 @@ POLICIES = 20  # of a problem of the corpus
 CORPUS = ("two-contact-cycle", "cycle-under-some-policies-a", "three-contact-cycle-with-a-frictionless-one",
           "two-contact-cycle-13-steps", "safe-tie-yet-given-up", "safe-yet-given-up", "sliding/cycle-of-sliding-contacts")
 MOST_STEPS = 300
+sys.dont_write_bytecode = True
 
 
-def load_published(sources):
-    """The program in certify that has the published algorithm."""
-    folder = Path(sources) / "certify"
-    sys.path.insert(0, str(folder))  # its programs may use each other
-    script = next(path for path in sorted(folder.glob("*.py")) if "class Published" in path.read_text())
-    specification = importlib.util.spec_from_file_location(script.stem, script)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+class Independent:
+    """The published algorithm of the independent checker, whichever of its programs has it."""
+
+    def __init__(self, sources):
+        folder = Path(sources) / "certify"
+        sys.path.insert(0, str(folder))  # its programs use each other
+        texts = {path.stem: path.read_text() for path in sorted(folder.glob("*.py"))}
+        self.algorithm = self.first(texts, "class Published")
+        self.read_problem = self.first(texts, "def read_problem").read_problem
+        self.counts_itself = "max_steps" in inspect.signature(self.algorithm.run).parameters
+
+    @staticmethod
+    def first(texts, definition):
+        return importlib.import_module(next(name for name, text in texts.items() if definition in text))
+
+    def run(self, problem, policy):
+        """At most MOST_STEPS steps."""
+        def end_if_long(steps):
+            if len(steps) >= MOST_STEPS:
+                raise self.algorithm.Ended("limit")
+
+        limit = MOST_STEPS if self.counts_itself else end_if_long
+        return self.algorithm.run(self.read_problem(problem), policy, limit)
 
 
 def random_contact(dice):
@@ -105,12 +121,8 @@ def difference(replayed, run):
 class Comparison:
     """Counts the outcomes of what it compares."""
 
-    def __init__(self, stiction, published, folder):
-        self.stiction, self.published, self.file = stiction, published, folder / "problem.json"
-        self.outcomes = {}
-
-    def run(self, problem, policy):
-        return self.published.run(self.published.read_problem(problem), policy, MOST_STEPS)
+    def __init__(self, stiction, folder):
+        self.stiction, self.file, self.outcomes = stiction, folder / "problem.json", {}
 
     def compare(self, problem, policy, run):
         """Ends the program where the two differ."""
@@ -125,18 +137,18 @@ class Comparison:
 
 
 def main(stiction, sources):
-    published, dice = load_published(sources), random.Random(1994)
+    independent, dice = Independent(sources), random.Random(1994)
     with tempfile.TemporaryDirectory() as folder:
-        comparison = Comparison(stiction, published, Path(folder))
+        comparison = Comparison(stiction, Path(folder))
         for name in CORPUS:
             file = json.loads((Path(sources) / "corpus" / f"{name}.json").read_text())
             problem = {key: file[key] for key in ("format", "version", "dimension", "contacts", "A", "b")}
             for _ in range(POLICIES):
-                policy = random_policy(dice, published.SWITCHES)
-                comparison.compare(problem, policy, comparison.run(problem, policy))
+                policy = random_policy(dice, independent.algorithm.SWITCHES)
+                comparison.compare(problem, policy, independent.run(problem, policy))
         for pair in range(DRAWN):
-            problem, policy = random_problem(dice), random_policy(dice, published.SWITCHES)
-            run = comparison.run(problem, policy)
+            problem, policy = random_problem(dice), random_policy(dice, independent.algorithm.SWITCHES)
+            run = independent.run(problem, policy)
             if pair % 8 == 0 or is_interesting(run):
                 comparison.compare(problem, policy, run)
     print(f"{sum(comparison.outcomes.values())} runs take the same steps: {comparison.outcomes}")
