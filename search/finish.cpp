@@ -7,8 +7,6 @@
 
 #include "certify/agreement.h"
 #include "certify/certificate.h"
-#include "certify/existence.h"
-#include "certify/safe.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
@@ -30,8 +28,8 @@ std::string Checked(const Json& certificate, const std::string& source) {
 constexpr int kMostContactsOfGrid = 4;
 
 // `safe` is null where it is not decided.
-Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid) {
-  const auto safe = IsSafeIfSmall(problem);
+Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid, const ExactMethods& methods) {
+  const auto safe = methods.is_safe(problem);
   return {{"contacts", problem.contacts.size()}, {"outcome", Name(run.verdict.outcome)},
           {"start", run.verdict.start},          {"period", run.verdict.period},
           {"steps", run.trace.pivots.size()},    {"grid", grid},
@@ -111,24 +109,25 @@ Json GridCounts(const ExactProblem& problem, const Limits& limits, const std::fu
 
 namespace {
 
-// What a finding is finished from.
+// What a finding is finished from, and by.
 struct Unfinished {
   ExactProblem problem;
   ExactRun run;
   Json grid;
   bool has_scene = false;
+  const ExactMethods& methods;
 };
 
 // All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
 // signature.
 void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits) {
-  const CompleteRun complete = RunComplete(found.problem, limits);
-  const LemkeRun lemke = RunLemke(found.problem, limits);
+  const CompleteRun complete = found.methods.complete(found.problem, limits);
+  const LemkeRun lemke = found.methods.lemke(found.problem, limits);
   Answers answers{{{"complete", complete.verdict.outcome, complete.f},
                    {"baraff", found.run.verdict.outcome, found.run.state.f},
                    {"lemke", lemke.verdict.outcome, lemke.f}},
                   {}};
-  if (finding.contacts <= kMostContactsEnumerated) answers.modes = EnumerateModes(found.problem);
+  if (finding.contacts <= kMostContactsEnumerated) answers.modes = found.methods.modes(found.problem);
   const auto disagreement = FindDisagreement(found.problem, answers);
   if (!disagreement || finding.kind == kDisagreementOfMethods) return;
   finding.kind = kDisagreementOfMethods;
@@ -148,7 +147,7 @@ void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const 
   }
   Decided existence = DecideExistenceOf(found.problem, finding.signature, limits, cancelled);
   finding.existence = std::move(existence.certificate);
-  facts["found"] = FactsOf(found.problem, found.run, found.grid);
+  facts["found"] = FactsOf(found.problem, found.run, found.grid, found.methods);
   facts["found"]["existence"] = std::move(existence.facts);
 }
 
@@ -172,7 +171,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   }
   Decided existence = DecideExistenceOf(small, finding.signature, limits, cancelled);
   finding.minimized_existence = std::move(existence.certificate);
-  facts["minimized"] = FactsOf(small, RunExact(small, {policy, {}, limits}), grid);
+  facts["minimized"] = FactsOf(small, RunExact(small, {policy, {}, limits}), grid, found.methods);
   facts["minimized"]["existence"] = std::move(existence.facts);
   if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;
 }
@@ -180,10 +179,10 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
 }  // namespace
 
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
-                                     const std::function<bool()>& cancelled) {
+                                     const std::function<bool()>& cancelled, const ExactMethods& methods) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
-  Unfinished found{file.problem, RunExact(file.problem, {ParsePolicy(finding.policy), {}, limits}),
-                   Json::object(), file.scene.has_value()};
+  Unfinished found{file.problem, methods.published(file.problem, {ParsePolicy(finding.policy), {}, limits}),
+                   Json::object(), file.scene.has_value(), methods};
   Finding finished = finding;
   finished.done = true;
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);

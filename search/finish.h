@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "corpus/store.h"
-#include "solver/problem/options.h"
+#include "search/exact_methods.h"
 
 namespace stiction {
 
@@ -20,7 +20,7 @@ namespace stiction {
 // that a solution exists. A cycle whose minimized form is safe becomes a safe-cycle, and one
 // on which methods disagree a disagreement of methods; its signature stays.
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
-                                     const std::function<bool()>& cancelled);
+                                     const std::function<bool()>& cancelled, const ExactMethods& methods = {});
 
 // "cycle": 1320, "solved": 216: outcomes over the whole planar grid.
 // Fewer than all once `cancelled`.

@@ -7,9 +7,6 @@
 #include <tuple>
 
 #include "certify/agreement.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/safe.h"
 #include "corpus/kinds.h"
 #include "corpus/scene_file.h"
 #include "search/generators.ipp"
@@ -48,8 +45,8 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
 // What one unit collects while it runs.
 class Collector {
  public:
-  Collector(const Campaign& campaign, const Task& task, std::int64_t unit)
-      : campaign_(campaign), task_(task), unit_(unit) {
+  Collector(const Campaign& campaign, const ExactMethods& methods, const Task& task, std::int64_t unit)
+      : campaign_(campaign), methods_(methods), task_(task), unit_(unit) {
     result_.problems = UnitProblems(campaign, task);
     for (const Policy& policy : campaign.policies) {
       const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};
@@ -62,7 +59,7 @@ class Collector {
   // Runs problem `index` exactly. `suspected`: the inexact run did not end in a verified solution.
   void RunExactly(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
     const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
-    const ExactRun run = RunExact(problem, {campaign_.policies[policy], {}, campaign_.limits});
+    const ExactRun run = methods_.published(problem, {campaign_.policies[policy], {}, campaign_.limits});
     const Outcome exact = run.verdict.outcome;
     Tally& tally = *tallies_[policy];
     if (suspected) {
@@ -76,7 +73,7 @@ class Collector {
     if (!suspected) CheckSafety(place, run, problem);
     const bool same_problem = Row(task_.generator).exact_in_double;
     if (exact != Outcome::kSolved) {
-      const bool safe_cycle = exact == Outcome::kCycle && IsSafeIfSmall(problem) == true;
+      const bool safe_cycle = exact == Outcome::kCycle && methods_.is_safe(problem) == true;
       Find(place, run, safe_cycle ? kSafeCycle : Name(exact),
            (safe_cycle ? "safe-" : "") + Signature(problem, run), problem);
     } else if (wrong && same_problem) {
@@ -100,7 +97,7 @@ class Collector {
   // Holds the methods against each other. All generators promise A positive semidefinite and b in range(A), as
   // FindDisagreement requires. Lemke's method where asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
-    const CompleteRun complete = RunComplete(problem, campaign_.limits);
+    const CompleteRun complete = methods_.complete(problem, campaign_.limits);
     Answers answers{{{"complete", complete.verdict.outcome, complete.f},
                      {"baraff", published.verdict.outcome, published.state.f}},
                     {}};
@@ -108,13 +105,13 @@ class Collector {
     const std::uint64_t draw = Mix(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_),
                                                static_cast<std::uint64_t>(place.index)));
     if (with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0) {
-      const LemkeRun lemke = RunLemke(problem, campaign_.limits);
+      const LemkeRun lemke = methods_.lemke(problem, campaign_.limits);
       answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
       ++tally.compared;
     }
     if (task_.contacts <= kMostContactsEnumerated &&
         draw % static_cast<std::uint64_t>(campaign_.enumerate_every) == 0) {
-      answers.modes = EnumerateModes(problem);
+      answers.modes = methods_.modes(problem);
       CountModes(tally, problem, *answers.modes);
     }
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
@@ -158,11 +155,11 @@ class Collector {
     if (task_.contacts > kMostContactsEnumerated) return;
     AgreementTally& tally = result_.record.agreement[task_.contacts];
     ++tally.safety_decided;
-    if (IsSafeIfSmall(problem) != true) return;
+    if (methods_.is_safe(problem) != true) return;
     ++tally.safe;
     Policy policy = published.policy;
     policy.apex = Apex::kSuspended;
-    const ExactRun run = RunExact(problem, {policy, {}, campaign_.limits});
+    const ExactRun run = methods_.published(problem, {policy, {}, campaign_.limits});
     if (run.verdict.statistics.give_ups == 0) return;
     ++tally.safe_gave_up;
     if (HasTies(problem, run)) return;
@@ -197,6 +194,7 @@ class Collector {
   }
 
   const Campaign& campaign_;
+  const ExactMethods& methods_;
   const Task& task_;
   std::int64_t unit_;
   UnitResult result_;
@@ -213,7 +211,7 @@ class SizedKernel {
 template <int Rows>
 class Kernel final : public SizedKernel {
  public:
-  explicit Kernel(const Campaign& campaign) : campaign_(campaign) {
+  Kernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {
     for (const Policy& policy : campaign.policies) {
       algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
     }
@@ -233,20 +231,29 @@ class Kernel final : public SizedKernel {
   }
 
  private:
+  using Vector = typename ContactProblem<double, Rows>::Vector;
+
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
-    const Verdict verdict = algorithms_[policy].Run(problem_);
+    Verdict verdict = algorithms_[policy].Run(problem_);
+    const Vector* f = &algorithms_[policy].state().f;
+    Vector distorted;
+    if (solvers_.distort) {
+      distorted = *f;
+      solvers_.distort(verdict, {distorted.data(), Rows});
+      f = &distorted;
+    }
     Tally& tally = collector.tally(policy);
     tally.Count(verdict);
     const bool solved = verdict.outcome == Outcome::kSolved;
-    const bool wrong = solved && !(Residual(algorithms_[policy].state().f) <= kWrongAnswer);
+    const bool wrong = solved && !(Residual(*f) <= kWrongAnswer);
     tally.wrong += wrong;
     const bool suspected = !solved || wrong;
     if (suspected || audit) collector.RunExactly(index, policy, verdict.outcome, wrong, suspected);
   }
 
   // Of f alone: the accelerations are computed anew.
-  double Residual(const typename ContactProblem<double, Rows>::Vector& f) const {
-    typename ContactProblem<double, Rows>::Vector a;
+  double Residual(const Vector& f) const {
+    Vector a;
     for (int i = 0; i < Rows; ++i) {
       double sum = problem_.b[i];
       for (int j = 0; j < Rows; ++j) sum += problem_.A(i, j) * f[j];
@@ -256,28 +263,29 @@ class Kernel final : public SizedKernel {
   }
 
   const Campaign& campaign_;
+  const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double, Rows> problem_;
 };
 
-std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, int contacts) {
+std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, int contacts) {
   switch (contacts) {
     case 1:
-      return std::make_unique<Kernel<2>>(campaign);
+      return std::make_unique<Kernel<2>>(campaign, solvers);
     case 2:
-      return std::make_unique<Kernel<4>>(campaign);
+      return std::make_unique<Kernel<4>>(campaign, solvers);
     case 3:
-      return std::make_unique<Kernel<6>>(campaign);
+      return std::make_unique<Kernel<6>>(campaign, solvers);
     case 4:
-      return std::make_unique<Kernel<8>>(campaign);
+      return std::make_unique<Kernel<8>>(campaign, solvers);
     case 5:
-      return std::make_unique<Kernel<10>>(campaign);
+      return std::make_unique<Kernel<10>>(campaign, solvers);
     case 6:
-      return std::make_unique<Kernel<12>>(campaign);
+      return std::make_unique<Kernel<12>>(campaign, solvers);
     case 7:
-      return std::make_unique<Kernel<14>>(campaign);
+      return std::make_unique<Kernel<14>>(campaign, solvers);
     case 8:
-      return std::make_unique<Kernel<16>>(campaign);
+      return std::make_unique<Kernel<16>>(campaign, solvers);
     default:
       throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", contacts, kMaxContacts));
   }
@@ -286,23 +294,24 @@ std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, int contacts) 
 }  // namespace
 
 struct UnitRunner::Implementation {
-  explicit Implementation(const Campaign& c) : campaign(c), schedule(Schedule(c)) {}
+  Implementation(const Campaign& c, const UnitSolvers& s) : campaign(c), solvers(s), schedule(Schedule(c)) {}
 
   Campaign campaign;
+  UnitSolvers solvers;
   std::vector<Task> schedule;
   std::map<int, std::unique_ptr<SizedKernel>> kernels;  // by contacts
 };
 
-UnitRunner::UnitRunner(const Campaign& campaign)
-    : implementation_(std::make_unique<Implementation>(campaign)) {}
+UnitRunner::UnitRunner(const Campaign& campaign, const UnitSolvers& solvers)
+    : implementation_(std::make_unique<Implementation>(campaign, solvers)) {}
 UnitRunner::~UnitRunner() = default;
 
 UnitResult UnitRunner::Run(std::int64_t unit) {
   Implementation& self = *implementation_;
   const Task task = TaskOf(self.schedule, unit);
   std::unique_ptr<SizedKernel>& kernel = self.kernels[task.contacts];
-  if (kernel == nullptr) kernel = MakeKernel(self.campaign, task.contacts);
-  Collector collector(self.campaign, task, unit);
+  if (kernel == nullptr) kernel = MakeKernel(self.campaign, self.solvers, task.contacts);
+  Collector collector(self.campaign, self.solvers.exact, task, unit);
   kernel->Run(unit, task, collector);
   return collector.Take();
 }

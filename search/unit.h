@@ -11,10 +11,13 @@
 #ifndef STICTION_SEARCH_UNIT_H_
 #define STICTION_SEARCH_UNIT_H_
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "search/campaign.h"
+#include "search/exact_methods.h"
 
 namespace stiction {
 
@@ -25,10 +28,17 @@ struct UnitResult {
       candidates;  // first of each signature, at most representatives_per_unit beside the grave ones
 };
 
+// What a unit solves with; a search leaves it as it is.
+struct UnitSolvers {
+  ExactMethods exact = {};
+  // Changes what a run over doubles says, and its forces; not called where it is empty.
+  std::function<void(Verdict&, std::span<double> f)> distort = {};
+};
+
 // Keeps its workspaces between units. One per thread.
 class UnitRunner {
  public:
-  explicit UnitRunner(const Campaign& campaign);
+  explicit UnitRunner(const Campaign& campaign, const UnitSolvers& solvers = {});
   ~UnitRunner();
   UnitRunner(const UnitRunner&) = delete;
   UnitRunner& operator=(const UnitRunner&) = delete;

@@ -97,6 +97,28 @@ TEST_CASE("minimize: a problem that is not interesting is refused with what it l
   CHECK_THAT(Lack(ReferenceProblem(), other), Contains("another signature"));
 }
 
+TEST_CASE("minimize: no number of what is left can be made zero, its mirror with it") {
+  const ExactProblem small = Minimize(ReferenceProblem(), {}).problem;
+  int tried = 0;
+  const auto is_interesting = [&tried](const ExactProblem& candidate) {
+    ++tried;
+    return MeetsAssumptions(candidate) && RunExact(candidate, {}).verdict.outcome == Outcome::kCycle;
+  };
+  for (int i = 0; i < small.rows(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      ExactProblem candidate = small;
+      if (candidate.A(i, j) == 0) continue;
+      candidate.A(i, j) = candidate.A(j, i) = 0;
+      CHECK_FALSE(is_interesting(candidate));
+    }
+    ExactProblem candidate = small;
+    if (candidate.b[i] == 0) continue;
+    candidate.b[i] = 0;
+    CHECK_FALSE(is_interesting(candidate));
+  }
+  CHECK(tried > 4);
+}
+
 TEST_CASE("minimize: a solved problem shrinks to nothing") {
   MinimizeOptions options;
   options.keep = Outcome::kSolved;

@@ -116,6 +116,37 @@ TEST_CASE("published: no contacts and no violated condition are solved without a
   }
 }
 
+// The rows that are driven, one for each drive.
+std::vector<int> DrivenRows(const ExactRun& run) {
+  std::vector<int> rows;
+  for (const auto& pivot : run.trace.pivots) {
+    if (pivot.drive > static_cast<int>(rows.size())) rows.push_back(pivot.driven);
+  }
+  return rows;
+}
+
+TEST_CASE("published: most-violated takes normals by -aN, then frictions by abs(aF), of equal ones the first") {
+  ExactProblem problem = MakeProblem({1, 1, 1}, {}, {-1, 1, -1, Rational(-2), -1, Rational(2)});
+  problem.A = ExactMatrix::Identity(6, 6);
+  const PublishedOptions options = {ParsePolicy("scan=most-violated"), {}, {}};
+  CHECK(DrivenRows(RunExact(problem, options)) == std::vector{0, 2, 4, 3, 5, 1});
+  problem.b[4] = -3;
+  problem.b[1] = 5;
+  CHECK(DrivenRows(RunExact(problem, options)) == std::vector{4, 0, 2, 1, 3, 5});
+}
+
+TEST_CASE("published: a driven friction that reaches zero after a zero step is not given up") {
+  const ExactRun run = RunExact(ReferenceProblem(), {ParsePolicy("give-up=previous"), {}, {}});
+  int found = 0;
+  for (std::size_t k = 1; k < run.trace.pivots.size(); ++k) {
+    const auto &pivot = run.trace.pivots[k], &before = run.trace.pivots[k - 1];
+    if (pivot.goal != DriveGoal::kZero || pivot.limiting != pivot.driven) continue;
+    CHECK_FALSE(pivot.gave_up);
+    found += before.drive == pivot.drive && before.s == 0;
+  }
+  CHECK(found > 0);
+}
+
 TEST_CASE("published: without b in range(A) there can be a ray, with its direction") {
   const ExactRun run = RunExact(MakeProblem({1}, {{0, 0}, {0, 0}}, {-1, 0}), {});
   CHECK(run.verdict.outcome == Outcome::kRay);

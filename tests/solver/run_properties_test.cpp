@@ -28,7 +28,8 @@ void ForEachPair(int count, Visit visit) {
   for (const CyclingSeed& seed : CyclingSeeds()) {
     CAPTURE(seed.index);
     for (const char* policy :
-         {"paper", "resume=round", "resume=round,admit=eager", "file=yes,apex=suspended"}) {
+         {"paper", "resume=round", "resume=round,admit=eager", "file=yes,apex=suspended", "give-up=previous",
+          "give-up=second,drop=variable"}) {
       visit(Cycling(seed), ParsePolicy(policy));
     }
   }

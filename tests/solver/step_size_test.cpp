@@ -189,6 +189,20 @@ TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its 
   CheckLimit<TestType>(c, kHalf, 1, kAtUpper);
 }
 
+TEMPLATE_TEST_CASE("step size: driven friction meets its bound in any unit of mass", "", float, double,
+                   long double, Rational) {
+  for (const int sign : {1, -1}) {  // of fF; the bound moves by newtons per newton, whatever A is
+    Case c = FarCase(1);
+    c.driven = 1;
+    const Rational unit(std::int64_t{1} << 60);
+    c.A = {{unit, 0}, {0, unit}};
+    c.sets[0] = kClamped;
+    c.f[0] = 1;
+    c.a = {0, Rational(-4 * sign * unit)};
+    CheckLimit<TestType>(c, 1, 1, sign > 0 ? kAtUpper : kAtLower);
+  }
+}
+
 TEMPLATE_TEST_CASE("step size: friction driven to zero stops there and nowhere before", "", float, double,
                    long double, Rational) {
   for (const int sign : {1, -1}) {
@@ -232,6 +246,19 @@ TEMPLATE_TEST_CASE("step size: ties=sets takes C before NC, ties=contacts the fi
   c.ties = Ties::kContacts;
   CheckLimit<TestType>(c, kHalf, 2, kClamped);
   CHECK(Find<TestType>(c).order_matters);
+}
+
+TEMPLATE_TEST_CASE("step size: steps that differ by less than the tolerance tie, over inexact scalars", "",
+                   float, double, long double, Rational) {
+  // The tolerance is max abs(b) / max A_ii = 128 times 1e-10, or over float times 8 epsilon.
+  const bool coarse = sizeof(TestType) == sizeof(float);
+  const Rational less = coarse ? Rational(1, 1L << 20) : Rational(1, 1L << 36);
+  const Rational more = coarse ? Rational(1, 1L << 12) : Rational(1, 1L << 25);
+  Case c = TiedCase();
+  c.a[2] = kHalf - less;  // NC before C
+  CHECK(Find<TestType>(c).limiting == (kIsExact<TestType> ? 2 : 4));
+  c.a[2] = kHalf - more;
+  CHECK(Find<TestType>(c).limiting == 2);
 }
 
 TEMPLATE_TEST_CASE("step size: within a set the lowest row limits, and the tie rules agree", "", float, double,

@@ -1,0 +1,535 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""False claims, well written: one for every clause of a claim, and every checker must refuse each.
+
+  false_claims_test.py STICTION SOURCES                   `stiction check`, and every certify/check_*.py
+  false_claims_test.py STICTION SOURCES CHECKER...        these programs instead, as `CHECKER FILE...`
+  false_claims_test.py --write FOLDER                     the certificates, for checkers elsewhere
+
+A certificate here meets the whole form of its claim; what is wrong is one condition. Beside them stand
+certificates that are true, so that a checker that refuses everything fails. A checker prints `FILE: accepted...`
+or `FILE: REJECTED...`. One that accepts no true certificate of a claim does not know it, and is not asked; every
+claim must be known to `stiction check` and to a program in certify. Python standard library only.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+# --- Problems and certificates -----------------------------------------------------
+
+
+def contact(law):
+    """None: frictionless; a number: static; (mu, slip): sliding; "hold": bilateral."""
+    if law is None:
+        return {"kind": "frictionless"}
+    if law == "hold":
+        return {"kind": "bilateral"}
+    if isinstance(law, tuple):
+        return {"kind": "sliding", "mu": law[0], "slip": law[1]}
+    return {"kind": "static", "mu": str(law)}
+
+
+def texts(value):
+    """Numbers as exact texts, in lists of any depth."""
+    return [texts(item) for item in value] if isinstance(value, (list, tuple)) else str(value)
+
+
+def problem(laws, A, b, dimension=2):
+    return {"format": "stiction-problem", "version": 1, "dimension": dimension,
+            "contacts": [contact(law) for law in laws], "A": texts(A), "b": texts(b)}
+
+
+def certificate(claim, of, witness):
+    return {"format": "stiction-certificate", "version": 1, "claim": claim, "problem": of, "witness": witness}
+
+
+TRUE, FALSE = [], []  # (name, certificate)
+
+
+def true(claim, what, of, **witness):
+    TRUE.append((f"{claim}: {what}", certificate(claim, of, witness)))
+
+
+def false(claim, what, of, **witness):
+    FALSE.append((f"{claim}: {what}", certificate(claim, of, witness)))
+
+
+def smooth(A, b):
+    """Of frictionless contacts."""
+    return problem([None] * len(b), A, b)
+
+
+IDENTITY = [[1, 0], [0, 1]]
+NOTHING = [[0, 0], [0, 0]]
+
+# --- symmetric, not-symmetric ------------------------------------------------------
+
+true("symmetric", "A = A'", smooth([[1, 2], [2, 0]], [0, 0]))
+for i, j in ((0, 1), (1, 0), (1, 2), (2, 1), (0, 2)):
+    A = [[1, 2, 3], [2, 4, 5], [3, 5, 6]]
+    A[i][j] += 1
+    false("symmetric", f"A_{i}{j} is one more than its mirror", smooth(A, [0, 0, 0]))
+
+ASYMMETRIC = smooth([[1, 2, 3], [2, 4, 5], [3, 6, 6]], [0, 0, 0])
+true("not-symmetric", "A_12 and A_21 differ", ASYMMETRIC, i=1, j=2)
+false("not-symmetric", "these two are equal, others are not", ASYMMETRIC, i=0, j=1)
+false("not-symmetric", "an entry of the diagonal", ASYMMETRIC, i=1, j=1)
+false("not-symmetric", "no such row", ASYMMETRIC, i=3, j=1)
+false("not-symmetric", "no such column", ASYMMETRIC, i=1, j=3)
+false("not-symmetric", "a negative index", ASYMMETRIC, i=-1, j=2)
+false("not-symmetric", "of a symmetric matrix", smooth([[1, 2], [2, 1]], [0, 0]), i=0, j=1)
+
+# --- psd, not-psd ------------------------------------------------------------------
+
+true("psd", "A = L diag(D) L'", smooth([[1, 1], [1, 1]], [0, 0]), L=texts([[1, 0], [1, 1]]), D=texts([1, 0]))
+false("psd", "a negative D, the last", smooth([[1, 0], [0, -1]], [0, 0]), L=texts(IDENTITY), D=texts([1, -1]))
+false("psd", "a negative D, the first", smooth([[-1, 0], [0, 1]], [0, 0]), L=texts(IDENTITY), D=texts([-1, 1]))
+false("psd", "the last entry of A is another", smooth([[1, 1], [1, 0]], [0, 0]),
+      L=texts([[1, 0], [1, 1]]), D=texts([1, 0]))
+false("psd", "the product lacks its last term", smooth([[1, 1], [1, 1]], [0, 0]),
+      L=texts([[1, 0], [1, 1]]), D=texts([1, 5]))
+false("psd", "A differs above the diagonal", smooth([[1, 7], [0, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
+false("psd", "A differs below the diagonal", smooth([[1, 0], [7, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
+false("psd", "a diagonal of L that is not one", smooth([[4]], [0]), L=texts([[2]]), D=texts([1]))
+false("psd", "an entry of L above the diagonal", smooth(IDENTITY, [0, 0]), L=texts([[1, 1], [0, 1]]), D=texts([1, 1]))
+false("psd", "L of too few rows", smooth(IDENTITY, [0, 0]), L=texts([[1, 0]]), D=texts([1, 1]))
+
+true("not-psd", "x'Ax < 0", smooth([[1, 2], [2, 1]], [0, 0]), x=texts([1, -1]), value="-2")
+false("not-psd", "x'Ax = 0, x in the kernel", smooth([[1, 1], [1, 1]], [0, 0]), x=texts([1, -1]), value="0")
+false("not-psd", "x'Ax = 0, x = 0", smooth(IDENTITY, [0, 0]), x=texts([0, 0]), value="0")
+false("not-psd", "x'Ax > 0", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="2")
+false("not-psd", "the value is not x'Ax", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="-2")
+false("not-psd", "the value is x'Ax without its mixed terms", smooth([[-1, 2], [2, -1]], [0, 0]),
+      x=texts([1, 1]), value="-2")
+
+# --- in-range, not-in-range --------------------------------------------------------
+
+true("in-range", "A x = b", smooth([[1, 1], [1, 1]], [2, 2]), x=texts([2, 0]))
+for row in (0, 1):
+    b = [2, 2]
+    b[row] = 3
+    false("in-range", f"A x = b but for row {row}", smooth([[1, 1], [1, 1]], b), x=texts([2, 0]))
+false("in-range", "A'x = b, not A x = b", smooth([[0, 1], [0, 0]], [0, 1]), x=texts([1, 0]))
+
+KERNEL = smooth([[1, 0], [0, 0]], [1, 0])
+true("not-in-range", "y'A = 0, y'b /= 0", smooth([[1, 0], [0, 0]], [1, 1]), y=texts([0, 1]), value="1")
+false("not-in-range", "y'b = 0", KERNEL, y=texts([0, 1]), value="0")
+false("not-in-range", "y'A /= 0, in its first entry", KERNEL, y=texts([1, 0]), value="1")
+false("not-in-range", "y'A /= 0, in its last entry", smooth([[0, 0], [0, 1]], [0, 1]), y=texts([0, 1]), value="1")
+false("not-in-range", "A y = 0, not y'A = 0", smooth([[0, 1], [0, 0]], [1, 0]), y=texts([1, 0]), value="1")
+false("not-in-range", "the value is not y'b", KERNEL, y=texts([0, 1]), value="1")
+false("not-in-range", "y = 0 and a value", KERNEL, y=texts([0, 0]), value="1")
+
+# --- h, not-h ----------------------------------------------------------------------
+
+true("h", "b - A'y = 0", smooth(IDENTITY, [-1, -1]), y=texts([-1, -1]))
+true("h", "b - A'y within a dual cone, at its edge", problem([2], NOTHING, [2, -1]), y=texts([0, 0]))
+false("h", "b - A'y pulls at a contact", smooth(NOTHING, [1, -1]), y=texts([0, 0]))
+false("h", "b - A'y outside of a dual cone, one way", problem([2], NOTHING, [1, 1]), y=texts([0, 0]))
+false("h", "b - A'y outside of a dual cone, the other way", problem([2], NOTHING, [1, -1]), y=texts([0, 0]))
+false("h", "b - A'y in the opposite of a dual cone", problem([2], NOTHING, [-2, 1]), y=texts([0, 0]))
+false("h", "within the friction cone, not within its dual", problem([2], NOTHING, [1, 2]), y=texts([0, 0]))
+false("h", "b - A'y pushes at a bilateral contact", problem(["hold"], [[0]], [1]), y=texts([0]))
+false("h", "b - A'y pulls at a bilateral contact", problem(["hold"], [[0]], [-1]), y=texts([0]))
+false("h", "A y for A'y", smooth([[0, 1], [0, 0]], [-1, 0]), y=texts([0, -1]))
+false("h", "a sliding contact", problem([("1", "1")], NOTHING, [1, 0]), y=texts([0, 0]))
+FLAT = [[0] * 3 for _ in range(3)]
+true("h", "in space, at the edge of the dual cone", problem([1], FLAT, [5, 3, -4], 3), y=texts([0, 0, 0]))
+false("h", "in space, outside by both tangents", problem([1], FLAT, [4, 3, -3], 3), y=texts([0, 0, 0]))
+false("h", "in space, outside by the second tangent", problem([1], FLAT, [1, 0, 2], 3), y=texts([0, 0, 0]))
+
+true("not-h", "v in K, A v = 0, b'v < 0", problem([1, "hold"], [[0] * 3] * 3, [0, -1, 2]),
+     v=texts([1, 1, -1]), value="-3")
+false("not-h", "b'v = 0", smooth(NOTHING, [1, 0]), v=texts([0, 1]), value="0")
+false("not-h", "b'v > 0", smooth(NOTHING, [1, 0]), v=texts([1, 0]), value="1")
+false("not-h", "the value is not b'v", smooth(NOTHING, [1, 0]), v=texts([1, 0]), value="-1")
+false("not-h", "A v /= 0, in its first entry", smooth([[1, 0], [0, 0]], [-1, 0]), v=texts([1, 0]), value="-1")
+false("not-h", "A v /= 0, in its last entry", smooth([[0, 0], [0, 1]], [0, -1]), v=texts([0, 1]), value="-1")
+false("not-h", "A'v = 0, not A v = 0", smooth([[0, 0], [1, 0]], [-1, 0]), v=texts([1, 0]), value="-1")
+false("not-h", "v pulls", smooth(NOTHING, [1, 0]), v=texts([-1, 0]), value="-1")
+false("not-h", "v pulls at a static contact", problem([1], NOTHING, [1, 0]), v=texts([-1, 0]), value="-1")
+false("not-h", "v outside of its friction cone, one way", problem([1], NOTHING, [2, 1]), v=texts([1, -3]), value="-1")
+false("not-h", "v outside of its friction cone, the other way", problem([1], NOTHING, [2, -1]),
+      v=texts([1, 3]), value="-1")
+false("not-h", "a sliding contact", problem([("1", "1")], NOTHING, [-1, 0]), v=texts([1, 0]), value="-1")
+true("not-h", "in space, at the edge of the cone", problem([1], FLAT, [0, -1, 0], 3), v=texts([5, 3, -4]), value="-3")
+false("not-h", "in space, outside by the second tangent", problem([1], FLAT, [1, 0, 1], 3),
+      v=texts([1, 0, -2]), value="-1")
+
+# --- solution-exists ---------------------------------------------------------------
+
+
+def solution(kind, what, of, f, a=None, claim="solution-exists", **witness):
+    """Without `a`: that of f."""
+    A, b = of["A"], of["b"]
+    if a is None:
+        a = [sum((Fraction(x) * y for x, y in zip(row, f)), Fraction(free)) for row, free in zip(A, b)]
+    kind(claim, what, of, f=texts(f), a=texts(a), **witness)
+
+
+true_solution = lambda *given, **more: solution(true, *given, **more)
+false_solution = lambda *given, **more: solution(false, *given, **more)
+
+true_solution("pushed and at rest", smooth([[1]], [-1]), [1])
+false_solution("aN < 0", smooth([[1]], [-1]), [0])
+false_solution("fN < 0", smooth([[1]], [1]), [-1])
+false_solution("fN > 0 and aN > 0", smooth([[1]], [-1]), [2])
+false_solution("a is not A f + b, and would do", smooth([[1]], [-1]), [0], [0])
+false_solution("a is not A f + b in its last entry", smooth(IDENTITY, [-1, -1]), [1, 0], [0, 0])
+false_solution("the second contact breaks the law", smooth(IDENTITY, [-1, -1]), [1, 0])
+
+true_solution("static at its limit", problem([1], IDENTITY, [-1, 2]), [1, -1])
+for side in (1, -1):
+    false_solution(f"abs(fF) > mu fN, side {side}", problem([1], IDENTITY, [-1, 2 * side]), [1, -2 * side])
+    false_solution(f"friction pushes along, side {side}", problem([1], IDENTITY, [-1, 2 * side]), [1, side])
+    false_solution(f"slipping within its limit, side {side}", problem([1], IDENTITY, [-1, 2 * side]),
+                   [1, Fraction(-side, 2)])
+    false_solution(f"friction without a normal force, side {side}", problem([1], IDENTITY, [1, side]), [0, -side])
+false_solution("slipping without friction", problem([1], IDENTITY, [-1, 2]), [1, 0])
+false_solution("static, fN < 0", problem([1], IDENTITY, [1, 0]), [-1, 0])
+false_solution("static, aN < 0", problem([1], IDENTITY, [-1, 0]), [0, 0])
+false_solution("static, fN > 0 and aN > 0", problem([1], IDENTITY, [-1, 0]), [2, 0])
+false_solution("mu = 0 with friction", problem([0], IDENTITY, [-1, 1]), [1, -1])
+
+true_solution("bilateral, pulling", problem(["hold"], [[1]], [1]), [-1])
+false_solution("bilateral, aN > 0", problem(["hold"], [[1]], [1]), [0])
+false_solution("bilateral, aN < 0", problem(["hold"], [[1]], [-1]), [0])
+
+for slip in (1, -1):
+    SLIDING = problem([("1/2", str(slip))], IDENTITY, [-1, 0])
+    true_solution(f"sliding, slip {slip}", SLIDING, [1, Fraction(-slip, 2)])
+    false_solution(f"sliding, friction along the slip {slip}", SLIDING, [1, Fraction(slip, 2)])
+    false_solution(f"sliding, no friction, slip {slip}", SLIDING, [1, 0])
+    false_solution(f"sliding, too much friction, slip {slip}", SLIDING, [1, -slip])
+    false_solution(f"sliding, aN < 0, slip {slip}", SLIDING, [0, 0])
+    false_solution(f"sliding, fN > 0 and aN > 0, slip {slip}", SLIDING, [2, -slip])
+
+
+# --- In space: solution-exists, coulomb-solution -------------------------------------
+
+UNIT = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+
+
+def pushed(x, y, law=1):
+    """A contact with A = 1 that is pressed with one newton, and drawn to (x, y)."""
+    return problem([law], UNIT, [-1, x, y], 3)
+
+
+true_solution("in space, against aF", pushed(3, 4), [1, Fraction(-3, 5), Fraction(-4, 5)])
+true_solution("in space, across aF", pushed(3, 1), [1, 0, -1])
+true_solution("in space, at rest", pushed(0, 0), [1, 0, 0])
+for x, y in ((2, 0), (0, 2), (-2, 0), (0, -2)):
+    false_solution(f"in space, fF.fF > mu^2 fN^2, drawn to {x}, {y}", pushed(x, y), [1, -x, -y])
+    false_solution(f"in space, fF.aF > 0, drawn to {x}, {y}", pushed(x, y), [1, Fraction(x, 2), Fraction(y, 2)])
+    false_solution(f"in space, at its limit with fF.aF > 0, drawn to {x}, {y}", pushed(x, y),
+                   [1, x // 2, y // 2])
+    false_solution(f"in space, slipping within the limit, drawn to {x}, {y}", pushed(x, y),
+                   [1, Fraction(-x, 4), Fraction(-y, 4)])
+false_solution("in space, fF.fF > mu^2 fN^2 by both tangents", pushed(Fraction(4, 5), Fraction(4, 5)),
+               [1, Fraction(-4, 5), Fraction(-4, 5)])
+false_solution("in space, fN < 0", problem([1], UNIT, [1, 0, 0], 3), [-1, 0, 0])
+false_solution("in space, aN < 0", pushed(0, 0), [0, 0, 0])
+false_solution("in space, fN > 0 and aN > 0", pushed(0, 0), [2, 0, 0])
+false_solution("in space, friction without a normal force", problem([1], UNIT, [1, 1, 0], 3), [0, -1, 0])
+false_solution("in space, frictionless, fN > 0 and aN > 0", problem([None], [[1]], [-1], 3), [2])
+true_solution("in space, bilateral, pulling", problem(["hold"], [[1]], [1], 3), [-1])
+false_solution("in space, bilateral, aN > 0", problem(["hold"], [[1]], [1], 3), [0])
+false_solution("in space, bilateral, aN < 0", problem(["hold"], [[1]], [-1], 3), [0])
+SLIDES = pushed(0, 0, ("1/2", ["3/5", "4/5"]))
+true_solution("in space, sliding", SLIDES, [1, Fraction(-3, 10), Fraction(-2, 5)])
+false_solution("in space, sliding, another force along x", SLIDES, [1, Fraction(3, 10), Fraction(-2, 5)])
+false_solution("in space, sliding, another force along y", SLIDES, [1, Fraction(-3, 10), Fraction(2, 5)])
+false_solution("in space, sliding, no friction", SLIDES, [1, 0, 0])
+false_solution("in space, sliding, fN > 0 and aN > 0", SLIDES, [2, Fraction(-3, 5), Fraction(-4, 5)])
+false_solution("in space, the second contact breaks the law",
+               problem([1, None], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], [-1, 0, 0, -1], 3),
+               [1, 0, 0, 0])
+
+
+def coulomb(kind, what, of, f, bound):
+    solution(kind, what, of, f, claim="coulomb-solution", bound=str(bound))
+
+
+AGAINST = [1, Fraction(-3, 5), Fraction(-4, 5)]
+coulomb(true, "against aF, bound 1", pushed(3, 4), AGAINST, 1)
+coulomb(true, "at an angle, its cosine", pushed(3, Fraction(4, 5)), AGAINST, Fraction(3, 5))
+for bound in (2, Fraction(101, 100), 0, -1):
+    coulomb(false, f"the bound {bound}", pushed(0, 0), [1, 0, 0], bound)
+coulomb(false, "the bound -1, against aF", pushed(3, 4), AGAINST, -1)
+coulomb(false, "across aF", pushed(3, 1), [1, 0, -1], Fraction(1, 1000))
+coulomb(false, "along aF", pushed(3, 4), [1, Fraction(3, 5), Fraction(4, 5)], 1)
+coulomb(false, "at an angle, a larger bound", pushed(3, Fraction(4, 5)), AGAINST, Fraction(61, 100))
+coulomb(false, "slipping within the limit", pushed(3, 4), [1, Fraction(-3, 10), Fraction(-2, 5)], 1)
+coulomb(false, "more friction than the limit", pushed(6, 8), [1, Fraction(-6, 5), Fraction(-8, 5)], 1)
+coulomb(false, "fN > 0 and aN > 0", pushed(0, 0), [2, 0, 0], 1)
+coulomb(false, "aN < 0", pushed(0, 0), [0, 0, 0], 1)
+coulomb(false, "in the plane", problem([1], IDENTITY, [-1, 2]), [1, -1], 1)
+coulomb(false, "sliding against nothing", SLIDES, [1, 0, 0], 1)
+
+# --- no-solution -------------------------------------------------------------------
+
+
+def none(kind, what, of, *prefixes):
+    """Prefixes: (modes separated by blanks, y)."""
+    kind("no-solution", what, of,
+         prefixes=[{"modes": modes.split(), "y": texts(y)} for modes, y in prefixes])
+
+
+none(true, "nothing pushes", smooth([[0]], [-1]), ("", [1]))
+none(true, "mode by mode", smooth([[0]], [-1]), ("break", [1]), ("touch", [1]))
+none(false, "y'b = 0", smooth([[0]], [0]), ("", [0]))
+none(false, "y'b > 0", smooth([[0]], [1]), ("", [1]))
+none(false, "break with yN < 0", smooth([[0]], [1]), ("", [-1]))
+none(false, "touch with gN > 0", smooth([[1]], [-1]), ("", [1]))
+none(false, "touch is not covered", smooth([[1]], [-1]), ("break", [1]))
+none(false, "one prefix twice", smooth([[1]], [-1]), ("break", [1]), ("break", [2]))
+none(false, "no prefix at all", smooth([[1]], [-1]))
+none(false, "a prefix and its extensions", smooth(IDENTITY, [-1, -1]),
+     ("break", [1, 0]), ("break break", [1, 0]), ("break touch", [1, 0]))
+none(false, "a contact behind the prefix in one of its modes", smooth(IDENTITY, [1, -1]),
+     ("break", [0, 1]), ("touch", [-1, 0]))
+none(false, "a prefix longer than the contacts", smooth([[0]], [-1]), ("break break", [1]), ("touch", [1]))
+none(false, "hold with gN > 0", problem(["hold"], [[1]], [-1]), ("hold", [1]))
+none(false, "hold with gN < 0", problem(["hold"], [[-1]], [-1]), ("hold", [1]))
+none(false, "mu = 0, touch with yF /= 0", problem([0], IDENTITY, [-1, -1]), ("break", [1, 0]), ("touch", [0, 1]))
+none(false, "sliding, touch with yF /= 0", problem([("1", "1")], [[1, 0], [0, 1]], [-1, -1]),
+     ("break", [1, 0]), ("touch", [0, 1]))
+for slip in (1, -1):
+    for normal, what in ((3, "the sign of mu u gF"), (-1, "without mu u gF")):
+        A = [[normal, -4 * slip], [-4 * slip, 9]]
+        none(false, f"sliding, touch, {what}, slip {slip}", problem([("1", str(slip))], A, [-1, 0]),
+             ("break", [1, 0]), ("touch", [1, 0]))
+
+
+def refutations(what, A, b, **y):
+    """Of one static contact with mu = 1, by mode; and the same with its tangent turned round."""
+    names = {"lift": "break", "stick": "stick", "plus": "slip+", "minus": "slip-"}
+    none(false, what, problem([1], A, b), *((names[mode], value) for mode, value in y.items()))
+    turned = [[A[0][0], -A[0][1]], [-A[1][0], A[1][1]]]
+    names["plus"], names["minus"] = names["minus"], names["plus"]
+    none(false, what + ", turned", problem([1], turned, [b[0], -b[1]]),
+         *((names[mode], [value[0], -value[1]]) for mode, value in y.items()))
+
+
+refutations("break with yF /= 0", NOTHING, [1, 1], lift=[0, -1], stick=[-1, 0], plus=[-1, 0], minus=[-1, 0])
+refutations("stick with gN > 0", IDENTITY, [-1, 0], lift=[1, 0], stick=[1, 0], plus=[1, 1], minus=[1, -1])
+refutations("stick with mu abs(gF) > -gN", IDENTITY, [-1, Fraction(-1, 2)],
+            lift=[1, 0], stick=[0, 1], plus=[1, 1], minus=[1, -1])
+refutations("slip+ with yF < 0", IDENTITY, [-1, 2], lift=[1, 0], stick=[-1, -1], plus=[-1, -1], minus=[0, -1])
+refutations("slip+ with gN - mu gF > 0", IDENTITY, [-1, 2], lift=[1, 0], stick=[-1, -1], plus=[1, 0], minus=[0, -1])
+refutations("slip+ with gN + mu gF <= 0 instead", [[1, -2], [-2, 5]], [-1, 3],
+            lift=[1, 0], stick=[-5, -2], plus=[1, 0], minus=[1, 0])
+none(false, "in space", problem([None], [[0]], [-1], 3), ("", [1]))
+
+# --- safe, unsafe, safe-by-condition -------------------------------------------------
+
+COUPLED = [[1, 2], [2, 5]]  # slip+: 1 - 2 mu, slip-: 1 + 2 mu, stick: 1
+true("safe", "all positive", problem(["2/5"], COUPLED, [0, 0]), determinants=texts([1, 1, "1/5", "9/5"]))
+false("safe", "a determinant of zero", problem(["1/2"], COUPLED, [0, 0]), determinants=texts([1, 1, 0, 2]))
+false("safe", "a negative determinant", problem([1], COUPLED, [0, 0]), determinants=texts([1, 1, -1, 3]))
+false("safe", "a negative determinant, stated positive", problem([1], COUPLED, [0, 0]),
+      determinants=texts([1, 1, 1, 3]))
+false("safe", "a negative determinant left out", problem([1], COUPLED, [0, 0]), determinants=texts([1, 1, 3]))
+false("safe", "a number too many", problem(["2/5"], COUPLED, [0, 0]), determinants=texts([1, 1, "1/5", "9/5", 1]))
+false("safe", "slips exchanged", problem(["2/5"], COUPLED, [0, 0]), determinants=texts([1, 1, "9/5", "1/5"]))
+false("safe", "stick is singular", problem(["1/4"], [[1, 2], [2, 4]], [0, 0]), determinants=texts([1, 0, "1/2", "3/2"]))
+false("safe", "stick is negative", problem(["1/4"], [[1, 2], [2, 1]], [0, 0]),
+      determinants=texts([1, -3, "1/2", "3/2"]))
+false("safe", "a sliding contact", problem([("1/4", "1")], COUPLED, [0, 0]), determinants=texts([1, "1/2"]))
+false("safe", "a sliding contact, without its friction", problem([("1/4", "1")], COUPLED, [0, 0]),
+      determinants=texts([1, 1]))
+false("safe", "a bilateral contact", problem(["hold"], [[1]], [0]), determinants=texts([1]))
+false("safe", "two contacts, the last word", smooth([[1, 1], [1, 1]], [0, 0]), determinants=texts([1, 1, 1, 0]))
+
+true("unsafe", "a negative determinant", problem([1], COUPLED, [0, 0]), word=["slip+"], determinant="-1")
+true("unsafe", "a determinant of zero", problem(["1/2"], COUPLED, [0, 0]), word=["slip+"], determinant="0")
+for mode, value in (("break", 1), ("stick", 1), ("slip+", "1/5"), ("slip-", "9/5")):
+    false("unsafe", f"{mode} is positive", problem(["2/5"], COUPLED, [0, 0]), word=[mode], determinant=str(value))
+    false("unsafe", f"{mode} is positive, stated negative", problem(["2/5"], COUPLED, [0, 0]),
+          word=[mode], determinant="-" + str(value))
+    false("unsafe", f"{mode} is positive, stated zero", problem(["2/5"], COUPLED, [0, 0]),
+          word=[mode], determinant="0")
+false("unsafe", "the determinant of the other slip", problem([1], COUPLED, [0, 0]), word=["slip-"], determinant="-1")
+false("unsafe", "a word for fewer contacts", smooth([[-1, 0], [0, 1]], [0, 0]), word=["touch"], determinant="-1")
+false("unsafe", "a mode of another kind", smooth([[-1]], [0]), word=["slip+"], determinant="-1")
+
+
+def by_condition(kind, what, of, scaling, least, most):
+    kind("safe-by-condition", what, of, scaling=texts(scaling), least=str(least), most=str(most))
+
+
+ONE_SIXTH = Fraction(1, 6)  # the eigenvalues of COUPLED are 3 -+ 2 sqrt(2)
+by_condition(true, "no friction to speak of", problem(["1/4"], COUPLED, [0, 0]), [1, 1], ONE_SIXTH, 6)
+by_condition(false, "m^2 (u - l)^2 > 4 u l", problem([1], COUPLED, [0, 0]), [1, 1], ONE_SIXTH, 6)
+by_condition(false, "m^2 (u - l)^2 = 4 u l", problem(["4/3"], [[1, 0], [0, 4]], [0, 0]), [1, 1], 1, 4)
+by_condition(false, "least is above an eigenvalue", problem([1], COUPLED, [0, 0]), [1, 1], 2, 6)
+by_condition(false, "most is below an eigenvalue", problem([1], COUPLED, [0, 0]), [1, 1], ONE_SIXTH, Fraction(1, 2))
+by_condition(false, "least is negative", problem([0], COUPLED, [0, 0]), [1, 1], -1, 6)
+by_condition(false, "least is zero", problem([0], COUPLED, [0, 0]), [1, 1], 0, 6)
+for scaling in ([1, -1], [-1, 1], [1, 0], [0, 1], [-1, -1]):
+    by_condition(false, f"the scaling {scaling}", problem([1], COUPLED, [0, 0]), scaling, ONE_SIXTH, 6)
+# m is dN / dF mu, not its inverse: D = (1, 1/2) makes DAD = [[1, 1], [1, 5/4]], eigenvalues 0.117 to 2.14.
+by_condition(false, "m upside down", problem([1], COUPLED, [0, 0]), [1, Fraction(1, 2)], Fraction(1, 9), Fraction(9, 4))
+by_condition(false, "A is not symmetric", problem([1], [[1, 2], [-2, 1]], [0, 0]), [1, 1], 1, 1)
+by_condition(false, "a sliding contact", problem([("1/4", "1")], IDENTITY, [0, 0]), [1, 1], 1, 1)
+by_condition(false, "a bilateral contact", problem(["hold"], [[1]], [0]), [1], 1, 1)
+by_condition(false, "the second contact has the friction",
+             problem([0, 1], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 2, 5]], [0] * 4),
+             [1, 1, 1, 1], ONE_SIXTH, 6)
+by_condition(false, "the first contact has the friction",
+             problem([1, 0], [[1, 2, 0, 0], [2, 5, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], [0] * 4),
+             [1, 1, 1, 1], ONE_SIXTH, 6)
+
+# --- cycle -------------------------------------------------------------------------
+
+CYCLING = problem([1, 1], [[7, -2, -6, 0], [-2, 9, -1, -7], [-6, -1, 7, 3], [0, -7, 3, 7]], [2, -1, -2, 2])
+STEPS = """1 N2 establish 2/7 N2 none C
+2 F2 establish 1/2 F2 none CF
+3 N1 establish 10/7 N1 none C
+4 F1 establish 6/5 F2 CF NC-
+4 F1 establish 0 F2 NC- none
+4 F1 establish 39/290 F1 none CF
+5 F2 zero 791/310 F1 CF NC+
+5 F2 zero 0 F1 NC+ none
+5 F2 zero 3/62 F2 none none
+6 F1 zero 19/310 N1 C NC
+6 F1 zero 1/10 F1 none none
+7 F2 establish 1/9 N1 NC C
+7 F2 establish 65/63 F2 none CF"""
+STATE = {"sets": {"N1": "C", "F1": "none", "N2": "C", "F2": "CF"}, "f": ["10/7", "0", "2", "-8/7"]}
+
+
+def pivots(count=13):
+    keys = ("drive", "driven", "goal", "step", "limiting", "from", "to")
+    return [dict(zip(keys, (int(line.split()[0]), *line.split()[1:])))
+            for line in STEPS.splitlines()[:count]]
+
+
+def run(policies, start=3, period=4, count=13, state=None):
+    return {"policies": policies, "start": start, "period": period, "pivots": pivots(count), "state": state or STATE}
+
+
+true("cycle", "the reference problem", CYCLING, runs=[run(["paper"])])
+true("cycle", "under two policies", CYCLING, runs=[run(["paper", "ties=contacts"])])
+false("cycle", "a policy that solves the problem", CYCLING, runs=[run(["file=yes,drop=variable"])])
+false("cycle", "a policy that solves it, behind one that cycles", CYCLING,
+      runs=[run(["paper", "file=yes,drop=variable"])])
+false("cycle", "a problem that is solved", {**CYCLING, "b": texts([2, 1, 2, 2])}, runs=[run(["paper"])])
+false("cycle", "the friction of another problem", {**CYCLING, "contacts": [contact(1), contact(2)]},
+      runs=[run(["paper"])])
+false("cycle", "a run that has not come back yet", CYCLING,
+      runs=[run(["paper"], start=3, period=3, count=11)])
+false("cycle", "a run without its last step", CYCLING, runs=[run(["paper"], count=12)])
+false("cycle", "a run with a step too many", CYCLING,
+      runs=[{**run(["paper"]), "pivots": pivots() + pivots()[-1:]}])
+false("cycle", "no runs", CYCLING, runs=[])
+false("cycle", "a run of no policy", CYCLING, runs=[run([])])
+false("cycle", "a policy twice", CYCLING, runs=[run(["paper", "paper"])])
+false("cycle", "a run twice", CYCLING, runs=[run(["paper"]), run(["ties=contacts"])])
+false("cycle", "a policy of space", CYCLING, runs=[run(["slip=redirect"])])
+false("cycle", "a policy with its defaults written", CYCLING, runs=[run(["ties=sets"])])
+false("cycle", "another start", CYCLING, runs=[run(["paper"], start=2)])
+false("cycle", "another period", CYCLING, runs=[run(["paper"], period=8)])
+false("cycle", "the state of another moment", CYCLING,
+      runs=[run(["paper"], state={**STATE, "f": ["10/7", "0", "2", "-1"]})])
+false("cycle", "other sets", CYCLING,
+      runs=[run(["paper"], state={**STATE, "sets": {**STATE["sets"], "F2": "none"}})])
+false("cycle", "a state with a contact that is not remembered", CYCLING,
+      runs=[run(["paper"], state={**STATE, "contact": 1})])
+
+# --- The form of certificates ------------------------------------------------------
+
+
+def altered(**changes):
+    return {**certificate("symmetric", smooth([[1]], [0]), {}), **changes}
+
+
+FALSE += [
+    ("form: another format", altered(format="stiction-problem")),
+    ("form: another version", altered(version=2)),
+    ("form: a version that is no integer", altered(version=1.0)),
+    ("form: an unknown claim", altered(claim="symmetrical")),
+    ("form: a key too many", altered(note="true")),
+    ("form: a witness with a key too many", altered(witness={"x": ["1"]})),
+    ("form: a problem with a name", altered(problem={**smooth([[1]], [0]), "name": "one"})),
+    ("form: a problem with numbers that are no texts", altered(problem={**smooth([[1]], [0]), "b": [0]})),
+    ("form: a problem with a negative mu", altered(problem=problem([-1], IDENTITY, [0, 0]))),
+    ("form: a problem with rows for another contact", altered(problem=problem([1], [[1]], [0]))),
+    ("form: a problem with a slip that is no unit",
+     altered(problem=problem([("1", ["1", "1"])], UNIT, [0, 0, 0], 3))),
+]
+
+# --- Checkers ----------------------------------------------------------------------
+
+def write(folder, cases):
+    files = []
+    for number, (_, content) in enumerate(cases):
+        files.append(folder / f"{number:03}.json")
+        files[-1].write_text(json.dumps(content, indent=1))
+    return files
+
+
+def verdicts(command, files):
+    """Of each file: True if it was accepted, False if it was refused, otherwise what was printed instead."""
+    result = subprocess.run([*command, *files], capture_output=True, text=True)
+    lines = result.stdout.splitlines()
+    said = {}
+    for file in files:
+        own = [line[len(str(file)) + 2:] for line in lines if line.startswith(f"{file}: ")]
+        if len(own) == 1 and own[0].startswith(("accepted", "REJECTED")):
+            said[file] = own[0].startswith("accepted")
+    if len(said) == len(files) or len(files) == 1:
+        return [said.get(file, f"exit {result.returncode}, {result.stderr.strip()[:200]}") for file in files]
+    return [verdict for file in files for verdict in verdicts(command, [file])]
+
+
+def claim_of(name):
+    return name.split(":")[0]
+
+
+def judge(name, command, folder, failures):
+    """Returns the claims that this checker knows."""
+    judged = list(zip(TRUE, verdicts(command, write(folder, TRUE))))
+    known = {claim_of(case) for (case, _), verdict in judged if verdict is True}
+    failures += [f"{name}: {case}: {verdict}, expected accepted" for (case, _), verdict in judged
+                 if verdict is not True and (verdict is not False or claim_of(case) in known)]
+    asked = [case for case in FALSE if claim_of(case[0]) in known | {"form"}]
+    refused = verdicts(command, write(folder, asked))
+    failures += [f"{name}: {case}: {'accepted' if verdict is True else verdict}, expected a refusal"
+                 for (case, _), verdict in zip(asked, refused) if verdict is not False]
+    print(f"{name}: {len(asked)} false claims of {len(known)} kinds")
+    return known
+
+
+def checkers_of(stiction, sources):
+    scripts = sorted((Path(sources) / "certify").glob("check_*.py"))
+    return [("stiction check", [stiction, "check"]), *((script.name, [sys.executable, script]) for script in scripts)]
+
+
+def main(stiction, sources, *programs):
+    if stiction == "--write":
+        write(Path(sources), TRUE + FALSE)
+        return 0
+    checkers = [(program, [program]) for program in programs] or checkers_of(stiction, sources)
+    failures, known = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, command in checkers:
+            known.append(judge(name, command, Path(folder), failures))
+            if failures:
+                break
+    claims = {claim_of(name) for name, _ in TRUE}
+    if not programs and not failures:
+        failures += [f"no checker in certify knows {claim}" for claim in claims - set().union(*known[1:])]
+        failures += [f"stiction check does not know {claim}" for claim in claims - known[0]]
+    for failure in failures:
+        print("FAILED:", failure)
+    print(f"{len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,620 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The bugs of the mutation run (mutate.py), by file: one line each, of the kind that people write.
+
+  name       of the bug, by which it is told in reports; unique
+  original   code that stands once in the file, or once in `context`, which then stands once in the file. A
+             statement ends in ; and may be replaced by nothing. Anything else is an expression.
+  mutated    what stands in its place
+  breaks     what is wrong then
+  tests      a regular expression: the tests that are likely to catch it; without it those of the file
+  type       into which both expressions are converted, where they have none in common
+  equivalent why no test can tell the two apart
+"""
+
+from collections import namedtuple
+
+# The tests of a run: C++ by folder, and programs that drive the program from outside.
+LABELS = ("solver", "corpus", "certify", "search", "reports")
+PROGRAMS = ("certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test", "paths_test",
+            "problem_test", "published_space_test", "replay_test", "search_test", "solve_test", "space_test",
+            "store_test", "tamper_test", "usage_test")
+
+Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
+MUTANTS = []
+
+
+def in_file(file, likely):
+    """Returns what adds a bug to the file, whose tests are likely to catch it."""
+    def add(name, original, mutated, breaks, tests=None, context=None, type=None, equivalent=None):
+        MUTANTS.append(Mutant(name, file, original, mutated, breaks, tests or likely, context, type, equivalent))
+    return add
+
+
+# ---- solver/published --------------------------------------------------------------
+
+PUBLISHED = "^solver: (published|run|warm start|theorem|policies|frictionless)|^program: paths|^certify: policy classes"
+
+bug = in_file("solver/published/published.ipp", PUBLISHED)
+bug("normal-complementarity", "f >= 0 && a >= 0 && (f == 0 || a == 0)", "f >= 0 && a >= 0",
+    "(15) without fN aN = 0",
+    equivalent="fN = 0 outside of C and aN = 0 in C hold at every scan: a normal leaves C at fN = 0 only")
+bug("friction-bound", "slack >= 0 && a * f <= 0 && (a == 0 || slack == 0)", "a * f <= 0 && (a == 0 || slack == 0)",
+    "(16) without abs(fF) <= mu fN")
+bug("friction-power", "slack >= 0 && a * f <= 0 && (a == 0 || slack == 0)", "slack >= 0 && (a == 0 || slack == 0)",
+    "(16) without aF fF <= 0")
+bug("friction-complementarity", "slack >= 0 && a * f <= 0 && (a == 0 || slack == 0)", "slack >= 0 && a * f <= 0",
+    "(16) without aF (mu fN - abs(fF)) = 0")
+bug("admit-not-read", "options_.policy.admit == Admit::kEager", "true", "admit=lazy is not honoured")
+bug("file-not-read", "options_.policy.file == File::kNo", "false", "file=no is not honoured")
+bug("file-at-rest", "Sign(state_.f[row - 1], scale_.force) > 0", "Sign(state_.f[row - 1], scale_.force) >= 0",
+    "friction without a normal force is filed by sign")
+bug("file-side", "a < 0 ? IndexSet::kAtUpper : a > 0 ? IndexSet::kAtLower : IndexSet::kSticking",
+    "a > 0 ? IndexSet::kAtUpper : a < 0 ? IndexSet::kAtLower : IndexSet::kSticking", "filed at the wrong limit")
+bug("file-no-touch", "if (!presses && state_.sets[row - 1] != IndexSet::kSeparating) continue;", "",
+    "friction is suspended though its normal is in no set")
+bug("rezero-not-read", "options_.policy.rezero == Rezero::kContinue", "true", "rezero=rescan is not honoured")
+bug("suspended-not-filed", "FileBySign(driven + 1);", "", "a driven normal leaves its friction suspended")
+bug("driven-wants-back", "step.limiting != driven && step.wants == last_left_[step.limiting]",
+    "step.wants == last_left_[step.limiting]", "a driven friction that reaches zero can be given up")
+bug("bounces-all", "statistics.bounces += wants_back && zero;", "statistics.bounces += wants_back;",
+    "steps of positive length are counted as bounces")
+bug("last-step-forgotten", "last_step_zero_ = zero;", "", "no step remembers that the one before had length zero")
+bug("zero-run-goes-on", "zero_run_ = zero ? zero_run_ + 1 : 0;", "zero_run_ += zero;",
+    "a run of zero steps does not end with a positive one")
+bug("driven-friction-dropped", "friction == driven || state_.sets[friction] == IndexSet::kNone",
+    "state_.sets[friction] == IndexSet::kNone", "the driven friction is dropped with its normal",
+    equivalent="a driven variable is in no set until its drive ends, which the other condition says too")
+bug("drop-not-read", "options_.policy.drop == Drop::kContact", "true", "drop=variable is not honoured")
+bug("apex-not-read", "options_.policy.apex == Apex::kSuspended", "false", "apex=suspended is not honoured")
+bug("closing-not-filed", "FileBySign(friction);", "", "a contact that closes leaves its friction suspended")
+bug("outer-state-contact", "if (earlier.contact != contact) continue;", "",
+    "resume=round: a state recurs though another contact was driven last")
+bug("outer-state-forces", "earlier.sets != state_.sets || earlier.f != state_.f", "earlier.sets != state_.sets",
+    "a state recurs though the forces are others")
+bug("budget-drives", "verdict_.statistics.drives > limits.drives", "verdict_.statistics.drives >= limits.drives",
+    "a budget of drives is one too small")
+bug("budget-pivots", "verdict_.statistics.steps >= limits.pivots", "verdict_.statistics.steps > limits.pivots",
+    "a budget of steps is one too large")
+bug("guess-without-forces", "if (status == System::Status::kInconsistent) return false;", "",
+    "a guess without forces is taken over")
+bug("give-up-not-consulted", "if (wants_back && zero != last_step_zero_) Consult(PolicySwitch::kGiveUp);", "",
+    "policies are taken to run alike though they give up otherwise")
+bug("overflow-solved", "if (!IsFinite()) return;", "", "infinite forces are called solved")
+bug("most-violated-ties", "layout_.IsNormal(row) ? state_.a[row] < state_.a[other] : "
+    "Abs(state_.a[row]) > Abs(state_.a[other])",
+    "layout_.IsNormal(row) ? state_.a[row] <= state_.a[other] : Abs(state_.a[row]) >= Abs(state_.a[other])",
+    "scan=most-violated takes the last of equal ones")
+
+bug = in_file("solver/published/scan.h", PUBLISHED + "|^solver: space|^program: published_space")
+bug("round-from-the-first", "resume == Resume::kRound && last_driven >= 0",
+    "resume == Resume::kRound && last_driven > 0", "resume=round forgets the first contact")
+bug("normals-first-mixed", "frictions && layout.HasFriction(row) && violated(row + 1)",
+    "layout.HasFriction(row) && violated(row + 1)", "scan=normals-first looks at frictions at once")
+bug("highest-goes-up", "return PickInOrder(layout, true, true, first, contacts - 1, violated);",
+    "return PickInOrder(layout, true, true, first, 1, violated);", "scan=highest goes upward")
+bug("most-violated-friction-first", "normal >= 0 ? normal : friction", "friction >= 0 ? friction : normal",
+    "scan=most-violated takes frictions before normals")
+bug("give-up-second", "return zero && last_zero;", "return zero;", "give-up=second gives up at the first")
+bug("give-up-previous", "return last_zero;", "return zero;", "give-up=previous looks at this step")
+
+bug = in_file("solver/published/step_size.ipp", "^solver: (step size|run|published)|^program: paths")
+bug("later-of-two-limits", "!(s < limit.s)", "s > limit.s", "of two limits at one step the second counts")
+bug("bound-tolerance", "scale.pivot", "scale.rate", "driven friction: the tolerance of another unit",
+    context="sign > 0 ? IndexSet::kAtUpper : IndexSet::kAtLower,\n        scale.pivot);")
+bug("bound-rests", "Scalar(1 - mu * df[driven - 1])", "Scalar(1)", "driven friction: its bound does not move")
+bug("last-of-a-set", "state.sets[row] < state.sets[first]", "state.sets[row] <= state.sets[first]",
+    "of ties in a set the last limits")
+bug("no-tie-tolerance", "limits_[nearest].s + scale.force", "limits_[nearest].s", "steps tie to the bit only",
+    type="Scalar")
+bug("driven-not-first", "if (within_reach(driven)) return driven;", "", "of ties the driven one is not the first")
+bug("lower-bound-sign", "Scalar(-df[row] - growth)", "Scalar(-df[row] + growth)", "-mu fN moves the wrong way")
+bug("rate-of-zero", "Sign(rate, tolerance) <= 0", "Sign(rate, tolerance) < 0", "a gap that rests is a limit")
+
+# ---- solver/complete ---------------------------------------------------------------
+
+COMPLETE = "^solver: (complete|space|equivalence|reduction|4.5)"
+
+bug = in_file("solver/complete/complete.ipp", COMPLETE)
+bug("up-or-level", "if (sign < 0) TraceStage(DrivenAmount());", "if (sign <= 0) TraceStage(DrivenAmount());",
+    "a stage is entered without a sign")
+bug("no-snap", "if constexpr (!kIsExact<Scalar>) Snap(reached.facet);", "", "the facet reached is not met exactly")
+bug("folds-everywhere", "determinant * last_turn < 0", "determinant * last_turn <= 0", "every piece is a fold")
+bug("ties-reversed", "if (order > 0) continue;", "if (order < 0) continue;", "of a tie the later one is taken")
+bug("bilateral-ray-sign", "return Unlimited(-sign);", "return Unlimited(sign);", "the ray of bilateral contacts is turned")
+bug("budget-pieces", "verdict_.statistics.pieces >= options_.limits.pivots",
+    "verdict_.statistics.pieces > options_.limits.pivots", "a budget of pieces is one too large")
+bug("pieces-bound", "of_stages = InSpace() ? cells : 3;", "of_stages = cells;", "the bound of the pieces is too large")
+bug("descent-into-break", "if (cell.law == Law::kFree) TraceStage(StageEnd());", "TraceStage(StageEnd());",
+    "a contact that broke is driven down")
+bug("descent-corner", "sign > 0 ? 0 : 1", "sign > 0 ? 1 : 0", "a descent goes to the other side")
+bug("dependent-bilateral", "SetCell(i, {Law::kHold, curvature > 0 ? 0 : 1});", "SetCell(i, {Law::kHold, 0});",
+    "a dependent bilateral contact is an equation, too")
+
+bug = in_file("solver/complete/complete_cells.ipp", COMPLETE)
+bug("corner-side", "SignAt(at, {Kind::kOpposed, contact}) > 0 ? 0 : 1",
+    "SignAt(at, {Kind::kOpposed, contact}) > 0 ? 1 : 0", "friction starts at the wrong limit")
+bug("corner-in-space", "before < 0 && after > 0", "before < 0 || after > 0", "a corner that opposes one edge only")
+bug("rest-sign", "return mu * f(0) - radius;", "return mu * f(0) + radius;", "a stage of friction in space has no end")
+bug("lower-limit", "oriented(facet.k == 0, f[row + 1])", "oriented(facet.k != 0, f[row + 1])", "sides exchanged")
+
+bug = in_file("solver/complete/complete_end.ipp", COMPLETE + "|^program: solve")
+bug("residual-not-read", "!(Residual() <= tolerance)", "false", "whatever the residual, the answer is called solved")
+
+bug = in_file("solver/complete/complete_ties.ipp", COMPLETE)
+bug("sign-tolerance", "of_acceleration ? scale_.acceleration : scale_.force",
+    "of_acceleration ? scale_.force : scale_.acceleration", "tolerances of another unit")
+bug("normals-not-perturbed", "if (!IsBilateral(i)) normals += gradient[RowOf(i)];", "",
+    "the perturbation does not press all contacts first")
+bug("gradient-without-facet", "AddGradient(at, Scalar(-system.Solution(size)), gradient);", "",
+    "the perturbation does not move the facet")
+
+bug = in_file("solver/complete/polygon.h", "^solver: (polygon|space)|^certify: space")
+bug("corner-twice", "Sign(Cross(corners_[k], corner)) <= 0", "Sign(Cross(corners_[k], corner)) < 0",
+    "a corner that is there is added again")
+bug("beyond-the-edge", "if (along > radius) along = radius;", "", "points are projected beyond an edge")
+
+bug = in_file("solver/complete/polygon_residual.h", "^solver: (space|polygon)|^certify: (space|lemke)|^solver: residual")
+bug("polygon-negative-radius", "contact.mu * std::max<Scalar>(Scalar(0), f[row])", "contact.mu * f[row]",
+    "a pull makes the limit of friction negative", type="Scalar")
+
+# ---- solver/lemke ------------------------------------------------------------------
+
+bug = in_file("solver/lemke/lemke.ipp", "^solver: (lemke|equivalence)|^certify: (lemke|existence)|^program: (exist|solve)")
+bug("first-row-tie", "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0",
+    "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) < 0", "the first pivot is not lexicographic")
+bug("artificial-stays", "CompareQuotients(artificial, best, 0) <= 0 ? artificial : best",
+    "CompareQuotients(artificial, best, 0) < 0 ? artificial : best", "z0 does not leave when it can")
+bug("multiplier-sign", "z.block == Block::kNormal ? problem_->contacts[w.contact].mu : Scalar(-1)",
+    "z.block == Block::kNormal ? problem_->contacts[w.contact].mu : Scalar(1)", "friction widens its limit")
+bug("lemke-budget", "verdict_.statistics.pivots >= options_.limits.pivots",
+    "verdict_.statistics.pivots > options_.limits.pivots", "a budget of pivots is one too large")
+bug("corner-force-sign", "f[z.row] -= value;", "f[z.row] += value;", "friction the other way has the same sign")
+bug("lemke-residual-not-read", "!(residual <= residual_tolerance_)", "false", "any answer over doubles is solved")
+bug("lemke-order", "if (const int order = CompareQuotients(i, k, c); order != 0) return order < 0;",
+    "if (const int order = CompareQuotients(i, k, c); order != 0) return order > 0;", "the largest quotient leaves")
+
+# ---- solver/linear -----------------------------------------------------------------
+
+LINEAR = "^solver: (direction|elimination|updated|inverse|dense|fast|null vector|complete|published)|^certify: (properties|safe)"
+
+bug = in_file("solver/linear/elimination.ipp", LINEAR)
+bug("first-pivot", "best < 0 || Abs(M_(i, column)) > Abs(M_(best, column))", "best < 0",
+    "over doubles any entry is a pivot")
+bug("swaps-not-counted", "odd_swaps_ = !odd_swaps_;", "", "the sign of a determinant forgets exchanges of rows")
+bug("singular-determinant", "if (rank_ < rows_) return Scalar(0);", "", "a singular matrix has another determinant")
+bug("orientation-parity", "odd_swaps_ ? -last : last", "last", "the sign of a minor forgets exchanges of rows")
+bug("back-substitution", "for (int k = i + 1; k < rank_; ++k) x -= M_(i, pivot_column_[k]) * x_[pivot_column_[k]];",
+    "for (int k = i + 2; k < rank_; ++k) x -= M_(i, pivot_column_[k]) * x_[pivot_column_[k]];",
+    "an unknown is left out of the equation above")
+
+bug = in_file("solver/linear/direction.ipp", LINEAR + "|^solver: (warm|space)")
+bug("null-vector-parity", "if ((rank - free) % 2 != 0) sign = -sign;", "", "a null vector has the wrong sign")
+bug("forces-inconsistent", "if (!system.IsConsistent(size, scale.rate)) return Status::kInconsistent;", "",
+    "forces that do not exist are returned")
+
+bug = in_file("solver/linear/inverse.h", LINEAR)
+bug("inverse-sign", "if (s < 0) sign_ = -sign_;", "", "updates forget the sign of the determinant")
+bug("any-pivot", "std::abs(s) > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * entries", "std::abs(s) > 0",
+    "updates divide by rounding errors")
+
+bug = in_file("solver/linear/updated_system.ipp", LINEAR)
+bug("residual-accepted", "residual <= 64 * kEpsilon * unit", "true", "directions are accepted whatever their residual")
+
+bug = in_file("solver/linear/dense_factor.h", LINEAR)
+bug("bennett", "alpha *= from[j] / d;", "", "removal of a row updates the factors with the wrong weight")
+bug("dependent-appended", "!(schur > tolerance * diagonal)", "false", "a dependent column is appended")
+
+bug = in_file("solver/linear/unknowns.h", LINEAR + "|^solver: run")
+bug("lower-limit-column", "entry -= along;", "entry += along;", "NC- is taken for NC+")
+
+# ---- solver/problem ----------------------------------------------------------------
+
+bug = in_file("solver/problem/residual.h", "^solver: (residual|coulomb|one contact|weak|cone|gate)|^certify: (coulomb|solve)")
+bug("negative-bound", "contact.mu * std::max<Scalar>(Scalar(0), f[row])", "contact.mu * f[row]",
+    "a pull makes the limit of friction negative", type="Scalar")
+bug("scale-without-b", "std::max<Scalar>(max_f, residual.b_scale)", "max_f", "beside small forces a residual is large")
+bug("de-saxce", "a[row] + mu * hypot(a[row + 1], a[row + 2])", "a[row]", "without De Saxce's term", type="Scalar")
+bug("polar-cone", "if (mu * length <= -x[0]) return {Scalar(0), Scalar(0), Scalar(0)};", "",
+    "points of the polar cone are projected wrongly")
+
+bug = in_file("solver/problem/weak_residual.h", "^solver: (weak|space)|^program: published_space")
+bug("weak-power", "if (force > 0) worst = std::max(worst, r * (f[row + 1] * a[row + 1] + f[row + 2] * a[row + 2]) / force);",
+    "", "(21) without fF.aF <= 0")
+
+bug = in_file("solver/problem/gate.h", "^solver: gate|^certify: solve")
+bug("rounding-not-bounded", "residual.worst += 3 * residual.r * checked.error * (1 + MostFriction(problem));", "",
+    "the residual is not an upper bound")
+
+bug = in_file("solver/problem/state.h", "^solver: (step size|run|published|complete)")
+bug("force-tolerance-unit", "scale.force = std::max(Scalar(tolerances.force), least) * f;",
+    "scale.force = std::max(Scalar(tolerances.force), least) * a;", "the tolerance of forces is one of accelerations")
+
+bug = in_file("solver/problem/reduction.ipp", "^solver: (4.5|6:|bilateral|a singular|in space|doubles)|^certify: runs")
+bug("sliding-sign", "-contact.mu * contact.slip[i - 1]", "contact.mu * contact.slip[i - 1]",
+    "sliding friction pushes along", type="Scalar")
+bug("bilateral-contradiction", "if (Sign(b[row], zero_acceleration) != 0) return ReductionEnd::kInconsistent;", "",
+    "bilateral contacts that contradict each other are reduced")
+bug("bilateral-constant", "x0[determines[i]] = -T(i, kept + count);", "x0[determines[i]] = T(i, kept + count);",
+    "bilateral forces push the wrong way")
+
+# ---- certify: the checker ------------------------------------------------------------
+
+CHECKER = "^program: false_claims|^certify: certificate"
+
+bug = in_file("certify/check_certificate.cpp", CHECKER)
+bug("claim-symmetric", """throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
+                   "A = A'"};""", "", "every A is symmetric")
+bug("claim-not-symmetric", 'if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", '
+    '"different entries"};', "", "no A is symmetric")
+bug("claim-psd-negative", "D[i] < 0", "false", "psd: D may be negative")
+bug("claim-psd-product", "k <= std::min(i, j)", "k < std::min(i, j)", "psd: the product lacks its last term")
+bug("claim-psd-triangle", 'RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));', "",
+    "psd: L of any form")
+bug("claim-not-psd-zero", "curvature >= 0", "curvature > 0", "not-psd: x'Ax = 0 will do")
+bug("claim-not-psd-value", 'RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");',
+    "", "not-psd: any value")
+bug("claim-in-range", 'RequireEqual(image[i], problem.b[i], fmt::format("(A x)[{}]", i));', "", "in-range: any x")
+bug("claim-not-in-range-transpose", "problem.A.transpose() * y", "problem.A * y", "not-in-range: A y for A'y",
+    type="ExactVector")
+bug("claim-not-in-range-zero", """if (product == 0) throw Rejected{"witness.value", "0", "y'b /= 0"};""", "",
+    "not-in-range: y'b = 0 will do")
+bug("claim-not-in-range-kernel", """RequireEqual(image[j], 0, fmt::format("(y'A)[{}]", j));""", "",
+    "not-in-range: y'A may be anything")
+bug("claim-not-in-range-value", 'RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");',
+    "", "not-in-range: any value", context='''RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
+  if (product == 0)''')
+bug("claim-h-sliding", "HasSlidingContact(problem)", "false", "h, not-h: sliding contacts, too")
+bug("claim-h-cone", """throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};""", "", "h: any y")
+bug("claim-not-h-cone", 'if (const auto violation = FindConeViolation(problem, v)) throw Rejected{"witness.v", '
+    '*violation, "v in K"};', "", "not-h: v outside of K")
+bug("claim-not-h-kernel", 'RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));', "", "not-h: A v may be anything")
+bug("claim-not-h-zero", "product >= 0", "product > 0", "not-h: b'v = 0 will do")
+bug("claim-not-h-value", 'RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");', "",
+    "not-h: any value", context='''RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
+  if (product >= 0)''')
+bug("claim-coulomb-above-one", "bound <= 0 || bound > 1", "bound <= 0", "coulomb-solution: a bound above 1")
+bug("claim-coulomb-negative", "bound <= 0 || bound > 1", "bound > 1", "coulomb-solution: a bound of zero or less")
+bug("claim-accelerations", 'RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));', "",
+    "solution-exists: any a")
+bug("claim-cycle-length", 'compare(pivots.size(), run.trace.pivots.size(), ".pivots: number");', "",
+    "cycle: any number of steps")
+bug("claim-cycle-start", 'compare(ReadInteger(described["start"], path + ".start", 0), run.verdict.start, ".start");', "",
+    "cycle: any start")
+bug("claim-cycle-state", 'RequireEqual(f[i], run.state.f[i], fmt::format("{}.state.f[{}]", path, i));', "",
+    "cycle: any forces recur")
+bug("claim-cycle-policy-twice", 'throw Rejected{where, Shown(named[p]), "each policy once"};', "",
+    "cycle: a policy counts twice")
+bug("claim-cycle-of-space", 'if (policy.slip != Slip{}) throw Rejected{path, Shown(json), "a policy of the planar grid"};',
+    "", "cycle: policies of space count")
+bug("claim-cycle-spelling", "if (PolicyName(policy) != name) throw Rejected{path, Shown(json), PolicyName(policy)};", "",
+    "cycle: a policy has several names")
+bug("claim-cycle-run-twice", "p == 0 && !described.insert(StepsAsText(run, names)).second", "false",
+    "cycle: a run counts twice")
+bug("certificate-version", '!certificate["version"].is_number_integer() || certificate["version"] != 1',
+    'certificate["version"] != 1', "version 1.0 is read")
+bug("certificate-format", 'certificate["format"] != "stiction-certificate"', "false", "any format is read")
+
+bug = in_file("certify/verify_solution.cpp", CHECKER + "|^certify: (verify|space|coulomb)|^solver: run")
+bug("planar-complementarity", 'if (product != 0) return Broken(contact, "fN aN = 0", product);', "", "(15) without fN aN = 0")
+bug("planar-acceleration", 'if (a < 0) return Broken(contact, "aN >= 0", a);', "", "(15) without aN >= 0")
+bug("planar-force", 'if (f < 0) return Broken(contact, "fN >= 0", f);', "", "(15) without fN >= 0")
+bug("planar-bound", 'if (slack < 0) return Broken(contact, "abs(fF) <= mu fN", slack);', "", "(16) without its bound")
+bug("planar-power", 'if (power > 0) return Broken(contact, "aF fF <= 0", power);', "", "(16) without aF fF <= 0")
+bug("planar-slip", 'if (product != 0) return Broken(contact, "aF (mu fN - abs(fF)) = 0", product);', "",
+    "(16) without slip at the limit only")
+bug("bilateral-rest", "a[row] == 0", "a[row] >= 0", "a bilateral contact may open")
+bug("sliding-side", "f[row + 1] + bound * law.slip[0]", "f[row + 1] - bound * law.slip[0]",
+    "sliding friction pushes along", type="Rational")
+bug("space-bound", 'if (slack < 0) return Broken(c.number, "fF.fF <= mu^2 fN^2", slack);', "", "in space: no bound")
+bug("space-power", 'if (c.Power() > 0) return Broken(c.number, "fF.aF <= 0", c.Power());', "", "(21) without fF.aF <= 0")
+bug("space-slip", 'if (product != 0) return Broken(c.number, "aF = 0 or abs(fF) = mu fN", product);', "",
+    "(21) without slip at the limit only")
+bug("space-second-tangent", "return f_x * f_x + f_y * f_y;", "return f_x * f_x;", "friction of one tangent only")
+bug("coulomb-angle", 'if (excess < 0) return Broken(c.number, "(fF.aF)^2 >= c^2 mu^2 fN^2 aF.aF", excess);', "",
+    "Coulomb's law at any angle")
+bug("space-sliding-y", "Rational(c.f_y + c.Bound() * c.law.slip[1])", "Rational(0)", "sliding friction along x only")
+
+bug = in_file("certify/no_solution.cpp", CHECKER + "|^certify: (no-solution|modes)")
+bug("break-friction", "return yN >= 0 && yF == 0;", "return yN >= 0;", "break: yF may be anything")
+bug("break-normal", "return yN >= 0 && yF == 0;", "return yF == 0;", "break: yN may be anything")
+bug("touch-slip", "gN - SlipOf(contact) * along <= 0 && yF == 0", "gN + SlipOf(contact) * along <= 0 && yF == 0",
+    "touch: sliding friction the other way")
+bug("touch-friction", "gN - SlipOf(contact) * along <= 0 && yF == 0", "gN - SlipOf(contact) * along <= 0",
+    "touch: yF may be anything")
+bug("stick-one-side", "return gN + abs(along) <= 0;", "return gN + along <= 0;", "stick: one side of the cone")
+bug("slip-plus-friction", "return gN - along <= 0 && yF >= 0;", "return gN - along <= 0;", "slip+: yF may be anything")
+bug("slip-plus-side", "return gN - along <= 0 && yF >= 0;", "return gN + along <= 0 && yF >= 0;", "slip+: the other edge")
+bug("slip-minus-side", "return gN + along <= 0 && yF <= 0;", "return gN - along <= 0 && yF <= 0;", "slip-: the other edge")
+bug("hold-side", "return gN == 0;", "return gN <= 0;", "hold: bilateral contacts only push")
+bug("refutation-of-zero", "farkas.value >= 0", "farkas.value > 0", "y'b = 0 refutes")
+bug("prefix-twice", 'if (listed.size() < prefixes.size()) throw Rejected{path, "a prefix twice", "each once"};', "",
+    "a prefix counts twice")
+bug("prefix-extension", 'throw Rejected{ElementPath(path, k) + ".modes", "an extension of another prefix", "none"};', "",
+    "a prefix and its extensions count")
+bug("cover-less", "covered != words", "covered > words", "words may be left out")
+
+bug = in_file("certify/hypothesis.cpp", CHECKER + r"|^certify: \(H\)")
+bug("dual-bilateral", 'if (contact.kind == ContactKind::kBilateral && g[row] != 0) return Broken(i, "gN = 0", g[row]);', "",
+    "bilateral contacts have the dual cone of others")
+bug("dual-normal", 'if (g[row] < 0) return Broken(i, "gN >= 0", g[row]);', "", "a dual cone and its opposite")
+bug("dual-friction", 'if (slack < 0) return Broken(i, "gN^2 - (mu gF)^2 >= 0", slack);', "", "dual cones without friction")
+bug("cone-friction", 'if (slack < 0) return Broken(i, "(mu vN)^2 - vF^2 >= 0", slack);', "", "cones of any friction")
+bug("cone-normal", "contact.kind != ContactKind::kBilateral && v[row] < 0", "false", "cones that pull")
+bug("cone-bilateral", "contact.kind != ContactKind::kBilateral && v[row] < 0", "v[row] < 0", "bilateral contacts only push")
+bug("second-tangent", "for (int k = 1; k < dimension; ++k) square += x[row + k] * x[row + k];",
+    "for (int k = 1; k < 2; ++k) square += x[row + k] * x[row + k];", "the second tangent does not count")
+bug("dual-transpose", "rest[j] -= y[i] * problem.A(i, j);", "rest[j] -= y[i] * problem.A(j, i);", "A y for A'y")
+
+bug = in_file("certify/safe.cpp", CHECKER + "|^certify: safe")
+bug("safe-of-zero", 'if (determinant <= 0) throw Rejected{path, ToString(determinant), "a number > 0"};',
+    'if (determinant < 0) throw Rejected{path, ToString(determinant), "a number > 0"};', "a determinant of zero is safe")
+bug("unsafe-positive", 'if (value > 0) throw Rejected{"witness.determinant", ToString(value), "a number <= 0"};', "",
+    "a positive determinant is unsafe")
+bug("determinant-stated", "if (value == determinant) return determinant;", "return determinant;", "any number is stated")
+bug("slip-factor", "if (mode == kSlipPlus) return -contact.mu;", "if (mode == kSlipPlus) return contact.mu;",
+    "both slips have one determinant")
+bug("pivot-of-zero", "pivot <= 0", "pivot < 0", "the search divides by zero")
+bug("short-word", 'RequireList(stated, "witness.word", problem.contacts.size(), "modes");', "", "a word of fewer modes")
+bug("safe-of-other-kinds", "if (PublishedHandles(problem)) return;", "return;", "safe: sliding and bilateral contacts")
+
+bug = in_file("certify/condition.cpp", CHECKER + "|^certify: condition")
+bug("scaling-sign", 'if (d[i] <= 0) throw Rejected{ElementPath("witness.scaling", i), ToString(d[i]), "a number > 0"};', "",
+    "scalings may be negative")
+bug("condition-least", "!IsSemidefinite(B - least * I)", "false", "any least eigenvalue")
+bug("condition-most", "!IsSemidefinite(most * I - B)", "false", "any largest eigenvalue")
+bug("condition-equality", "friction * friction * gap * gap < 4 * least * most",
+    "friction * friction * gap * gap <= 4 * least * most", "equality is safe")
+bug("condition-asymmetric", '''throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second),
+                   ToString(problem.A(pair->first, pair->second)),
+                   ToString(problem.A(pair->second, pair->first)) + ", as across the diagonal"};''', "",
+    "A need not be symmetric")
+bug("ratio-upside-down", "largest = std::max(largest, Rational(weight * d[row - 1] / d[row]));",
+    "largest = std::max(largest, Rational(weight * d[row] / d[row - 1]));", "m upside down")
+bug("ratio-last", "largest = std::max(largest, Rational(weight * d[row - 1] / d[row]));",
+    "largest = Rational(weight * d[row - 1] / d[row]);", "the friction of the last contact alone")
+
+bug = in_file("certify/witness.cpp", CHECKER)
+bug("unknown-keys", 'if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", expected};', "",
+    "unknown keys are passed over")
+bug("least-integer", "json.is_number_integer() && json.get<std::int64_t>() >= least", "json.is_number_integer()",
+    "indices may be negative")
+
+# ---- certify: deciding ---------------------------------------------------------------
+
+bug = in_file("certify/enumerate.cpp", "^certify: (modes|no-solution|agreement)|^program: existence")
+bug("tight-everywhere", "if (value != 0) continue;", "", "every condition is tight")
+bug("only-solution-rank", "if (Rank(normals, static_cast<int>(variables)) < static_cast<int>(variables)) return false;", "",
+    "a continuum is called one solution")
+bug("first-not-read", "if (options_.first_solution_only) result_.end = EnumerationEnd::kFirstSolution;", "",
+    "the first solution does not end the search")
+bug("programs-budget", "result_.programs == options_.programs", "result_.programs > options_.programs",
+    "a budget of programs is one too large")
+bug("enumerate-cancel", "if (!options_.progress(progress)) result_.end = EnumerationEnd::kCancelled;",
+    "options_.progress(progress);", "the search cannot be cancelled")
+bug("tight-direction", "for (mpz_class& coefficient : normals.back()) coefficient = -coefficient;", "",
+    "an upper limit is a lower one")
+
+bug = in_file("certify/modes.cpp", "^certify: (modes|agreement|no-solution)")
+bug("slip-edge", "return {{{-mu}}, Relation::kZero, Relation::kAtLeastZero};",
+    "return {{{mu}}, Relation::kZero, Relation::kAtLeastZero};", "slip+ pushes along")
+bug("stick-anywhere", "return abs(f[row + 1]) <= contact.mu * f[row];", "return true;", "sticking with any force")
+
+bug = in_file("certify/exact.cpp", "^certify: (runs|exact|policy classes|variables|certificate)|^program: paths")
+bug("contact-not-restored", "state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);", "",
+    "the contact driven last is told in numbers of the reduced problem")
+bug("classes-too-wide", "!AgreeOn(known.consulted, known.policies.front(), policy)", "false",
+    "one run speaks for all policies")
+
+bug = in_file("certify/agreement.cpp", "^certify: agreement|^search: (unit|alarms)")
+bug("another-solution-listed", "(!solution.unique || solution.f == f)", "true", "any force in a mode is its solution")
+bug("lemke-need-not-solve", 'answer.method == "complete" || answer.method == "lemke"', 'answer.method == "complete"',
+    "Lemke's method may end anyhow")
+bug("own-tie", "if (row == pivot.limiting) continue;", "", "every step has a tie")
+bug("regular-on-boundary", "modes.distinct_witnesses == count.words", "true", "solutions on a boundary are regular")
+bug("incomplete-counts", "!answers.modes || answers.modes->end != EnumerationEnd::kComplete", "!answers.modes",
+    "an enumeration that was stopped claims to be complete")
+
+bug = in_file("certify/safety_threshold.cpp", "^certify: safe")
+bug("sturm-variations", "sign * last < 0", "sign * last <= 0", "roots that are none")
+bug("threshold-of-the-last", "if (smallest && !IsSmaller(root, *smallest)) continue;", "", "not the smallest root")
+
+bug = in_file("certify/properties.cpp", "^certify: (semidefinite|range|symmetry|assumptions|certificate)")
+bug("curvature-witness", "y[k] = -(S(i, i) + 1) / (2 * S(i, k));", "y[k] = (S(i, i) + 1) / (2 * S(i, k));",
+    "a direction of positive curvature")
+bug("range-obstacle", "M(i, size) != 0", "M(i, size) > 0", "an obstacle of one sign only")
+
+# ---- search --------------------------------------------------------------------------
+
+bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
+bug("wrong-answer-threshold", "!(Residual(*f) <= kWrongAnswer)", "!(Residual(*f) <= 1)", "wrong is above 1, not 1e-6")
+bug("misjudged-not-counted", "tally.misjudged += exact != inexact;", "", "misjudged runs are not counted")
+bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
+bug("wrong-solution-counted", "verdict.outcome == Outcome::kSolved && !wrong", "verdict.outcome == Outcome::kSolved",
+    "wrong solutions are counted as solved")
+bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check of safe problems lacks its switch")
+bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
+bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
+bug("wrong-not-counted", "tally.wrong += wrong;", "", "wrong answers are not counted")
+bug("wrong-of-rounded", "wrong && same_problem", "wrong", "a rounded problem's answer is a finding")
+bug("disagreement-of-rounded", "inexact != exact && same_problem", "inexact != exact",
+    "a rounded problem's outcome is a finding")
+bug("safe-cycle-missed", "exact == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
+    "cycles of safe problems are cycles like others")
+bug("ties-not-excused", "if (HasTies(problem, run)) return;", "", "safe problems with ties are findings")
+bug("give-ups-not-read", "if (run.verdict.statistics.give_ups == 0) return;", "", "every safe problem gives up")
+bug("disagreements-not-counted", "++result_.record.agreement[task_.contacts].disagreements;", "",
+    "disagreements are not counted")
+bug("signs-of-irregular", "count.regular && count.signs != 1", "count.signs != 1", "signs are counted of all problems")
+bug("safety-of-suspicions", "if (!suspected) CheckSafety(place, run, problem);", "CheckSafety(place, run, problem);",
+    "safety is checked of suspicions, too")
+bug("audit-once", "if (audit) until_audit = campaign_.audit_every;", "until_audit = campaign_.audit_every;",
+    "only the first problem is audited")
+bug("one-too-many", "static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit",
+    "static_cast<std::int64_t>(result_.candidates.size()) > campaign_.representatives_per_unit",
+    "one representative too many")
+bug("lemke-on-audits-only", "with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0", "with_lemke",
+    "suspicions are never run by Lemke's method")
+bug("safety-of-fewer", "if (task_.contacts > kMostContactsEnumerated) return;",
+    "if (task_.contacts >= kMostContactsEnumerated) return;", "the largest problems are not checked")
+bug("policy-not-named", 'if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);', "",
+    "findings of all policies share a signature")
+
+bug = in_file("search/finish.cpp", "^search: finish|^program: search")
+bug("safe-once-minimized", 'if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;',
+    "", "a cycle that is safe once minimized is one like others")
+bug("methods-not-compared", "if (!cancelled()) CompareMethods(finished, facts, found, limits);", "",
+    "methods are not compared when a finding is finished")
+bug("disagreement-minimized", "found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods",
+    "found.run.verdict.outcome != Outcome::kSolved", "a disagreement is minimized away")
+bug("signature-not-kept", "if (IsLoop(run.verdict.outcome)) options.signature = Signature(problem, run);", "",
+    "minimizing may lead to another loop")
+bug("grid-not-certified", "whole ? PlanarGrid() : std::vector<Policy>{policy}", "std::vector<Policy>{policy}",
+    "a loop of the whole grid is certified under one policy", type="std::vector<Policy>")
+bug("grid-not-kept", "whole_grid", "false", "minimizing may lose policies",
+    context="if (whole_grid) {\n    options.policies = PlanarGrid();")
+bug("cancelled-is-done", "if (cancelled()) return std::nullopt;", "", "what was cancelled is called done")
+
+bug = in_file("search/minimize.cpp", "^search: (minimize|simplicity|finish)")
+bug("asymmetric-kept", 'if (!IsSymmetric(candidate)) return "A is not symmetric";', "", "A need not stay symmetric")
+bug("indefinite-kept", 'if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";', "",
+    "A need not stay semidefinite")
+bug("out-of-range-kept", 'if (!IsInRange(candidate)) return "b is not in range(A)";', "", "b need not stay in range(A)")
+bug("another-loop-kept", '''if (options_.signature && Signature(candidate, run) != *options_.signature)
+      return "it has another signature";''', "", "the loop may become another")
+bug("policies-lost", "!AllEndIn(options_.keep, candidate, options_.policies, options_.limits)", "false",
+    "policies may end otherwise")
+bug("mirror-not-set", "candidate.A(j, i) = number;", "", "one of two mirrored entries is simplified")
+bug("friction-row-kept", "if (k != contact) rows.push_back(row);", "rows.push_back(row);",
+    "a contact without friction keeps its row")
+
+bug = in_file("search/signature.cpp", "^search: (signature|unit|finish)")
+bug("tangents-not-turned", 'sign * turn > 0 ? "+" : "-"', 'sign > 0 ? "+" : "-"', "a turned tangent is another loop")
+bug("period-too-long", "pivots[k].drive > verdict.start", "pivots[k].drive >= verdict.start", "a drive before the period")
+bug("no-word-of-two", "contacts.size() > kMostContactsWithWord", "contacts.size() >= kMostContactsWithWord",
+    "loops of two contacts have no word")
+bug("all-steps-zero", "step.s == 0", "step.s >= 0", "words do not tell zero steps from others")
+
+bug = in_file("search/summary.cpp", "^search: summary|^program: search")
+bug("all-confirmed", "if (exact == inexact) digest.confirmed += tally.verdicts[inexact][exact];",
+    "digest.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
+bug("grave-not-named", "if (IsGrave(finding.kind)) digest.grave.push_back(finding);", "", "grave findings are not named")
+bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
+    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
+bug("grid-of-any-size", 'IsLoopKind(finding.kind) && facts.at("minimized").at("grid").size() == 1',
+    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
+bug("misjudged-not-summed", "digest.misjudged += tally.misjudged;", "", "misjudged runs are not told")
+
+bug = in_file("search/campaign.cpp", "^search: campaign")
+bug("units-too-small", "campaign.unit_problems >> std::max(0, task.contacts - 2)",
+    "campaign.unit_problems >> std::max(0, task.contacts - 1)", "units of two contacts are half as large")
+bug("a-unit-too-many", "if (rest <= 0) break;", "if (rest < 0) break;", "a unit too many")
+bug("large-denominators", "mu->get_num() <= kLargestMuPart && mu->get_den() <= kLargestMuPart",
+    "mu->get_num() <= kLargestMuPart", "friction of any denominator")
+bug("a-round-too-many", "if (round >= WeightOf(contacts)) continue;", "if (round > WeightOf(contacts)) continue;",
+    "sizes come once too often")
+bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here", "false", "a policy may stand twice")
+
+# ---- corpus --------------------------------------------------------------------------
+
+bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: (search|store)")
+bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
+    "the largest problem represents its group")
+bug("block-too-early", "count.Integer(0) < kUnitsPerBlock", "count.Integer(0) < kUnitsPerBlock - 1",
+    "a block closes one unit too early")
+bug("finish-overwrites", "if (present.Step()) WriteFinding(db_.get(), finding);", "WriteFinding(db_.get(), finding);",
+    "what was replaced meanwhile is finished all the same")
+bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;",
+    "", "the other store's findings win")
+bug("any-campaign", "if (*stored == identity) return;", "return;", "another campaign's store is taken")
+bug("any-file", "head != kMagic", "false", "a file that is no database is taken over")
+bug("blocks-of-all-shards", "shard.Owns(unit) && blocks.contains(BlockOf(shard, unit))", "blocks.contains(BlockOf(shard, unit))",
+    "a block of one shard has the units of others")
+bug("merge-any-campaign", "other.identity_ != identity_", "false", "stores of different campaigns are merged")
+bug("merge-twice", "before.Contains(unit) && rest.Contains(unit)", "false", "a unit counts for two shards")
+bug("foreign-database", "tables.Integer(0) > 0 && tables.Integer(1) == 0", "false", "another database is taken over")
+
+bug = in_file("corpus/problem_file.cpp", "^corpus: (problem|formats)")
+bug("entry-twice", 'if (is_listed[flat(i, j)]) entry.Refuse("each entry once");', "", "an entry may stand twice")
+bug("entry-above", 'if (i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");', "",
+    "entries above the diagonal are mirrored")
+bug("negative-mu", 'if (mu < 0) place.Refuse("mu >= 0");', "", "friction may be negative")
+bug("slip-not-unit", "if (!IsUnit(slip)) place.Refuse(expected);", "", "slip need not be a unit vector")
+bug("not-mirrored", "A(j, i) = A(i, j);", "", "entries below the diagonal have no mirror")
+bug("strict-numbers", "if (!strict || json.is_string()) x = ExactValue(json);", "x = ExactValue(json);",
+    "certificates may have JSON numbers")
+bug("misplaced-mu", 'if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");', "",
+    "mu on frictionless contacts")
+bug("rounded-integers", "return IsExactDouble(x) ? std::optional(x) : std::nullopt;", "return std::optional(x);",
+    "integers that others round are read")
+bug("sparse-asymmetric", "A == A.transpose()", "true", "half of an asymmetric matrix is written")
+bug("expect-twice", "!is_new", "false", "a policy may be expected twice")
+
+bug = in_file("corpus/rational.cpp", "^corpus: (rational|nearest|bits)")
+bug("ties-up", "half > 0 || (half == 0 && mpz_odd_p(quotient.get_mpz_t()))", "half >= 0", "halves are rounded up")
+bug("subnormal-bit", "-1074L", "-1073L", "the last bit of subnormals is lost")
+bug("exponent-limit", "exponent > kMaxExponent", "exponent >= kMaxExponent", "an exponent of 10000 is refused")
+bug("overflow-early", "static_cast<long>(mpz_sizeinbase(digits.get_mpz_t(), 2)) + last_bit > 1024",
+    "static_cast<long>(mpz_sizeinbase(digits.get_mpz_t(), 2)) + last_bit > 1023", "the largest doubles are infinite")
+bug("binary-exponent", "below ? e - 1 : e", "e", "numbers are rounded to one bit less")
+bug("zero-denominator", "if (x.get_den() == 0) return std::nullopt;", "", "a denominator of zero is read")
+bug("empty-fraction", "if (fraction.empty()) return std::nullopt;", "", "1. is a number")
+
+bug = in_file("corpus/statistics.cpp", "^corpus: (record|tally|store|merge)")
+bug("misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs are lost in sums")
+bug("words-not-merged", "AddTo(mine.words, tally.words);", "", "mode words are lost in sums")
+
+bug = in_file("corpus/statistics.h", "^corpus: (record|tally)|^search: unit")
+bug("maxima-add", "mine = std::max(mine, theirs);", "mine += theirs;", "maxima are sums")
+bug("give-ups-counted", "with_give_ups += s.give_ups > 0;", "with_give_ups += s.give_ups;", "give-ups for runs with any")
+
+bug = in_file("corpus/atomic_file.cpp", "^corpus: (atomic|whole)|^program: outputs")
+bug("mode-lost", "if (stat(target.c_str(), &old) == 0) fchmod(out_.number(), old.st_mode & 07777);", "",
+    "a file that is replaced loses its mode")
+bug("link-replaced", "Followed(file)", "file", "a link is replaced by a file", type="fs::path",
+    context="const fs::path target = Followed(file);")
+bug("input-for-output", "if (is_path) throw InputError(refused.what());", "", "a wrong path is a full disk")
+
+# ---- reports -------------------------------------------------------------------------
+
+bug = in_file("reports/csv.cpp", "^reports: ")
+bug("quote-not-quoted", r'text.find_first_of(",\"\r\n") == std::string_view::npos',
+    r'text.find_first_of(",\r\n") == std::string_view::npos', "a cell with a quotation mark breaks its row")
+bug("quote-not-doubled", r'''c == '"' ? std::string("\"\"") : std::string(1, c)''', "std::string(1, c)",
+    "quotation marks end their cell")
+bug("last-bin", "AddYesNo(csv, steps == Tally::kBins - 1);", "AddYesNo(csv, false);", "the last bin is like others")
+
+bug = in_file("reports/statistics_sections.cpp", "^reports: ")
+bug("wrong-confirmed", "inexact == static_cast<int>(Outcome::kSolved) ? -1 : inexact", "inexact",
+    "wrong answers are confirmed by right ones")
+bug("refuted-by-cycles", "suspicions.refuted += exact[static_cast<int>(Outcome::kSolved)];",
+    "suspicions.refuted += exact[static_cast<int>(Outcome::kCycle)];", "confirmed cycles are called refuted")
+
+bug = in_file("reports/discovery.cpp", "^reports: ")
+bug("some-loop", "loops > 0 && loops == Total()", "loops > 0", "every policy loops if one does")
+bug("unrepresented", "if (discovery.representative != nullptr) sorted.push_back(&discovery);",
+    "sorted.push_back(&discovery);", "groups without a representative are shown")
+bug("file-names-collide", "if (name == signature && !name.empty()) return name;", "return name;",
+    "two signatures have one file")
+
+bug = in_file("reports/report.cpp", "^reports: ")
+bug("certificate-of-the-original", "own.empty() ? finding.certificate : own", "finding.certificate",
+    "the minimized problem has the certificate of another")
+
+bug = in_file("reports/page.cpp", "^reports: ")
+bug("page-problems-per-policy", "most = std::max(most, tally.problems);", "most += tally.problems;",
+    "problems count once for every policy")
+bug("counted-is-pending", "pending += discovery.representative != nullptr && !discovery.Finished();",
+    "pending += !discovery.Finished();", "groups that are only counted are pending")
+
+bug = in_file("reports/existence_section.cpp", "^reports: ")
+bug("exceptions-hidden", "Exception(t.problems - t.solved)", "Exception(0)", "unsolved problems are not told")
+bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disagreements are not told")
+
+bug = in_file("reports/html.cpp", "^reports: ")
+bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
+bug("comment-in-script", "(c == '/' || c == '!') && !html.markup_.empty() && html.markup_.back() == '<'",
+    "c == '/' && !html.markup_.empty() && html.markup_.back() == '<'", "script data can begin a comment")
+
+bug = in_file("reports/findings_section.cpp", "^reports: ")
+bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
+    "a policy can end its shell word")

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The summary of a store: every number is a sum over its records, and what is grave stands first.
+
+#include "search/summary.h"
+
+#include <catch2/catch.hpp>
+
+#include "corpus/json_text.h"
+#include "corpus/kinds.h"
+#include "tests/scratch.h"
+
+namespace stiction {
+namespace {
+
+using Catch::Matchers::Contains;
+using testing::Scratch;
+
+Finding Waiting(const std::string& signature, std::string_view kind, std::int64_t unit) {
+  Finding finding;
+  finding.signature = signature;
+  finding.kind = kind;
+  finding.unit = unit;
+  finding.generator = "psd";
+  finding.contacts = 2;
+  finding.policy = "paper";
+  finding.inexact_outcome = finding.exact_outcome = "cycle";
+  finding.problem = "{}";
+  return finding;
+}
+
+Finding MinimizedTo(Finding finding, const std::string& problem, const std::string& grid) {
+  finding.done = true;
+  finding.minimized = problem;
+  finding.facts = R"({"minimized":{"contacts":2,"start":3,"period":4,"grid":)" + grid + R"(}})";
+  return finding;
+}
+
+// Two policies on the same 30 problems; of one of them 4 suspicions, 3 confirmed.
+Record TwoPolicies() {
+  Record record;
+  Tally& paper = record.tallies[{"psd", 2, "paper"}];
+  paper.problems = 30;
+  paper.verdicts[static_cast<int>(Outcome::kCycle)][static_cast<int>(Outcome::kCycle)] = 2;
+  paper.verdicts[static_cast<int>(Outcome::kRay)][static_cast<int>(Outcome::kRay)] = 1;
+  paper.verdicts[static_cast<int>(Outcome::kRay)][static_cast<int>(Outcome::kSolved)] = 1;
+  paper.audited = 7;
+  paper.misjudged = 5;
+  paper.wrong = 11;
+  record.tallies[{"psd", 2, "ties=contacts"}].problems = 30;
+  record.existence[2] = {13, 12, 0, 6, 8, 0};
+  AgreementTally& agreement = record.agreement[2];
+  agreement.compared = 17;
+  agreement.enumerated = 19;
+  agreement.disagreements = 23;
+  agreement.safety_decided = 29;
+  agreement.safe = 31;
+  agreement.safe_gave_up = 37;
+  record.signatures = {
+      {"cycle-2c-4d-10s-00", 2}, {"cycle-2c-4d-12s-00", 1}, {"ray-2c", 40}, {"safe-cycle-2c-4d-10s-00", 3}};
+  return record;
+}
+
+Store StoreWith(const std::filesystem::path& file) {
+  Store store(file, {R"({"contacts":[2]})", 7, R"(["paper"])", "a build"});
+  const Finding cycle = Waiting("cycle-2c-4d-10s-00", "cycle", 0),
+                other = Waiting("cycle-2c-4d-12s-00", "cycle", 0);
+  const Finding grave = Waiting("safe-cycle-2c-4d-10s-00", kSafeCycle, 1), ray = Waiting("ray-2c", "ray", 1);
+  store.AddUnit({}, 0, TwoPolicies(), {cycle, other});
+  store.AddUnit({}, 1, TwoPolicies(), {grave, ray});
+  store.Finish(MinimizedTo(cycle, "a long problem", R"({"cycle":1536})"));
+  store.Finish(MinimizedTo(other, "short", R"({"cycle":36,"solved":1500})"));
+  store.Finish(MinimizedTo(grave, "the longest problem of all", R"({"cycle":1536})"));
+  return store;
+}
+
+TEST_CASE("summary: numbers are sums over all units; problems count once, runs for every policy") {
+  const Scratch scratch;
+  const Json summary = SummaryToJson(StoreWith(scratch / "s.store"));
+  CHECK(summary.at("units") == 2);
+  CHECK(summary.at("problems") == 60);
+  CHECK(summary.at("runs") == 120);
+  CHECK(summary.at("suspicions") == 8);
+  CHECK(summary.at("confirmed") == 6);
+  CHECK(summary.at("audited") == 14);
+  CHECK(summary.at("misjudged") == 10);
+  CHECK(summary.at("wrong") == 22);
+  CHECK(summary.at("existence_checked") == 26);
+  CHECK(summary.at("existence_solved") == 24);
+  CHECK(summary.at("compared") == 34);
+  CHECK(summary.at("enumerated") == 38);
+  CHECK(summary.at("disagreements_of_methods") == 46);
+  CHECK(summary.at("safety_decided") == 58);
+  CHECK(summary.at("safe") == 62);
+  CHECK(summary.at("safe_gave_up") == 74);
+  CHECK(summary.at("finished") == 3);
+  CHECK(summary.at("pending") == 1);
+  CHECK(summary.at("whole_grid") == 2);
+  CHECK(summary.at("findings").at("cycle") == 6);
+  CHECK(summary.at("findings").at("ray") == 80);
+  CHECK(summary.at("groups").at("cycle") == 2);
+}
+
+TEST_CASE("summary: grave findings are named, and stand before all others") {
+  const Scratch scratch;
+  const Store store = StoreWith(scratch / "s.store");
+  const Json summary = SummaryToJson(store);
+  REQUIRE(summary.at("grave").size() == 1);
+  CHECK(summary.at("grave")[0].at("signature") == "safe-cycle-2c-4d-10s-00");
+  CHECK(summary.at("findings").begin().key() == "safe-cycle");
+  const Json& simplest = summary.at("minimized");
+  REQUIRE(simplest.size() == 3);
+  CHECK(simplest[0].at("signature") == "safe-cycle-2c-4d-10s-00");
+  CHECK(simplest[1].at("signature") == "cycle-2c-4d-12s-00");  // of the shorter problem
+  CHECK(simplest[2].at("signature") == "cycle-2c-4d-10s-00");
+  const std::string text = SummaryText(store, "the.store");
+  CHECK_THAT(text, Contains("GRAVE: safe-cycle: safe-cycle-2c-4d-10s-00"));
+  CHECK_THAT(
+      text, Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 wrong answers"));
+  CHECK_THAT(text, Contains("24 of 26 problems run exactly were solved by complete driving (12 with folds)"));
+  CHECK_THAT(text, Contains("3 finished, 1 to go; 2 loop under the whole grid"));
+}
+
+}  // namespace
+}  // namespace stiction
