@@ -54,7 +54,7 @@ def work_table(result, bound, head):
 
 
 def work(program):
-    result = methods(program, "--problems", program.size(4800))
+    result = methods(program, "--problems", program.size(1200))
     return work_table(result, lambda n: 4 ** n - 1, "bound 4^n - 1")
 
 
@@ -65,23 +65,29 @@ def near_worst_case(program):
 
 def folds(program):
     """Where complete driving folds and descends; folds against give-ups."""
-    result = methods(program, "--problems", program.size(4800))
+    result = methods(program, "--problems", program.size(1200))
 
     def part(rows, key, head):
         return table([head, "problems", "folds, 95 %", "descents, 95 %"],
                      [(row[key], count(row["problems"]), share(row["folds"], row["problems"]),
                        share(row["descents"], row["problems"])) for row in rows])
 
-    give_ups = table(["policy", "both", "folds only", "give-ups only", "neither", "no folds, mu > 0: as many steps",
-                      "steps where both solve a problem with folds: `complete`", "`baraff`"],
-                     [(f"`{row['policy']}`", *(count(row[key]) for key in ("both", "folds only", "give-ups only", "neither")),
-                       f"{count(row['as many steps'])} of {count(row['no folds, mu > 0'])}", three(row["pieces if folds"]),
-                       three(row["steps if folds"])) for row in result["give-ups"]])
-    return "\n\n".join((part(result["folds"], "contacts", "contacts"), part(result["friction"], "mu", "mu"), give_ups))
+    return "\n\n".join((part(result["folds"], "contacts", "contacts"), part(result["friction"], "mu", "mu"),
+                         give_ups(result["give-ups"])))
+
+
+def give_ups(policies):
+    """Folds of complete driving against give-ups of the published algorithm."""
+    ends = ("both", "folds only", "give-ups only", "neither")
+    rows = [(f"`{row['policy']}`", *(count(row[key]) for key in ends),
+             f"{count(row['as many steps'])} of {count(row['no folds, mu > 0'])}", three(row["pieces if folds"]),
+             three(row["steps if folds"])) for row in policies]
+    return table(["policy", *ends, "no folds, mu > 0: as many steps",
+                  "mean steps where both solve a problem with folds: `complete`", "`baraff`"], rows)
 
 
 def starts(program):
-    result = methods(program, "--problems", program.size(4800))
+    result = methods(program, "--problems", program.size(1200))
     columns = ("1", "2", "3", "4 to 20", "none")
     rows = [(row["contacts"], row["problems"], *(row[key] for key in columns)) for row in result["starts"]]
     problems, first, none = (sum(row[key] for row in result["starts"]) for key in ("problems", "1", "none"))
@@ -89,8 +95,8 @@ def starts(program):
         f"The first start is enough for {share(first, problems)}, no start for {share(none, problems)} (95 %).")
 
 
-TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "units", "double"), EXACT, PAPER, UNITS,
-         ("enumerate", "", "exact"), ("ipopt", "(17), (18)", "exact"))
+TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "units", "double"),
+         EXACT, PAPER, UNITS, ("enumerate", "", "exact"), ("ipopt", "(17), (18)", "exact"))
 
 
 def method_times(program):
@@ -103,19 +109,19 @@ def method_times(program):
         last = found[-1]
         rows.append((f"`{key[0]}`, {key[2]}", *(spread(row["us"]) if row else "" for row in found),
                      spread(last["ratio"]) if last else ""))
-    return table(["microseconds a problem", *(f"{n} contacts" for n in sizes), f"times `complete`, double, at {sizes[-1]}"],
-                 rows) + "\n\n" + prose("Median (quartiles)" + machine())
+    head = ["microseconds a problem", *(f"{n} contacts" for n in sizes), f"times `complete`, double, at {sizes[-1]}"]
+    return table(head, rows) + "\n\n" + prose("Median (quartiles)" + machine())
 
 
 def frictionless(program):
     result = methods(program)
-    rows = [(row["contacts"], row["problems"], spread(row["baraff us"]), spread(row["lemke/baraff"]), spread(row["ipopt us"]),
-             spread(row["ipopt/baraff"])) for row in result["frictionless"]]
+    timed = ("baraff us", "lemke/baraff", "ipopt us", "ipopt/baraff")
+    rows = [(row["contacts"], row["problems"], *(spread(row[key]) for key in timed)) for row in result["frictionless"]]
     return table(["contacts", "problems", "`baraff`, microseconds", "Lemke / `baraff`", "Ipopt, microseconds",
                   "Ipopt / `baraff`"], rows) + "\n\n" + prose("Median (quartiles)" + machine())
 
 
-# ---- Space, and contacts that slide --------------------------------------------------------------------------------
+# ---- Space, and contacts that slide --------------------------------------------------------------------------
 
 SLIPS = {"paper": "literal", "slip=redirect": "redirect", "slip=polygon": "polygon"}
 
@@ -125,7 +131,8 @@ def space_row(first, row):
     slip = SLIPS[row["policy"]]
     return (first, slip, count(row["solved"]), f"{row['recurs']} + {row['approaches']}",
             share(loops, row["problems"]) if loops else "0", row["refuted"], row["ray"], row["proved ray"],
-            count(row["breaks (21)"]) if slip == "literal" else "", count(row["redirects"]) if slip == "redirect" else "",
+            count(row["breaks (21)"]) if slip == "literal" else "",
+            count(row["redirects"]) if slip == "redirect" else "",
             f"{three(row['steps, mean'])} ({row['most']})", count(row["unsure"]),
             f"{count(row['on an edge'])} ({count(row['refined'])})" if slip == "polygon" else "")
 
@@ -139,23 +146,23 @@ def space(program):
     rest = sum(row[key] for row in result["sizes"] for key in ("limit", "singular", "undecided", "differ", "wrong"))
     problems = result["problems"]
     return "\n\n".join((
-        prose(f"{count(problems)} problems of each family and number of contacts, and by friction, all sizes together; "
-              f"ended otherwise, wrong, or otherwise over intervals: {rest}."),
+        prose(f"{count(problems)} problems of each family and number of contacts, and by friction, all sizes together. "
+              f"Ended otherwise, wrong, or otherwise over intervals: {rest}."),
         table(["family, contacts", *head], sizes), table(["friction", *head], friction)))
 
 
 def sliding(program):
     result = program.bench("sliding", "--generator", "integers", "--problems", program.size(1_000_000))
-    rows = [(f"{row['contacts']}, {row['sliding']}", count(row["solved"]), count(row["ray"]), row["singular"], row["cycle"],
-             rate(row["cycle"], result["problems"]), f"{row['with a solution']}, {row['without']}", row["every policy"])
-            for row in result["rows"]]
+    rows = [(f"{row['contacts']}, {row['sliding']}", count(row["solved"]), count(row["ray"]), row["singular"],
+             row["cycle"], rate(row["cycle"], result["problems"]), f"{row['with a solution']}, {row['without']}",
+             row["every policy"]) for row in result["rows"]]
     return table(["contacts, sliding", "solved", "ray", "singular", "cycles", "in a million, 95 %",
                   "with a solution, without", "under every policy"], rows) + "\n\n" + prose(
-        f"{count(result['problems'])} problems a row; of the suspicions {sum(row['refuted'] for row in result['rows'])} "
-        "were refuted exactly. Cycles that doubles take for solutions are not among them.")
+        f"{count(result['problems'])} problems a row. Suspicions refuted exactly: "
+        f"{sum(row['refuted'] for row in result['rows'])}. Cycles that doubles take for solutions are not counted.")
 
 
-# ---- Timings -------------------------------------------------------------------------------------------------------
+# ---- Timings -------------------------------------------------------------------------------------------------
 
 
 def search_speed(program):
@@ -163,8 +170,7 @@ def search_speed(program):
     cells = {(row["generator"], row["contacts"]): row for row in result}
     sizes = sorted({row["contacts"] for row in result})
     generators = sorted({row["generator"] for row in result}, key=lambda name: -cells[name, sizes[0]]["median"])
-    rows = [(f"`{name}`", *(spread([cells[name, n][key] for key in ("least", "median", "most")]) for n in sizes))
-            for name in generators]
+    rows = [(f"`{name}`", *(median_of(cells[name, n]) for n in sizes)) for name in generators]
     return table(["problems a second", *(f"{n} contacts" for n in sizes)], rows) + "\n\n" + prose(
         "One thread, median (least - most) of 5 runs" + machine())
 
@@ -175,10 +181,11 @@ def growth(program):
         points = {(point["method"], point["contacts"]): point for point in group["points"]}
         sizes = sorted({point["contacts"] for point in group["points"]})
         rows = [growth_row(points, n) for n in sizes]
-        power = "; ".join(f"`{method}` n^{exponent:.1f}" for method, exponent in group["exponents"].items() if exponent)
+        power = "; ".join(f"`{method}` n^{exponent:.1f}" for method, exponent in group["exponents"].items()
+                          if exponent)
         parts.append(table([group["name"].replace("growth-", "") + ", contacts n", "`published`: milliseconds",
-                            "microseconds a step", "the same afresh", "drives a contact", "pivots a contact", "megabytes",
-                            "`complete`: milliseconds", "`fast`: milliseconds", "megabytes"], rows)
+                            "microseconds a step", "the same afresh", "drives a contact", "pivots a contact",
+                            "megabytes", "`complete`: milliseconds", "`fast`: milliseconds", "megabytes"], rows)
                      + "\n\n" + prose(f"Time above 20 contacts like: {power}."))
     return "\n\n".join(parts) + "\n\n" + prose("One problem a size" + machine())
 
@@ -211,19 +218,24 @@ def linear_algebra(program):
         cells[row["items"], row["size"]][row["way"]] = row["median"]
     rows = collections.defaultdict(list)
     for (items, size), row in cells.items():
-        rows[tuple(way for way in ways if way in row)].append((items, size, *(three(value) for value in row.values())))
+        kind = tuple(way for way in ways if way in row)
+        rows[kind].append((items, size, *(three(row[way]) for way in kind)))
     parts = [table(["microseconds", "size", *kind], sorted(lines)) for kind, lines in rows.items()]
     return "\n\n".join(parts) + "\n\n" + prose("Processor time, median of 5 runs" + machine())
+
+
+def median_of(values):
+    """Between the least and the most."""
+    return spread([values[key] for key in ("least", "median", "most")])
 
 
 def scene_speed_rows(result, first, second):
     rows = []
     for row in result:
         one, other = row[first], row[second]
-        fps = [spread([way["frames_a_second"][key] for key in ("least", "median", "most")]) for way in (one, other)]
-        rows.append((f"`{row['scene']}`", fps[0], f"{one['rows']:.1f}", f"{one['problems']:.2f}", fps[1],
-                     f"{other['rows']:.1f}", f"{other['problems']:.2f}",
-                     spread([row["ratio"][key] for key in ("least", "median", "most")])))
+        ways = [(median_of(way["frames_a_second"]), f"{way['rows']:.1f}", f"{way['problems']:.2f}")
+                for way in (one, other)]
+        rows.append((f"`{row['scene']}`", *ways[0], *ways[1], median_of(row["ratio"])))
     return rows
 
 
@@ -232,8 +244,7 @@ def scene_speed(program):
     for folder in ("corpus/scenes", "corpus/scenes/space", "corpus/scenes/large"):
         repeat = 3 if folder.endswith("large") else 9
         result = program.bench("scenes", "--scenes", folder, "--repeat", repeat)
-        head = [f"{folder.rpartition('/')[2] if folder.count('/') > 1 else 'plane'}: scene", "minimal", "rows", "problems",
-                "`--full`", "rows", "problems", "ratio"]
+        head = [f"`{folder}`", "minimal", "rows", "problems", "`--full`", "rows", "problems", "ratio"]
         parts.append(table(head, scene_speed_rows(result, "minimal", "full")))
     return "\n\n".join(parts) + "\n\n" + prose("Frames a second of one thread, median (least - most)" + machine())
 
@@ -245,7 +256,7 @@ def scene_threads(program):
         "Frames a second, median (least - most)" + machine())
 
 
-# ---- Beside other packages -----------------------------------------------------------------------------------------
+# ---- Beside other packages -----------------------------------------------------------------------------------
 
 
 def peer_cell(cell, residuals):
@@ -275,7 +286,8 @@ def peers(program):
         rows = [("LU, microseconds", *lu)]
         rows += [(row["name"], *(peer_cell(cell, residuals) for cell in row["cells"])) for row in group["rows"][1:]
                  if installed(row)]
-        parts.append(f"**{group['title'][0].upper()}{group['title'][1:]}**\n\n" + table(["contacts", *sizes], rows))
+        title = group["title"][0].upper() + group["title"][1:]
+        parts.append(f"**{title}**\n\n" + table(["contacts", *sizes], rows))
     absent = {row["package"] for group in program.bench("peers")["tables"] for row in group.get("rows", ())
               if row["package"] and not installed(row)}
     left_out = f" Not installed here: {', '.join(sorted(absent))}." if absent else ""

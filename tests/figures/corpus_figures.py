@@ -25,14 +25,15 @@ def ends(runs):
 
 def recurrences(runs):
     """(start, period) -> policies, the most frequent first."""
-    counted = collections.Counter((run["start"], run["period"]) for run in runs.values() if run["outcome"] == "cycle")
+    loops = [run for run in runs.values() if run["outcome"] == "cycle"]
+    counted = collections.Counter((run["start"], run["period"]) for run in loops)
     return sorted(counted.items(), key=lambda item: (-item[1], item[0]))
 
 
 def headline_loop(program):
     runs = policies(program, HEADLINE)
-    rows = [(start, period, number, "yes" if (runs["paper"]["start"], runs["paper"]["period"]) == (start, period) else "")
-            for (start, period), number in recurrences(runs)]
+    paper = (runs["paper"]["start"], runs["paper"]["period"])
+    rows = [(*loop, number, "yes" if loop == paper else "") for loop, number in recurrences(runs)]
     return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives stands again so many drives "
                  "later:") + "\n\n" + table(["drives before", "drives of a period", "policies", "`paper`"], rows)
 
@@ -81,7 +82,8 @@ def wrong_in_doubles(program):
     rows = []
     program.show("./run solve corpus/NAME.json --method baraff --arithmetic double")
     for file in sorted((ROOT / "corpus").glob("wrong-in-doubles-*.json")):
-        answer = program.json("solve", f"corpus/{file.name}", "--method", "baraff", "--arithmetic", "double", shown=False)
+        answer = program.json("solve", f"corpus/{file.name}", "--method", "baraff", "--arithmetic", "double",
+                              shown=False)
         suspected = answer["suspected"]
         rows.append((f"`{file.stem}`", three(suspected["residual"]), suspected["outcome"],
                      f"{answer['outcome']}, {answer['arithmetic']}"))
@@ -105,7 +107,7 @@ def safe_by_condition(program):
     return table(["says that A of `safe-by-condition.json` is safe", "for mu up to"], rows)
 
 
-# ---- The worst case ------------------------------------------------------------------------------------------------
+# ---- The worst case ------------------------------------------------------------------------------------------
 
 SIZES = (1, 2, 4, 8, 12)
 RUNS = (  # head, scaled, options
@@ -135,13 +137,14 @@ def worst_case(program):
     return table(["n", *(head for head, _, _ in RUNS)], rows)
 
 
-# ---- Certificates of a small search --------------------------------------------------------------------------------
+# ---- Certificates of a small search --------------------------------------------------------------------------
 
 
 def replays_as_certified(program, certificate, problem):
     run = certificate["witness"]["runs"][0]
     replay = program.json("replay", problem, "--policy", run["policies"][0], codes=(0, 1), shown=False)
-    return (replay["outcome"], replay["start"], replay["period"]) == (certificate["claim"], run["start"], run["period"])
+    stated = (certificate["claim"], run["start"], run["period"])
+    return (replay["outcome"], replay["start"], replay["period"]) == stated
 
 
 def accepted_by_both(program, files):
@@ -157,8 +160,8 @@ def accepted_by_both(program, files):
 def certificates(program):
     """A search of fixed size in an empty folder: its certificates through both checkers, its loops replayed."""
     store, report = program.folder / "small.store", program.folder / "report"
-    summary = program.json("search", "--generator", "integers", "psd", "--contacts", 2, "--problems", 100000, "--store",
-                           store)
+    summary = program.json("search", "--generator", "integers", "psd", "--contacts", 2, "--problems", 100000,
+                           "--store", store)
     program.text("report", store, "-o", report)
     files = sorted(report.glob("findings/*.certificate.json"))
     ours, theirs = accepted_by_both(program, files)

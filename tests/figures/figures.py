@@ -13,18 +13,18 @@ A block stands between two comments; registry.py says in which file, what makes 
   ...
   <!-- end of figures: NAME -->
 
-What is refused. A *cheap* block (counts over policies, certificates accepted, small searches of a fixed seed): it is made
-again and compared to the byte. Any other is not made again; its digest says what the text was and what the code was, and
-it is refused if either is another now: a text edited by hand, or a *stale* block, whose sources have changed. Counts of
-what searches find depend on `algorithm`, the version that search/algorithm_version.h names and recorded traces guard, and
-on the few files that count; so work that leaves all runs as they are makes no count stale. Timings depend on
-the same: a table of times is refused when the algorithm is another one or the benchmark measures otherwise, and not for
-every commit that makes something faster; it carries its date, machine and commit. Comments and layout of C++ sources are
-no part of a digest.
+What is refused. A *cheap* block (counts over policies, certificates accepted, small searches of a fixed seed): it is
+made again and compared to the byte. Any other is not made again; its digest says what the code was and what the text
+was, and it is refused if either is another now: a *stale* block, whose sources have changed, or a text edited by hand.
+Counts of what searches find depend on `algorithm`, the version that search/algorithm_version.h names and recorded
+traces guard, and on the few files that count; so work that leaves all runs as they are makes no count stale. Timings
+depend on the same: a table of times is refused when the algorithm is another one or the benchmark measures otherwise,
+and not for every commit that makes something faster; it carries its date, machine and commit. Comments and layout of
+C++ sources are no part of a digest.
 
-Refused as well: a block that the registry does not know, one that it knows and no file has, and, in the files that are
-about this project's results, a number outside of every block that looks measured (FIGURE below), unless registry.py lists
-its phrase as a definition. Exit: 1 if anything is refused.
+Refused as well: a block that the registry does not know, one that it knows and no file has, and a number outside of
+every block that looks measured (FIGURE below), unless registry.py lists its phrase as a definition. Exit: 1 if anything
+is refused.
 """
 import argparse
 import hashlib
@@ -38,15 +38,16 @@ from markdown import commands
 from program import ROOT, Program
 from registry import DEFINITIONS, DOCUMENTS, FIGURES
 
-BLOCK = re.compile(r"<!-- figures: (?P<name>[\w-]+) \| (?P<facts>[^\n]*?) -->\n(?P<text>.*?)\n?<!-- end of figures: (?P=name) -->",
-                   re.S)
+BLOCK = re.compile(r"<!-- figures: (?P<name>[\w-]+) \| (?P<facts>[^\n]*?) -->\n(?P<text>.*?)\n?"
+                   r"<!-- end of figures: (?P=name) -->", re.S)
 UNIT = r"(?:%|s|ms|us|minutes?|hours?|MB|GB|in a million|million|times as)"
-NOUN = r"(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solved|rays|pieces|folds|descents|frames)"
-FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|\b\d+ of \d[\d,]*\b")
+NOUN = "(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solved|rays|pieces|folds|descents|frames)"
+FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|"
+                    r"\b\d+ of \d[\d,]*\b")
 CODE = {".h", ".cpp", ".ipp", ".py"}
 
 
-# ---- Sources -----------------------------------------------------------------------------------------------------
+# ---- Sources -------------------------------------------------------------------------------------------------
 
 
 def algorithm_version():
@@ -72,7 +73,7 @@ def files_of(source):
 def code_digest(sources):
     digest = hashlib.sha256()
     for source in sources:
-        parts = [algorithm_version()] if source == "algorithm" else [significant(file) for file in files_of(source)]
+        parts = [algorithm_version()] if source == "algorithm" else map(significant, files_of(source))
         for part in (source, *parts):
             digest.update(part.encode() + b"\0")
     return digest.hexdigest()[:8]
@@ -87,7 +88,7 @@ def commit():
     return done.stdout.strip() or "unknown"
 
 
-# ---- Blocks ------------------------------------------------------------------------------------------------------
+# ---- Blocks --------------------------------------------------------------------------------------------------
 
 
 def blocks_of(text):
@@ -127,7 +128,7 @@ def made(figure, path, problems=None):
         return f"{text}\n\n{commands(program.commands)}"
 
 
-# ---- Check -------------------------------------------------------------------------------------------------------
+# ---- Check ---------------------------------------------------------------------------------------------------
 
 
 def refused_block(figure, facts, text, path):
@@ -177,7 +178,7 @@ def refusals(path, figures):
             yield f"{figure.file}: block {figure.name} {reason}"
 
 
-# ---- Commands ----------------------------------------------------------------------------------------------------
+# ---- Commands ------------------------------------------------------------------------------------------------
 
 
 def is_stale(figure, path):

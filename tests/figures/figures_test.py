@@ -65,17 +65,20 @@ class Blocks(unittest.TestCase):
             figures.ROOT = Path(folder)
             (figures.ROOT / "search").mkdir()
             first = digest("// A comment.\ninline constexpr int kAlgorithmVersion = 1;\n")
-            self.assertEqual(digest("//  Another,\n// longer.\ninline constexpr\n    int kAlgorithmVersion = 1;\n"), first)
+            same = digest("//  Another,\n// longer.\ninline constexpr   int kAlgorithmVersion = 1;\n")
+            self.assertEqual(same, first)
             second = digest("inline constexpr int kAlgorithmVersion = 2;\n")
             self.assertTrue(all(a != b for a, b in zip(first, second)))
 
     def test_what_is_no_block_of_the_registry_is_refused(self):
         self.assertIn("says cost minutes", refused(CHEAP, block(CHEAP).replace("cost: cheap", "cost: minutes")))
-        self.assertEqual(figures.blocks_of(block(CHEAP).replace("end of figures: cheap-one", "end of figures: other")), {})
+        unclosed = block(CHEAP).replace("end of figures: cheap-one", "end of figures: other")
+        self.assertEqual(figures.blocks_of(unclosed), {})
 
     def test_a_block_takes_the_place_of_the_one_before(self):
         old = block(CHEAP).replace("17", "16")
-        self.assertEqual(figures.replace(f"a\n{old}\nb", CHEAP, figures.made(CHEAP, PROGRAM)), f"a\n{block(CHEAP)}\nb")
+        new = figures.replace(f"a\n{old}\nb", CHEAP, figures.made(CHEAP, PROGRAM))
+        self.assertEqual(new, f"a\n{block(CHEAP)}\nb")
 
 
 class LooseFigures(unittest.TestCase):
@@ -88,8 +91,8 @@ class LooseFigures(unittest.TestCase):
             self.assertEqual(self.found(text), [number], text)
 
     def test_blocks_code_and_definitions_are_let_be(self):
-        for text in (block(CHEAP).replace("17", "1,700"), "    ./run search    # 8 s", "`1,234`", "n = 5 contacts, part 10",
-                     "<!-- 1,234 -->", "```\n1,234\n```"):
+        for text in (block(CHEAP).replace("17", "1,700"), "    ./run search    # 8 s", "`1,234`", "<!-- 1,234 -->",
+                     "n = 5 contacts, part 10", "```\n1,234\n```"):
             self.assertEqual(self.found(text), [], text)
 
 
@@ -108,15 +111,16 @@ class Intervals(unittest.TestCase):
     def test_the_program_prints_the_same(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Program(PROGRAM, folder)
-            summary = program.json("search", "--generator", "bodies", "--contacts", 2, "--problems", 20000, "--store",
-                                   Path(folder) / "s")
+            summary = program.json("search", "--generator", "bodies", "--contacts", 2, "--problems", 20000,
+                                   "--store", Path(folder) / "s")
             cycles, runs = summary["findings"]["cycle"], summary["runs"]
             rate = summary["rates"]["cycle"]["interval"]
             for mine, end in zip(intervals.garwood(cycles), ("low", "high")):
                 self.assertAlmostEqual(rate[end], 1e6 * mine / runs, 6)
             share = summary["misjudged_share"]
-            for mine, end in zip(intervals.clopper_pearson(summary["misjudged"], summary["audited"]), ("low", "high")):
-                self.assertAlmostEqual(share[end], mine, 9)
+            low, high = intervals.clopper_pearson(summary["misjudged"], summary["audited"])
+            self.assertAlmostEqual(share["low"], low, 9)
+            self.assertAlmostEqual(share["high"], high, 9)
             text = program.text("status", Path(folder) / "s")
             self.assertIn(f"{markdown.rate(cycles, runs)} in a million runs", text)
             self.assertIn("lower bounds", text)

@@ -17,7 +17,8 @@ def table(head, rows):
 
 def prose(text):
     """Lines of a width; a command is never broken inside its quotes where that can be helped."""
-    glued = [part.replace(" ", "\0") if i % 2 and len(part) < WIDTH else part for i, part in enumerate(text.split("`"))]
+    parts = text.split("`")
+    glued = [part.replace(" ", "\0") if i % 2 and len(part) < WIDTH else part for i, part in enumerate(parts)]
     lines = textwrap.wrap("`".join(glued), WIDTH, break_long_words=False, break_on_hyphens=False)
     return "\n".join(lines).replace("\0", " ")
 
@@ -30,9 +31,9 @@ def commands(typed, by=""):
 def machine():
     """Of timings: when and on what."""
     with open("/proc/cpuinfo") as file:
-        model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown processor")
+        models = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
     load = os.getloadavg()[0]
-    return f"; {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores, {model}, load {load:.1f} at its end"
+    return f"; {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores, {models[0] if models else 'unknown'}, load {load:.1f} at its end"
 
 
 def count(number):

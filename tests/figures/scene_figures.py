@@ -27,12 +27,12 @@ def energies(folder):
 
 def energy(program):
     rows = []
-    for scene, options in (("space/slider-crank", ()), ("double-pendulum", ()), ("double-pendulum", ("--step", 0.0166667))):
+    for scene, options in (("space/slider-crank", ()), ("double-pendulum", ()),
+                           ("double-pendulum", ("--step", 0.0166667))):
         counters, drift, _, folder = simulate(program, scene, "--seconds", 100, *options)
         total, kinetic = energies(folder)["total_J"], energies(folder)["kinetic_J"]
-        rows.append((f"`{scene}`", counters["frames"], *(f"{value:.2f}" for value in
-                                                         (total[0], min(total), max(total), total[-1], max(kinetic))),
-                     f"{drift:.0e}"))
+        values = (total[0], min(total), max(total), total[-1], max(kinetic))
+        rows.append((f"`{scene}`", counters["frames"], *(f"{value:.2f}" for value in values), f"{drift:.0e}"))
     return table(["scene, 100 s", "steps", "energy at first, J", "least", "most", "at last", "most kinetic",
                   "joints come apart by, m"], rows)
 
@@ -51,20 +51,20 @@ def halved_steps(program):
 
 
 def unsolved_in_scenes(program):
-    """The table that scene_statistics.py prints, without the seconds; scenes whose problems are all solved in one row."""
+    """What scene_statistics.py prints, without the seconds; scenes whose problems are all solved in one row."""
     said = program.script("tests/setup/scene_statistics.py")
-    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in said.splitlines() if line.startswith("|")][2:]
+    lines = [line for line in said.splitlines() if line.startswith("|")]
+    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines[2:]]
     total = [row for row in rows if row[0] == "`all`"]
     failing = [row for row in rows if row not in total and row[3] != "-"]
     smooth = [row for row in rows if row not in total and row[3] == "-"]
     solved = sum(int(row[1].replace(",", "")) for row in smooth)
-    lines = [row[:5] for row in failing] + [[f"the other {len(smooth)}", count(solved), "all solved", "-", "all solved"],
-                                            total[0][:5]]
-    return table(["scene", "problems", "`baraff`, doubles", "over rationals, those not solved", "complete driving, or others "
-                  "behind it"], lines)
+    others = [f"the other {len(smooth)}", count(solved), "all solved", "-", "all solved"]
+    return table(["scene", "problems", "`baraff`, doubles", "over rationals, those not solved",
+                  "complete driving, or others behind it"], [*(row[:5] for row in failing), others, total[0][:5]])
 
 
-# ---- Problems that others published ----------------------------------------------------------------------------------
+# ---- Problems that others published --------------------------------------------------------------------------
 
 
 def curvature(entry):
@@ -90,7 +90,7 @@ def solvers(runs):
     parts = []
     for run in runs:
         if run["outcome"] == "solved" and run["method"] != "baraff":
-            proof = f"`{run['certificate']}`" if run.get("certificate") else f"{run.get('residual', float('nan')):.0e}"
+            proof = f"`{run['certificate']}`" if run.get("certificate") else f"{run['residual']:.0e}"
             parts.append(f"{run['method']}, {run['arithmetic']}: {proof}")
     return "; ".join(parts) or "none"
 

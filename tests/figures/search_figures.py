@@ -21,7 +21,8 @@ class Cell:
     def add(self, program, options, problems, seed):
         store = program.folder / "cell.store"
         store.unlink(missing_ok=True)
-        summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", store, shown=False)
+        summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", store,
+                               shown=False)
         self.findings.update(summary["findings"])
         self.sums.update({key: value for key, value in summary.items() if isinstance(value, int)})
 
@@ -36,13 +37,13 @@ def lower_bounds(cells):
     """What stands below every table of frequencies."""
     audited, misjudged = (sum(cell[key] for cell in cells) for key in ("audited", "misjudged"))
     problems = sum(cell["runs"] for cell in cells)
-    return prose(f"In brackets: exact intervals at 95 %, of counts (Garwood), of shares (Clopper, Pearson). Loops are looked "
-                 f"for over doubles and confirmed exactly; those that doubles take for solutions are not among them: lower "
-                 f"bounds. Audited without a suspicion: {share(audited, problems)} of the runs, {count(audited)}; misjudged "
-                 f"of these {misjudged}: {share(misjudged, audited)}.")
+    return prose("In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and Pearson. Loops "
+                 "are looked for over doubles and confirmed exactly; those that doubles take for solutions are not among "
+                 f"them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
+                 f"misjudged were {misjudged}, {share(misjudged, audited)}.")
 
 
-# ---- Scenes --------------------------------------------------------------------------------------------------------
+# ---- Scenes --------------------------------------------------------------------------------------------------
 
 FRICTION = ("1", "1/2", "1/3", "1/5", "1/10")
 RARE = ("1/5", "1/10")
@@ -55,11 +56,11 @@ def scenes_by_mu(program):
     for contacts in (2, 3, 4, 5):
         for mu in FRICTION:
             problems = rare if contacts >= 4 and mu in RARE else min(rare, 1_000_000)
-            cells.append(Cell(program, "--generator", "scenes", "--contacts", contacts, "--mu", mu, problems=problems))
-            of, singular = cells[-1]["runs"], cells[-1].findings["singular"]
-            rows.append((contacts, mu, count(of), cells[-1].loops(), rate(cells[-1].loops(), of), singular,
-                         rate(singular, of)))
-    program.show("./run search --generator scenes --contacts CONTACTS --mu MU --problems PROBLEMS --seed SEED --store S")
+            cell = Cell(program, "--generator", "scenes", "--contacts", contacts, "--mu", mu, problems=problems)
+            of, loops, singular = cell["runs"], cell.loops(), cell.findings["singular"]
+            rows.append((contacts, mu, count(of), loops, rate(loops, of), singular, rate(singular, of)))
+            cells.append(cell)
+    program.show("./run search --generator scenes --contacts CONTACTS --mu MU --problems N --seed SEED --store S")
     head = ["contacts", "mu", "problems", "loops", "in a million", "no direction", "in a million"]
     return table(head, rows) + "\n\n" + lower_bounds(cells) + prose(f" Seeds {SEEDS[0]} to {SEEDS[-1]}, pooled.")
 
@@ -81,7 +82,7 @@ def generators_by_mu(program):
     return table(head, rows) + "\n\n" + lower_bounds(cells)
 
 
-# ---- What doubles miss ---------------------------------------------------------------------------------------------
+# ---- What doubles miss ---------------------------------------------------------------------------------------
 
 GENERATORS = ("integers", "psd", "small", "near-degenerate", "duplicates", "conditioned", "bodies", "exponential",
               "scenes")
@@ -116,26 +117,26 @@ def missed_by_doubles(program):
             total = [a + b for a, b in zip(total, cell)]
             if cell[1]:
                 rows.append((f"`{generator}`", contacts, count(cell[0]), cell[1], cell[2], share(cell[2], cell[1])))
-    rows.append(("all, with those without a loop", "2 to 5", count(total[0]), total[1], total[2], share(total[2], total[1])))
+    rows.append(("all, with those without a loop", "2 to 5", count(total[0]), *total[1:], share(total[2], total[1])))
     program.show(f"./run search --generator GENERATOR --contacts CONTACTS --audit-every 1 --enumerate-every 1000000 "
                  f"--problems {problems} --store S")
     head = ["generator", "contacts", "problems, all run exactly", "loops", "missed by doubles", "share, 95 %"]
     return table(head, rows)
 
 
-# ---- Existence -----------------------------------------------------------------------------------------------------
+# ---- Existence -----------------------------------------------------------------------------------------------
 
 
 def existence(program):
     """Every problem run exactly, every method held against the others, a sample of certificates checked apart."""
     store = program.folder / "audit.store"
-    said = program.script("tests/setup/audit.py", "--problems", program.size(100_000), "--sample", 200, "--store", store)
+    said = program.script("tests/setup/audit.py", "--problems", program.size(100_000), "--sample", 200, "--store",
+                          store)
     rows = []
     for row in report_rows(program, store, "agreement.csv"):
-        problems = int(row["problems"])
-        rows.append([row["contacts"], *(count(int(row[key])) for key in ("problems", "solved", "compared", "enumerated")),
-                     row["disagreements"], *(share(int(row[key]), problems) for key in
-                                             ("with_ties", "with_folds", "with_descents"))])
+        counts = [count(int(row[key])) for key in ("problems", "solved", "compared", "enumerated", "disagreements")]
+        shares = [share(int(row[key]), int(row["problems"])) for key in ("with_ties", "with_folds", "with_descents")]
+        rows.append([row["contacts"], *counts, *shares])
     head = ["contacts", "run exactly", "solved by complete driving", "by Lemke's method too", "all modes tried",
             "disagreements", "with ties", "folds", "descents"]
     return table(head, rows) + "\n\n" + prose(said.strip().splitlines()[-1] + ".")
@@ -144,8 +145,8 @@ def existence(program):
 def safe_loops(program):
     """A search for a loop in a safe problem."""
     store = program.folder / "safe.store"
-    summary = program.json("search", "--generator", "small", "duplicates", "near-degenerate", "integers", "--contacts", 2,
-                           3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended", "--problems",
+    summary = program.json("search", "--generator", "small", "duplicates", "near-degenerate", "integers",
+                           "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended", "--problems",
                            program.size(13_000_000), "--store", store)
     decided, safe = summary["safety_decided"], summary["safe"]
     findings = collections.Counter(summary["findings"])
