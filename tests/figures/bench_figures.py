@@ -130,7 +130,7 @@ def space_row(first, row):
     loops = row["recurs"] + row["approaches"]
     slip = SLIPS[row["policy"]]
     return (first, slip, count(row["solved"]), f"{row['recurs']} + {row['approaches']}",
-            share(loops, row["problems"]) if loops else "0", row["refuted"], row["ray"], row["proved ray"],
+            share(loops, row["problems"]), row["refuted"], row["ray"], row["proved ray"],
             count(row["breaks (21)"]) if slip == "literal" else "",
             count(row["redirects"]) if slip == "redirect" else "",
             f"{three(row['steps, mean'])} ({row['most']})", count(row["unsure"]),

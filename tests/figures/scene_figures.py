@@ -46,8 +46,8 @@ def halved_steps(program):
         rows.append((f"`{scene}`" + (f", `--step {options[1]}`" if options else ""), *(
             count(counters[key]) for key in ("frames", "halved", "deep", "problems", "sparse", "fallbacks", "loose")),
             f"{1000 * overlap:.2g}"))
-    return table(["scene", "frames", "halved steps", "deep", "problems", "solved with a sparse A", "by complete driving",
-                  "to 1e-5 only", "worst overlap, mm"], rows)
+    return table(["scene", "frames", "halved steps", "deep", "problems", "solved with a sparse A",
+                  "by complete driving", "to 1e-5 only", "worst overlap, mm"], rows)
 
 
 def unsolved_in_scenes(program):
@@ -110,5 +110,5 @@ def published_problems(program):
                      "yes" if entry["meets assumptions"] else
                      "(A + A')/2" if entry.get("symmetrized", {}).get("meets assumptions") else "no",
                      solvers(entry["runs"])))
-    return table(["file", "contacts", "A - A'", "A psd", "b in range(A)", "rough", "the paper's assumptions", "solved by"],
-                 sorted(rows))
+    return table(["file", "contacts", "A - A'", "A psd", "b in range(A)", "rough", "the paper's assumptions",
+                  "solved by"], sorted(rows))

@@ -146,8 +146,8 @@ def safe_loops(program):
     """A search for a loop in a safe problem."""
     store = program.folder / "safe.store"
     summary = program.json("search", "--generator", "small", "duplicates", "near-degenerate", "integers",
-                           "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended", "--problems",
-                           program.size(13_000_000), "--store", store)
+                           "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended",
+                           "--problems", program.size(13_000_000), "--store", store)
     decided, safe = summary["safety_decided"], summary["safe"]
     findings = collections.Counter(summary["findings"])
     low_high = share(safe, decided)
