@@ -9,7 +9,7 @@
 
 A block stands between two comments; registry.py says in which file, what makes it, and what it costs:
 
-  <!-- figures: NAME | cost: minutes | sources: algorithm bench/space.cpp | commit: 93d680f | digest: 1f0c9a2b.77d4e01c -->
+  <!-- figures: NAME | cost: long | commit: 93d680f | sources: algorithm bench/space.cpp | digest: 1f0c9a2b.77d4 -->
   ...
   <!-- end of figures: NAME -->
 
@@ -83,9 +83,10 @@ def text_digest(text):
     return hashlib.sha256(text.encode()).hexdigest()[:8]
 
 
-def commit():
-    done = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short=7", "HEAD"], capture_output=True, text=True)
-    return done.stdout.strip() or "unknown"
+def commit(path):
+    """What the program was built of."""
+    version = subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout
+    return re.sub(r"^(\w{7})\w*", r"\1", version.split()[2].rstrip(","))
 
 
 # ---- Blocks --------------------------------------------------------------------------------------------------
@@ -97,25 +98,24 @@ def blocks_of(text):
             for found in BLOCK.finditer(text)}
 
 
-def opening(figure, text):
-    facts = [f"figures: {figure.name}", f"cost: {figure.cost}"]
-    if figure.cost == "cheap":
-        facts += [f"commit: {commit()}"]
-    else:
-        facts += [f"sources: {' '.join(figure.sources)}", f"commit: {commit()}",
-                  f"digest: {code_digest(figure.sources)}.{text_digest(text)}"]
-    return f"<!-- {' | '.join(facts)} -->"
+def facts_of(figure, text, path):
+    """What the first line of a block says."""
+    facts = {"cost": figure.cost, "commit": commit(path)}
+    if figure.cost != "cheap":
+        facts |= {"sources": " ".join(figure.sources), "digest": f"{code_digest(figure.sources)}.{text_digest(text)}"}
+    return facts
 
 
-def written(figure, text):
-    return f"{opening(figure, text)}\n{text}\n<!-- end of figures: {figure.name} -->"
+def written(figure, text, path):
+    facts = " | ".join(f"{key}: {value}" for key, value in facts_of(figure, text, path).items())
+    return f"<!-- figures: {figure.name} | {facts} -->\n{text}\n<!-- end of figures: {figure.name} -->"
 
 
-def replace(content, figure, text):
+def replace(content, figure, text, path):
     """The content of a file with a new block; a file without the block has no place for it."""
     for found in BLOCK.finditer(content):
         if found["name"] == figure.name:
-            return content[:found.start()] + written(figure, text) + content[found.end():]
+            return content[:found.start()] + written(figure, text, path) + content[found.end():]
     sys.exit(f"{figure.file}: has no block {figure.name}; put two lines where it shall stand:\n"
              f"<!-- figures: {figure.name} | cost: {figure.cost} -->\n<!-- end of figures: {figure.name} -->")
 
@@ -135,6 +135,8 @@ def refused_block(figure, facts, text, path):
     """Why a block is refused, or nothing."""
     if facts.get("cost") != figure.cost:
         return f"says cost {facts.get('cost')}, the registry {figure.cost}"
+    if "commit" not in facts:
+        return "was not made yet"
     if figure.cost == "cheap":
         return "is not what its commands give now" if made(figure, path) != text else ""
     if facts.get("sources", "").split() != list(figure.sources):
@@ -186,10 +188,11 @@ def is_stale(figure, path):
     return block is None or bool(refused_block(figure, *block, path))
 
 
-def opening_matches(figure, facts, text):
-    """Whether the first line would say the same, but for the commit."""
-    again = dict(fact.split(": ", 1) for fact in opening(figure, text)[5:-4].split(" | "))
-    return all(facts.get(key) == again[key] for key in again if key not in ("figures", "commit"))
+def says_the_same(figure, block, text, path):
+    """Whether a block has this text, and a first line that differs in the commit at most."""
+    if block is None or block[1] != text or "commit" not in block[0]:
+        return False
+    return block[0] | {"commit": ""} == facts_of(figure, text, path) | {"commit": ""}
 
 
 def chosen(options):
@@ -208,11 +211,10 @@ def refresh(options):
         text = made(figure, options.program, options.problems)
         file = ROOT / figure.file
         before = file.read_text()
-        block = blocks_of(before).get(figure.name)
-        if block and block[1] == text and opening_matches(figure, block[0], text):
+        if says_the_same(figure, blocks_of(before).get(figure.name), text, options.program):
             print(f"{figure.file}: {figure.name}: as it was")
             continue
-        file.write_text(replace(before, figure, text))
+        file.write_text(replace(before, figure, text, options.program))
         print(f"{figure.file}: {figure.name}: written", flush=True)
 
 

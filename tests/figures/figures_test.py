@@ -29,7 +29,7 @@ COSTLY = Figure("costly-one", "README.md", "minutes", counted, ("algorithm", "se
 
 def block(figure):
     """As refresh writes it."""
-    return figures.written(figure, figures.made(figure, PROGRAM))
+    return figures.written(figure, figures.made(figure, PROGRAM), PROGRAM)
 
 
 def refused(figure, content):
@@ -44,7 +44,7 @@ class Blocks(unittest.TestCase):
     def test_a_block_says_its_command_and_its_commit(self):
         facts, text = figures.blocks_of(block(COSTLY))["costly-one"]
         self.assertIn("`./run count`", text)
-        self.assertEqual(facts["commit"], figures.commit())
+        self.assertEqual(facts["commit"], figures.commit(PROGRAM))
 
     def test_a_number_that_was_changed_is_refused(self):
         for figure in (CHEAP, COSTLY):
@@ -77,7 +77,7 @@ class Blocks(unittest.TestCase):
 
     def test_a_block_takes_the_place_of_the_one_before(self):
         old = block(CHEAP).replace("17", "16")
-        new = figures.replace(f"a\n{old}\nb", CHEAP, figures.made(CHEAP, PROGRAM))
+        new = figures.replace(f"a\n{old}\nb", CHEAP, figures.made(CHEAP, PROGRAM), PROGRAM)
         self.assertEqual(new, f"a\n{block(CHEAP)}\nb")
 
 
