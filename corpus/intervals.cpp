@@ -17,7 +17,10 @@ constexpr double kTail = 0.025;
 
 // Three digits.
 std::string Rounded(double value) {
-  return value < 999.5 ? fmt::format("{:.3g}", value) : Grouped(std::llround(value));
+  if (value < 999.5) return fmt::format("{:.3g}", value);
+  std::int64_t unit = 1;
+  while (value / static_cast<double>(unit) >= 999.5) unit *= 10;
+  return Grouped(std::llround(value / static_cast<double>(unit)) * unit);
 }
 
 std::string WithInterval(double value, Interval interval, double scale, const char* unit) {

@@ -67,7 +67,7 @@ Html FrequencyTable(const Record& total) {
 }
 
 // What the rates are worth.
-Html Bounds(const Record& total) {
+Html RateBounds(const Record& total) {
   ExactFailures all;
   for (const auto& [key, tally] : total.tallies) all.Add(tally);
   if (all.runs == all.audited + all.suspicions)
@@ -87,7 +87,7 @@ Html FrequenciesSection(const Record& total) {
       "runs "
       "with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).");
   return Section("frequencies", "How often it fails exactly",
-                 Tag("p")(explained + Bounds(total)) + FrequencyTable(total));
+                 Tag("p")(explained + RateBounds(total)) + FrequencyTable(total));
 }
 
 }  // namespace stiction

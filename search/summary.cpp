@@ -122,7 +122,7 @@ std::string AuditText(const Digest& d) {
       Grouped(d.runs - d.suspicions), Grouped(d.audited), misjudged);
 }
 
-Json ToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
+Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
 
 // Per label: findings in a million runs.
 Json RatesToJson(const Digest& d) {
@@ -132,7 +132,7 @@ Json RatesToJson(const Digest& d) {
     const double scale = 1e6 / static_cast<double>(d.runs);
     const Interval expected = CountInterval(count);
     rates[label] = {{"per_million", scale * static_cast<double>(count)},
-                    {"interval", ToJson(Interval{scale * expected.low, scale * expected.high})}};
+                    {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
   }
   return rates;
 }
@@ -165,7 +165,7 @@ Json SummaryToJson(const Store& store) {
           {"confirmed", digest.confirmed},
           {"audited", digest.audited},
           {"misjudged", digest.misjudged},
-          {"misjudged_share", ToJson(ShareInterval(digest.misjudged, digest.audited))},
+          {"misjudged_share", IntervalToJson(ShareInterval(digest.misjudged, digest.audited))},
           {"wrong", digest.wrong},
           {"existence_checked", digest.existence.problems},
           {"existence_solved", digest.existence.solved},

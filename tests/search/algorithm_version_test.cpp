@@ -89,7 +89,7 @@ std::string TraceOf(std::string_view generator) {
   campaign.generators = {*FindGenerator(generator)};
   campaign.contacts = {2, 3, 4};
   campaign.policies = {Policy{}, ParsePolicy("admit=eager,file=yes,apex=suspended")};
-  campaign.unit_problems = 400;
+  campaign.unit_problems = 200;
   campaign.audit_every = 20;
   std::string text;
   UnitRunner runner(campaign);
