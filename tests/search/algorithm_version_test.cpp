@@ -30,15 +30,15 @@ struct RecordedTraces {
 };
 
 const RecordedTraces kRecorded = {1,
-                                  {{"integers", 0},
-                                   {"psd", 0},
-                                   {"small", 0},
-                                   {"near-degenerate", 0},
-                                   {"duplicates", 0},
-                                   {"conditioned", 0},
-                                   {"bodies", 0},
-                                   {"exponential", 0},
-                                   {"scenes", 0}}};
+                                  {{"integers", 0x9c01ef2974f7a68d},
+                                   {"psd", 0x8981c02d1d246330},
+                                   {"small", 0x7d32ade19289f519},
+                                   {"near-degenerate", 0x00d25e5c59d1f6c5},
+                                   {"duplicates", 0x8d6a923acacbf3c6},
+                                   {"conditioned", 0xbf771aa7d7961dec},
+                                   {"bodies", 0xedf161dccdb04304},
+                                   {"exponential", 0x3e740c1d0aeeab0d},
+                                   {"scenes", 0xbcc821a4f1eb3a18}}};
 
 // FNV-1a.
 std::uint64_t TraceHash(const std::string& text) {
