@@ -5,6 +5,7 @@
   tests/figures/figures.py list
   tests/figures/figures.py refresh NAME ... [--problems N]     one block or more
   tests/figures/figures.py refresh --cheap | --stale | --all
+  tests/figures/figures.py withdraw NAME ...                   numbers that hold no more, until somebody measures again
   tests/figures/figures.py check                               what the tests do
 
 A block stands between two comments; registry.py says in which file, what makes it, and what it costs:
@@ -21,6 +22,8 @@ traces guard, and on the few files that count; so work that leaves all runs as t
 depend on the same: a table of times is refused when the algorithm is another one or the benchmark measures otherwise,
 and not for every commit that makes something faster; it carries its date, machine and commit. Comments and layout of
 C++ sources are no part of a digest.
+
+A costly block that was withdrawn says so instead of its numbers; check counts it and refuses nothing.
 
 Refused as well: a block that the registry does not know, one that it knows and no file has, and a number outside of
 every block that looks measured (FIGURE below), unless registry.py lists its phrase as a definition. Exit: 1 if anything
@@ -44,6 +47,7 @@ UNIT = r"(?:%|s|ms|us|minutes?|hours?|MB|GB|in a million|million|times as)"
 NOUN = "(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solved|rays|pieces|folds|descents|frames)"
 FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|"
                     r"\b\d+ of \d[\d,]*\b")
+WITHDRAWN = "Not measured since its code has changed: `tests/figures/figures.py refresh {}` does it."
 CODE = {".h", ".cpp", ".ipp", ".py"}
 
 
@@ -107,6 +111,7 @@ def facts_of(figure, text, path):
 
 
 def written(figure, text, path):
+    """A block, comments and all."""
     facts = " | ".join(f"{key}: {value}" for key, value in facts_of(figure, text, path).items())
     return f"<!-- figures: {figure.name} | {facts} -->\n{text}\n<!-- end of figures: {figure.name} -->"
 
@@ -135,6 +140,8 @@ def refused_block(figure, facts, text, path):
     """Why a block is refused, or nothing."""
     if facts.get("cost") != figure.cost:
         return f"says cost {facts.get('cost')}, the registry {figure.cost}"
+    if figure.cost != "cheap" and text == WITHDRAWN.format(figure.name):
+        return ""
     if "commit" not in facts:
         return "was not made yet"
     if figure.cost == "cheap":
@@ -218,9 +225,19 @@ def refresh(options):
         print(f"{figure.file}: {figure.name}: written", flush=True)
 
 
+def withdraw(options):
+    for figure in chosen(options):
+        if figure.cost == "cheap":
+            sys.exit(f"{figure.name}: is cheap; refresh it")
+        file = ROOT / figure.file
+        text = WITHDRAWN.format(figure.name)
+        file.write_text(replace(file.read_text(), figure, text, options.program))
+
+
 def check(options):
     refused = list(refusals(options.program, FIGURES))
-    print("\n".join(refused) or f"{len(FIGURES)} blocks: nothing refused")
+    withdrawn = sum(WITHDRAWN.format(figure.name) in (ROOT / figure.file).read_text() for figure in FIGURES)
+    print("\n".join(refused) or f"{len(FIGURES)} blocks, {withdrawn} withdrawn: nothing refused")
     if refused:
         print("tests/figures/figures.py refresh NAME makes a block anew; its text says what is refused, and why.")
     sys.exit(1 if refused else 0)
@@ -241,6 +258,9 @@ def main():
         verb.add_argument(flag, action="store_true")
     verb.add_argument("--problems", type=int, help="instead of the number of problems that the registry names")
     verb.set_defaults(run=refresh)
+    verb = verbs.add_parser("withdraw")
+    verb.add_argument("names", nargs="+", metavar="NAME")
+    verb.set_defaults(run=withdraw)
     verbs.add_parser("check").set_defaults(run=check)
     verbs.add_parser("list").set_defaults(run=show_list)
     options = parser.parse_args()

@@ -55,6 +55,11 @@ class Blocks(unittest.TestCase):
         code = figures.code_digest(COSTLY.sources)
         self.assertIn("stale", refused(COSTLY, content.replace(f"digest: {code}", "digest: 00000000")))
 
+    def test_a_costly_block_can_be_withdrawn_and_a_cheap_one_cannot(self):
+        for figure, reason in ((COSTLY, ""), (CHEAP, "is not what its commands give now")):
+            text = figures.WITHDRAWN.format(figure.name)
+            self.assertEqual(refused(figure, figures.written(figure, text, PROGRAM)), reason)
+
     def test_comments_and_layout_are_no_part_of_a_digest_and_the_version_is(self):
         def digest(text):
             (figures.ROOT / "search/algorithm_version.h").write_text(text)
