@@ -147,8 +147,6 @@ std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, dec
 
 std::string Significant(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
 
-std::string PerMillion(std::int64_t count, std::int64_t total) { return Scaled(1e6, count, total); }
-
 std::string Percent(std::int64_t count, std::int64_t total) {
   return total == 0 ? "" : Scaled(100, count, total) + "%";
 }

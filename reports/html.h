@@ -103,8 +103,7 @@ std::string Significant(double x, int digits = 5);
 
 // ---- Numbers for people ----
 
-// count per million of total, two or three digits; "" of nothing.
-std::string PerMillion(std::int64_t count, std::int64_t total);
+// count in percent of total, sum per count, two or three digits; "" of nothing.
 std::string Percent(std::int64_t count, std::int64_t total);
 std::string Mean(std::int64_t sum, std::int64_t count);
 // "1 problem", "2 problems".

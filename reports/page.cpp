@@ -216,6 +216,7 @@ Html Navigation() {
        std::initializer_list<std::pair<const char*, const char*>>{{"#found", "Found"},
                                                                   {"#campaign", "Campaign"},
                                                                   {"#outcomes", "Outcomes"},
+                                                                  {"#frequencies", "How often it fails"},
                                                                   {"#doubles", "How often doubles lie"},
                                                                   {"#pivots", "Pivots"},
                                                                   {"#steps", "Steps"},
@@ -251,9 +252,9 @@ Html FilesSection() {
 Html Sections(const ReportContent& content) {
   Html sections = FoundSection(content) + CampaignSection(content);
   if (content.units == 0) return sections + FilesSection();
-  return sections + OutcomesSection(content.total) + DoublesSection(content.total) +
-         PivotsSection(content.total) + StepsSection(content.total) + ExistenceSection(content.total) +
-         FindingsSection(content.discoveries) + FilesSection();
+  return sections + OutcomesSection(content.total) + FrequenciesSection(content.total) +
+         DoublesSection(content.total) + PivotsSection(content.total) + StepsSection(content.total) +
+         ExistenceSection(content.total) + FindingsSection(content.discoveries) + FilesSection();
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ std::string Page(const ReportContent& content);
 Html FoundSection(const ReportContent& content);
 Html CampaignSection(const ReportContent& content);
 Html OutcomesSection(const Record& total);
+Html FrequenciesSection(const Record& total);
 Html DoublesSection(const Record& total);
 Html PivotsSection(const Record& total);
 Html StepsSection(const Record& total);

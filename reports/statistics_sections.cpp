@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "corpus/intervals.h"
 #include "reports/page.h"
 
 namespace stiction {
@@ -45,10 +46,10 @@ std::string Heat(std::int64_t count, std::int64_t total) {
   return fmt::format("h{}", level);
 }
 
-// A count above its rate per million.
+// A count above its rate per million and the interval of that.
 HtmlCell CountAndRate(std::int64_t count, std::int64_t total, bool heat) {
   if (count == 0) return Count(0);
-  return {Text(Grouped(count)) + Tag("small")(PerMillion(count, total)), heat ? Heat(count, total) : ""};
+  return {Text(Grouped(count)) + Tag("small")(RateText(count, total)), heat ? Heat(count, total) : ""};
 }
 
 // Tallies merged by what `key` makes of their keys, in its order.
@@ -112,8 +113,7 @@ Html UnsolvedMap(const Record& total) {
       const auto found = merged.find({generator, n});
       const std::int64_t problems = found == merged.end() ? 0 : found->second.problems;
       const std::int64_t unsolved = problems == 0 ? 0 : problems - found->second.outcomes[0];
-      cells.push_back(
-          {Text(PerMillion(unsolved, problems)), unsolved == 0 ? "zero" : Heat(unsolved, problems)});
+      cells.push_back({Text(RateText(unsolved, problems)), unsolved == 0 ? "zero" : Heat(unsolved, problems)});
     }
     table.AddRow(cells);
   }
@@ -254,12 +254,12 @@ Html PivotTable(const Record& total) {
 }  // namespace
 
 Html OutcomesSection(const Record& total) {
-  return Section("outcomes", "Outcomes",
-                 Html("<p>As the runs in doubles ended. Runs not solved, per million; the deeper the colour, "
-                      "the more, one shade for each factor of ten:</p>\n") +
-                     UnsolvedMap(total) +
-                     Html("<p>All outcomes; below each count its rate per million problems:</p>\n") +
-                     OutcomeTable(total));
+  return Section(
+      "outcomes", "Outcomes",
+      Html("<p>As the runs in doubles ended. Runs not solved, per million, with exact intervals at 95 %; the "
+           "deeper the colour, the more, one shade for each factor of ten:</p>\n") +
+          UnsolvedMap(total) + Html("<p>All outcomes; below each count its rate per million problems:</p>\n") +
+          OutcomeTable(total));
 }
 
 Html DoublesSection(const Record& total) {

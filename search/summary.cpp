@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "corpus/grouped.h"
+#include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 
@@ -107,6 +108,35 @@ std::string FindingLine(const Finding& finding) {
                      facts.at("contacts").dump(), facts.at("start").dump(), facts.at("period").dump(), grid);
 }
 
+// What the frequencies are worth: how much was audited, and what came of it.
+std::string AuditText(const Digest& d) {
+  if (d.runs == 0) return "";
+  const std::string misjudged =
+      d.audited == 0 ? "" : fmt::format(", of these {} misjudged", ShareText(d.misjudged, d.audited));
+  if (d.audited + d.suspicions == d.runs)
+    return fmt::format("  in brackets: exact intervals at 95 %. Every run was repeated exactly{}\n", misjudged);
+  return fmt::format(
+      "  in brackets: exact intervals at 95 %. Rates are lower bounds: loops that doubles take for solutions "
+      "are\n"
+      "  not counted. Of {} runs without a suspicion {} were audited{}\n",
+      Grouped(d.runs - d.suspicions), Grouped(d.audited), misjudged);
+}
+
+Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
+
+// Per label: findings in a million runs.
+Json RatesToJson(const Digest& d) {
+  Json rates = Json::object();
+  if (d.runs == 0) return rates;
+  for (const auto& [label, count] : d.findings) {
+    const double scale = 1e6 / static_cast<double>(d.runs);
+    const Interval expected = CountInterval(count);
+    rates[label] = {{"per_million", scale * static_cast<double>(count)},
+                    {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
+  }
+  return rates;
+}
+
 }  // namespace
 
 Json SummaryToJson(const Store& store) {
@@ -126,6 +156,8 @@ Json SummaryToJson(const Store& store) {
           {"runs", digest.runs},
           {"findings", digest.findings},
           {"groups", digest.groups},
+          {"rates", RatesToJson(digest)},
+          {"rates_are_lower_bounds", digest.audited + digest.suspicions < digest.runs},
           {"finished", digest.finished},
           {"pending", digest.pending},
           {"whole_grid", digest.whole_grid},
@@ -133,6 +165,7 @@ Json SummaryToJson(const Store& store) {
           {"confirmed", digest.confirmed},
           {"audited", digest.audited},
           {"misjudged", digest.misjudged},
+          {"misjudged_share", IntervalToJson(ShareInterval(digest.misjudged, digest.audited))},
           {"wrong", digest.wrong},
           {"existence_checked", digest.existence.problems},
           {"existence_solved", digest.existence.solved},
@@ -153,13 +186,15 @@ std::string SummaryText(const Store& store, const std::string& file) {
   for (const Finding& finding : digest.grave)
     text += fmt::format("  GRAVE: {}: {}\n", finding.kind, finding.signature);
   for (const auto& [kind, count] : digest.findings) {
-    text += fmt::format("  {:28} {:>12} in {} groups\n", kind, Grouped(count), Grouped(digest.groups.at(kind)));
+    text += fmt::format("  {:28} {:>12} in {} groups, {} in a million runs\n", kind, Grouped(count),
+                        Grouped(digest.groups.at(kind)), RateText(count, digest.runs));
   }
   if (digest.findings.empty()) text += "  no findings\n";
   text += fmt::format(
       "  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
       Grouped(digest.confirmed), Grouped(digest.suspicions), Grouped(digest.misjudged), Grouped(digest.audited),
       Grouped(digest.wrong));
+  text += AuditText(digest);
   text += fmt::format(
       "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
       Grouped(digest.existence.solved), Grouped(digest.existence.problems),

@@ -122,12 +122,6 @@ class Solve(cli.TestCase):
     def test_the_law_of_friction_belongs_to_space(self):
         self.refuses("solve", self.file("p.json", cli.SOLVED), "--law", "coulomb", says=["dimension", "--law"])
 
-    def test_the_table_in_the_readme_is_the_table(self):
-        table = self.succeeds("methods").out.split("\n\n")
-        readme = (cli.ROOT / "solver/README.md").read_text()
-        block = readme.split("<!-- stiction methods -->\n")[1].split("\n<!-- end -->")[0]
-        self.assertEqual(block, "\n\n".join(table[:2]))
-
     def test_every_path_method_is_replayed(self):
         file = self.file("p.json", cli.REFERENCE)
         for method in ("complete", "lemke"):

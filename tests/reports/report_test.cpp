@@ -548,6 +548,29 @@ TEST_CASE("report: the page says what the store holds, with separated thousands"
   CHECK(Has(page, "the state after 5 drives stands again 6 drives later"));
 }
 
+TEST_CASE("report: the page says how often runs fail exactly, with intervals and what was audited") {
+  const Scratch scratch;
+  Record record;
+  Tally& tally = record.tallies[{"scenes", 4, "paper"}];
+  tally.problems = 4000000;
+  tally.outcomes = {3999997, 3};
+  tally.verdicts[1] = {0, 3};
+  tally.audited = 800;
+  tally.misjudged = 2;
+  {
+    Store store(scratch / "s", kIdentity);
+    store.AddUnit(Shard{}, 0, record, {});
+  }
+  WriteReport(Store::OpenToRead(scratch / "s"), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, ">3<small>0.75 [0.155, 2.19]</small>"));
+  CHECK(Has(page, ">0<small>0 [0, 0.922]</small>"));
+  CHECK(Has(page, ">2<small>0.25 % [0.0303, 0.9]</small>"));
+  CHECK(Has(page, "lower bounds"));
+  CHECK(Has(page, "Of 3,999,997 runs without a suspicion 800 were audited"));
+}
+
 TEST_CASE("report: the page needs nothing but itself") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
@@ -796,11 +819,6 @@ TEST_CASE("report: numbers for people") {
   CHECK(Grouped(1000) == "1,000");
   CHECK(Grouped(-1234567) == "-1,234,567");
   CHECK(Grouped(-123) == "-123");
-  CHECK(PerMillion(0, 10) == "0");
-  CHECK(PerMillion(3, 0).empty());
-  CHECK(PerMillion(12, 1000000) == "12.0");
-  CHECK(PerMillion(1, 2) == "500,000");
-  CHECK(PerMillion(1, 30000000) == "0.033");
   CHECK(Percent(1, 3) == "33.3%");
   CHECK(Mean(7, 2) == "3.50");
   CHECK(Counted(1, "contact") == "1 contact");

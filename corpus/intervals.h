@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact intervals at 95 % of what was counted.
+//
+// Each end leaves at most 2.5 % beyond it: the low end is the least mean (chance) under which so many events or
+// more have that probability, the high end the largest under which so few or fewer have it.
+
+#ifndef STICTION_CORPUS_INTERVALS_H_
+#define STICTION_CORPUS_INTERVALS_H_
+
+#include <cstdint>
+#include <string>
+
+namespace stiction {
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+// Of the expected number of events where `count` were seen: F. Garwood, Biometrika 28, 1936.
+Interval CountInterval(std::int64_t count);
+// Of the chance of an event that was seen `count` times in `of` trials: C. J. Clopper and E. S. Pearson,
+// Biometrika 26, 1934. 0 to 1 where there was no trial, or the numbers are not those of trials.
+Interval ShareInterval(std::int64_t count, std::int64_t of);
+
+// "0.8 [0.218, 2.05]": so many in a million, and the interval; "" where total is 0.
+std::string RateText(std::int64_t count, std::int64_t total);
+// "1.52 % [0.187, 5.38]"; "" where total is 0.
+std::string ShareText(std::int64_t count, std::int64_t total);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_INTERVALS_H_

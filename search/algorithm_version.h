@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The version of what searches compute.
+//
+// The same problem (seed, unit, index) under the same version takes the same steps and ends the same way, by
+// the published algorithm, complete driving and Lemke's method alike. tests/search/algorithm_version_test.cpp
+// holds traces that were recorded under it. Whoever changes them on purpose raises it: numbers that were
+// counted under another version are stale then (tests/figures/figures.py).
+
+#ifndef STICTION_SEARCH_ALGORITHM_VERSION_H_
+#define STICTION_SEARCH_ALGORITHM_VERSION_H_
+
+namespace stiction {
+
+inline constexpr int kAlgorithmVersion = 1;
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ALGORITHM_VERSION_H_

@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of the benchmark: the methods side by side, readings in space, sliding contacts, timings."""
+
+import collections
+
+from markdown import count, machine, prose, rate, share, spread, table, three
+
+PAPER = ("baraff", "paper", "exact")
+EXACT = ("complete", "", "exact")
+ONES, UNITS = ("lemke", "ones", "exact"), ("lemke", "units", "exact")
+
+
+def methods(program, *options):
+    return program.bench("methods", *options)
+
+
+def runs_of(result):
+    """contacts -> (method, reading, arithmetic) -> row."""
+    by_contacts = collections.defaultdict(dict)
+    for row in result["runs"]:
+        by_contacts[row["contacts"]][row["method"], row["reading"], row["arithmetic"]] = row
+    return by_contacts
+
+
+def mean_most(row):
+    return f"{three(row['mean'])} ({row['most']})"
+
+
+def unsolved(row):
+    return ", ".join(f"{number} {outcome}" for outcome, number in row["not solved"].items()) or "0"
+
+
+def solved_by_all(result):
+    """What each method solved, in words."""
+    sums = collections.defaultdict(lambda: [0, 0, 0])
+    for row in result["runs"]:
+        key = f"`{row['method']}` {row['arithmetic']}" + (f" ({row['reading']})" if row["reading"] else "")
+        sums[key] = [a + b for a, b in zip(sums[key], (row["solved"], row["problems"], row["wrong"]))]
+    parts = [f"{key} {count(solved)} of {count(problems)}" for key, (solved, problems, _) in sums.items()]
+    wrong = sum(wrong for _, _, wrong in sums.values())
+    return prose(f"Solved: {'; '.join(parts)}. Wrong answers: {wrong}. Methods that contradict each other: "
+                 f"{len(result['mismatches'])}.")
+
+
+def work_table(result, bound, head):
+    rows = []
+    for contacts, row in sorted(runs_of(result).items()):
+        paper = row[PAPER]
+        loops = paper["not solved"].get("cycle", 0)
+        rows.append((contacts, mean_most(row[EXACT]), count(bound(contacts)), mean_most(paper), unsolved(paper),
+                     share(loops, paper["problems"]), mean_most(row[ONES]), mean_most(row[UNITS])))
+    return table(["contacts", "pieces of `complete`", head, "steps of `baraff`, `paper`", "not solved",
+                  "of these cycles, 95 %", "pivots of `lemke`, ones", "units"], rows) + "\n\n" + solved_by_all(result)
+
+
+def work(program):
+    result = methods(program, "--problems", program.size(1200))
+    return work_table(result, lambda n: 4 ** n - 1, "bound 4^n - 1")
+
+
+def near_worst_case(program):
+    result = methods(program, "--generator", "exponential", "--contacts", 2, 4, 6, "--problems", program.size(400))
+    return work_table(result, lambda n: 2 ** n - 1, "2^n - 1")
+
+
+def folds(program):
+    """Where complete driving folds and descends; folds against give-ups."""
+    result = methods(program, "--problems", program.size(1200))
+
+    def part(rows, key, head):
+        return table([head, "problems", "folds, 95 %", "descents, 95 %"],
+                     [(row[key], count(row["problems"]), share(row["folds"], row["problems"]),
+                       share(row["descents"], row["problems"])) for row in rows])
+
+    return "\n\n".join((part(result["folds"], "contacts", "contacts"), part(result["friction"], "mu", "mu"),
+                         give_ups(result["give-ups"])))
+
+
+def give_ups(policies):
+    """Folds of complete driving against give-ups of the published algorithm."""
+    ends = ("both", "folds only", "give-ups only", "neither")
+    rows = [(f"`{row['policy']}`", *(count(row[key]) for key in ends),
+             f"{count(row['as many steps'])} of {count(row['no folds, mu > 0'])}", three(row["pieces if folds"]),
+             three(row["steps if folds"])) for row in policies]
+    return table(["policy", *ends, "no folds, mu > 0: as many steps",
+                  "mean steps where both solve a problem with folds: `complete`", "`baraff`"], rows)
+
+
+def starts(program):
+    result = methods(program, "--problems", program.size(1200))
+    columns = ("1", "2", "3", "4 to 20", "none")
+    rows = [(row["contacts"], row["problems"], *(row[key] for key in columns)) for row in result["starts"]]
+    problems, first, none = (sum(row[key] for row in result["starts"]) for key in ("problems", "1", "none"))
+    return table(["contacts", "problems", *columns], rows) + "\n\n" + prose(
+        f"The first start is enough for {share(first, problems)}, no start for {share(none, problems)} (95 %).")
+
+
+TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "units", "double"),
+         EXACT, PAPER, UNITS, ("enumerate", "", "exact"), ("ipopt", "(17), (18)", "exact"))
+
+
+def method_times(program):
+    result = methods(program)
+    cells = {(row["contacts"], row["method"], row["reading"], row["arithmetic"]): row for row in result["times"]}
+    sizes = sorted({row["contacts"] for row in result["times"]})
+    rows = []
+    for key in TIMED:
+        found = [cells.get((n, *key)) for n in sizes]
+        last = found[-1]
+        rows.append((f"`{key[0]}`, {key[2]}", *(spread(row["us"]) if row else "" for row in found),
+                     spread(last["ratio"]) if last else ""))
+    head = ["microseconds a problem", *(f"{n} contacts" for n in sizes), f"times `complete`, double, at {sizes[-1]}"]
+    return table(head, rows) + "\n\n" + prose("Median (quartiles)" + machine())
+
+
+def frictionless(program):
+    result = methods(program)
+    timed = ("baraff us", "lemke/baraff", "ipopt us", "ipopt/baraff")
+    rows = [(row["contacts"], row["problems"], *(spread(row[key]) for key in timed)) for row in result["frictionless"]]
+    return table(["contacts", "problems", "`baraff`, microseconds", "Lemke / `baraff`", "Ipopt, microseconds",
+                  "Ipopt / `baraff`"], rows) + "\n\n" + prose("Median (quartiles)" + machine())
+
+
+# ---- Space, and contacts that slide --------------------------------------------------------------------------
+
+SLIPS = {"paper": "literal", "slip=redirect": "redirect", "slip=polygon": "polygon"}
+
+
+def space_row(first, row):
+    loops = row["recurs"] + row["approaches"]
+    slip = SLIPS[row["policy"]]
+    return (first, slip, count(row["solved"]), f"{row['recurs']} + {row['approaches']}",
+            share(loops, row["problems"]), row["refuted"], row["ray"], row["proved ray"],
+            count(row["breaks (21)"]) if slip == "literal" else "",
+            count(row["redirects"]) if slip == "redirect" else "",
+            f"{three(row['steps, mean'])} ({row['most']})", count(row["unsure"]),
+            f"{count(row['on an edge'])} ({count(row['refined'])})" if slip == "polygon" else "")
+
+
+def space(program):
+    result = program.bench("space", "--problems", program.size(20_000))
+    head = ["`slip`", "solved", "loops", "share, 95 %", "left again", "ray", "proved", "breaks", "redirects",
+            "steps, mean (most)", "unsure", "edges (corners)"]
+    sizes = [space_row(f"{row['family']}, {row['contacts']}", row) for row in result["sizes"]]
+    friction = [space_row(f"mu = {row['mu']}", row) for row in result["friction"] if row["policy"] in SLIPS]
+    rest = sum(row[key] for row in result["sizes"] for key in ("limit", "singular", "undecided", "differ", "wrong"))
+    problems = result["problems"]
+    return "\n\n".join((
+        prose(f"{count(problems)} problems of each family and number of contacts, and by friction, all sizes together. "
+              f"Ended otherwise, wrong, or otherwise over intervals: {rest}."),
+        table(["family, contacts", *head], sizes), table(["friction", *head], friction)))
+
+
+def sliding(program):
+    result = program.bench("sliding", "--generator", "integers", "--problems", program.size(1_000_000))
+    rows = [(f"{row['contacts']}, {row['sliding']}", count(row["solved"]), count(row["ray"]), row["singular"],
+             row["cycle"], rate(row["cycle"], result["problems"]), f"{row['with a solution']}, {row['without']}",
+             row["every policy"]) for row in result["rows"]]
+    return table(["contacts, sliding", "solved", "ray", "singular", "cycles", "in a million, 95 %",
+                  "with a solution, without", "under every policy"], rows) + "\n\n" + prose(
+        f"{count(result['problems'])} problems a row. Suspicions refuted exactly: "
+        f"{sum(row['refuted'] for row in result['rows'])}. Cycles that doubles take for solutions are not counted.")
+
+
+# ---- Timings -------------------------------------------------------------------------------------------------
+
+
+def search_speed(program):
+    result = program.bench("search", "--contacts", 2, 3, 4)
+    cells = {(row["generator"], row["contacts"]): row for row in result}
+    sizes = sorted({row["contacts"] for row in result})
+    generators = sorted({row["generator"] for row in result}, key=lambda name: -cells[name, sizes[0]]["median"])
+    rows = [(f"`{name}`", *(median_of(cells[name, n]) for n in sizes)) for name in generators]
+    return table(["problems a second", *(f"{n} contacts" for n in sizes)], rows) + "\n\n" + prose(
+        "One thread, median (least - most) of 5 runs" + machine())
+
+
+def growth(program):
+    parts = []
+    for group in program.bench("growth")["tables"]:
+        points = {(point["method"], point["contacts"]): point for point in group["points"]}
+        sizes = sorted({point["contacts"] for point in group["points"]})
+        rows = [growth_row(points, n) for n in sizes]
+        power = "; ".join(f"`{method}` n^{exponent:.1f}" for method, exponent in group["exponents"].items()
+                          if exponent)
+        parts.append(table([group["name"].replace("growth-", "") + ", contacts n", "`published`: milliseconds",
+                            "microseconds a step", "the same afresh", "drives a contact", "pivots a contact",
+                            "megabytes", "`complete`: milliseconds", "`fast`: milliseconds", "megabytes"], rows)
+                     + "\n\n" + prose(f"Time above 20 contacts like: {power}."))
+    return "\n\n".join(parts) + "\n\n" + prose("One problem a size" + machine())
+
+
+def growth_row(points, n):
+    def cell(method, value):
+        point = points.get((method, n))
+        return three(value(point)) if point else "-"
+
+    def milliseconds(point):
+        return 1e3 * point["seconds"]
+
+    def step(point):
+        return 1e6 * point["seconds"] / max(1, point["counts"]["steps"])
+
+    def megabytes(point):
+        return point["bytes"] / 1e6
+
+    return (n, cell("published", milliseconds), cell("published", step), cell("published-afresh", step),
+            cell("published", lambda point: point["counts"]["drives"] / n),
+            cell("published", lambda point: point["counts"]["pivots"] / n), cell("published", megabytes),
+            cell("complete", milliseconds), cell("fast", milliseconds), cell("fast", megabytes))
+
+
+def linear_algebra(program):
+    result = program.bench("linear-algebra", "--problems", 20)
+    ways = list(dict.fromkeys(row["way"] for row in result))
+    cells = collections.defaultdict(dict)
+    for row in result:
+        cells[row["items"], row["size"]][row["way"]] = row["median"]
+    rows = collections.defaultdict(list)
+    for (items, size), row in cells.items():
+        kind = tuple(way for way in ways if way in row)
+        rows[kind].append((items, size, *(three(row[way]) for way in kind)))
+    parts = [table(["microseconds", "size", *kind], sorted(lines)) for kind, lines in rows.items()]
+    return "\n\n".join(parts) + "\n\n" + prose("Processor time, median of 5 runs" + machine())
+
+
+def median_of(values):
+    """Between the least and the most."""
+    return spread([values[key] for key in ("least", "median", "most")])
+
+
+def scene_speed_rows(result, first, second):
+    rows = []
+    for row in result:
+        one, other = row[first], row[second]
+        ways = [(median_of(way["frames_a_second"]), f"{way['rows']:.1f}", f"{way['problems']:.2f}")
+                for way in (one, other)]
+        rows.append((f"`{row['scene']}`", *ways[0], *ways[1], median_of(row["ratio"])))
+    return rows
+
+
+def scene_speed(program):
+    parts = []
+    for folder in ("corpus/scenes", "corpus/scenes/space", "corpus/scenes/large"):
+        repeat = 3 if folder.endswith("large") else 9
+        result = program.bench("scenes", "--scenes", folder, "--repeat", repeat)
+        head = [f"`{folder}`", "minimal", "rows", "problems", "`--full`", "rows", "problems", "ratio"]
+        parts.append(table(head, scene_speed_rows(result, "minimal", "full")))
+    return "\n\n".join(parts) + "\n\n" + prose("Frames a second of one thread, median (least - most)" + machine())
+
+
+def scene_threads(program):
+    result = program.bench("scenes", "--repeat", 7, "--threads", 2)
+    head = ["scene", "2 threads", "rows", "problems", "1 thread", "rows", "problems", "ratio"]
+    return table(head, scene_speed_rows(result, "2 threads", "1 thread")) + "\n\n" + prose(
+        "Frames a second, median (least - most)" + machine())
+
+
+# ---- Beside other packages -----------------------------------------------------------------------------------
+
+
+def peer_cell(cell, residuals):
+    if not cell["installed"] or cell["capped"]:
+        return "-"
+    text = three(cell["ratio"])
+    if residuals and cell.get("residual") is not None:
+        text += f"; {cell['residual']:.0e}"
+    if cell.get("wrong"):
+        text += f"; {cell['wrong']}/{cell['silent']}/{cell['tried']}"
+    return text
+
+
+def installed(row):
+    return any(cell["installed"] for cell in row["cells"])
+
+
+def peers(program):
+    """Every row and size that the suite prints."""
+    parts = []
+    for group in program.bench("peers")["tables"]:
+        if "rows" not in group:
+            continue
+        residuals = "space" in group["title"] or "bodies" in group["title"]
+        sizes = [cell["contacts"] for cell in group["rows"][0]["cells"]]
+        lu = [three(1e6 * cell["seconds"][1]) for cell in group["rows"][0]["cells"]]
+        rows = [("LU, microseconds", *lu)]
+        rows += [(row["name"], *(peer_cell(cell, residuals) for cell in row["cells"])) for row in group["rows"][1:]
+                 if installed(row)]
+        title = group["title"][0].upper() + group["title"][1:]
+        parts.append(f"**{title}**\n\n" + table(["contacts", *sizes], rows))
+    absent = {row["package"] for group in program.bench("peers")["tables"] for row in group.get("rows", ())
+              if row["package"] and not installed(row)}
+    left_out = f" Not installed here: {', '.join(sorted(absent))}." if absent else ""
+    return "\n\n".join(parts) + "\n\n" + prose(f"Times / that of Eigen's LU of A.{left_out[:-1]}" + machine())
+
+
+def peers_in_short(program):
+    """`fast` and the packages, from the fewest to the most contacts."""
+    rows = []
+    for group in program.bench("peers")["tables"]:
+        for row in group.get("rows", ())[1:]:
+            cells = [cell for cell in row["cells"] if cell["installed"] and not cell["capped"]]
+            if cells and (row["package"] or row["name"] == "fast"):
+                ratios = [cell["ratio"] for cell in cells]
+                wrong, tried = (sum(cell.get(key, 0) for cell in cells) for key in ("wrong", "tried"))
+                rows.append((group["title"], f"{cells[0]['contacts']} to {cells[-1]['contacts']}", row["name"],
+                             f"{three(ratios[0])} to {three(ratios[-1])}", three(max(ratios)),
+                             f"{wrong} of {count(tried)}: {share(wrong, tried)}"))
+    return table(["problems", "contacts", "", "time / LU, from fewest to most", "the most", "wrong, 95 %"], rows) + (
+        "\n\n" + prose("Measured" + machine()))

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of the problems of the corpus, of their certificates and of single runs."""
+
+import collections
+import json
+import subprocess
+import sys
+
+from markdown import count, prose, table, three
+from program import ROOT
+
+
+HEADLINE = "corpus/cycle-every-policy-mu-1.json"
+
+
+def policies(program, file, shown=True):
+    return program.json("replay", file, "--all-policies", codes=(0, 1), shown=shown)["policies"]
+
+
+def ends(runs):
+    """How many policies end how: "1320 cycle, 216 solved"."""
+    return ", ".join(f"{number} {outcome}" for outcome, number
+                     in collections.Counter(run["outcome"] for run in runs.values()).most_common())
+
+
+def recurrences(runs):
+    """(start, period) -> policies, the most frequent first."""
+    loops = [run for run in runs.values() if run["outcome"] == "cycle"]
+    counted = collections.Counter((run["start"], run["period"]) for run in loops)
+    return sorted(counted.items(), key=lambda item: (-item[1], item[0]))
+
+
+def headline_loop(program):
+    runs = policies(program, HEADLINE)
+    paper = (runs["paper"]["start"], runs["paper"]["period"])
+    rows = [(*loop, number, "yes" if loop == paper else "") for loop, number in recurrences(runs)]
+    return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives stands again so many drives "
+                 "later:") + "\n\n" + table(["drives before", "drives of a period", "policies", "`paper`"], rows)
+
+
+def readings(program):
+    """How the policies of two-contact-cycle.json end, by the two switches that decide it."""
+    runs = policies(program, "corpus/two-contact-cycle.json")
+    counted = collections.Counter()
+    for name, run in runs.items():
+        switches = name.split(",")
+        counted["file=yes" in switches, "drop=variable" in switches, run["outcome"]] += 1
+    rows = []
+    for file, drop in ((False, False), (False, True), (True, False), (True, True)):
+        cycle, solved = (counted[file, drop, outcome] for outcome in ("cycle", "solved"))
+        rows.append(("yes" if file else "no", "variable" if drop else "contact", cycle + solved, cycle, solved))
+    return (prose(f"`corpus/two-contact-cycle.json` under {len(runs)} policies: {ends(runs)}.") + "\n\n"
+            + table(["`file`", "`drop`", "policies", "cycle", "solved"], rows))
+
+
+def corpus_table(program, folder):
+    """How every case of a folder ends under all policies."""
+    rows, solved = [], 0
+    program.show(f"./run replay {folder}/NAME.json --all-policies")
+    for file in sorted((ROOT / folder).glob("*.json")):
+        runs = policies(program, f"{folder}/{file.name}", shown=False)
+        if {run["outcome"] for run in runs.values()} == {"solved"}:
+            solved += 1
+            continue
+        loops = recurrences(runs)
+        most = ", ".join(f"({start}, {period}) {number}" for (start, period), number in loops[:4])
+        more = f", {len(loops) - 4} more" if len(loops) > 4 else ""
+        rows.append((f"`{file.stem}`", ends(runs), most + more))
+    rows.append((f"the other {solved}", "solved by every policy", ""))
+    return table(["file", "policies, by outcome", "loops: (drives before, drives of a period) policies"], rows)
+
+
+def corpus(program):
+    return corpus_table(program, "corpus")
+
+
+def sliding_corpus(program):
+    return corpus_table(program, "corpus/sliding")
+
+
+def wrong_in_doubles(program):
+    rows = []
+    program.show("./run solve corpus/NAME.json --method baraff --arithmetic double")
+    for file in sorted((ROOT / "corpus").glob("wrong-in-doubles-*.json")):
+        answer = program.json("solve", f"corpus/{file.name}", "--method", "baraff", "--arithmetic", "double",
+                              shown=False)
+        suspected = answer["suspected"]
+        rows.append((f"`{file.stem}`", three(suspected["residual"]), suspected["outcome"],
+                     f"{answer['outcome']}, {answer['arithmetic']}"))
+    return table(["file", "residual of the forces over doubles", "said of them", "the answer"], rows)
+
+
+def methods_built(program):
+    """The table of methods, as the program prints it."""
+    return "\n\n".join(program.text("methods").split("\n\n")[:2])
+
+
+def safe_by_condition(program):
+    """Two bounds on mu for the A of two-contact-cycle.json, below which it is safe."""
+    answer = program.json("certify", "corpus/safe-by-condition.json", "--safe")
+    condition, threshold = answer["condition"]["mu"], answer["threshold"]
+    if threshold["low"] != threshold["high"]:
+        raise ValueError("a threshold that is no single number")
+    numerator, denominator = map(int, condition.split("/"))
+    rows = [("its condition number alone", f"{condition} = {numerator / denominator:.4f}"),
+            ("its determinants", threshold["high"])]
+    return table(["says that A of `safe-by-condition.json` is safe", "for mu up to"], rows)
+
+
+# ---- The worst case ------------------------------------------------------------------------------------------
+
+SIZES = (1, 2, 4, 8, 12)
+RUNS = (  # head, scaled, options
+    ("`paper`", False, ("--method", "baraff")),
+    ("scaled, `most-violated`", True, ("--method", "baraff", "--policy", "scan=most-violated")),
+    ("`most-violated`", False, ("--method", "baraff", "--policy", "scan=most-violated")),
+    ("`highest`", False, ("--method", "baraff", "--policy", "scan=highest")),
+    ("`complete`", False, ("--method", "complete")),
+    ("`lemke`", False, ("--method", "lemke")),
+)
+
+
+def worst_case(program):
+    """Pivots, or pieces, without friction."""
+    program.show("./run problem --exponential N -o problem.json")
+    program.show("./run problem --exponential N --scaled -o problem.json")
+    program.show("./run solve problem.json --method METHOD --policy POLICY")
+    rows = []
+    for n in SIZES:
+        row = [n]
+        for _, scaled, options in RUNS:
+            file = program.folder / "problem.json"
+            program.text("problem", "--exponential", n, *["--scaled"] * scaled, "-o", file, shown=False)
+            statistics = program.json("solve", file, *options, shown=False)["statistics"]
+            row.append(count(statistics["pieces" if "pieces" in statistics else "pivots"]))
+        rows.append(row)
+    return table(["n", *(head for head, _, _ in RUNS)], rows)
+
+
+# ---- Certificates of a small search --------------------------------------------------------------------------
+
+
+def replays_as_certified(program, certificate, problem):
+    run = certificate["witness"]["runs"][0]
+    replay = program.json("replay", problem, "--policy", run["policies"][0], codes=(0, 1), shown=False)
+    stated = (certificate["claim"], run["start"], run["period"])
+    return (replay["outcome"], replay["start"], replay["period"]) == stated
+
+
+def accepted_by_both(program, files):
+    """How many certificates the program accepts, and how many the independent checker."""
+    program.show("./run check report/findings/*.certificate.json")
+    program.show("python3 certify/check_certificate.py report/findings/*.certificate.json")
+    ours = sum(entry["accepted"] for entry in program.json("check", *files, codes=(0, 1), shown=False))
+    checker = [sys.executable, ROOT / "certify/check_certificate.py"]
+    theirs = sum(subprocess.run([*checker, file], capture_output=True).returncode == 0 for file in files)
+    return ours, theirs
+
+
+def certificates(program):
+    """A search of fixed size in an empty folder: its certificates through both checkers, its loops replayed."""
+    store, report = program.folder / "small.store", program.folder / "report"
+    summary = program.json("search", "--generator", "integers", "psd", "--contacts", 2, "--problems", 100000,
+                           "--store", store)
+    program.text("report", store, "-o", report)
+    files = sorted(report.glob("findings/*.certificate.json"))
+    ours, theirs = accepted_by_both(program, files)
+    grid = len(policies(program, HEADLINE, shown=False))
+    replayed = whole_grid = 0
+    for file in files:
+        certificate = json.loads(file.read_text())
+        if certificate["claim"] == "cycle":
+            problem = file.with_name(file.name.replace(".certificate", ""))
+            replayed += replays_as_certified(program, certificate, problem)
+            whole_grid += sum(len(run["policies"]) for run in certificate["witness"]["runs"]) == grid
+    rows = [("problems, of two contacts", count(summary["problems"])),
+            ("loops, and groups of them", f"{summary['findings']['cycle']}, {summary['groups']['cycle']}"),
+            ("certificates", len(files)),
+            ("accepted by `check`, by `check_certificate.py`", f"{ours}, {theirs}"),
+            ("minimized loops that replay to their certified period", replayed),
+            ("of these endless under every policy", whole_grid)]
+    return table(["a search of fixed size", ""], rows)

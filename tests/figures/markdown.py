@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables and numbers in Markdown."""
+
+import os
+import textwrap
+import time
+
+import intervals
+
+WIDTH = 118
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
+
+
+def prose(text):
+    """Lines of a width; a command is never broken inside its quotes where that can be helped."""
+    parts = text.split("`")
+    glued = [part.replace(" ", "\0") if i % 2 and len(part) < WIDTH else part for i, part in enumerate(parts)]
+    lines = textwrap.wrap("`".join(glued), WIDTH, break_long_words=False, break_on_hyphens=False)
+    return "\n".join(lines).replace("\0", " ")
+
+
+def commands(typed, by=""):
+    """The last lines of a block: what made it."""
+    return prose("Made by " + ", ".join(f"`{command}`" for command in typed) + by + ".")
+
+
+def machine():
+    """Of timings: when and on what."""
+    with open("/proc/cpuinfo") as file:
+        models = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
+    load = os.getloadavg()[0]
+    return f"; {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores, {models[0] if models else 'unknown'}, load {load:.1f} at its end"
+
+
+def count(number):
+    return f"{number:,}"
+
+
+def three(number):
+    """Three digits, thousands separated."""
+    if number >= 100:
+        digits = len(str(int(number)))
+        return f"{round(number, 3 - digits):,.0f}"
+    return f"{number:.3g}" if number else "0"
+
+
+def spread(values, digits=three):
+    """A median between its quartiles, or between the least and the most."""
+    low, median, high = map(digits, values)
+    return f"{median} ({low} - {high})"
+
+
+def rate(number, of, unit=1_000_000):
+    """How many of `number` a million, with Garwood's interval."""
+    low, high = (end * unit / of for end in intervals.garwood(number))
+    return f"{three(number * unit / of)} [{three(low)}, {three(high)}]"
+
+
+def share(number, of):
+    """A part in percent, with the interval of Clopper and Pearson."""
+    if of == 0:
+        return "-"
+    low, high = intervals.clopper_pearson(number, of)
+    return f"{three(100 * number / of)} % [{three(100 * low)}, {three(100 * high)}]"

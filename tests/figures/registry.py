@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All blocks: where each stands, what makes it, what it costs, and what its numbers depend on.
+
+cost: `cheap` is made again by every test; `minutes` and `long` (more than five, of one core) by hand. sources: see
+figures.py; those of cheap blocks are not asked for."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import bench_figures as bench
+import corpus_figures as corpus
+import scene_figures as scene
+import search_figures as search
+from program import ROOT
+
+
+@dataclass(frozen=True)
+class Figure:
+    name: str
+    file: str
+    cost: str
+    make: Callable
+    sources: tuple = ()
+
+
+SEARCH = ("algorithm",)
+METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
+PEERS = ("algorithm", "bench/peers.cpp", "bench/peers_problems.cpp", "bench/peers_tables.cpp")
+
+FIGURES = [
+    Figure("headline-loop", "README.md", "cheap", corpus.headline_loop),
+    Figure("readings", "README.md", "cheap", corpus.readings),
+    Figure("certificates", "README.md", "cheap", corpus.certificates),
+    Figure("search-speed", "README.md", "minutes", bench.search_speed, ("algorithm", "bench/search_rate.cpp")),
+    Figure("peers-in-short", "README.md", "long", bench.peers_in_short, PEERS),
+    Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
+    Figure("sliding-corpus", "corpus/README.md", "cheap", corpus.sliding_corpus),
+    Figure("wrong-in-doubles", "corpus/README.md", "cheap", corpus.wrong_in_doubles),
+    Figure("published-problems", "corpus/formats/README.md", "minutes", scene.published_problems,
+           ("algorithm", "cli/survey.cpp")),
+    Figure("scene-speed", "corpus/scenes/README.md", "minutes", bench.scene_speed, ("algorithm", "bench/scenes.cpp")),
+    Figure("scene-threads", "corpus/scenes/README.md", "minutes", bench.scene_threads,
+           ("algorithm", "bench/scenes.cpp")),
+    Figure("safe-by-condition", "certify/condition_number.md", "cheap", corpus.safe_by_condition),
+    Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
+           ("algorithm", "bench/linear_algebra.cpp")),
+    Figure("scenes-by-mu", "search/README.md", "long", search.scenes_by_mu, SEARCH),
+    Figure("generators-by-mu", "search/README.md", "minutes", search.generators_by_mu, SEARCH),
+    Figure("missed-by-doubles", "search/README.md", "long", search.missed_by_doubles, SEARCH),
+    Figure("existence", "search/README.md", "minutes", search.existence, SEARCH),
+    Figure("methods-built", "solver/README.md", "cheap", corpus.methods_built),
+    Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers_growth.cpp")),
+    Figure("safe-loops", "solver/published/readings.md", "minutes", search.safe_loops, SEARCH),
+    Figure("space", "solver/published/readings.md", "long", bench.space, ("algorithm", "bench/space.cpp")),
+    Figure("sliding", "solver/published/readings.md", "minutes", bench.sliding, ("algorithm", "bench/sliding.cpp")),
+    Figure("worst-case", "solver/published/readings.md", "cheap", corpus.worst_case),
+    Figure("energy", "scene/README.md", "cheap", scene.energy),
+    Figure("halved-steps", "scene/README.md", "cheap", scene.halved_steps),
+    Figure("unsolved-in-scenes", "scene/README.md", "long", scene.unsolved_in_scenes,
+           ("algorithm", "tests/setup/scene_statistics.py")),
+    Figure("work", "reports/methods.md", "long", bench.work, METHODS),
+    Figure("near-worst-case", "reports/methods.md", "minutes", bench.near_worst_case, METHODS),
+    Figure("folds", "reports/methods.md", "long", bench.folds, METHODS),
+    Figure("starts", "reports/methods.md", "long", bench.starts, METHODS),
+    Figure("method-times", "reports/methods.md", "minutes", bench.method_times, METHODS),
+    Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless, METHODS),
+    Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
+]
+
+# Where every measured number stands in a block.
+DOCUMENTS = sorted({
+    str(file.relative_to(ROOT)) for pattern in ("*.md", "*/*.md", "solver/**/*.md", "corpus/*/*.md", "certify/**/*.md")
+    for file in ROOT.glob(pattern) if "build" not in file.parts})
+
+# Phrases with a number that is no figure: a definition, a theorem, a size that a test or a command names.
+DEFINITIONS = {
+    "reports/README.md": ("at 95 %",),
+    "corpus/scenes/README.md": ("4 of 6 contacts", "the first 600 frames"),
+}

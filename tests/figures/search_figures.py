@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of searches: how often the published algorithm loops, what doubles miss of it, and what always ends."""
+
+import collections
+import csv
+
+from markdown import count, prose, rate, share, table
+
+SEEDS = (1, 2, 3, 4)
+
+
+class Cell:
+    """Searches of one kind with several seeds, their counts added."""
+
+    def __init__(self, program, *options, problems, seeds=SEEDS):
+        self.sums = collections.Counter()
+        self.findings = collections.Counter()
+        for seed in seeds:
+            self.add(program, options, problems // len(seeds), seed)
+
+    def add(self, program, options, problems, seed):
+        store = program.folder / "cell.store"
+        store.unlink(missing_ok=True)
+        summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", store,
+                               shown=False)
+        self.findings.update(summary["findings"])
+        self.sums.update({key: value for key, value in summary.items() if isinstance(value, int)})
+
+    def __getitem__(self, key):
+        return self.sums[key]
+
+    def loops(self):
+        return sum(number for label, number in self.findings.items() if label.split("-")[-1] == "cycle")
+
+
+def lower_bounds(cells, note=""):
+    """What stands below every table of frequencies."""
+    audited, misjudged = (sum(cell[key] for cell in cells) for key in ("audited", "misjudged"))
+    problems = sum(cell["runs"] for cell in cells)
+    return prose(f"{note}In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and Pearson. Loops "
+                 "are looked for over doubles and confirmed exactly; those that doubles take for solutions are not among "
+                 f"them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
+                 f"misjudged were {misjudged}, {share(misjudged, audited)}.")
+
+
+# ---- Scenes --------------------------------------------------------------------------------------------------
+
+FRICTION = ("1", "1/2", "1/3", "1/5", "1/10")
+
+
+def scene_problems(contacts, mu, rare):
+    """Of a cell: most where loops are rarest; few where each seed's loops take long to certify and minimize."""
+    if contacts >= 4 and mu in ("1/5", "1/10"):
+        return rare
+    return min(rare, 200_000 if contacts >= 4 and mu == "1" else 1_000_000)
+
+
+def scenes_by_mu(program):
+    """Ten million problems of four and five contacts at the least friction, unless --problems says otherwise."""
+    rare = program.size(10_000_000)
+    cells, rows = [], []
+    for contacts in (2, 3, 4, 5):
+        for mu in FRICTION:
+            problems = scene_problems(contacts, mu, rare)
+            cell = Cell(program, "--generator", "scenes", "--contacts", contacts, "--mu", mu, problems=problems)
+            of, loops, singular = cell["runs"], cell.loops(), cell.findings["singular"]
+            rows.append((contacts, mu, count(of), loops, rate(loops, of), singular, rate(singular, of)))
+            cells.append(cell)
+    program.show("./run search --generator scenes --contacts CONTACTS --mu MU --problems N --seed SEED --store S")
+    head = ["contacts", "mu", "problems", "loops", "in a million", "no direction", "in a million"]
+    note = f"Seeds {SEEDS[0]} to {SEEDS[-1]}, pooled. "
+    return table(head, rows) + "\n\n" + lower_bounds(cells, note)
+
+
+def generators_by_mu(program):
+    """Loops in a million problems of other generators."""
+    problems = program.size(200_000)
+    cells, rows = [], []
+    for generator in ("bodies", "integers", "psd", "small"):
+        for contacts in (3, 4):
+            row = [f"`{generator}`", contacts]
+            for mu in FRICTION[:4]:
+                cells.append(Cell(program, "--generator", generator, "--contacts", contacts, "--mu", mu,
+                                  problems=problems, seeds=(1,)))
+                row.append(rate(cells[-1].loops(), cells[-1]["runs"]))
+            rows.append(row)
+    program.show(f"./run search --generator GENERATOR --contacts CONTACTS --mu MU --problems {problems} --store S")
+    head = ["loops in a million", "contacts", *(f"mu = {mu}" if mu == "1" else mu for mu in FRICTION[:4])]
+    return table(head, rows) + "\n\n" + lower_bounds(cells)
+
+
+# ---- What doubles miss ---------------------------------------------------------------------------------------
+
+GENERATORS = ("integers", "psd", "small", "near-degenerate", "duplicates", "conditioned", "bodies", "exponential",
+              "scenes")
+
+
+def report_rows(program, store, name):
+    """The rows of a CSV file of the report on a store."""
+    folder = program.folder / "report"
+    program.text("report", store, "-o", folder, shown=False)
+    with open(folder / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def audited_loops(program, generator, contacts, problems):
+    """All problems run exactly: loops, and of these those that doubles ended otherwise without being suspected."""
+    store = program.folder / "cell.store"
+    store.unlink(missing_ok=True)
+    summary = program.json("search", "--generator", generator, "--contacts", contacts, "--audit-every", 1,
+                           "--enumerate-every", 1_000_000, "--problems", problems, "--store", store, shown=False)
+    loops = sum(number for label, number in summary["findings"].items() if label.split("-")[-1] == "cycle")
+    seen = sum(int(row["count"]) for row in report_rows(program, store, "verdicts.csv")
+               if row["exact_outcome"] == "cycle")
+    return summary["runs"], loops, loops - seen
+
+
+def missed_by_doubles(program):
+    problems = program.size(20_000)
+    rows, total = [], [0, 0, 0]
+    for generator in GENERATORS:
+        for contacts in (2, 3, 4, 5):
+            cell = audited_loops(program, generator, contacts, problems)
+            total = [a + b for a, b in zip(total, cell)]
+            if cell[1]:
+                rows.append((f"`{generator}`", contacts, count(cell[0]), cell[1], cell[2], share(cell[2], cell[1])))
+    rows.append(("all, with those without a loop", "2 to 5", count(total[0]), *total[1:], share(total[2], total[1])))
+    program.show(f"./run search --generator GENERATOR --contacts CONTACTS --audit-every 1 --enumerate-every 1000000 "
+                 f"--problems {problems} --store S")
+    head = ["generator", "contacts", "problems, all run exactly", "loops", "missed by doubles", "share, 95 %"]
+    return table(head, rows)
+
+
+# ---- Existence -----------------------------------------------------------------------------------------------
+
+
+def existence(program):
+    """Every problem run exactly, every method held against the others, a sample of certificates checked apart."""
+    store = program.folder / "audit.store"
+    said = program.script("tests/setup/audit.py", "--problems", program.size(100_000), "--sample", 200, "--store",
+                          store)
+    rows = []
+    for row in report_rows(program, store, "agreement.csv"):
+        counts = [count(int(row[key])) for key in ("problems", "solved", "compared", "enumerated", "disagreements")]
+        shares = [share(int(row[key]), int(row["problems"])) for key in ("with_ties", "with_folds", "with_descents")]
+        rows.append([row["contacts"], *counts, *shares])
+    head = ["contacts", "run exactly", "solved by complete driving", "by Lemke's method too", "all modes tried",
+            "disagreements", "with ties", "folds", "descents"]
+    return table(head, rows) + "\n\n" + prose(said.strip().splitlines()[-1] + ".")
+
+
+def safe_loops(program):
+    """A search for a loop in a safe problem."""
+    store = program.folder / "safe.store"
+    summary = program.json("search", "--generator", "small", "duplicates", "near-degenerate", "integers",
+                           "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended",
+                           "--problems", program.size(13_000_000), "--store", store)
+    decided, safe = summary["safety_decided"], summary["safe"]
+    findings = collections.Counter(summary["findings"])
+    low_high = share(safe, decided)
+    return table(["a search for a loop in a safe problem", ""],
+                 [("problems, each under both policies", count(summary["problems"])),
+                  ("loops, confirmed exactly", count(findings["cycle"] + findings["safe-cycle"])),
+                  ("of these in safe problems", count(findings["safe-cycle"])),
+                  ("audited runs, and those of safe problems", f"{count(decided)}, {count(safe)}: {low_high}")])
