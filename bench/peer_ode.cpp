@@ -28,7 +28,7 @@ void Complain(int, const char*, va_list) { complained = true; }
 
 class OdeContender : public DantzigContender {
  public:
-  explicit OdeContender(bool friction) : DantzigContender(friction) { dSetMessageHandler(Complain); }
+  OdeContender(bool friction, double cfm) : DantzigContender(friction, cfm) { dSetMessageHandler(Complain); }
   int Stride(int rows) const override { return rows > 1 ? ((rows - 1) | 3) + 1 : rows; }
   void Load(const std::vector<PeerProblem>& problems) override {
     DantzigContender::Load(problems);
@@ -62,9 +62,11 @@ class OdeContender : public DantzigContender {
 };
 
 }  // namespace
-std::unique_ptr<Contender> MakeOde(bool friction) { return std::make_unique<OdeContender>(friction); }
+std::unique_ptr<Contender> MakeOde(bool friction, double cfm) {
+  return std::make_unique<OdeContender>(friction, cfm);
+}
 #else
-std::unique_ptr<Contender> MakeOde(bool) { return nullptr; }
+std::unique_ptr<Contender> MakeOde(bool, double) { return nullptr; }
 #endif
 
 }  // namespace stiction
