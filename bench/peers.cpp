@@ -2,8 +2,10 @@
 // stiction-peers: stiction beside the solvers of other packages, on the same problems in the same run. A
 // program of its own, so that stiction is not linked with these packages.
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
@@ -14,6 +16,7 @@
 #include "bench/one_thread.h"
 #include "bench/peers_suite.h"
 #include "bench/structure.h"
+#include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 
 namespace stiction {
@@ -25,10 +28,12 @@ constexpr const char* kFindex =
     "as they are before any friction, whatever they become; in space for two directions by themselves, a "
     "pyramid. "
     "Its answers are judged by Coulomb's law like all others.";
-constexpr const char* kMixing =
-    "CFM: ODE with a part of the largest diagonal entry added to the diagonal, of 1e-12, 1e-10, 1e-8 and 1e-6 "
-    "the "
-    "one that answers best on the problems at hand.";
+constexpr const char* kSettings =
+    "of several settings the one that answers best on the problems at hand: CFM, what ODE adds to the diagonal "
+    "as a "
+    "part of its largest entry, 1e-12, 1e-10, 1e-8 or 1e-6; NSN-AC, from f = 0 (plain) or after extragradient "
+    "steps "
+    "(hybrid).";
 
 // Of the packages that were not found when this was built.
 std::vector<std::string> MissingPackages() {
@@ -52,13 +57,13 @@ Json HeadJson(const PeersOptions& o) {
           {"one_thread", ThreadsJson()},
           {"lu", {{"instructions", Eigen::SimdInstructionSetsInUse()}, {"native", NativeLu::Instructions()}}},
           {"findex", kFindex},
-          {"cfm", kMixing},
+          {"settings", kSettings},
           {"missing", MissingPackages()}};
 }
 
 void PrintHead() {
   const auto missing = MissingPackages();
-  fmt::print("{}\n{}\n{}\n{}\n", ThreadsText(), UnitText(), kFindex, kMixing);
+  fmt::print("{}\n{}\n{}\n{}\n", ThreadsText(), UnitText(), kFindex, kSettings);
   if (!missing.empty()) fmt::print("not installed: {}\n", fmt::join(missing, ", "));
 }
 
@@ -68,6 +73,23 @@ Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   if (name == "growth-planar") return MeasureGrowth(true, o);
   return MeasureTable(name, o);
 }
+
+// Packages complain on standard error, Siconos of every singular matrix; what they claim is in the tables.
+class QuietPackages {
+ public:
+  QuietPackages() : kept_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~QuietPackages() {
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+
+ private:
+  int kept_;
+};
 
 void RequireScenes(const PeersOptions& o) {
   if (std::filesystem::is_directory(o.scenes)) return;
@@ -80,7 +102,10 @@ int RunPeers(const PeersOptions& o) {
   if (!o.json) PrintHead();
   json["tables"] = Json::array();
   const Clocks start = ReadClocks();
-  for (const std::string& name : o.tables) json["tables"].push_back(MeasureNamed(name, o));
+  {
+    const QuietPackages quiet;
+    for (const std::string& name : o.tables) json["tables"].push_back(MeasureNamed(name, o));
+  }
   const Clocks clocks = ReadClocks() - start;
   json["clocks"] = ToJson(clocks);
   json["threads"] = ThreadCount();
@@ -148,6 +173,9 @@ int main(int argc, char** argv) {
     return stiction::Main(argc, argv);
   } catch (const stiction::InputError& error) {
     std::cerr << "stiction-peers: " << error.what() << "\n";
-    return 2;
+    return stiction::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "stiction-peers: internal error: " << error.what() << "\n";
+    return stiction::kExitInternal;
   }
 }

@@ -33,7 +33,14 @@ std::unique_ptr<Contender> MakeOde(bool friction, double cfm);  // libode-dev
 std::unique_ptr<Contender> MakeDart(bool friction);             // libdart-external-odelcpsolver-dev
 std::unique_ptr<Contender> MakeBullet(bool friction);           // libbullet-dev
 // libsiconos-numerics-dev
-enum class SiconosMethod { kLcpLemke, kFriction2dNsgs, kFriction2dLemke, kFriction3dNsgs, kFriction3dNewton };
+enum class SiconosMethod {
+  kLcpLemke,
+  kFriction2dNsgs,
+  kFriction2dLemke,
+  kFriction3dNsgs,
+  kFriction3dNewton,
+  kFriction3dHybrid,  // Newton's method from where extragradient steps end
+};
 std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
 
 }  // namespace stiction

@@ -145,6 +145,14 @@ PeerRow SiconosRow(const std::string& name, SiconosMethod method) {
   return {name, kSiconos, {{"", [=] { return MakeSiconos(method); }}}};
 }
 
+// Newton's method from f = 0, or from where extragradient steps end.
+PeerRow NewtonRow() {
+  return {"Siconos NSN-AC 1e-9",
+          kSiconos,
+          {{"plain", [] { return MakeSiconos(SiconosMethod::kFriction3dNewton); }},
+           {"hybrid", [] { return MakeSiconos(SiconosMethod::kFriction3dHybrid); }}}};
+}
+
 std::vector<PeerRow> LinearRows() {
   return {LinearRow<LinearContender<Eigen::PartialPivLU<Eigen::MatrixXd>>>("Eigen LU"),
           LinearRow<NativeLuContender>("Eigen LU, native"), LinearRow<GaussContender>("Gauss, plain loops")};
@@ -200,8 +208,7 @@ std::vector<PeerRow> SpatialRows() {
   const PeerRow polygons = {
       "polygons", "", {{"", [] { return std::make_unique<PolygonContender>(); }}}, Judge::kClaim};
   return Joined({LinearRows(),
-                 {SiconosRow("Siconos NSGS 1e-9", SiconosMethod::kFriction3dNsgs),
-                  SiconosRow("Siconos NSN-AC 1e-9", SiconosMethod::kFriction3dNewton)},
+                 {SiconosRow("Siconos NSGS 1e-9", SiconosMethod::kFriction3dNsgs), NewtonRow()},
                  DantzigRows(true),
                  {polygons, OurRow<CoulombSolver<double>>("complete", from_polygons),
                   OurRow<CoulombSolver<double>>("fast"), CallRow("auto")}});

@@ -2,7 +2,7 @@
 #include "bench/structure.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -192,7 +192,6 @@ constexpr int kFirstFrames = 10;
 // Forces of the first frames, all islands: those of the most rows. On one thread.
 template <class Kind>
 Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction) {
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   Problems met;
   std::size_t rows = 1;
   SimulationOptions options;
@@ -204,7 +203,10 @@ Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction) {
     rows = size;
     met.push_back(of.problem);
   });
-  for (int frame = 0; frame < kFirstFrames; ++frame) simulation.Step();
+  tbb::task_arena one_thread(1);
+  one_thread.execute([&] {
+    for (int frame = 0; frame < kFirstFrames; ++frame) simulation.Step();
+  });
   return met;
 }
 

@@ -216,7 +216,7 @@ class Peers(cli.TestCase):
                     self.assertLessEqual(cell["silent"], cell["wrong"])
                     if cell["residual"] is not None and cell["worst"] is not None:
                         self.assertLessEqual(cell["residual"], cell["worst"])
-                    self.assertEqual(cell["setting"] != "", method.endswith(", CFM"))
+                    self.assertEqual(cell["setting"] != "", method.endswith(", CFM") or "NSN-AC" in method)
 
     def test_no_answer_of_the_fast_method_is_wrong_on_random_problems(self):
         self.assertEqual(set(self.tables), {*RANDOM, "structure", "growth-frictionless", "growth-planar"})
