@@ -17,6 +17,9 @@
 
 namespace stiction {
 
+// Thrown where a library finds one of its own checks broken, and would end the program.
+struct BrokenCheck {};
+
 class DantzigContender : public Contender {
  public:
   explicit DantzigContender(bool friction, double cfm = 0) : friction_(friction), cfm_(cfm) {}
