@@ -17,19 +17,25 @@ namespace {
 
 bool complained = false;
 void Complain(int, const char*, va_list) { complained = true; }
+[[noreturn]] void Break(int, const char*, va_list) { throw BrokenCheck(); }
 
 class DartContender : public DantzigContender {
  public:
   explicit DartContender(bool friction) : DantzigContender(friction) {
     dart::external::ode::dSetMessageHandler(Complain);
+    dart::external::ode::dSetDebugHandler(Break);
   }
   int Stride(int rows) const override { return rows > 1 ? ((rows - 1) | 3) + 1 : rows; }
   bool Solve(int k) override {
     Restore(k);
     complained = false;
-    const bool claims = dart::external::ode::dSolveLCP(rows_, A_.data(), x_.data(), b_.data(), w_.data(), 0,
-                                                       low_.data(), high_.data(), FrictionIndex());
-    return claims && !complained;
+    try {
+      const bool claims = dart::external::ode::dSolveLCP(rows_, A_.data(), x_.data(), b_.data(), w_.data(), 0,
+                                                         low_.data(), high_.data(), FrictionIndex());
+      return claims && !complained;
+    } catch (const BrokenCheck&) {
+      return false;
+    }
   }
 };
 

@@ -25,10 +25,14 @@ static_assert(std::is_same_v<dReal, double>, "ODE built for doubles");
 
 bool complained = false;
 void Complain(int, const char*, va_list) { complained = true; }
+[[noreturn]] void Break(int, const char*, va_list) { throw BrokenCheck(); }
 
 class OdeContender : public DantzigContender {
  public:
-  explicit OdeContender(bool friction) : DantzigContender(friction) { dSetMessageHandler(Complain); }
+  OdeContender(bool friction, double cfm) : DantzigContender(friction, cfm) {
+    dSetMessageHandler(Complain);
+    dSetDebugHandler(Break);
+  }
   int Stride(int rows) const override { return rows > 1 ? ((rows - 1) | 3) + 1 : rows; }
   void Load(const std::vector<PeerProblem>& problems) override {
     DantzigContender::Load(problems);
@@ -47,8 +51,12 @@ class OdeContender : public DantzigContender {
     if (friction_) std::copy(from.index.begin(), from.index.end(), index_.begin());
     Arena arena{pool_.data(), pool_.data(), pool_.data() + pool_.size(), nullptr, nullptr};
     complained = false;
-    dxSolveLCP(reinterpret_cast<dxWorldProcessMemArena*>(&arena), rows_, A_.data(), pairs_.data(), w_.data(), 0,
-               bounds_.data(), FrictionIndex());
+    try {
+      dxSolveLCP(reinterpret_cast<dxWorldProcessMemArena*>(&arena), rows_, A_.data(), pairs_.data(), w_.data(),
+                 0, bounds_.data(), FrictionIndex());
+    } catch (const BrokenCheck&) {
+      complained = true;
+    }
     for (int i = 0; i < rows_; ++i) x_[i] = pairs_[2 * i + 1];
     return !complained;
   }
@@ -62,9 +70,11 @@ class OdeContender : public DantzigContender {
 };
 
 }  // namespace
-std::unique_ptr<Contender> MakeOde(bool friction) { return std::make_unique<OdeContender>(friction); }
+std::unique_ptr<Contender> MakeOde(bool friction, double cfm) {
+  return std::make_unique<OdeContender>(friction, cfm);
+}
 #else
-std::unique_ptr<Contender> MakeOde(bool) { return nullptr; }
+std::unique_ptr<Contender> MakeOde(bool, double) { return nullptr; }
 #endif
 
 }  // namespace stiction

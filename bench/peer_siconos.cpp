@@ -35,6 +35,7 @@ int SolverId(SiconosMethod method) {
     case SiconosMethod::kFriction3dNsgs:
       return SICONOS_FRICTION_3D_NSGS;
     case SiconosMethod::kFriction3dNewton:
+    case SiconosMethod::kFriction3dHybrid:
       return SICONOS_FRICTION_3D_NSN_AC;
     default:
       return SICONOS_LCP_LEMKE;
@@ -45,10 +46,15 @@ class SiconosContender : public Contender {
  public:
   explicit SiconosContender(SiconosMethod method)
       : method_(method), options_(solver_options_create(SolverId(method)), solver_options_delete) {
+    const bool is_newton =
+        method == SiconosMethod::kFriction3dNewton || method == SiconosMethod::kFriction3dHybrid;
     numerics_set_verbose(0);
     if (method == SiconosMethod::kLcpLemke || method == SiconosMethod::kFriction2dLemke) return;
     options_->dparam[SICONOS_DPARAM_TOL] = kTolerance;
-    if (method != SiconosMethod::kFriction3dNewton) options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
+    if (method == SiconosMethod::kFriction3dHybrid)
+      options_->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
+          SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_VI_EG_NSN;
+    if (!is_newton) options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
   }
 
   void Load(const std::vector<PeerProblem>& problems) override {

@@ -27,12 +27,20 @@ class Contender {
 };
 
 // Dantzig's pivoting with an updated factorization, the descendant of [Baraff94]. `friction`: by the friction
-// index of these libraries, which is not Coulomb's law. Null where the package is missing.
-std::unique_ptr<Contender> MakeOde(bool friction);     // libode-dev
-std::unique_ptr<Contender> MakeDart(bool friction);    // libdart-external-odelcpsolver-dev
-std::unique_ptr<Contender> MakeBullet(bool friction);  // libbullet-dev
+// index of these libraries, which is not Coulomb's law; `cfm`: peer_dantzig.h. Null where the package is
+// missing.
+std::unique_ptr<Contender> MakeOde(bool friction, double cfm);  // libode-dev
+std::unique_ptr<Contender> MakeDart(bool friction);             // libdart-external-odelcpsolver-dev
+std::unique_ptr<Contender> MakeBullet(bool friction);           // libbullet-dev
 // libsiconos-numerics-dev
-enum class SiconosMethod { kLcpLemke, kFriction2dNsgs, kFriction2dLemke, kFriction3dNsgs, kFriction3dNewton };
+enum class SiconosMethod {
+  kLcpLemke,
+  kFriction2dNsgs,
+  kFriction2dLemke,
+  kFriction3dNsgs,
+  kFriction3dNewton,
+  kFriction3dHybrid,  // Newton's method from where extragradient steps end
+};
 std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
 
 }  // namespace stiction

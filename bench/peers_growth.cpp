@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bench/measure.h"
+#include "bench/one_thread.h"
 #include "bench/peers_suite.h"
 #include "search/choices.h"
 #include "solver/complete/complete.h"
@@ -47,9 +48,9 @@ Growth Grow(const PeerProblem& problem, Solver solver) {
   const double held = Held();
   std::vector<double> seconds;
   while (seconds.empty() || (seconds.size() < 4 && seconds[0] < 1)) {
-    const Stopwatch watch = StartWatch();
+    const Clocks start = ReadClocks();
     const auto verdict = solver.Run(problem);
-    seconds.push_back(watch.Seconds());
+    seconds.push_back((ReadClocks() - start).Least());
     growth.solved = verdict.outcome == Outcome::kSolved;
     growth.counts = CountsOf(verdict.statistics);
     if (seconds.size() == 1) growth.bytes = Held() - held;

@@ -9,23 +9,22 @@
 
 #include "bench/peers.h"
 #include "corpus/json_text.h"
-#include "corpus/stopwatch.h"
 
 namespace stiction {
 
 struct PeersOptions {
   std::vector<std::string> tables;
-  std::vector<int> contacts;  // empty: each table's own
+  std::vector<int> contacts;             // empty: each table's own
+  std::vector<std::string> families;     // of `structure`; empty: all
+  std::string scenes = "corpus/scenes";  // folder, for `structure`
   int problems = 400;
   double seconds = 0.3;
-  double cap = 0.5;
+  double cap = 2;            // s, of the first problem, in whole seconds
+  double structure_cap = 5;  // the same, of `structure`
   double growth_cap = 3;
   std::uint64_t seed = 1;
   bool json = false;
 };
-
-// Of all threads: a package may have its own.
-inline Stopwatch StartWatch() { return Stopwatch(CLOCK_PROCESS_CPUTIME_ID); }
 
 // ---- Problems (peers_problems.cpp) -----------------------------------------------------------
 
@@ -46,6 +45,9 @@ PeerProblem MakeSpatial(int contacts, bool definite, std::uint64_t seed);
 // Names of the tables of contenders, in their order; MeasureTable knows them (peers_tables.cpp).
 std::vector<std::string> PeerTableNames();
 Json MeasureTable(const std::string& name, const PeersOptions& o);
+
+// Families of problems with structure (peers_structure.cpp).
+Json MeasureStructure(const PeersOptions& o);
 
 // Time, memory and counts by the number of contacts (peers_growth.cpp).
 Json MeasureGrowth(bool friction, const PeersOptions& o);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suites `peers` and `growth`: they become the program stiction-peers, which stands beside this one.
+// Suites `peers`, `structure` and `growth`: they become the program stiction-peers, which stands beside this
+// one.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,13 +17,20 @@ namespace {
 // `tables`: options that name them.
 int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tables) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
-  std::vector<std::string> words = {program.string(), "--seed", std::to_string(options.seed), "--seconds",
-                                    std::to_string(0.06 * options.repeat)};
+  std::vector<std::string> words = {program.string(),
+                                    "--seed",
+                                    std::to_string(options.seed),
+                                    "--seconds",
+                                    std::to_string(0.06 * options.repeat),
+                                    "--scenes",
+                                    options.scenes};
   words.insert(words.end(), tables.begin(), tables.end());
   if (options.json) words.push_back("--json");
   if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
   if (!options.contacts.empty()) words.push_back("--contacts");
   for (const int contacts : options.contacts) words.push_back(std::to_string(contacts));
+  if (!options.families.empty()) words.push_back("--family");
+  words.insert(words.end(), options.families.begin(), options.families.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -35,6 +43,10 @@ int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tab
 
 int BenchPeers(const BenchOptions& options) { return BecomePeers(options, {}); }
 
-int BenchGrowth(const BenchOptions& options) { return BecomePeers(options, {"--table", "growth"}); }
+int BenchStructure(const BenchOptions& options) { return BecomePeers(options, {"--table", "structure"}); }
+
+int BenchGrowth(const BenchOptions& options) {
+  return BecomePeers(options, {"--table", "growth-frictionless", "growth-planar"});
+}
 
 }  // namespace stiction

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "bench/one_thread.h"
 #include "bench/suite.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
@@ -28,7 +29,10 @@ constexpr int kMostOfMethods = 30;  // 4^n - 1 pieces are counted in 64 bits
 constexpr std::array kSuites = {
     Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
+    Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts", 2000,
+          BenchFrictionless},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", 2000, BenchPeers},
+    Suite{"structure", "of it, stacks, walls, scenes, nearly dependent rows", 2000, BenchStructure},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", 2000, BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts,
           BenchLinearAlgebra},
@@ -83,7 +87,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
           "--generator", [o](const std::string& name) { o->generator = FindGenerator(name); },
           "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
-  verb.add_option("--scenes", o->scenes, "scenes: the folder")->capture_default_str();
+  verb.add_option("--scenes", o->scenes, "scenes, structure: the folder")->capture_default_str();
+  verb.add_option("--families", o->families, "structure: these alone");
   verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
@@ -91,6 +96,7 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
 }
 
 int Main(int argc, char** argv) {
+  RequireOneThread(argv);
   CLI::App program{"stiction bench: timings, by hand and never as a test", "stiction bench"};
   const auto o = std::make_shared<BenchOptions>();
   AddOptions(program, o);

@@ -21,6 +21,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::optional<GeneratorId> generator;  // empty: the suite's own
   std::string scenes = "corpus/scenes";  // folder
+  std::vector<std::string> families;     // of problems with structure; empty: all
   int threads = 1;                       // of a simulation
   bool json = false;
 };
@@ -30,11 +31,15 @@ int BenchSearch(const BenchOptions& options);
 
 // The methods side by side on the same problems (methods.cpp).
 int BenchMethods(const BenchOptions& options);
+// Of it, what has no friction, to 150 contacts: beside elimination, and beside quadratic programs.
+int BenchFrictionless(const BenchOptions& options);
 
 // stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
 
+// Of it, problems with structure (peers_structure.cpp).
+int BenchStructure(const BenchOptions& options);
 // Of it, the growth of time and memory with the number of contacts, direction systems updated and solved
 // afresh.
 int BenchGrowth(const BenchOptions& options);

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction bench: what its tables say is consistent, and but for times the same again. Never how fast."""
 
+import os
+import unittest.mock
+
 import cli
 
 TABLES = ["runs", "folds", "friction", "give-ups", "times", "starts", "frictionless"]
-TIMED = {"us", "ratio", "baraff us", "ipopt us", "lemke/baraff", "ipopt/baraff"}
+TIMED = {"us", "ratio", "gauss us", "baraff us", "ipopt us", "qp us", "baraff/gauss", "lemke/baraff", "fast/baraff",
+         "ipopt/baraff", "qp/baraff"}
 FRICTIONS = ["0", "1/5", "1/2", "1", "2", "5", "10", "mixed"]
 SIZES, PROBLEMS = [2, 3], 48
 
@@ -108,7 +112,7 @@ class Methods(cli.TestCase):
         rows = self.tables()["frictionless"]
         self.assertEqual([row["contacts"] for row in rows], [3, 6, 12, 25, 50])
         for row in rows:
-            for method in ["baraff", "lemke", "ipopt"]:
+            for method in ["baraff", "lemke", "fast", "ipopt", "qp"]:
                 self.assertEqual(row[f"{method} solved"], row["problems"])
 
     def test_the_text_has_the_numbers_of_the_json(self):
@@ -124,28 +128,144 @@ class Methods(cli.TestCase):
         self.assertRegex(done.out, rf"(?m)^ +2  complete +exact +8 +{row['solved']} +0 +pieces ")
 
 
-class Peers(cli.TestCase):
-    def test_no_answer_of_the_fast_method_is_wrong_and_a_missing_package_is_a_row(self):
-        done = cli.run("bench", "--suite", "peers", "--json", "--contacts", 2, 5, "--problems", 30, "--repeat", 1)
+class Frictionless(cli.TestCase):
+    def test_section_4_beside_elimination_and_quadratic_programs(self):
+        done = cli.run("bench", "--suite", "frictionless", "--json", "--contacts", 4, 60, "--problems", 2)
         self.assertEqual(done.code, 0, done.err)
-        tables = {table["name"]: table for table in done.json()["tables"]}
-        self.assertEqual(set(tables), {"full", "half", "planar", "planar-half", "space", "space-half",
-                                       "growth-frictionless", "growth-planar"})
-        for name in ["full", "half", "planar", "planar-half", "space", "space-half"]:
-            rows = {row["name"]: row for row in tables[name]["rows"]}
-            self.assertEqual([cell["ratio"] for cell in rows["Eigen LU"]["cells"]], [1, 1])
+        tables = done.json()
+        self.assertEqual((tables["suite"], tables["mismatches"]), ("frictionless", []))
+        rows = tables["frictionless"]
+        self.assertEqual([(row["contacts"], row["problems"]) for row in rows], [(4, 2), (60, 2)])
+        for row in rows:
+            for method in ["baraff", "lemke", "fast", "ipopt", "qp"]:
+                self.assertEqual(row[f"{method} solved"], 2, row)
+            for ratio in ["baraff/gauss", "lemke/baraff", "fast/baraff", "ipopt/baraff", "qp/baraff"]:
+                low, median, high = row[ratio]
+                self.assertTrue(0 < low <= median <= high, row)
+            self.assertGreater(row["qp us"][1], row["gauss us"][1])
+
+
+RANDOM = ["full", "half", "planar", "planar-half", "space", "space-half"]
+FAMILIES = {"stack-10": (40, 30), "wall-6x5-masses": (180, 81), "wall-6x5-masses-smooth": (90, 54),
+            "nearly-dependent": (16, 8), "stack": (20, 15), "space-stack-5": (60, 30)}  # rows and rank
+
+
+class Peers(cli.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        # The environment of whoever asks for more threads does not get through.
+        with unittest.mock.patch.dict(os.environ, {"OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}):
+            cls.done = cli.run("bench", "--suite", "peers", "--json", "--contacts", 2, 5, "--problems", 30,
+                               "--repeat", 1, "--scenes", cli.ROOT / "corpus/scenes", "--families", *FAMILIES)
+
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.done.code, 0, self.done.err)
+        self.json = self.done.json()
+        self.tables = {table["name"]: table for table in self.json["tables"]}
+        self.families = {family["name"]: family for family in self.tables["structure"]["families"]}
+
+    def columns(self):
+        """Rows of every table and size, and of every family: name -> cell."""
+        for name in RANDOM:
+            for column in range(2):
+                yield name, {row["name"]: {**row["cells"][column], "package": row["package"]}
+                             for row in self.tables[name]["rows"]}
+        for name, family in self.families.items():
+            yield name, {cell["name"]: cell for cell in family["methods"]}
+
+    def test_everything_ran_on_one_thread_and_says_so(self):
+        said = self.json["one_thread"]
+        self.assertEqual(set(said["variables"].values()), {"1"})
+        self.assertLessEqual({"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"}, said["variables"].keys())
+        self.assertEqual(self.json["threads"], 1)
+        clocks = [self.json["clocks"]]
+        clocks += [cell["clocks"] for _, rows in self.columns() for cell in rows.values() if "clocks" in cell]
+        self.assertGreater(len(clocks), 100)
+        for clock in clocks:
+            self.assertLessEqual(clock["all_threads"], 1.05 * clock["one_thread"] + 0.01)
+            self.assertLessEqual(clock["all_threads"], 1.05 * clock["wall"] + 0.01)
+        self.assertGreater(self.json["clocks"]["all_threads"], 1)
+
+    def test_what_a_ratio_is_to_and_what_findex_solves_is_said(self):
+        self.assertTrue(self.json["lu"]["instructions"] and self.json["lu"]["native"])
+        for words in ["another law", "abs(fF) <= mu abs(fN)", "before any friction", "pyramid"]:
+            self.assertIn(words, self.json["findex"])
+        packages = set()
+        for name, rows in self.columns():
+            self.assertEqual(rows["Eigen LU"]["ratios"], [1, 1, 1], name)
+            for linear in ["Gauss, plain loops", "Eigen LU, native"]:
+                self.assertGreater(rows[linear]["ratio"], 0, name)
+                self.assertNotIn("share", rows[linear])
+            packages |= {cell["package"] for cell in rows.values() if not cell["installed"]}
+        self.assertEqual(packages, set(self.json["missing"]))
+
+    def test_a_cell_is_consistent(self):
+        for name, rows in self.columns():
+            self.assertLessEqual({"auto", "fast", "complete"}, rows.keys())
+            for method, cell in rows.items():
+                with self.subTest(table=name, method=method):
+                    self.assertTrue(cell["installed"] or cell["package"])
+                    self.assertEqual("ratio" in cell, cell["installed"] and not cell["capped"])
+                    if "share" not in cell:
+                        continue
+                    low, median, high = cell["ratios"]
+                    self.assertTrue(0 < low <= median <= high)
+                    self.assertGreater(cell["processor_seconds"][1], 0)
+                    self.assertAlmostEqual(cell["share"], 1 - cell["wrong"] / cell["tried"])
+                    self.assertLessEqual(cell["silent"], cell["wrong"])
+                    if cell["residual"] is not None and cell["worst"] is not None:
+                        self.assertLessEqual(cell["residual"], cell["worst"])
+                    self.assertEqual(cell["setting"] != "", method.endswith(", CFM") or "NSN-AC" in method)
+
+    def test_no_answer_of_the_fast_method_is_wrong_on_random_problems(self):
+        self.assertEqual(set(self.tables), {*RANDOM, "structure", "growth-frictionless", "growth-planar"})
+        for name in RANDOM:
+            rows = {row["name"]: row for row in self.tables[name]["rows"]}
             self.assertIn("Siconos NSN-AC 1e-9" if "space" in name else "published", rows)
-            for method in ["fast", "complete"]:
+            for method in ["fast", "complete", "auto"]:
                 for cell in rows[method]["cells"]:
                     self.assertEqual((cell["tried"], cell["wrong"], cell["silent"]), (30, 0, 0), (name, method))
                     self.assertLessEqual(cell["residual"], 1e-8)
             for row in rows.values():
                 self.assertEqual([cell["contacts"] for cell in row["cells"]], [2, 5])
-                for cell in row["cells"]:
-                    self.assertTrue(cell["installed"] or row["package"])
-                    self.assertEqual("ratio" in cell, cell["installed"] and not cell["capped"])
         for name in ["growth-frictionless", "growth-planar"]:
-            self.assertTrue(all(point["solved"] for point in tables[name]["points"] if point["method"] == "fast"))
+            self.assertTrue(all(point["solved"] for point in self.tables[name]["points"] if point["method"] == "fast"))
+
+    def test_problems_with_structure_stand_beside_the_random_ones(self):
+        self.assertEqual({name: (family["rows"], family["rank"]) for name, family in self.families.items()}, FAMILIES)
+        for name, family in self.families.items():
+            self.assertGreater(family["problems"], 1)
+            self.assertEqual(family["rows"], family["contacts"] * (family["dimension"] if family["friction"] else 1))
+            auto = next(cell for cell in family["methods"] if cell["name"] == "auto")
+            self.assertEqual(auto["share"], 1, name)
+            self.assertLessEqual(auto["worst"], 1e-8, name)
+
+    def test_a_peer_that_is_ahead_is_named(self):
+        for name in RANDOM:
+            for peer in self.tables[name]["ahead"]:
+                self.assertIn(peer["contacts"], [2, 5])
+        for name, family in self.families.items():
+            rows = {cell["name"]: cell for cell in family["methods"]}
+            for ours in ["fast", "auto"]:
+                mine = rows[ours]
+                expected = {peer for peer, cell in rows.items() if cell["package"] and "share" in cell and "share" in mine
+                            and (cell["share"] > mine["share"] or
+                                 (cell["share"] == mine["share"] > 0 and cell["ratio"] < mine["ratio"]))}
+                named = {peer["peer"] for peer in family["ahead"] if peer["ours"] == ours}
+                self.assertEqual(named, expected, (name, ours))
+
+    def test_the_text_says_what_the_json_says(self):
+        done = self.succeeds("bench", "--suite", "structure", "--problems", 2, "--repeat", 1,
+                             "--scenes", cli.ROOT / "corpus/scenes", "--families", "stack-10")
+        for words in ["OPENBLAS_NUM_THREADS=1", "threads of this process: 1", "another law", "native",
+                      "stack of 10 boxes: 20 contacts, 40 rows of rank 30, 2 problems", "processor time of all threads"]:
+            self.assertIn(words, done.out)
+        self.assertRegex(done.out, r"(?m)^  auto +\d+\.\d\d +\(.*100 % of 2$")
+
+    def test_families_and_their_scenes_are_asked_for_by_name(self):
+        self.refuses("bench", "--suite", "structure", "--families", "tower", says=["tower", "wall-6x5"])
+        self.refuses("bench", "--suite", "structure", "--scenes", self.folder / "none", says=["--scenes", "none"])
 
     def test_growth_takes_the_same_steps_updated_and_afresh(self):
         done = cli.run("bench", "--suite", "growth", "--json", "--contacts", 3, 8, "--repeat", 1)

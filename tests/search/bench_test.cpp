@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The problems of `stiction bench --suite methods`, and its statistics by hand.
+// The problems of `stiction bench --suite methods` and `structure`, and its statistics by hand.
 
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
 #include "bench/family.h"
 #include "bench/measure.h"
+#include "bench/one_thread.h"
+#include "bench/plain_gauss.h"
+#include "bench/structure.h"
 #include "certify/existence.h"
 #include "certify/properties.h"
 
@@ -135,6 +139,81 @@ TEST_CASE("bench: methods mismatch if one refutes what another has solved, or if
   CHECK_FALSE(mismatch(solved, true, solved));
   CHECK(FindMismatch(std::vector<NamedMeasure>{{"a", true, ray}, {"b", true, solved}}) ==
         "a finds no solution, b does");
+}
+
+// Whether b = A x for some x, to rounding.
+bool IsInRange(const ContactProblem<double>& problem) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-11);
+  solver.compute(problem.A);
+  const Eigen::VectorXd rest = problem.A * solver.solve(problem.b) - problem.b;
+  return rest.lpNorm<Eigen::Infinity>() <= 1e-6 * problem.b.lpNorm<Eigen::Infinity>();
+}
+
+bool IsOfItsFamily(const StructuredFamily& family, const ContactProblem<double>& problem) {
+  const auto kind = family.friction ? ContactKind::kStatic : ContactKind::kFrictionless;
+  bool is = problem.dimension == family.dimension;
+  is &= problem.rows() == RowCount(problem.contacts, problem.dimension);
+  for (const auto& contact : problem.contacts)
+    is &= contact.kind == kind && (contact.mu > 0) == family.friction;
+  return is;
+}
+
+const StructuredFamily& Find(const std::vector<StructuredFamily>& families, const std::string& name) {
+  const auto found =
+      std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.name == name; });
+  REQUIRE(found != families.end());
+  return *found;
+}
+
+TEST_CASE("bench: problems of a family with structure are of one size, symmetric, b in the range of A") {
+  for (const StructuredFamily& family : StructuredFamilies(STICTION_SCENES)) {
+    if (family.name.find("wall-in-space") != std::string::npos || family.name == "large/brick-wall") continue;
+    CAPTURE(family.name);
+    const auto problems = family.make(2, 1);
+    REQUIRE(problems.size() == 2);
+    for (const auto& problem : problems) {
+      CHECK(problem.rows() == problems[0].rows());
+      CHECK(IsOfItsFamily(family, problem));
+      CHECK((problem.A - problem.A.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * problem.A.maxCoeff());
+      CHECK(IsInRange(problem));
+    }
+  }
+}
+
+TEST_CASE("bench: the wall of the corpus is one problem of 344 contacts in every frame") {
+  const auto families = StructuredFamilies(STICTION_SCENES);
+  const auto problems = Find(families, "large/brick-wall").make(3, 1);
+  REQUIRE(problems.size() == 3);
+  for (const auto& problem : problems) CHECK(problem.contacts.size() == 344);
+}
+
+TEST_CASE("bench: masses of a family differ as much as its title says, and the seed draws them") {
+  const auto families = StructuredFamilies(STICTION_SCENES);
+  const auto spread = [](const ContactProblem<double>& problem) {
+    return problem.A.diagonal().maxCoeff() / problem.A.diagonal().minCoeff();
+  };
+  for (const auto& problem : Find(families, "stack-10").make(5, 1)) CHECK(spread(problem) < 10);
+  double most = 0;
+  for (const auto& problem : Find(families, "stack-10-masses").make(5, 1))
+    most = std::max(most, spread(problem));
+  CHECK(most > 1e3);
+  CHECK(most < 1e5);
+  const auto& stack = Find(families, "stack-10-masses");
+  CHECK(stack.make(2, 1)[1].A == stack.make(2, 1)[1].A);
+  CHECK(stack.make(2, 1)[1].A != stack.make(2, 2)[1].A);
+}
+
+TEST_CASE("bench: plain elimination solves the system, and the clocks of one thread agree") {
+  const ContactProblem<double> problem = MakeBenchProblem({}, 12, 1, 0).rounded;
+  PlainGauss gauss;
+  const Clocks start = ReadClocks();
+  gauss.Solve(problem.A, problem.b);
+  const Clocks took = ReadClocks() - start;
+  const Eigen::VectorXd rest = problem.A * gauss.x() + problem.b;
+  CHECK(rest.lpNorm<Eigen::Infinity>() <= 1e-6 * problem.b.lpNorm<Eigen::Infinity>());
+  CHECK(std::abs(took.own - took.all) < 0.01);
+  CHECK(took.all < took.wall + 0.01);
 }
 
 }  // namespace
