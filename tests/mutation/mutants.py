@@ -15,8 +15,8 @@ from collections import namedtuple
 
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "corpus", "certify", "search", "reports")
-PROGRAMS = ("certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test", "paths_test",
-            "problem_test", "published_space_test", "replay_test", "search_test", "solve_test", "space_test",
+PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test", "paths_test",
+            "problem_test", "published_space_test", "replay_test", "safety_test", "search_test", "solve_test", "space_test",
             "store_test", "tamper_test", "usage_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
@@ -276,11 +276,11 @@ bug("claim-coulomb-above-one", "bound <= 0 || bound > 1", "bound <= 0", "coulomb
 bug("claim-coulomb-negative", "bound <= 0 || bound > 1", "bound > 1", "coulomb-solution: a bound of zero or less")
 bug("claim-accelerations", 'RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));', "",
     "solution-exists: any a")
-bug("claim-cycle-length", 'compare(pivots.size(), run.trace.pivots.size(), ".pivots: number");', "",
+bug("claim-cycle-length", 'RequireSame(stated["pivots"].size(), run.trace.pivots.size(), path + ".pivots: number");', "",
     "cycle: any number of steps")
-bug("claim-cycle-start", 'compare(ReadInteger(described["start"], path + ".start", 0), run.verdict.start, ".start");', "",
-    "cycle: any start")
-bug("claim-cycle-state", 'RequireEqual(f[i], run.state.f[i], fmt::format("{}.state.f[{}]", path, i));', "",
+bug("claim-cycle-start", 'RequireSame(ReadInteger(stated["start"], path + ".start", 0), run.verdict.start, path + ".start");',
+    "",     "cycle: any start")
+bug("claim-cycle-state", 'RequireEqual(f[i], run.state.f[i], ElementPath(path + ".f", i));', "",
     "cycle: any forces recur")
 bug("claim-cycle-policy-twice", 'throw Rejected{where, Shown(named[p]), "each policy once"};', "",
     "cycle: a policy counts twice")
@@ -288,8 +288,16 @@ bug("claim-cycle-of-space", 'if (policy.slip != Slip{}) throw Rejected{path, Sho
     "", "cycle: policies of space count")
 bug("claim-cycle-spelling", "if (PolicyName(policy) != name) throw Rejected{path, Shown(json), PolicyName(policy)};", "",
     "cycle: a policy has several names")
-bug("claim-cycle-run-twice", "p == 0 && !described.insert(StepsAsText(run, names)).second", "false",
+bug("claim-cycle-run-twice", "p == 0 && !different.insert(StepsAsText(run, names)).second", "false",
     "cycle: a run counts twice")
+bug("claim-definite", "D[i] <= 0", "D[i] < 0", "definite: semidefinite is enough")
+bug("claim-not-definite-zero", 'if (x.isZero()) throw Rejected{"witness.x", "0", "another vector"};', "",
+    "not-definite: by x = 0")
+bug("claim-not-definite", "curvature > 0", "curvature > 1", "not-definite: x'Ax up to 1")
+bug("claim-counterexample-solution", "RequireSolution(problem, witness);", "", "counterexample: any f",
+    context="RequireSolution(problem, witness);\n  return CheckRuns(problem, witness);")
+bug("certificate-digest", "!digest.empty() && report.digest != digest", "false", "check --problem: any problem")
+bug("certificate-contacts", "contacts <= kMostContactsOfCertificate", "true", "any number of contacts")
 bug("certificate-version", '!certificate["version"].is_number_integer() || certificate["version"] != 1',
     'certificate["version"] != 1', "version 1.0 is read")
 bug("certificate-format", 'certificate["format"] != "stiction-certificate"', "false", "any format is read")
@@ -353,6 +361,9 @@ bug("unsafe-positive", 'if (value > 0) throw Rejected{"witness.determinant", ToS
 bug("determinant-stated", "if (value == determinant) return determinant;", "return determinant;", "any number is stated")
 bug("slip-factor", "if (mode == kSlipPlus) return -contact.mu;", "if (mode == kSlipPlus) return contact.mu;",
     "both slips have one determinant")
+bug("weakly-safe", "sign < 0 && !safety.negative_word", "sign <= 0 && !safety.negative_word",
+    "weakly safe: a determinant of zero is negative")
+bug("limit-sign", "*first < 0", "*first > 0", "safe in the limit: the other sign")
 bug("pivot-of-zero", "pivot <= 0", "pivot < 0", "the search divides by zero")
 bug("short-word", 'RequireList(stated, "witness.word", problem.contacts.size(), "modes");', "", "a word of fewer modes")
 bug("safe-of-other-kinds", "if (PublishedHandles(problem)) return;", "return;", "safe: sliding and bilateral contacts")
