@@ -57,7 +57,7 @@ Record SmallRecord() {
   return record;
 }
 
-TEST_CASE("tables: suspicions beside their exact outcomes; a wrong answer is never confirmed") {
+TEST_CASE("tables: suspicions beside their exact outcomes, a wrong answer never confirmed") {
   const Html section = DoublesSection(SmallRecord());
   const std::string caption = "Suspicious runs in doubles and their exact outcome";
   CHECK(RowOf(section, caption, "cycle") == Cells{"cycle", "6", "1", "5", "0", "0", "0", "0", "0", "83.3%"});
