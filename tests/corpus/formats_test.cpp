@@ -193,7 +193,7 @@ TEST_CASE("Siconos: a dense matrix stands column by column, q and mu behind it, 
   CHECK(problem.origin["storage"] == "dense");
 }
 
-TEST_CASE("Siconos: blocks stand row by row, each column by column; missing ones are zero") {
+TEST_CASE("Siconos: blocks stand row by row, each column by column, missing ones are zero") {
   const SparseProblem problem = Parse(kBlocks);
   CHECK((problem.A == SparseMatrix{{{0, 0}, 1},
                                    {{1, 0}, 2},
@@ -209,7 +209,7 @@ TEST_CASE("Siconos: blocks stand row by row, each column by column; missing ones
   CHECK(problem.contacts[1].mu == 0);
 }
 
-TEST_CASE("Siconos: CSparse text, compressed and triplet; entries listed twice add up") {
+TEST_CASE("Siconos: CSparse text, compressed and triplet, entries listed twice add up") {
   CHECK((Parse(kColumns).A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, 4}}));
   const SparseProblem lcp = Parse(kTriplet);
   CHECK((lcp.A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, Rational(5, 2)}}));
@@ -392,7 +392,7 @@ TEST_CASE("symmetrize: A becomes (A + A')/2 exactly, and the largest difference 
   CHECK(LargestAsymmetry(problem).difference == 0);
 }
 
-TEST_CASE("symmetrize: an entry and its missing mirror share what there is; a symmetric A is left alone") {
+TEST_CASE("symmetrize: an entry and its missing mirror share what there is, a symmetric A is left alone") {
   SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 0 4\n 0 0");
   Symmetrize(problem);
   CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 4}}));
