@@ -8,8 +8,8 @@
 
 A certificate here meets the whole form of its claim; what is wrong is one condition. Beside them stand
 certificates that are true, so that a checker that refuses everything fails. A checker prints `FILE: accepted...`
-or `FILE: REJECTED...`. One that accepts no true certificate of a claim, or a part of it only, does not know it, and is not asked; every
-claim must be known to `stiction check` and to a program in certify. Python standard library only.
+or `FILE: REJECTED...`. One that accepts no true certificate of a claim, or a part of it only, does not know it, and
+is not asked; every claim must be known to `stiction check` and to a program in certify. Python standard library only.
 """
 
 import json
@@ -562,6 +562,7 @@ def checkers_of(stiction, sources):
 
 def main(stiction, sources, *programs):
     if stiction == "--write":
+        Path(sources).mkdir(parents=True, exist_ok=True)
         write(Path(sources), TRUE + FALSE)
         return 0
     checkers = [(program, [program]) for program in programs] or checkers_of(stiction, sources)
