@@ -4,7 +4,7 @@
 
   tests/figures/figures.py list
   tests/figures/figures.py refresh NAME ... [--problems N]     one block or more
-  tests/figures/figures.py refresh --cheap | --stale | --all
+  tests/figures/figures.py refresh --cheap | --stale | --all   --stale: what is refused or withdrawn
   tests/figures/figures.py withdraw NAME ...                   numbers that hold no more, until somebody measures again
   tests/figures/figures.py check                               what the tests do
 
@@ -190,9 +190,14 @@ def refusals(path, figures):
 # ---- Commands ------------------------------------------------------------------------------------------------
 
 
+def is_withdrawn(figure):
+    return WITHDRAWN.format(figure.name) in (ROOT / figure.file).read_text()
+
+
 def is_stale(figure, path):
+    """To be made again: refused or withdrawn."""
     block = blocks_of((ROOT / figure.file).read_text()).get(figure.name)
-    return block is None or bool(refused_block(figure, *block, path))
+    return block is None or is_withdrawn(figure) or bool(refused_block(figure, *block, path))
 
 
 def says_the_same(figure, block, text, path):
@@ -236,7 +241,7 @@ def withdraw(options):
 
 def check(options):
     refused = list(refusals(options.program, FIGURES))
-    withdrawn = sum(WITHDRAWN.format(figure.name) in (ROOT / figure.file).read_text() for figure in FIGURES)
+    withdrawn = sum(map(is_withdrawn, FIGURES))
     print("\n".join(refused) or f"{len(FIGURES)} blocks, {withdrawn} withdrawn: nothing refused")
     if refused:
         print("tests/figures/figures.py refresh NAME makes a block anew; its text says what is refused, and why.")
