@@ -47,7 +47,7 @@ UNIT = r"(?:%|s|ms|us|minutes?|hours?|MB|GB|in a million|million|times as)"
 NOUN = "(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solved|rays|pieces|folds|descents|frames)"
 FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|"
                     r"\b\d+ of \d[\d,]*\b")
-WITHDRAWN = "Not measured since its code has changed: `tests/figures/figures.py refresh {}` does it."
+WITHDRAWN = "Not measured for this code yet: `tests/figures/figures.py refresh {}` does it."
 CODE = {".h", ".cpp", ".ipp", ".py"}
 
 
