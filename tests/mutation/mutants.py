@@ -560,6 +560,24 @@ bug("rounded-integers", "return IsExactDouble(x) ? std::optional(x) : std::nullo
 bug("sparse-asymmetric", "A == A.transpose()", "true", "half of an asymmetric matrix is written")
 bug("expect-twice", "!is_new", "false", "a policy may be expected twice")
 
+FOREIGN = "^corpus: (Siconos|FCLIB)|^program: formats"
+
+bug = in_file("corpus/formats/siconos.cpp", FOREIGN)
+bug("numbers-behind", "words.ExpectEnd();", "", "numbers behind the last one are a remark: other kinds are misread")
+
+bug = in_file("corpus/formats/siconos_words.cpp", FOREIGN)
+bug("flag-any-number", 'numbers == 1 && (first == "0" || first == "1")', "numbers == 1", "any one number is a flag")
+bug("matrix-a-remark", 'if (word == "CSparse") Refuse("another matrix", expected);', "",
+    "the second matrix of a global problem is a remark")
+
+bug = in_file("corpus/formats/siconos_kinds.cpp", FOREIGN)
+bug("plasticity-in-two", 'words.Integer("dimension", 3, 6)', 'words.Integer("dimension", 2, 6)',
+    "a planar contact in csparse is called plasticity")
+bug("relay-without-bounds", "words.SkipNumbers(3 * n);", "words.SkipNumbers(2 * n);", "a relay problem is not told")
+
+bug = in_file("corpus/formats/fclib.cpp", FOREIGN)
+bug("two-problems", "problems.size() > 1", "false", "the first of two problems is read")
+
 bug = in_file("corpus/rational.cpp", "^corpus: (rational|nearest|bits)")
 bug("ties-up", "half > 0 || (half == 0 && mpz_odd_p(quotient.get_mpz_t()))", "half >= 0", "halves are rounded up")
 bug("subnormal-bit", "-1074L", "-1073L", "the last bit of subnormals is lost")
