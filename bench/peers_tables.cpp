@@ -71,7 +71,7 @@ std::string CellText(const PeerCell& cell, bool residual) {
 using Columns = std::vector<std::vector<PeerCell>>;
 
 void PrintTable(const Table& table, const std::vector<int>& sizes, const Columns& columns) {
-  const int width = table.residuals ? 26 : 21;
+  const int width = table.residuals ? 31 : 24;
   fmt::print("\n{}: time / LU of A{}, answers wrong/silent/tried where any is wrong\n{:20}", table.title,
              table.residuals ? ", median residual" : "", "contacts");
   for (const int size : sizes) fmt::print("{:>{}}", size, width);

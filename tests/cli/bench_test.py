@@ -156,7 +156,8 @@ class Peers(cli.TestCase):
         # The environment of whoever asks for more threads does not get through.
         with unittest.mock.patch.dict(os.environ, {"OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}):
             cls.done = cli.run("bench", "--suite", "peers", "--json", "--contacts", 2, 5, "--problems", 30,
-                               "--repeat", 1, "--scenes", cli.ROOT / "corpus/scenes", "--families", *FAMILIES)
+                               "--repeat", 1, "--scenes", cli.ROOT / "corpus/scenes", "--families", *FAMILIES,
+                               timeout=900)
 
     def setUp(self):
         super().setUp()
