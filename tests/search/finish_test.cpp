@@ -7,6 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "certify/certificate.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
