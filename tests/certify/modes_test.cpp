@@ -212,6 +212,24 @@ TEST_CASE("modes: solution sets that are no point are said to be none") {
   }
 }
 
+TEST_CASE("modes: what is far from its limit does not make a solution the only one, nor do equations alone") {
+  // f1 + f2 = 1; the third contact breaks at a distance that depends on f1 - f2.
+  const ExactProblem shared = MakeProblem({-1, -1, -1}, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}}, {-1, -1, 10});
+  int found = 0;
+  for (const WordSolution& solution : EnumerateModes(shared).solutions) {
+    if (Text(solution.word) != "touch touch break") continue;
+    ++found;
+    CHECK_FALSE(solution.unique);
+  }
+  CHECK(found == 1);
+  // Two bilateral contacts that share a load may pull against each other as they like.
+  ExactProblem twins = MakeProblem({-1, -1}, {{1, 1}, {1, 1}}, {-1, -1});
+  for (auto& contact : twins.contacts) contact.kind = ContactKind::kBilateral;
+  const Enumeration held = EnumerateModes(twins);
+  REQUIRE(held.solutions.size() == 1);
+  CHECK_FALSE(held.solutions[0].unique);
+}
+
 // ---- Kinds -----------------------------------------------------------------------------------
 
 TEST_CASE("modes: of each kind") {
@@ -318,8 +336,13 @@ TEST_CASE("modes: the first solution only, a spent budget, a cancelled search") 
   CHECK(first.end == EnumerationEnd::kFirstSolution);
   CHECK(first.solutions.size() == 1);
   options = {};
-  options.programs = 2;
-  CHECK(EnumerateModes(problem, options).end == EnumerationEnd::kLimit);
+  const std::int64_t all = EnumerateModes(problem).programs;
+  for (const std::int64_t budget : {std::int64_t{2}, all - 1, all}) {
+    options.programs = budget;
+    const Enumeration within = EnumerateModes(problem, options);
+    CHECK(within.end == (budget < all ? EnumerationEnd::kLimit : EnumerationEnd::kComplete));
+    CHECK(within.programs == budget);
+  }
   options = {};
   double decided = 0;
   options.progress = [&](const EnumerationProgress& progress) {
