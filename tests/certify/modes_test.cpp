@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 
 #include "certify/enumerate.h"
@@ -228,6 +229,37 @@ TEST_CASE("modes: what is far from its limit does not make a solution the only o
   const Enumeration held = EnumerateModes(twins);
   REQUIRE(held.solutions.size() == 1);
   CHECK_FALSE(held.solutions[0].unique);
+}
+
+TEST_CASE("modes: with tangents turned round slips change places, and solutions are the only ones as before") {
+  const auto turned = [](ModeWord word) {
+    for (Mode& mode : word) mode = mode == kSlipPlus ? kSlipMinus : mode == kSlipMinus ? kSlipPlus : mode;
+    return word;
+  };
+  int words = 0, continua = 0;
+  for (std::uint64_t index = 0; index < 150; ++index) {  // of low rank and small integers: many ties
+    Choices choices(index);
+    ExactMatrix J(4, 2);
+    for (Rational& x : J.reshaped()) x = choices.Integer(-1, 1);
+    ExactProblem problem = MakeProblem({1, 1}, {}, {0, 0, 0, 0});
+    problem.A = J * J.transpose();
+    problem.b = J * Vector({choices.Integer(-1, 1), choices.Integer(-1, 1)});
+    std::map<ModeWord, bool> unique;
+    for (const WordSolution& solution : EnumerateModes(problem).solutions)
+      unique[solution.word] = solution.unique;
+    const Enumeration other = EnumerateModes(InUnits(problem, {1, -1, 1, -1}));
+    CAPTURE(index);
+    REQUIRE(other.solutions.size() == unique.size());
+    for (const WordSolution& solution : other.solutions) {
+      const auto same = unique.find(turned(solution.word));
+      REQUIRE(same != unique.end());
+      CHECK(same->second == solution.unique);
+      ++words;
+      continua += !solution.unique;
+    }
+  }
+  CHECK(words > 200);
+  CHECK(continua > 50);
 }
 
 // ---- Kinds -----------------------------------------------------------------------------------
