@@ -45,9 +45,9 @@ def lower_bounds(cells, note=""):
     """What stands below every table of frequencies."""
     audited, misjudged = (sum(cell[key] for cell in cells) for key in ("audited", "misjudged"))
     problems = sum(cell["runs"] for cell in cells)
-    return prose(f"{note}In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and Pearson. Loops "
-                 "are looked for over doubles and confirmed exactly; those that doubles take for solutions are not among "
-                 f"them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
+    return prose(f"{note}In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and "
+                 "Pearson. Loops are looked for over doubles and confirmed exactly; those that doubles take for "
+                 f"solutions are not among them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
                  f"misjudged were {misjudged}, {share(misjudged, audited)}.")
 
 
