@@ -268,7 +268,11 @@ def scene_threads(program):
 
 
 RANDOM = ("random", "--repeat", 1, "--problems", 160)
-STRUCTURE = ("structure", "--repeat", 1, "--problems", 10)
+STRUCTURE = ("structure", "--repeat", 1, "--problems", 6, "--families")
+SMALL = ("stack-10", "stack-10-masses", "stack-30-masses", "wall-6x5", "wall-6x5-masses", "channel-20-masses",
+         "nearly-dependent", "generator-scenes", "card-house", "arch-stands", "stack-10-masses-smooth",
+         "stack-30-masses-smooth", "wall-6x5-masses-smooth", "space-stack-5", "space-stack-10-masses", "space/stack")
+LARGE = ("large/brick-wall", "large/brick-wall-in-space")
 
 
 def peer_cell(cell, residuals):
@@ -375,18 +379,28 @@ def spread_table(families):
     return table(["problems", "", "time / LU", "processor time, microseconds", "solved"], rows)
 
 
-def structure(program):
-    result = program.bench(*STRUCTURE)
+def families_text(program, names):
+    result = program.bench(*STRUCTURE, *names)
     families = result["tables"][0]["families"]
     parts = []
     for title, dimension, friction in (("In the plane, with friction", 2, True), ("Without friction", 2, False),
                                        ("In space, Coulomb's law", 3, True)):
         chosen = [family for family in families if (family["dimension"], family["friction"]) == (dimension, friction)]
+        if not chosen:
+            continue
         ahead = [{**peer, "family": family["title"]} for family in chosen for peer in family["ahead"]]
         named = "; ".join(ahead_of(ahead, "auto", "family"))
         parts.append(f"**{title}**\n\n" + structure_table(chosen) + "\n\n" + prose(
             f"Ahead of `auto`, the fastest: {named}." if named else "No peer is ahead of `auto`."))
     return "\n\n".join(parts) + "\n\n" + spread_table(families) + "\n\n" + how_measured(result)
+
+
+def structure(program):
+    return families_text(program, SMALL)
+
+
+def structure_large(program):
+    return families_text(program, LARGE)
 
 
 def peers_in_short(program):

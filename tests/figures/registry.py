@@ -69,6 +69,7 @@ FIGURES = [
            ("algorithm", "bench/frictionless.cpp", "bench/family.cpp", "bench/plain_gauss.h")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
     Figure("structure", "reports/peers.md", "long", bench.structure, STRUCTURE),
+    Figure("structure-large", "reports/peers.md", "long", bench.structure_large, STRUCTURE),
 ]
 
 # Where every measured number stands in a block.
