@@ -38,6 +38,8 @@ int BenchFrictionless(const BenchOptions& options);
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
 
+// Of it, random problems by the number of contacts (peers_tables.cpp).
+int BenchRandom(const BenchOptions& options);
 // Of it, problems with structure (peers_structure.cpp).
 int BenchStructure(const BenchOptions& options);
 // Of it, the growth of time and memory with the number of contacts, direction systems updated and solved
