@@ -129,6 +129,7 @@ BenchMethod EnumerateMethod() {
               BenchAnswer<Rational> answer;
               answer.measure.work = modes.programs;
               answer.measure.refutes = modes.ProvesNoSolution();
+              if (answer.measure.refutes) answer.measure.outcome = Outcome::kNoSolution;
               if (modes.solutions.empty()) return answer;
               answer.measure.outcome = Outcome::kSolved;
               answer.f = modes.solutions.front().f;

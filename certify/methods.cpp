@@ -46,7 +46,7 @@ Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& 
   return answer;
 }
 
-// The first solution in the order of the mode words. That there is none is a claim of `certify`.
+// The first solution in the order of the mode words, or that there is none.
 Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
   EnumerationOptions enumeration;
   enumeration.first_solution_only = true;
@@ -59,7 +59,8 @@ Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions&
     answer.outcome = Outcome::kSolved;
     answer.f = modes.solutions.front().f;
   } else if (modes.ProvesNoSolution()) {
-    answer.reason = "no mode has a solution; see certify";
+    answer.outcome = Outcome::kNoSolution;
+    answer.reason = "no mode of the contacts has a solution; certify writes the proof";
   } else if (modes.end == EnumerationEnd::kLimit) {
     answer.outcome = Outcome::kLimit;
     answer.reason = "programs";

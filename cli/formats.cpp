@@ -67,7 +67,8 @@ int Export(const ExportOptions& o) {
 void AddImport(CommandLine& program) {
   auto [verb, o] = program.Add("import", "Read a problem in the format of another program", Import);
   verb.Positional("FILE", o.file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
-      .Required();
+      .Required()
+      .Details("Files of other kinds (global .dat, rolling, relay, MLCP, ...) are refused by the name of their kind");
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());

@@ -19,6 +19,8 @@ namespace {
 constexpr int kExactAssumptionRows =
     60;  // above, exact elimination of numbers as long as doubles takes minutes
 
+constexpr std::size_t kWitnessContacts = 50;  // up to here an answer has the vectors that show what fails
+
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
@@ -153,6 +155,12 @@ Json FailedSemidefinite(const NegativeCurvature& negative) {
   return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
 }
 
+// Of many contacts an answer has the quotient x'Ax / x'x alone, and names the verb that writes x.
+Json FailedSemidefinite(const CurvatureBounds& bounds, std::size_t contacts) {
+  if (contacts <= kWitnessContacts) return FailedSemidefinite(*bounds.negative);
+  return {{"assumption", "psd"}, {"quotient", bounds.most}, {"witness", "certify --claim psd"}};
+}
+
 // What bounds decide of problems too large for exact elimination.
 void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
   ProblemFile file;
@@ -160,7 +168,7 @@ void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
   const SparseProblem sparse = ToSparse(file);
   const CurvatureBounds curvature = BoundCurvature(sparse);
   if (curvature.negative) {
-    failed.push_back(FailedSemidefinite(*curvature.negative));
+    failed.push_back(FailedSemidefinite(curvature, problem.contacts.size()));
   } else if (!curvature.least || *curvature.least < 0) {
     failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
   }

@@ -87,7 +87,8 @@ Json NumbersToJson(const Numbers& numbers) {
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 std::string Describe(const Verdict& verdict);
 
-// The assumptions of the paper that fail, each with its exact witness.
+// The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
+// contacts stand a number, and the verb that writes the vector.
 Json FailedAssumptions(const ExactProblem& problem);
 
 }  // namespace stiction

@@ -99,6 +99,9 @@ std::vector<Choice> MethodChoices() {
 
 void AddSolve(CommandLine& program) {
   auto [verb, o] = program.Add("solve", "Solve one problem", RunSolve);
+  verb.footer =
+      "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "
+      "no-solution is proved, and `certify` writes the proof; the others say how the method ended.";
   verb.Positional("FILE", o.file, "stiction-problem file").Required();
   verb.Option("--method", o.method, "what solves it").Choices(MethodChoices());
   verb.Option("--arithmetic", o.arithmetic, "what it computes with")

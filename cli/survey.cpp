@@ -481,7 +481,8 @@ void AddSurvey(CommandLine& program) {
       "and max |b| / max A_ii. In space it is that of Coulomb's law, the largest "
       "|f - P(f - r (a + mu |aF| e_N))| of a contact, P the nearest point of the cone |fF| <= mu fN, "
       "r = 1 / max A_ii, relative to max |b| / max A_ii alone; `solved` is at most 1e-8 there. Both are those "
-      "of the returned doubles, evaluated over rationals on the matrix of the row.";
+      "of the returned doubles, evaluated over rationals on the matrix of the row. Witnesses of what fails: "
+      "`import` the file, then `certify --claim psd` or `--claim in-range`.";
   verb.Positional("PATH", o.paths,
                   "problems in any format that import reads, stiction-problem files, or folders")
       .Required();

@@ -8,22 +8,25 @@
 #include <functional>
 #include <optional>
 
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/safe.h"
+#include "corpus/problem_file.h"
 
 namespace stiction {
 
+struct CompleteRun;  // certify/existence.h
+struct Enumeration;  // certify/enumerate.h
+struct ExactRun;     // certify/exact.h
+struct LemkeRun;     // certify/existence.h
+struct Limits;
+struct PublishedOptions;
+
 struct ExactMethods {
-  std::function<ExactRun(const ExactProblem&, const PublishedOptions&)> published = RunExact;
-  std::function<CompleteRun(const ExactProblem&, const Limits&)> complete =
-      [](const ExactProblem& problem, const Limits& limits) { return RunComplete(problem, limits); };
-  std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke = RunLemke;
-  std::function<Enumeration(const ExactProblem&)> modes = [](const ExactProblem& problem) {
-    return EnumerateModes(problem);
-  };
-  std::function<std::optional<bool>(const ExactProblem&)> is_safe = IsSafeIfSmall;
+  ExactMethods();  // those of certify
+
+  std::function<ExactRun(const ExactProblem&, const PublishedOptions&)> published;
+  std::function<CompleteRun(const ExactProblem&, const Limits&)> complete;
+  std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke;
+  std::function<Enumeration(const ExactProblem&)> modes;
+  std::function<std::optional<bool>(const ExactProblem&)> is_safe;
 };
 
 }  // namespace stiction

@@ -7,6 +7,9 @@
 
 #include "certify/agreement.h"
 #include "certify/certificate.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"

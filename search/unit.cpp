@@ -7,6 +7,9 @@
 #include <tuple>
 
 #include "certify/agreement.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
 #include "corpus/kinds.h"
 #include "corpus/scene_file.h"
 #include "search/generators.ipp"

@@ -64,7 +64,7 @@ struct Method {
   std::string_view title;   // what the field calls it
   std::string_view source;  // section of the paper, or reference
   std::string_view ends;    // what its end proves
-  bool automatic = false;   // `auto` tries these in the order of the table until one solves
+  bool automatic = false;   // `auto` tries these in the order of the table until one solves or refutes
   bool has_path = false;    // records a trace
   MethodIn<Scalar> plane;
   MethodIn<Scalar> space;

@@ -264,7 +264,8 @@ const Method<Scalar>* FindMethod(std::string_view name) {
   return row == methods.end() ? nullptr : &*row;
 }
 
-// The methods that the table marks, until one solves; the first answer where none does.
+// The methods that the table marks, until one solves or proves that nothing does; the first answer where none
+// does either. A proof keeps the ray that was met before: with sliding contacts it is the impulsive direction.
 template <class Scalar>
 Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const SolveOptions& options,
                                   Trace<Scalar>* trace) {
@@ -272,7 +273,8 @@ Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const S
   for (const Method<Scalar>& method : Methods<Scalar>()) {
     if (!method.automatic || !method.IsBuilt(problem.dimension)) continue;
     Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
-    if (answer.Solved()) return answer;
+    if (answer.outcome == Outcome::kNoSolution && first) answer.ray = std::move(first->ray);
+    if (answer.Solved() || answer.outcome == Outcome::kNoSolution) return answer;
     if (!first) first = std::move(answer);
   }
   return first ? *std::move(first) : Unstarted(problem, Outcome::kUndecided, "no method is built for it");

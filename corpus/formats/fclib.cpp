@@ -5,10 +5,12 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 
+#include "corpus/formats/printable.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -47,6 +49,7 @@ Handle InMemory(std::string* text) {
 }
 
 constexpr int kMost = 100'000'000;  // of anything that is counted, in a file that is not nonsense
+constexpr hsize_t kMostNames = 20;  // of groups that a message lists
 
 // ---- Reading ---------------------------------------------------------------------------------
 
@@ -69,11 +72,7 @@ class FclibReader {
   }
 
   SparseProblem Read() {
-    const bool local = Has("/fclib_local"), global = Has("/fclib_global");
-    if (local == global) {
-      Refuse("/", local ? "fclib_local and fclib_global" : "neither fclib_local nor fclib_global",
-             "one of them");
-    }
+    const bool local = GroupOfProblem() == "fclib_local";
     group_ = local ? "/fclib_local" : "/fclib_global";
     problem_.dimension = Integer("spacedim", 2, 3);
     problem_.origin = {{"format", "fclib"}, {"storage", local ? "local" : "global"}};
@@ -88,6 +87,44 @@ class FclibReader {
     throw InputError(source_, path, found, expected);
   }
   std::string Path(const std::string& name) const { return group_ + "/" + name; }
+
+  // What the file consists of.
+  std::vector<std::string> RootNames() const {
+    H5G_info_t info;
+    if (H5Gget_info(file_.id(), &info) < 0) Refuse("/", "no group that can be read", "one");
+    std::vector<std::string> names;
+    for (hsize_t k = 0; k < std::min<hsize_t>(info.nlinks, kMostNames); ++k) {
+      std::array<char, 200> name = {};
+      H5Lget_name_by_idx(file_.id(), "/", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size(), H5P_DEFAULT);
+      names.emplace_back(name.data());
+    }
+    return names;
+  }
+
+  // The one group that holds a problem, of a kind that is read. `solution` and `guesses` may stand beside it.
+  std::string GroupOfProblem() const {
+    const char* expected = "one problem, in fclib_local or fclib_global";
+    const std::vector<std::string> names = RootNames();
+    std::vector<std::string> problems;
+    for (const std::string& name : names) {
+      if (name.starts_with("fclib_")) problems.push_back(name);
+    }
+    if (problems.empty()) {
+      Refuse("/", names.empty() ? "nothing" : Printable(fmt::format("{}", fmt::join(names, ", "))), expected);
+    }
+    if (problems.size() > 1) Refuse("/", Printable(fmt::format("{}", fmt::join(problems, ", "))), expected);
+    if (problems[0] != "fclib_local" && problems[0] != "fclib_global") {
+      Refuse("/" + Printable(problems[0]), KindOfGroup(problems[0]), expected);
+    }
+    return problems[0];
+  }
+
+  // "fclib_global_rolling" -> "a global rolling friction problem".
+  static std::string KindOfGroup(const std::string& name) {
+    const bool global = name.find("global") != name.npos, rolling = name.find("rolling") != name.npos;
+    if (!global && !rolling) return "another kind of problem";
+    return fmt::format("a {}{}friction problem", global ? "global " : "", rolling ? "rolling " : "");
+  }
 
   // Links of a path, one after the other: HDF5 asks for that.
   bool Has(const std::string& path) const {

@@ -18,7 +18,9 @@
 // in i, as CSparse has it. Which it is, is decided by the shape: rows in i, unless an index does not fit that
 // way and all fit the other way. Entries listed more than once add up.
 //
-// Written are local problems, numbers as doubles. `guesses` and `solution` are not read.
+// A file has one problem: one group fclib_local or fclib_global. A group of another kind (fclib_global_rolling)
+// is refused by its name. Written are local problems, numbers as doubles. `guesses` and `solution` are not
+// read.
 
 #ifndef STICTION_CORPUS_FORMATS_FCLIB_H_
 #define STICTION_CORPUS_FORMATS_FCLIB_H_

@@ -9,6 +9,7 @@
 
 #include "corpus/atomic_file.h"
 #include "corpus/formats/fclib.h"
+#include "corpus/formats/printable.h"
 #include "corpus/formats/siconos.h"
 
 namespace stiction {
@@ -17,13 +18,7 @@ namespace {
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 
 // A name as JSON can have it.
-std::string NameOf(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  for (char& c : name) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return name;
-}
+std::string NameOf(const std::filesystem::path& file) { return Printable(file.filename().string()); }
 
 const PublishedFormat& FormatNamed(const std::string& name) {
   for (const PublishedFormat& format : PublishedFormats()) {
@@ -135,9 +130,8 @@ SparseProblem ReadPublished(const std::filesystem::path& file, const std::string
   if (format == "fclib" || (format.empty() && text.starts_with(kHdf5Signature))) {
     problem = ParseFclib(std::move(text), source);
   } else {
-    const SiconosKind kind = format.empty()            ? SiconosKindOf(text, source)
-                             : format == "siconos-lcp" ? SiconosKind::kLcp
-                                                       : SiconosKind::kFriction;
+    std::optional<SiconosKind> kind;
+    if (!format.empty()) kind = format == "siconos-lcp" ? SiconosKind::kLcp : SiconosKind::kFriction;
     problem = ParseSiconos(text, kind, source);
   }
   problem.name = NameOf(file.stem());

@@ -5,8 +5,9 @@
 //   friction   dimension, contacts, matrix, q, mu  u = W r + q       static contacts, normal row first
 //
 // Both are a = A f + b with the law of stiction's contacts; at rest a velocity plays the part of an
-// acceleration. What stands behind the last number is a remark. A matrix is its storage type, its rows and
-// columns, and then
+// acceleration. Behind the last number may stand one flag, 0 or 1, as Siconos' own files have it, and text,
+// which is a remark; any other number there is an error, and mostly the sign of another kind of problem
+// (siconos_kinds.h). A matrix is its storage type, its rows and columns, and then
 //
 //   0   dense     rows and columns again, values column by column
 //   1   blocks    number of blocks, of block rows, of block columns; last row + 1 of every block row, last
@@ -24,7 +25,7 @@
 #ifndef STICTION_CORPUS_FORMATS_SICONOS_H_
 #define STICTION_CORPUS_FORMATS_SICONOS_H_
 
-#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "corpus/formats/sparse_problem.h"
@@ -34,11 +35,10 @@ namespace stiction {
 enum class SiconosKind { kLcp, kFriction };
 enum class SiconosStorage { kDense, kBlocks, kTriplet, kColumns };
 
-// Which of the two a text is, by its first words; InputError, naming `source`, if neither.
-SiconosKind SiconosKindOf(const std::string& text, const std::string& source);
-
-// `source` names the text in errors, which give the line, what was found and what was expected there.
-SparseProblem ParseSiconos(const std::string& text, SiconosKind kind, const std::string& source);
+// What the text must be; nothing: its first words decide. `source` names it in errors, which give the line,
+// what was found and what was expected there, and the kind of problem that the text is instead, where it is
+// known.
+SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> kind, const std::string& source);
 
 // Requires frictionless contacts only (LCP), or static ones only (friction); numbers that are doubles.
 std::string PrintSiconos(const SparseProblem& problem, SiconosKind kind, SiconosStorage storage);

@@ -16,12 +16,16 @@
 
 namespace stiction {
 
-enum class Outcome : std::uint8_t { kSolved, kCycle, kStall, kRay, kSingular, kLimit, kUndecided };
-inline constexpr int kOutcomeCount = 7;
+// kNoSolution is a proof that there is none. Runs along a path prove no such thing: the other outcomes are
+// theirs, and what counts runs counts those.
+enum class Outcome : std::uint8_t { kSolved, kCycle, kStall, kRay, kSingular, kLimit, kUndecided, kNoSolution };
+inline constexpr int kOutcomeCount = 7;  // of runs along a path
 inline constexpr std::array<std::string_view, kOutcomeCount> kOutcomeNames = {
     "solved", "cycle", "stall", "ray", "singular", "limit", "undecided"};
 
-inline constexpr std::string_view Name(Outcome outcome) { return kOutcomeNames[static_cast<int>(outcome)]; }
+inline constexpr std::string_view Name(Outcome outcome) {
+  return outcome == Outcome::kNoSolution ? "no-solution" : kOutcomeNames[static_cast<int>(outcome)];
+}
 
 // Endless: a state stands again, with `start` and `period`. (No run has stalled: readings.md, 6.)
 inline constexpr bool IsLoop(Outcome outcome) {

@@ -8,8 +8,8 @@
 
 A certificate here meets the whole form of its claim; what is wrong is one condition. Beside them stand
 certificates that are true, so that a checker that refuses everything fails. A checker prints `FILE: accepted...`
-or `FILE: REJECTED...`. One that accepts no true certificate of a claim does not know it, and is not asked; every
-claim must be known to `stiction check` and to a program in certify. Python standard library only.
+or `FILE: REJECTED...`. One that accepts no true certificate of a claim, or a part of it only, does not know it, and
+is not asked; every claim must be known to `stiction check` and to a program in certify. Python standard library only.
 """
 
 import json
@@ -102,9 +102,26 @@ true("not-psd", "x'Ax < 0", smooth([[1, 2], [2, 1]], [0, 0]), x=texts([1, -1]), 
 false("not-psd", "x'Ax = 0, x in the kernel", smooth([[1, 1], [1, 1]], [0, 0]), x=texts([1, -1]), value="0")
 false("not-psd", "x'Ax = 0, x = 0", smooth(IDENTITY, [0, 0]), x=texts([0, 0]), value="0")
 false("not-psd", "x'Ax > 0", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="2")
-false("not-psd", "the value is not x'Ax", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="-2")
+false("not-psd", "the value is not x'Ax, which is positive", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="-2")
+false("not-psd", "the value is not x'Ax", smooth([[1, 2], [2, 1]], [0, 0]), x=texts([1, -1]), value="-1")
 false("not-psd", "the value is x'Ax without its mixed terms", smooth([[-1, 2], [2, -1]], [0, 0]),
       x=texts([1, 1]), value="-2")
+
+# --- definite, not-definite ---------------------------------------------------------
+
+true("definite", "A = L diag(D) L', D > 0", smooth([[1, 1], [1, 3]], [0, 0]),
+     L=texts([[1, 0], [1, 1]]), D=texts([1, 2]))
+false("definite", "a zero D, the last", smooth([[1, 1], [1, 1]], [0, 0]), L=texts([[1, 0], [1, 1]]), D=texts([1, 0]))
+false("definite", "a zero D, the first", smooth([[0, 0], [0, 1]], [0, 0]), L=texts(IDENTITY), D=texts([0, 1]))
+false("definite", "a negative D", smooth([[1, 0], [0, -1]], [0, 0]), L=texts(IDENTITY), D=texts([1, -1]))
+false("definite", "A is another matrix", smooth([[1, 1], [1, 1]], [0, 0]), L=texts([[1, 0], [1, 1]]), D=texts([1, 2]))
+false("definite", "A is not symmetric", smooth([[1, 7], [0, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
+
+true("not-definite", "x'Ax = 0", smooth([[1, 1], [1, 1]], [0, 0]), x=texts([1, -1]), value="0")
+true("not-definite", "x'Ax < 0", smooth([[1, 2], [2, 1]], [0, 0]), x=texts([1, -1]), value="-2")
+false("not-definite", "x = 0", smooth(IDENTITY, [0, 0]), x=texts([0, 0]), value="0")
+false("not-definite", "x'Ax > 0", smooth(IDENTITY, [0, 0]), x=texts([1, 0]), value="1")
+false("not-definite", "the value is not x'Ax", smooth(IDENTITY, [0, 0]), x=texts([1, -1]), value="0")
 
 # --- in-range, not-in-range --------------------------------------------------------
 
@@ -121,7 +138,8 @@ false("not-in-range", "y'b = 0", KERNEL, y=texts([0, 1]), value="0")
 false("not-in-range", "y'A /= 0, in its first entry", KERNEL, y=texts([1, 0]), value="1")
 false("not-in-range", "y'A /= 0, in its last entry", smooth([[0, 0], [0, 1]], [0, 1]), y=texts([0, 1]), value="1")
 false("not-in-range", "A y = 0, not y'A = 0", smooth([[0, 1], [0, 0]], [1, 0]), y=texts([1, 0]), value="1")
-false("not-in-range", "the value is not y'b", KERNEL, y=texts([0, 1]), value="1")
+false("not-in-range", "the value is not y'b, which is zero", KERNEL, y=texts([0, 1]), value="1")
+false("not-in-range", "the value is not y'b", smooth([[1, 0], [0, 0]], [1, 1]), y=texts([0, 1]), value="2")
 false("not-in-range", "y = 0 and a value", KERNEL, y=texts([0, 0]), value="1")
 
 # --- h, not-h ----------------------------------------------------------------------
@@ -146,7 +164,8 @@ true("not-h", "v in K, A v = 0, b'v < 0", problem([1, "hold"], [[0] * 3] * 3, [0
      v=texts([1, 1, -1]), value="-3")
 false("not-h", "b'v = 0", smooth(NOTHING, [1, 0]), v=texts([0, 1]), value="0")
 false("not-h", "b'v > 0", smooth(NOTHING, [1, 0]), v=texts([1, 0]), value="1")
-false("not-h", "the value is not b'v", smooth(NOTHING, [1, 0]), v=texts([1, 0]), value="-1")
+false("not-h", "the value is not b'v, which is positive", smooth(NOTHING, [1, 0]), v=texts([1, 0]), value="-1")
+false("not-h", "the value is not b'v", smooth(NOTHING, [-1, 0]), v=texts([1, 0]), value="-2")
 false("not-h", "A v /= 0, in its first entry", smooth([[1, 0], [0, 0]], [-1, 0]), v=texts([1, 0]), value="-1")
 false("not-h", "A v /= 0, in its last entry", smooth([[0, 0], [0, 1]], [0, -1]), v=texts([0, 1]), value="-1")
 false("not-h", "A'v = 0, not A v = 0", smooth([[0, 0], [1, 0]], [-1, 0]), v=texts([1, 0]), value="-1")
@@ -441,6 +460,37 @@ false("cycle", "other sets", CYCLING,
 false("cycle", "a state with a contact that is not remembered", CYCLING,
       runs=[run(["paper"], state={**STATE, "contact": 1})])
 
+# --- counterexample ------------------------------------------------------------------
+
+
+
+def factors(A):
+    """L and D of A = L diag(D) L', of a definite A."""
+    n, D = len(A), []
+    S, L = [[Fraction(x) for x in row] for row in A], [[Fraction(i == j) for j in range(n)] for i in range(n)]
+    for k in range(n):
+        D.append(S[k][k])
+        for i in range(k + 1, n):
+            L[i][k] = S[i][k] / D[k]
+            S[i] = [x - L[i][k] * y for x, y in zip(S[i], S[k])]
+    return {"L": texts(L), "D": texts(D)}
+
+
+def counterexample(kind, what, of, runs, f=(1, Fraction(-6, 7), Fraction(25, 14), Fraction(-25, 14)), **changes):
+    witness = {**factors(of["A"]), "runs": runs, **changes}
+    solution(kind, what, of, f, claim="counterexample", **witness)
+
+
+LARGER = {**CYCLING, "A": texts([[8, -2, -6, 0], [-2, 9, -1, -7], [-6, -1, 7, 3], [0, -7, 3, 7]])}
+counterexample(true, "the reference problem", CYCLING, [run(["paper"])])
+counterexample(false, "f is no solution", CYCLING, [run(["paper"])], f=(1, Fraction(-6, 7), Fraction(25, 14), -2))
+counterexample(false, "f is where the cycle stands", CYCLING, [run(["paper"])],
+               f=(Fraction(10, 7), 0, 2, Fraction(-8, 7)))
+counterexample(false, "the factors are those of another matrix", CYCLING, [run(["paper"])], **factors(LARGER["A"]))
+counterexample(false, "a policy that solves the problem", CYCLING, [run(["file=yes,drop=variable"])])
+counterexample(false, "a run that has not come back yet", CYCLING, [run(["paper"], start=3, period=3, count=11)])
+counterexample(false, "no runs", CYCLING, [])
+
 # --- The form of certificates ------------------------------------------------------
 
 
@@ -481,7 +531,7 @@ def verdicts(command, files):
     for file in files:
         own = [line[len(str(file)) + 2:] for line in lines if line.startswith(f"{file}: ")]
         if len(own) == 1 and own[0].startswith(("accepted", "REJECTED")):
-            said[file] = own[0].startswith("accepted")
+            said[file] = own[0].startswith("accepted") and "its runs only" not in own[0]
     if len(said) == len(files) or len(files) == 1:
         return [said.get(file, f"exit {result.returncode}, {result.stderr.strip()[:200]}") for file in files]
     return [verdict for file in files for verdict in verdicts(command, [file])]
@@ -512,6 +562,7 @@ def checkers_of(stiction, sources):
 
 def main(stiction, sources, *programs):
     if stiction == "--write":
+        Path(sources).mkdir(parents=True, exist_ok=True)
         write(Path(sources), TRUE + FALSE)
         return 0
     checkers = [(program, [program]) for program in programs] or checkers_of(stiction, sources)

@@ -241,7 +241,7 @@ TEST_CASE("modes: a bilateral contact may pull, and can make a problem inconsist
   CheckEnumeration(problem, none);
 }
 
-TEST_CASE("modes: no contacts have the empty word; space is refused") {
+TEST_CASE("modes: no contacts have the empty word, space is refused") {
   const Enumeration empty = EnumerateModes(NoContacts());
   REQUIRE(empty.solutions.size() == 1);
   CHECK(empty.solutions[0].word.empty());

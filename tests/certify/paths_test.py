@@ -11,7 +11,6 @@ a few others. Python standard library only.
 """
 
 import importlib
-import inspect
 import json
 import random
 import subprocess
@@ -37,7 +36,6 @@ class Independent:
         texts = {path.stem: path.read_text() for path in sorted(folder.glob("*.py"))}
         self.algorithm = self.first(texts, "class Published")
         self.read_problem = self.first(texts, "def read_problem").read_problem
-        self.counts_itself = "max_steps" in inspect.signature(self.algorithm.run).parameters
 
     @staticmethod
     def first(texts, definition):
@@ -49,8 +47,7 @@ class Independent:
             if len(steps) >= MOST_STEPS:
                 raise self.algorithm.Ended("limit")
 
-        limit = MOST_STEPS if self.counts_itself else end_if_long
-        return self.algorithm.run(self.read_problem(problem), policy, limit)
+        return self.algorithm.run(self.read_problem(problem), policy, end_if_long)
 
 
 def random_contact(dice):

@@ -98,7 +98,7 @@ TEST_CASE("qp: what is no program (5) is refused by name") {
                     Contains("contacts[1, 2]") && Contains("positive semidefinite"));
 }
 
-TEST_CASE("qp: by Ipopt, over doubles, near the exact solution; its failure concludes nothing") {
+TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure concludes nothing") {
   IpoptProposer ipopt(STICTION_IPOPT);
   int solved = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

@@ -186,6 +186,21 @@ TEST_CASE("solve: auto ends in a solution and names the method") {
   }
 }
 
+TEST_CASE("solve: no solution is an outcome of those alone who prove it") {
+  const ExactProblem problem = NoSolution();
+  const Answer<Rational> modes = Solve(problem, "enumerate");
+  CHECK(modes.outcome == Outcome::kNoSolution);
+  CHECK(Name(modes.outcome) == "no-solution");
+  CHECK(modes.f.size() == 0);
+  CHECK(!modes.reason.empty());
+  for (const char* method : {"complete", "lemke"}) CHECK(Solve(problem, method).outcome == Outcome::kRay);
+  const Answer<Rational> any = Solve(problem);
+  CHECK(any.outcome == Outcome::kNoSolution);
+  CHECK(any.method == "enumerate");
+  CHECK(any.ray == Solve(problem, "complete").ray);
+  CHECK(any.ray.size() == problem.rows());
+}
+
 TEST_CASE("solve: forces that are none do not pass the gate") {
   const ContactProblem<double> problem = Rounded<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-1, 1}));
   Answer<double> answer;

@@ -36,9 +36,27 @@ class Existence(cli.TestCase):
                 with self.subTest(problem=problem.name, method=method):
                     done = cli.run("solve", problem, "--method", method, "--json")
                     if problem.stem in NO_SOLUTION:
-                        self.assertIn(done.json()["outcome"], ("ray", "undecided"))
+                        ends = {"enumerate": (1, "no-solution"), "ipopt": (3, "undecided")}.get(method, (1, "ray"))
+                        self.assertEqual((done.code, done.json()["outcome"]), ends)
                     else:
                         self.assertEqual((done.code, done.json()["outcome"]), (0, "solved"))
+
+    def test_that_there_is_no_solution_is_an_outcome_where_it_is_proved(self):
+        problems = [SOURCES / f"corpus/{name}.json" for name in (*NO_SOLUTION, "sliding/cycle-of-sliding-contacts")]
+        for problem in problems:
+            for options in ((), ("--method", "enumerate"), ("--method", "enumerate", "--arithmetic", "double")):
+                with self.subTest(problem=problem.name, options=options):
+                    done = self.succeeds("solve", problem, *options, "--json", code=1).json()
+                    self.assertEqual((done["outcome"], done["method"], done["f"]), ("no-solution", "enumerate", None))
+                    self.assertIn("no mode", done["reason"])
+            self.assertTrue(self.succeeds("solve", problem, code=1).out.startswith("no-solution\n"))
+        wedge = SOURCES / "corpus/no-solution-scripted-wedge.json"  # takes three linear programs
+        done = self.succeeds("solve", wedge, "--method", "enumerate", "--max-pivots", 1, "--json", code=3).json()
+        self.assertEqual(done["outcome"], "limit")  # nothing is proved
+        # The proof keeps the direction of the infinite step that was met before it.
+        rod = SOURCES / "corpus/sliding/rod-without-solution.json"
+        done = self.succeeds("solve", rod, "--json", code=1).json()
+        self.assertEqual((done["outcome"], done["ray"]), ("no-solution", ["1", "-2"]))
 
     def test_doubles_agree_with_exact_numbers(self):
         for problem in self.problems():

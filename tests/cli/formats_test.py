@@ -79,6 +79,40 @@ class Formats(cli.TestCase):
                      says="contacts[0].kind")
         self.assertFalse(out.exists())
 
+    def test_files_of_other_kinds_are_refused_with_their_kind_and_nothing_is_written(self):
+        out = self.folder / "out.json"
+        matrix, cube = "0 2 2 2 2\n4 1\n1 3\n", "0 3 3 3 3\n2 0 0\n0 2 0\n0 0 2\n"
+        for name, text, says in [
+                ("relay", f"2\n{matrix}-1 -2\n-1 -1\n1 1\n", ["line 6: found 4 numbers more", "a relay problem"]),
+                ("mlcp", f"1 0 1 1\n0 1 2\n0 1\n{matrix}5 -6\n", ["line 2", "MLCP"]),
+                ("rectangular", "1 1 1 1\n0 1 2\n0 1\n0 3 2 3 2\n" + "1 -1 2 " * 6 + "7\n", ["numbers more", "MLCP"]),
+                ("global", f"3 1\n{cube}{cube}-1 -1 -1 0 0 0\n0.1\n", ["numbers more", "a global friction problem"]),
+                ("rolling", "5 1\n0 5 5 5 5\n" + "1 2 3 4 5\n" * 6 + "0.3\n0.1\n", ["line 1", "a rolling friction problem"]),
+                ("soclcp", f"3 1\n{cube}-1 2 0\n0 3\n0.5\n", ["2 numbers more", "SOCLCP"]),
+                ("gmp", "1 1 1 1 1 1\n1\n1\n2 1\n0 1\n0\n0\n5\n\n-3\n\n2\n", ["line 4", "GMP"]),
+                ("plasticity", f"3 1\n{cube}-1 2 0\n0.1\n0.1\n", ["1 number more", "plasticity (eta, theta)"]),
+                ("von-mises", f"3 1\n2\n{cube}-1 2 0\n0.5\n", ["line 1", "a plasticity problem"])]:
+            with self.subTest(name=name):
+                file = self.file(f"{name}.dat", text)
+                self.refuses("import", file, "-o", out, says=[f"{file}: line ", *says])
+                self.assertFalse(out.exists())
+                done = self.succeeds("survey", file, "--json", code=2)
+                self.assertIn(says[1], done.json()[0]["error"])
+
+    def test_numbers_behind_the_last_one_are_refused_and_a_flag_or_text_is_not(self):
+        problem = self.imported(LCP)
+        for rest in ("0\n", "1\n", "\nExample 3, Rome 1994\n", "1 # 4 5 6\n"):
+            self.assertEqual(self.imported(LCP + rest), problem)
+        file = self.file("more.dat", LCP + "\n3 4 # remark\n")
+        self.refuses("import", file, "-o", self.folder / "out.json",
+                     says=f"{file}: line 6: found 2 numbers more, from '3' on, expected the end of the file")
+
+    def test_bytes_that_are_no_text_do_not_end_a_survey(self):
+        file = self.folder / "bytes.dat"
+        file.write_bytes(LCP.encode().replace(b"-5", b"\xff\xfe"))
+        done = self.succeeds("survey", file, self.file("good.dat", LCP), "--json", code=2)
+        self.assertIn("line 4: found '??'", done.json()[0]["error"])
+
     def survey(self, *paths, code=0):
         return self.succeeds("survey", *paths, "--json", code=code).json()
 

@@ -171,6 +171,25 @@ class Solve(cli.TestCase):
         self.assertEqual(value, Fraction(entries["in-range"]["value"]))
         self.assertNotIn("psd", entries)
 
+    def test_of_many_contacts_an_answer_names_the_verb_that_writes_the_witness(self):
+        size = 61
+        A = {"size": size, "entries": [[i, i, "2"] for i in range(size - 1)] + [[size - 1, 0, "1"], [size - 1, size - 1, "1/4"]]}
+        file = self.file("p.json", changed(cli.SOLVED, contacts=[{"kind": "frictionless"}] * size, A=A, b=["-1"] * size))
+        answer = cli.run("solve", file, "--method", "fast", "--json").json()
+        failed, = answer["assumptions"]
+        self.assertEqual((failed["assumption"], failed["witness"]), ("psd", "certify --claim psd"))
+        least = (Fraction(9, 4) - (Fraction(49, 16) + 4) ** Fraction(1, 2)) / 2  # the smallest eigenvalue, negative
+        self.assertLess(failed["quotient"], 0)
+        self.assertGreaterEqual(failed["quotient"], float(least) - 1e-9)
+        self.assertLess(len(json.dumps(answer["assumptions"])), 200)
+        certificate = self.folder / "c.json"
+        self.succeeds("certify", file, *failed["witness"].split()[1:], "-o", certificate)
+        self.succeeds("check", certificate)
+        stated = json.loads(certificate.read_text())
+        x = [Fraction(v) for v in stated["witness"]["x"]]
+        self.assertEqual((stated["claim"], len(x)), ("not-psd", size))
+        self.assertAlmostEqual(float(Fraction(stated["witness"]["value"]) / sum(v * v for v in x)), failed["quotient"], 9)
+
     def test_what_the_method_does_not_handle_is_refused_by_place(self):
         space = changed(cli.SOLVED, dimension=3, A=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
                         b=["-1", "0", "0"])

@@ -101,6 +101,8 @@ class Space(cli.TestCase):
                         if arithmetic != "exact":
                             self.assertLess(done["residual"], 1e-4 if arithmetic == "float" else 1e-10)
                         self.assertEqual("bound" in done, arithmetic == "exact" and law == "coulomb")
+                        obeyed = law if arithmetic == "exact" else "coulomb"  # which its residual is of
+                        self.assertEqual(done["law"], obeyed)
 
     def test_a_path_that_folds_and_descends(self):
         problem = cli.ROOT / "corpus/space/fold-and-descent-two-contacts.json"

@@ -49,6 +49,7 @@ class Usage(cli.TestCase):
         text = " ".join(self.succeeds("solve", "--help").out.split())
         self.assertIn("--max-pivots INTEGER budget of a run (steps; 1 to 1e+12; default 100000)", text)
         self.assertIn("lemke: Lemke's complementary pivoting, lexicographic", text)
+        self.assertIn("no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3)", text)
         self.assertIn("-o, --output TEXT certificate to write", " ".join(self.succeeds("certify", "--help").out.split()))
 
     def test_version(self):

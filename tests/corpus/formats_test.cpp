@@ -170,7 +170,7 @@ TEST_CASE("formats: contacts that a format does not have are refused") {
 
 // ---- Siconos ---------------------------------------------------------------------------------
 
-SparseProblem Parse(const std::string& text) { return ParseSiconos(text, SiconosKindOf(text, "file"), "file"); }
+SparseProblem Parse(const std::string& text) { return ParseSiconos(text, std::nullopt, "file"); }
 
 const std::string kDense = "2 1 0 2 2 2 2\n 1 2\n 3 4\n -5 0.1\n 0.5\nwhatever stands here\n";
 const std::string kBlocks =
@@ -193,7 +193,7 @@ TEST_CASE("Siconos: a dense matrix stands column by column, q and mu behind it, 
   CHECK(problem.origin["storage"] == "dense");
 }
 
-TEST_CASE("Siconos: blocks stand row by row, each column by column; missing ones are zero") {
+TEST_CASE("Siconos: blocks stand row by row, each column by column, missing ones are zero") {
   const SparseProblem problem = Parse(kBlocks);
   CHECK((problem.A == SparseMatrix{{{0, 0}, 1},
                                    {{1, 0}, 2},
@@ -209,7 +209,7 @@ TEST_CASE("Siconos: blocks stand row by row, each column by column; missing ones
   CHECK(problem.contacts[1].mu == 0);
 }
 
-TEST_CASE("Siconos: CSparse text, compressed and triplet; entries listed twice add up") {
+TEST_CASE("Siconos: CSparse text, compressed and triplet, entries listed twice add up") {
   CHECK((Parse(kColumns).A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, 4}}));
   const SparseProblem lcp = Parse(kTriplet);
   CHECK((lcp.A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, Rational(5, 2)}}));
@@ -262,6 +262,141 @@ TEST_CASE("Siconos: LCP or friction is told by the first words") {
   CHECK(lcp.contacts[0].kind == ContactKind::kFrictionless);
   CHECK((lcp.A == SparseMatrix{{{0, 0}, 4}, {{1, 1}, 5}}));
   CHECK(Parse(kColumns).contacts[0].kind == ContactKind::kStatic);
+}
+
+TEST_CASE("Siconos: behind the last number may stand a flag, 0 or 1, and text; any other number is refused") {
+  const std::string lcp = "2 0 2 2 2 2\n1 2\n3 4\n-5 6\n";
+  const std::string friction = "2 1 0 2 2 2 2\n1 2\n3 4\n-5 6\n0.5\n";
+  for (const std::string& text : {lcp, friction}) {
+    const SparseProblem problem = Parse(text);
+    for (const char* rest :
+         {"0", "1\n", "1 solved", "0\n# of 3 files", "Example 4.4.7\n 8 9", "4.4.7 CPS", "\f\n"}) {
+      CAPTURE(text, rest);
+      CheckEqual(Parse(text + rest), problem);
+    }
+    struct Case {
+      std::string rest, line, found;
+    };
+    const std::string line = text == lcp ? "line 5" : "line 6", later = text == lcp ? "line 6" : "line 7";
+    for (const Case& c : std::vector<Case>{{"2", line, "1 number more, from '2' on"},
+                                           {"0.0", line, "1 number more, from '0.0' on"},
+                                           {"1e0 text", line, "1 number more, from '1e0' on"},
+                                           {"0 1", line, "2 numbers more, from '0' on"},
+                                           {"\n7,\n8 9 text 3", later, "3 numbers more, from '7' on"},
+                                           {"+1e999", line, "1 number more, from '+1e999' on"},
+                                           {"nan", line, "1 number more, from 'nan' on"}}) {
+      CAPTURE(text, c.rest);
+      CHECK_THROWS_WITH(Parse(text + c.rest),
+                        Contains("file: " + c.line + ": found " + c.found + ", expected the end of the file"));
+    }
+  }
+}
+
+// ---- Siconos: files of other kinds -----------------------------------------------------------
+
+std::string Numbers(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += fmt::format("{} ", 0.25 * i - 1);
+  return text + "\n";
+}
+
+std::string DenseMatrix(int rows, int columns) {
+  return fmt::format("0\n{}\n{}\n{}\t{}\n", rows, columns, rows, columns) + Numbers(rows * columns);
+}
+
+// Ones on the diagonal.
+std::string TripletMatrix(int rows, int columns) {
+  const int count = std::min(rows, columns);
+  std::string text = fmt::format("2\n{}\n{}\n1\nCSparse Version 4.4.0\ntriplet: {}-by-{}, nzmax: {} nnz: {}\n",
+                                 rows, columns, rows, columns, count + 1, count);
+  for (int i = 0; i < count; ++i) text += fmt::format("    {} {} : 1\n", i, i);
+  return text;
+}
+
+std::string BlockMatrix(int rows, int columns) {
+  return fmt::format("1\n{}\n{}\n1\n1\n1\n{}\t\n{}\t\n2\n1\n0\t1\t\n0\t\n0\n", rows, columns, rows, columns) +
+         Numbers(rows * columns);
+}
+
+const char* const kMlcp = "a mixed linear complementarity problem (MLCP";
+const char* const kTwoCoefficients =
+    "a problem with two coefficients a contact: rolling friction in the plane (mu, mu_r) or plasticity (eta, "
+    "theta)";
+
+TEST_CASE("Siconos: a file of another kind is refused by the name of its kind") {
+  struct Case {
+    std::string kind, text;
+  };
+  std::vector<Case> cases = {
+      {"a relay problem", "2\n" + DenseMatrix(2, 2) + Numbers(2) + "-1 -1\n1 1\n"},
+      {"a relay problem", "2\n" + DenseMatrix(2, 2) + Numbers(2) + "-inf -1\n1 inf\n0\n"},
+      {"a relay problem", "3\n" + TripletMatrix(3, 3) + Numbers(9)},
+      {"a relay problem", "1\n" + BlockMatrix(1, 1) + Numbers(3)},
+      {kMlcp, "1\n0\n1\n1\n0 1 2 \n0 1 \n" + DenseMatrix(2, 2) + Numbers(2)},
+      {kMlcp, "1\n1\n1\n1\n0 1 2 \n0 1 \n" + DenseMatrix(3, 2) + Numbers(11)},
+      {kMlcp, "1\n1\n4\n2\n0 4 6 \n0 1 \n" + DenseMatrix(6, 6) + Numbers(6 + 42 + 7)},
+      {kMlcp, "0\n1\n1\n2\n" + Numbers(12)},
+      {kMlcp, "1 1 2\n" + Numbers(6)},
+      {kMlcp, "3 2 5\n" + Numbers(30)},
+      {"a second-order cone complementarity problem",
+       "3\n1\n" + DenseMatrix(3, 3) + Numbers(3) + "0 3 \n0.5\n"},
+      {"a second-order cone complementarity problem",
+       "5\n2\n" + TripletMatrix(5, 5) + Numbers(5) + "0 2 5 \n0.5 1\n"},
+      {"a generic mechanical problem", "1\n4\n4\n2\n2\n2\n1\t4\t\n1\t4\t\n3\n2\n0\t1\t2\t\n0\t1\t\n0\n5\n1\n" +
+                                           Numbers(9) + "\n" + Numbers(4) + "\n2\n4\n0.5\n"},
+      {"a generic mechanical problem", BlockMatrix(1, 1) + "-3\n\n0\n"},
+      {"a rolling friction problem (dimension 5", "5\n2\n" + DenseMatrix(10, 10) + Numbers(14)},
+      {"a rolling friction problem (dimension 5", "5\n1\n" + TripletMatrix(5, 5) + Numbers(7)},
+      {"a global rolling friction problem", "5\n1\n" + TripletMatrix(6, 6) + TripletMatrix(6, 5) + Numbers(13)},
+      {"a global rolling friction problem", "5\n1\n" + DenseMatrix(5, 5) + DenseMatrix(5, 5) + Numbers(12)},
+      {kTwoCoefficients, "3\n1\n" + DenseMatrix(3, 3) + Numbers(3) + "1\n0.25\n"},
+      {kTwoCoefficients, "3\n1\n" + DenseMatrix(3, 3) + Numbers(3) + "0.5\n0.0\n"},
+      {kTwoCoefficients, "3\n2\n" + TripletMatrix(6, 6) + Numbers(6) + "0.5 1\n0.25 0\n0\n"},
+      {"a plasticity problem", "3\n2\n1\n" + TripletMatrix(6, 6) + Numbers(10)},
+      {"a plasticity problem", "3\n1\n2\n" + DenseMatrix(3, 3) + Numbers(4)},
+      {"a cohesive friction problem", "3\n1\n2\n" + TripletMatrix(9, 9) + Numbers(20) + TripletMatrix(3, 3)},
+  };
+  for (const auto& matrix : {DenseMatrix, TripletMatrix, BlockMatrix}) {
+    for (const int dimension : {2, 3}) {
+      for (const int n : {dimension, 4}) {
+        const std::string head = fmt::format("{}\n1\n", dimension) + matrix(n, n) + matrix(n, dimension);
+        cases.push_back({"a global friction problem", head + Numbers(n + dimension) + "0.25\n1\n"});
+      }
+    }
+  }
+  cases.push_back({"a global friction problem", "2\n0\n" + DenseMatrix(3, 3) + DenseMatrix(3, 0) + Numbers(3)});
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    CHECK_THROWS_WITH(Parse(c.text), Contains("file: line ") && Contains(c.kind));
+    for (const SiconosKind kind : {SiconosKind::kLcp, SiconosKind::kFriction}) {
+      CHECK_THROWS_WITH(ParseSiconos(c.text, kind, "file"),
+                        Contains("file: line ") && Contains("; the file is " + c.kind));
+    }
+  }
+}
+
+// M = 2 I, H = I, q = -(1, 1, 1), b = 0, mu = 1/10; read as a local problem it has q = (0, 3, 3), mu = 3.
+TEST_CASE("Siconos: the sizes of a global problem's second matrix are no q and no mu") {
+  const std::string M = "0\n3\n3\n3\t3\n2 0 0\n0 2 0\n0 0 2\n", H = "0\n3\n3\n3\t3\n1 0 0\n0 1 0\n0 0 1\n";
+  CHECK_THROWS_WITH(
+      Parse("3\n1\n" + M + H + "-1 -1 -1 0 0 0\n0.1\n0\n"),
+      Contains("file: line 13: found 18 numbers more, from '3' on, expected the end of the file, a "
+               "single 0 or 1, or text; the file is a global friction problem (dimension, contacts, M, "
+               "H, q, b, mu), which is not read"));
+}
+
+TEST_CASE("Siconos: a file that is wrong in itself is not taken for one of another kind") {
+  const std::string lcp = "2 0 2 2 2 2\n1 2 3 4\n-1 -1\n";
+  for (const std::string& text : {kDense, kBlocks, kColumns, kTriplet, lcp}) {
+    for (std::size_t length = 1; length + 8 < text.size(); length += 3) {
+      try {
+        Parse(text.substr(0, length));
+      } catch (const InputError& error) {
+        CAPTURE(text.substr(0, length));
+        CHECK(std::string(error.what()).find("the file is") == std::string::npos);
+      }
+    }
+  }
 }
 
 // ---- FCLIB -----------------------------------------------------------------------------------
@@ -374,7 +509,18 @@ TEST_CASE("FCLIB: a malformed file is refused with the place, what was found and
   refused(with("H/x", std::vector<double>{1, NAN, 1}), "fclib_global/H/x[1]: found nan", "a number");
   refused(with("vectors/w", std::vector<double>{1}), "fclib_global/vectors/w: found 1 numbers", "expected 2");
   refused(with("vectors/mu", std::vector<double>{-1}), "fclib_global/vectors/mu[0]: found -1", "mu >= 0");
-  refused({{"/something", std::vector<int>{1}}}, ": found neither", "one of them");
+  refused({{"/something", std::vector<int>{1}}}, ": found something",
+          "one problem, in fclib_local or fclib_global");
+  refused({}, ": found nothing", "one problem");
+  Sets both = GlobalProblem();
+  both["/fclib_local/spacedim"] = std::vector<int>{2};
+  refused(both, ": found fclib_global, fclib_local", "one problem");
+  refused({{"/fclib_global_rolling/spacedim", std::vector<int>{5}}},
+          "fclib_global_rolling: found a global rolling friction problem", "fclib_local or fclib_global");
+  refused({{"/fclib_rolling/spacedim", std::vector<int>{5}}, {"/solution/u", std::vector<double>{1}}},
+          "fclib_rolling: found a rolling friction problem", "one problem");
+  refused({{"/fclib_\xff/spacedim", std::vector<int>{5}}}, "fclib_?: found another kind of problem",
+          "one problem");
   std::ofstream(folder / "bad.hdf5") << "\x89HDF\r\n\x1a\nnothing";
   CHECK_THROWS_WITH(ReadPublished(folder / "bad.hdf5"), Contains("no HDF5 file"));
 }
@@ -392,7 +538,7 @@ TEST_CASE("symmetrize: A becomes (A + A')/2 exactly, and the largest difference 
   CHECK(LargestAsymmetry(problem).difference == 0);
 }
 
-TEST_CASE("symmetrize: an entry and its missing mirror share what there is; a symmetric A is left alone") {
+TEST_CASE("symmetrize: an entry and its missing mirror share what there is, a symmetric A is left alone") {
   SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 0 4\n 0 0");
   Symmetrize(problem);
   CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 4}}));

@@ -4,7 +4,7 @@
 
   tests/figures/figures.py list
   tests/figures/figures.py refresh NAME ... [--problems N]     one block or more
-  tests/figures/figures.py refresh --cheap | --stale | --all
+  tests/figures/figures.py refresh --cheap | --stale | --all   --stale: what is refused or withdrawn
   tests/figures/figures.py withdraw NAME ...                   numbers that hold no more, until somebody measures again
   tests/figures/figures.py check                               what the tests do
 
@@ -47,7 +47,7 @@ UNIT = r"(?:%|s|ms|us|minutes?|hours?|MB|GB|in a million|million|times as)"
 NOUN = "(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solved|rays|pieces|folds|descents|frames)"
 FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|"
                     r"\b\d+ of \d[\d,]*\b")
-WITHDRAWN = "Not measured since its code has changed: `tests/figures/figures.py refresh {}` does it."
+WITHDRAWN = "Not measured for this code yet: `tests/figures/figures.py refresh {}` does it."
 CODE = {".h", ".cpp", ".ipp", ".py"}
 
 
@@ -190,9 +190,14 @@ def refusals(path, figures):
 # ---- Commands ------------------------------------------------------------------------------------------------
 
 
+def is_withdrawn(figure):
+    return WITHDRAWN.format(figure.name) in (ROOT / figure.file).read_text()
+
+
 def is_stale(figure, path):
+    """To be made again: refused or withdrawn."""
     block = blocks_of((ROOT / figure.file).read_text()).get(figure.name)
-    return block is None or bool(refused_block(figure, *block, path))
+    return block is None or is_withdrawn(figure) or bool(refused_block(figure, *block, path))
 
 
 def says_the_same(figure, block, text, path):
@@ -236,7 +241,7 @@ def withdraw(options):
 
 def check(options):
     refused = list(refusals(options.program, FIGURES))
-    withdrawn = sum(WITHDRAWN.format(figure.name) in (ROOT / figure.file).read_text() for figure in FIGURES)
+    withdrawn = sum(map(is_withdrawn, FIGURES))
     print("\n".join(refused) or f"{len(FIGURES)} blocks, {withdrawn} withdrawn: nothing refused")
     if refused:
         print("tests/figures/figures.py refresh NAME makes a block anew; its text says what is refused, and why.")

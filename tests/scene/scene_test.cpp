@@ -361,7 +361,7 @@ TEST_CASE("scene: a jammed wedge can fall, and it can stay") {
 }
 
 TEST_CASE(
-    "scene: below mu = 4/3 the scripted wedge gives way; above there is no solution, and b is out of range") {
+    "scene: below mu = 4/3 the scripted wedge gives way, above there is no solution, and b is out of range") {
   const auto slides = SolveScene(NamedScene("scripted-wedge-slides").scene);
   CHECK(slides.accelerations[1][1] == 1);  // the floor's
   CHECK(slides.accelerations[2][0] == Q("-3/4"));

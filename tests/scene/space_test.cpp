@@ -466,7 +466,7 @@ TEST_CASE("scene in space: a sledge on a slider pushes a box that would rest alo
   for (int i = 0; i < 6; ++i) CHECK(rests.accelerations[1][i] == 0);
 }
 
-TEST_CASE("scene in space: a trapdoor leans on a box with 15 N; the floor holds it above mu = 3/8 only") {
+TEST_CASE("scene in space: a trapdoor leans on a box with 15 N, the floor holds it above mu = 3/8 only") {
   const auto rests = SolveScene(SpatialScene("trapdoor-rests"));
   for (int body = 0; body < 4; ++body) {
     for (int i = 0; i < 6; ++i) CHECK(rests.accelerations[body][i] == 0);
@@ -531,7 +531,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "assemble in space: a smooth inner contact of a face is dropped, exactly; a rough one and an outer one are "
+    "assemble in space: a smooth inner contact of a face is dropped, exactly, a rough one and an outer one are "
     "not") {
   SceneInSpace<Rational> scene;
   scene.bodies.resize(2);

@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "certify/agreement.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
 #include "search/unit.h"

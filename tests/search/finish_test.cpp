@@ -7,6 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "certify/certificate.h"
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
@@ -92,6 +95,22 @@ TEST_CASE("finish: what the whole grid shows is minimized for the whole grid, an
   CHECK(small.expect == std::map<std::string, std::string>{{"*", "cycle"}});
   CHECK(CertifiedPolicies(Json::parse(finished.certificate)).size() == 1);
   CHECK(CertifiedPolicies(Json::parse(finished.minimized_certificate)).size() == PlanarGrid().size());
+}
+
+TEST_CASE("finish: what the whole grid shows stays so, where one policy alone would allow a simpler problem") {
+  const Limits few = {1000, 5, 100000};  // no policy ends within five steps
+  Finding found = FoundAs(ReferenceProblem(), "limit");
+  found.signature = "limit-2c";
+  found.exact_outcome = "limit";
+  ExactMethods methods;  // those that end do
+  methods.complete = [](const ExactProblem& problem, const Limits&) { return RunComplete(problem, kBudget); };
+  methods.lemke = [](const ExactProblem& problem, const Limits&) { return RunLemke(problem, kBudget); };
+  const auto finished = FinishFinding(found, few, Never, methods);
+  REQUIRE(finished.has_value());
+  CHECK(finished->kind == "limit");
+  const ExactProblem small = ParseProblem(finished->minimized, "minimized").problem;
+  CHECK(AllEndIn(Outcome::kLimit, small, PlanarGrid(), few));
+  CHECK(Json::parse(finished->facts).at("minimized").at("grid") == Json{{"limit", 1536}});
 }
 
 TEST_CASE("finish: what exact numbers solve has the certificate of its solution, and no minimized form") {

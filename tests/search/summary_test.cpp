@@ -73,7 +73,7 @@ Store StoreWith(const std::filesystem::path& file) {
   return store;
 }
 
-TEST_CASE("summary: numbers are sums over all units; problems count once, runs for every policy") {
+TEST_CASE("summary: numbers are sums over all units, problems count once, runs for every policy") {
   const Scratch scratch;
   const Json summary = SummaryToJson(StoreWith(scratch / "s.store"));
   CHECK(summary.at("units") == 2);

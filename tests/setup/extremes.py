@@ -229,10 +229,11 @@ def main():
                     if fault:
                         faults += 1
                         print(f"problem {index} ({dial}, dimension {dimension}), {method['name']} {arithmetic}: {fault}")
-    columns = ["solved", "wrong", "crash", "refused", "undecided", "limit", "cycle", "ray", "singular"]
-    print(f"{'dial':10}", *(f"{c:>9}" for c in columns))
+    columns = ["solved", "wrong", "crash", "refused", "undecided", "limit", "cycle", "ray", "singular",
+               "no-solution"]
+    print(f"{'dial':10}", *(f"{c:>11}" for c in columns))
     for dial, counts in table.items():
-        print(f"{dial:10}", *(f"{counts[c]:>9}" for c in columns))
+        print(f"{dial:10}", *(f"{counts[c]:>11}" for c in columns))
     print(f"{o.problems} problems, {sum(sum(c.values()) for c in table.values())} runs, {faults} faults")
     return 1 if faults else 0
 

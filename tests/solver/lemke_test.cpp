@@ -155,7 +155,7 @@ TEST_CASE("lemke: a spent budget is the outcome limit") {
 }
 
 // b is drawn anywhere: (H) can fail, and then the direction of a ray shows it.
-TEST_CASE("lemke: a ray shows that b is not in range(A); it can end a problem that has a solution") {
+TEST_CASE("lemke: a ray shows that b is not in range(A), it can end a problem that has a solution") {
   LemkeAlgorithm<Rational> lemke;
   EnumerationOptions first;
   first.first_solution_only = true;

@@ -172,7 +172,7 @@ TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it a
 }
 
 TEST_CASE(
-    "space: literally, forces of a definite static problem can be driven without end; intervals prove it") {
+    "space: literally, forces of a definite static problem can be driven without end, intervals prove it") {
   const ExactProblem problem = InSpace({2, 2},
                                        {{2, 0, 0, -1, 0, 1},
                                         {0, 3, 0, 1, 0, 0},
@@ -193,7 +193,7 @@ InexactAnswer SolveInDoubles(const ExactProblem& problem, const PublishedOptions
   return std::get<InexactAnswer>(SolveIn(problem, request).answer);
 }
 
-TEST_CASE("space: both readings loop on a definite problem; a loop is a suspicion, over intervals undecided") {
+TEST_CASE("space: both readings loop on a definite problem, a loop is a suspicion, over intervals undecided") {
   const ExactProblem problem = InSpace({3, 3},
                                        {{3, 0, 0, 0, 0, 1},
                                         {0, 3, 1, 0, 1, -1},

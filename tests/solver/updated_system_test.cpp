@@ -58,7 +58,7 @@ void CheckInverse(const Inverse<double>& inverse, const Eigen::MatrixXd& M) {
   CHECK(inverse.determinant_sign() == (M.determinant() < 0 ? -1 : 1));
 }
 
-TEST_CASE("inverse: rows and columns come, change and go; close to a singular matrix nothing happens") {
+TEST_CASE("inverse: rows and columns come, change and go, close to a singular matrix nothing happens") {
   Eigen::Matrix4d M;
   M << 2, 1, 0, 3, -1, 1, 4, 0, 5, 0, 1, 1, 1, 2, -2, 1;
   Inverse<double> inverse;
