@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suites `peers`, `structure` and `growth`: they become the program stiction-peers, which stands beside this
-// one.
+// Suites `peers`, `random`, `structure` and `growth`: they become the program stiction-peers, which stands
+// beside this one.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -42,6 +42,10 @@ int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tab
 }  // namespace
 
 int BenchPeers(const BenchOptions& options) { return BecomePeers(options, {}); }
+
+int BenchRandom(const BenchOptions& options) {
+  return BecomePeers(options, {"--table", "full", "half", "planar", "planar-half", "space", "space-half"});
+}
 
 int BenchStructure(const BenchOptions& options) { return BecomePeers(options, {"--table", "structure"}); }
 

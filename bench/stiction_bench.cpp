@@ -32,6 +32,7 @@ constexpr std::array kSuites = {
     Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts", 2000,
           BenchFrictionless},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", 2000, BenchPeers},
+    Suite{"random", "of it, random problems by the number of contacts", 2000, BenchRandom},
     Suite{"structure", "of it, stacks, walls, scenes, nearly dependent rows", 2000, BenchStructure},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", 2000, BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts,
@@ -70,14 +71,19 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
   verb.add_option("--contacts", o->contacts,
                   fmt::format("numbers of contacts; at most: {}; {} with a generator", limits, kMaxContacts))
       ->check(CLI::PositiveNumber);
-  verb.add_option("--problems", o->problems,
-                  "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
-                  "methods, peers: problems of each number of contacts (default 800, 400); linear-algebra: "
-                  "systems of a row (default 200); space: problems of each family and number of contacts "
-                  "(default 2000); sliding: problems of each row (default 200000)")
+  verb.add_option(
+          "--problems", o->problems,
+          "search: problems per run at two contacts, a quarter for each contact more (default 200000); "
+          "methods, peers, random: problems of each number of contacts (default 800, 400, 400); structure: at "
+          "most "
+          "so many of a family; frictionless: at most so many of each number (default 48); linear-algebra: "
+          "systems of a row (default 200); space: problems of each family and number of contacts "
+          "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
-                  "search, linear-algebra, scenes: counted runs; peers: 0.06 seconds each for a row and size")
+                  "search, linear-algebra, scenes: counted runs; peers, random, structure: 0.06 seconds each "
+                  "for a row and "
+                  "size")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_option("--seed", o->seed, "of the problems")

@@ -31,13 +31,15 @@ int BenchSearch(const BenchOptions& options);
 
 // The methods side by side on the same problems (methods.cpp).
 int BenchMethods(const BenchOptions& options);
-// Of it, what has no friction, to 150 contacts: beside elimination, and beside quadratic programs.
+// Section 4 beside elimination and quadratic programs, to 150 contacts (frictionless.cpp).
 int BenchFrictionless(const BenchOptions& options);
 
 // stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
 
+// Of it, random problems by the number of contacts (peers_tables.cpp).
+int BenchRandom(const BenchOptions& options);
 // Of it, problems with structure (peers_structure.cpp).
 int BenchStructure(const BenchOptions& options);
 // Of it, the growth of time and memory with the number of contacts, direction systems updated and solved

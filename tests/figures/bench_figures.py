@@ -114,11 +114,19 @@ def method_times(program):
 
 
 def frictionless(program):
-    result = methods(program)
-    timed = ("baraff us", "lemke/baraff", "ipopt us", "ipopt/baraff")
+    result = program.bench("frictionless")
+    timed = ("gauss us", "baraff us", "baraff/gauss", "lemke/baraff", "fast/baraff", "ipopt us", "ipopt/baraff",
+             "qp/baraff")
     rows = [(row["contacts"], row["problems"], *(spread(row[key]) for key in timed)) for row in result["frictionless"]]
-    return table(["contacts", "problems", "`baraff`, microseconds", "Lemke / `baraff`", "Ipopt, microseconds",
-                  "Ipopt / `baraff`"], rows) + "\n\n" + prose("Median (quartiles)" + machine())
+    names = ("baraff", "lemke", "fast", "ipopt", "qp")
+    solved = "; ".join(f"`{name}` {count(sum(row[name + ' solved'] for row in result['frictionless']))}"
+                       for name in names)
+    problems = count(sum(row["problems"] for row in result["frictionless"]))
+    return table(["contacts", "problems", "plain Gauss, microseconds", "`baraff`, microseconds", "`baraff` / Gauss",
+                  "Lemke / `baraff`", "`fast` / `baraff`", "Ipopt, microseconds", "Ipopt / `baraff`",
+                  "CGAL, exact / `baraff`"], rows) + "\n\n" + prose(
+        f"Solved of {problems}: {solved}. Processor time of one thread, BLAS pinned to one; median (quartiles)"
+        + machine())
 
 
 # ---- Space, and contacts that slide --------------------------------------------------------------------------
@@ -259,10 +267,18 @@ def scene_threads(program):
 # ---- Beside other packages -----------------------------------------------------------------------------------
 
 
+RANDOM = ("random", "--repeat", 1, "--problems", 160)
+STRUCTURE = ("structure", "--repeat", 1, "--problems", 6, "--families")
+SMALL = ("stack-10", "stack-10-masses", "stack-30-masses", "wall-6x5", "wall-6x5-masses", "channel-20-masses",
+         "nearly-dependent", "generator-scenes", "card-house", "arch-stands", "stack-10-masses-smooth",
+         "stack-30-masses-smooth", "wall-6x5-masses-smooth", "space-stack-5", "space-stack-10-masses", "space/stack")
+LARGE = ("large/brick-wall", "large/brick-wall-in-space")
+
+
 def peer_cell(cell, residuals):
     if not cell["installed"] or cell["capped"]:
         return "-"
-    text = three(cell["ratio"])
+    text = three(cell["ratio"]) + (f" @{cell['setting']}" if cell["setting"] else "")
     if residuals and cell.get("residual") is not None:
         text += f"; {cell['residual']:.0e}"
     if cell.get("wrong"):
@@ -274,12 +290,43 @@ def installed(row):
     return any(cell["installed"] for cell in row["cells"])
 
 
+def percent(part):
+    return f"{100 * part:.0f} %"
+
+
+def how_measured(result):
+    """What a ratio is to, and on how many threads."""
+    clocks, missing = result["clocks"], result["missing"]
+    threads = " ".join(f"{key}={value}" for key, value in result["one_thread"]["variables"].items())
+    left_out = f"; not installed: {', '.join(missing)}" if missing else ""
+    return prose(
+        f"Times / that of Eigen's LU of A, compiled for {result['lu']['instructions']}; the row `native` is the same "
+        f"LU for {result['lu']['native']}. One thread ({threads}): processor time of all threads "
+        f"{clocks['all_threads']:.0f} s, of the one that calls {clocks['one_thread']:.0f} s, wall-clock time "
+        f"{clocks['wall']:.0f} s on a machine that others use{left_out}" + machine())
+
+
+def ahead_text(peer):
+    text = f"{peer['peer']} {three(peer['ratio'])} against {three(peer['our_ratio'])}"
+    if peer["share"] != peer["our_share"]:
+        text += f", solving {percent(peer['share'])} against {percent(peer['our_share'])}"
+    return text
+
+
+def ahead_of(group, ours, key):
+    """Of the peers that are ahead of one of our rows, by column, the fastest."""
+    best = {}
+    for peer in group:
+        if peer["ours"] == ours and (peer[key] not in best or peer["ratio"] < best[peer[key]]["ratio"]):
+            best[peer[key]] = peer
+    return [f"{column}: {ahead_text(peer)}" for column, peer in best.items()]
+
+
 def peers(program):
-    """Every row and size that the suite prints."""
+    """Every row and size of the random problems."""
     parts = []
-    for group in program.bench("peers")["tables"]:
-        if "rows" not in group:
-            continue
+    result = program.bench(*RANDOM)
+    for group in result["tables"]:
         residuals = "space" in group["title"] or "bodies" in group["title"]
         sizes = [cell["contacts"] for cell in group["rows"][0]["cells"]]
         lu = [three(1e6 * cell["seconds"][1]) for cell in group["rows"][0]["cells"]]
@@ -287,18 +334,80 @@ def peers(program):
         rows += [(row["name"], *(peer_cell(cell, residuals) for cell in row["cells"])) for row in group["rows"][1:]
                  if installed(row)]
         title = group["title"][0].upper() + group["title"][1:]
-        parts.append(f"**{title}**\n\n" + table(["contacts", *sizes], rows))
-    absent = {row["package"] for group in program.bench("peers")["tables"] for row in group.get("rows", ())
-              if row["package"] and not installed(row)}
-    left_out = f" Not installed here: {', '.join(sorted(absent))}." if absent else ""
-    return "\n\n".join(parts) + "\n\n" + prose(f"Times / that of Eigen's LU of A.{left_out[:-1]}" + machine())
+        ahead = "; ".join(ahead_of(group["ahead"], "fast", "contacts"))
+        parts.append(f"**{title}**\n\n" + table(["contacts", *sizes], rows) + "\n\n" + prose(
+            f"Ahead of `fast`, by contacts, the fastest: {ahead}." if ahead else "No peer is ahead of `fast`."))
+    return "\n\n".join(parts) + "\n\n" + how_measured(result)
+
+
+def structure_cell(cell):
+    """Ratio, residual, and what is solved where that is not all."""
+    if cell["capped"]:
+        return "-"
+    text = three(cell["ratio"]) + (f" @{cell['setting']}" if cell["setting"] else "")
+    if "share" in cell and not cell["name"].startswith("polygons"):
+        text += f"; {cell['residual']:.0e}" if cell["residual"] is not None else "; no number"
+        if cell["share"] < 1:
+            text += f"; {percent(cell['share'])} of {cell['tried']}"
+    return text
+
+
+def structure_table(families):
+    """Families of the same rows: a row each, a column for each method."""
+    names = [cell["name"] for cell in families[0]["methods"] if cell["installed"] and cell["name"] != "Eigen LU"]
+    rows = []
+    for family in families:
+        cells = {cell["name"]: cell for cell in family["methods"]}
+        lu = three(1e6 * cells["Eigen LU"]["processor_seconds"][1])
+        rows.append((family["title"], f"{family['rows']} of rank {family['rank']}", family["problems"], lu,
+                     *(structure_cell(cells[name]) for name in names)))
+    turned = list(zip(*rows))
+    heads = ["rows", "problems", "LU, microseconds", *names]
+    return table(["", *turned[0]], [(head, *line) for head, line in zip(heads, turned[1:])])
+
+
+def spread_table(families):
+    """Of `fast` and `auto`: quartiles of the ratio, and processor time."""
+    rows = []
+    for family in families:
+        cells = {cell["name"]: cell for cell in family["methods"]}
+        for name in ("fast", "auto"):
+            cell = cells[name]
+            if not cell["capped"]:
+                rows.append((family["title"], f"`{name}`", spread(cell["ratios"]),
+                             three(1e6 * cell["processor_seconds"][1]), f"{percent(cell['share'])} of {cell['tried']}"))
+    return table(["problems", "", "time / LU", "processor time, microseconds", "solved"], rows)
+
+
+def families_text(program, names):
+    result = program.bench(*STRUCTURE, *names)
+    families = result["tables"][0]["families"]
+    parts = []
+    for title, dimension, friction in (("In the plane, with friction", 2, True), ("Without friction", 2, False),
+                                       ("In space, Coulomb's law", 3, True)):
+        chosen = [family for family in families if (family["dimension"], family["friction"]) == (dimension, friction)]
+        if not chosen:
+            continue
+        ahead = [{**peer, "family": family["title"]} for family in chosen for peer in family["ahead"]]
+        named = "; ".join(ahead_of(ahead, "auto", "family"))
+        parts.append(f"**{title}**\n\n" + structure_table(chosen) + "\n\n" + prose(
+            f"Ahead of `auto`, the fastest: {named}." if named else "No peer is ahead of `auto`."))
+    return "\n\n".join(parts) + "\n\n" + spread_table(families) + "\n\n" + how_measured(result)
+
+
+def structure(program):
+    return families_text(program, SMALL)
+
+
+def structure_large(program):
+    return families_text(program, LARGE)
 
 
 def peers_in_short(program):
     """`fast` and the packages, from the fewest to the most contacts."""
     rows = []
-    for group in program.bench("peers")["tables"]:
-        for row in group.get("rows", ())[1:]:
+    for group in program.bench(*RANDOM)["tables"]:
+        for row in group["rows"][1:]:
             cells = [cell for cell in row["cells"] if cell["installed"] and not cell["capped"]]
             if cells and (row["package"] or row["name"] == "fast"):
                 ratios = [cell["ratio"] for cell in cells]

@@ -25,7 +25,9 @@ class Figure:
 
 SEARCH = ("algorithm",)
 METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
-PEERS = ("algorithm", "bench/peers.cpp", "bench/peers_problems.cpp", "bench/peers_tables.cpp")
+PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
+         "bench/peers_tables.cpp")
+STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
 
 FIGURES = [
     Figure("headline-loop", "README.md", "cheap", corpus.headline_loop),
@@ -63,8 +65,11 @@ FIGURES = [
     Figure("folds", "reports/methods.md", "long", bench.folds, METHODS),
     Figure("starts", "reports/methods.md", "long", bench.starts, METHODS),
     Figure("method-times", "reports/methods.md", "minutes", bench.method_times, METHODS),
-    Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless, METHODS),
+    Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless,
+           ("algorithm", "bench/frictionless.cpp", "bench/family.cpp", "bench/plain_gauss.h")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
+    Figure("structure", "reports/peers.md", "long", bench.structure, STRUCTURE),
+    Figure("structure-large", "reports/peers.md", "long", bench.structure_large, STRUCTURE),
 ]
 
 # Where every measured number stands in a block.
