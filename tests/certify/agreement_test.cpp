@@ -109,6 +109,18 @@ TEST_CASE("agreement: an enumeration that misses solutions is noticed") {
   CHECK(What(problem, answers).empty());
 }
 
+TEST_CASE("agreement: a word that is said to have one solution does not list another") {
+  // Two supports of one body: any share of the load is a solution, and the enumeration must say so.
+  const ExactProblem table = MakeProblem({-1, -1}, {{1, 1}, {1, 1}}, {-1, -1});
+  Answers answers = AnswersOf(table);
+  CHECK(What(table, answers).empty());
+  for (WordSolution& solution : answers.modes->solutions) {
+    solution.f = Vector({Rational(1, 3), Rational(2, 3)});
+    solution.unique = true;
+  }
+  CHECK(What(table, answers) == "baraff-unlisted");
+}
+
 TEST_CASE("agreement: the answers are written down with what they claim") {
   const Json json = AnswersToJson(AnswersOf(ThreeSolutions()));
   REQUIRE(json.size() == 4);

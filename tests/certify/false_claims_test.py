@@ -154,6 +154,7 @@ false("h", "within the friction cone, not within its dual", problem([2], NOTHING
 false("h", "b - A'y pushes at a bilateral contact", problem(["hold"], [[0]], [1]), y=texts([0]))
 false("h", "b - A'y pulls at a bilateral contact", problem(["hold"], [[0]], [-1]), y=texts([0]))
 false("h", "A y for A'y", smooth([[0, 1], [0, 0]], [-1, 0]), y=texts([0, -1]))
+false("h", "A y for A'y, no entry zero", smooth([[1, -1], [2, -2]], [-1, -2]), y=texts([0, 1]))
 false("h", "a sliding contact", problem([("1", "1")], NOTHING, [1, 0]), y=texts([0, 0]))
 FLAT = [[0] * 3 for _ in range(3)]
 true("h", "in space, at the edge of the dual cone", problem([1], FLAT, [5, 3, -4], 3), y=texts([0, 0, 0]))

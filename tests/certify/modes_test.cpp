@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 
 #include "certify/enumerate.h"
@@ -212,6 +213,55 @@ TEST_CASE("modes: solution sets that are no point are said to be none") {
   }
 }
 
+TEST_CASE("modes: what is far from its limit does not make a solution the only one, nor do equations alone") {
+  // f1 + f2 = 1; the third contact breaks at a distance that depends on f1 - f2.
+  const ExactProblem shared = MakeProblem({-1, -1, -1}, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}}, {-1, -1, 10});
+  int found = 0;
+  for (const WordSolution& solution : EnumerateModes(shared).solutions) {
+    if (Text(solution.word) != "touch touch break") continue;
+    ++found;
+    CHECK_FALSE(solution.unique);
+  }
+  CHECK(found == 1);
+  // Two bilateral contacts that share a load may pull against each other as they like.
+  ExactProblem twins = MakeProblem({-1, -1}, {{1, 1}, {1, 1}}, {-1, -1});
+  for (auto& contact : twins.contacts) contact.kind = ContactKind::kBilateral;
+  const Enumeration held = EnumerateModes(twins);
+  REQUIRE(held.solutions.size() == 1);
+  CHECK_FALSE(held.solutions[0].unique);
+}
+
+TEST_CASE("modes: with tangents turned round slips change places, and solutions are the only ones as before") {
+  const auto turned = [](ModeWord word) {
+    for (Mode& mode : word) mode = mode == kSlipPlus ? kSlipMinus : mode == kSlipMinus ? kSlipPlus : mode;
+    return word;
+  };
+  int words = 0, continua = 0;
+  for (std::uint64_t index = 0; index < 150; ++index) {  // of low rank and small integers: many ties
+    Choices choices(index);
+    ExactMatrix J(4, 2);
+    for (Rational& x : J.reshaped()) x = choices.Integer(-1, 1);
+    ExactProblem problem = MakeProblem({1, 1}, {}, {0, 0, 0, 0});
+    problem.A = J * J.transpose();
+    problem.b = J * Vector({choices.Integer(-1, 1), choices.Integer(-1, 1)});
+    std::map<ModeWord, bool> unique;
+    for (const WordSolution& solution : EnumerateModes(problem).solutions)
+      unique[solution.word] = solution.unique;
+    const Enumeration other = EnumerateModes(InUnits(problem, {1, -1, 1, -1}));
+    CAPTURE(index);
+    REQUIRE(other.solutions.size() == unique.size());
+    for (const WordSolution& solution : other.solutions) {
+      const auto same = unique.find(turned(solution.word));
+      REQUIRE(same != unique.end());
+      CHECK(same->second == solution.unique);
+      ++words;
+      continua += !solution.unique;
+    }
+  }
+  CHECK(words > 200);
+  CHECK(continua > 50);
+}
+
 // ---- Kinds -----------------------------------------------------------------------------------
 
 TEST_CASE("modes: of each kind") {
@@ -318,8 +368,13 @@ TEST_CASE("modes: the first solution only, a spent budget, a cancelled search") 
   CHECK(first.end == EnumerationEnd::kFirstSolution);
   CHECK(first.solutions.size() == 1);
   options = {};
-  options.programs = 2;
-  CHECK(EnumerateModes(problem, options).end == EnumerationEnd::kLimit);
+  const std::int64_t all = EnumerateModes(problem).programs;
+  for (const std::int64_t budget : {std::int64_t{2}, all - 1, all}) {
+    options.programs = budget;
+    const Enumeration within = EnumerateModes(problem, options);
+    CHECK(within.end == (budget < all ? EnumerationEnd::kLimit : EnumerationEnd::kComplete));
+    CHECK(within.programs == budget);
+  }
   options = {};
   double decided = 0;
   options.progress = [&](const EnumerationProgress& progress) {

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <string>
@@ -703,6 +704,50 @@ TEST_CASE("tally: sums add, maxima do not, and long runs share the last bin") {
   CHECK(twice.sums.steps == 2 * tally.sums.steps);
   CHECK(twice.maxima == tally.maxima);
   CHECK(twice.steps[63] == 6);
+}
+
+TEST_CASE("tally: a run counts once among those with zero steps, and with give-ups") {
+  Tally tally;
+  Verdict verdict;
+  verdict.statistics.zero_steps = 5;
+  verdict.statistics.give_ups = 3;
+  tally.Count(verdict);
+  tally.Count({});
+  CHECK(tally.with_zero_steps == 1);
+  CHECK(tally.with_give_ups == 1);
+  CHECK(tally.sums.give_ups == 3);
+}
+
+TEST_CASE("tally: every counter is added, every maximum kept") {
+  Tally tally;
+  std::int64_t next = 0;
+  const auto fill = [&next](auto& values) {
+    for (auto& value : values) value = ++next;
+  };
+  fill(tally.outcomes);
+  for (auto& row : tally.verdicts) fill(row);
+  fill(tally.steps);
+  for (std::int64_t* counter : {&tally.problems, &tally.audited, &tally.misjudged, &tally.wrong,
+                                &tally.with_zero_steps, &tally.with_give_ups})
+    *counter = ++next;
+  ForEachField(tally.sums, [&next](const char*, const char*, std::int64_t& value) { value = ++next; });
+  ForEachField(tally.maxima, [&next](const char*, const char*, std::int64_t& value) { value = ++next; });
+  Tally twice = tally;
+  twice.Merge(tally);
+  // Every number of the text is twice what it was, but those of the maxima.
+  const std::function<void(const Json&, const Json&, int)> compare = [&](const Json& sum, const Json& one,
+                                                                         int factor) {
+    REQUIRE(sum.size() == one.size());
+    if (!one.is_structured()) {
+      CHECK(sum.get<std::int64_t>() == factor * one.get<std::int64_t>());
+      return;
+    }
+    for (const auto& [key, value] : one.items()) {
+      const bool is_index = one.is_array();
+      compare(is_index ? sum[std::stoul(key)] : sum.at(key), value, key == "maxima" ? 1 : factor);
+    }
+  };
+  compare(ToJson(twice), ToJson(tally), 2);
 }
 
 // ---- Kinds -----------------------------------------------------------------------------------

@@ -93,6 +93,13 @@ def commit(path):
     return re.sub(r"^(\w{7})\w*", r"\1", version.split()[2].rstrip(","))
 
 
+def built_of_these_sources(figure, path):
+    """Whether the program was built of a commit in which the sources of a costly figure are as they are now."""
+    sources = ["search/algorithm_version.h" if source == "algorithm" else source for source in figure.sources]
+    done = subprocess.run(["git", "-C", ROOT, "diff", "--quiet", commit(path), "--", *sources], capture_output=True)
+    return done.returncode == 0
+
+
 # ---- Blocks --------------------------------------------------------------------------------------------------
 
 
@@ -220,6 +227,8 @@ def chosen(options):
 
 def refresh(options):
     for figure in chosen(options):
+        if figure.cost != "cheap" and not built_of_these_sources(figure, options.program):
+            sys.exit(f"{figure.name}: {options.program} was not built of a commit that has its sources; commit, build")
         text = made(figure, options.program, options.problems)
         file = ROOT / figure.file
         before = file.read_text()

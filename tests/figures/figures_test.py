@@ -60,6 +60,14 @@ class Blocks(unittest.TestCase):
             text = figures.WITHDRAWN.format(figure.name)
             self.assertEqual(refused(figure, figures.written(figure, text, PROGRAM)), reason)
 
+    def test_a_program_of_other_sources_makes_no_costly_block(self):
+        with tempfile.TemporaryDirectory() as folder:
+            version = Path(folder) / "program"
+            version.write_text("#!/bin/sh\necho stiction 0.1.0 0123456789ab, GNU 12.2.0\n")
+            version.chmod(0o700)
+            self.assertEqual(figures.commit(str(version)), "0123456")
+            self.assertFalse(figures.built_of_these_sources(COSTLY, str(version)))
+
     def test_comments_and_layout_are_no_part_of_a_digest_and_the_version_is(self):
         def digest(text):
             (figures.ROOT / "search/algorithm_version.h").write_text(text)

@@ -2,7 +2,10 @@
 """Figures of searches: how often the published algorithm loops, what doubles miss of it, and what always ends."""
 
 import collections
+import concurrent.futures
 import csv
+import os
+import tempfile
 
 from markdown import count, prose, rate, share, table
 
@@ -19,10 +22,9 @@ class Cell:
             self.add(program, options, problems // len(seeds), seed)
 
     def add(self, program, options, problems, seed):
-        store = program.folder / "cell.store"
-        store.unlink(missing_ok=True)
-        summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", store,
-                               shown=False)
+        with tempfile.TemporaryDirectory(dir=program.folder) as folder:
+            summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", f"{folder}/s",
+                                   shown=False)
         self.findings.update(summary["findings"])
         self.sums.update({key: value for key, value in summary.items() if isinstance(value, int)})
 
@@ -33,13 +35,19 @@ class Cell:
         return sum(number for label, number in self.findings.items() if label.split("-")[-1] == "cycle")
 
 
+def together(function, cells):
+    """The function of every cell, in their order; some cells at the same time."""
+    with concurrent.futures.ThreadPoolExecutor(2 * (os.cpu_count() or 1)) as pool:
+        return list(pool.map(lambda cell: function(*cell), cells))
+
+
 def lower_bounds(cells, note=""):
     """What stands below every table of frequencies."""
     audited, misjudged = (sum(cell[key] for cell in cells) for key in ("audited", "misjudged"))
     problems = sum(cell["runs"] for cell in cells)
-    return prose(f"{note}In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and Pearson. Loops "
-                 "are looked for over doubles and confirmed exactly; those that doubles take for solutions are not among "
-                 f"them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
+    return prose(f"{note}In brackets: exact intervals at 95 %, of counts Garwood's, of shares that of Clopper and "
+                 "Pearson. Loops are looked for over doubles and confirmed exactly; those that doubles take for "
+                 f"solutions are not among them: lower bounds. Of {count(problems)} runs {count(audited)} were audited without a suspicion; "
                  f"misjudged were {misjudged}, {share(misjudged, audited)}.")
 
 
@@ -58,14 +66,16 @@ def scene_problems(contacts, mu, rare):
 def scenes_by_mu(program):
     """Ten million problems of four and five contacts at the least friction, unless --problems says otherwise."""
     rare = program.size(10_000_000)
-    cells, rows = [], []
-    for contacts in (2, 3, 4, 5):
-        for mu in FRICTION:
-            problems = scene_problems(contacts, mu, rare)
-            cell = Cell(program, "--generator", "scenes", "--contacts", contacts, "--mu", mu, problems=problems)
-            of, loops, singular = cell["runs"], cell.loops(), cell.findings["singular"]
-            rows.append((contacts, mu, count(of), loops, rate(loops, of), singular, rate(singular, of)))
-            cells.append(cell)
+    kinds = [(contacts, mu) for contacts in (2, 3, 4, 5) for mu in FRICTION]
+
+    def cell_of(contacts, mu):
+        return Cell(program, "--generator", "scenes", "--contacts", contacts, "--mu", mu,
+                    problems=scene_problems(contacts, mu, rare))
+
+    cells, rows = together(cell_of, kinds), []
+    for (contacts, mu), cell in zip(kinds, cells):
+        of, loops, singular = cell["runs"], cell.loops(), cell.findings["singular"]
+        rows.append((contacts, mu, count(of), loops, rate(loops, of), singular, rate(singular, of)))
     program.show("./run search --generator scenes --contacts CONTACTS --mu MU --problems N --seed SEED --store S")
     head = ["contacts", "mu", "problems", "loops", "in a million", "no direction", "in a million"]
     note = f"Seeds {SEEDS[0]} to {SEEDS[-1]}, pooled. "
@@ -75,18 +85,20 @@ def scenes_by_mu(program):
 def generators_by_mu(program):
     """Loops in a million problems of other generators."""
     problems = program.size(200_000)
-    cells, rows = [], []
-    for generator in ("bodies", "integers", "psd", "small"):
-        for contacts in (3, 4):
-            row = [f"`{generator}`", contacts]
-            for mu in FRICTION[:4]:
-                cells.append(Cell(program, "--generator", generator, "--contacts", contacts, "--mu", mu,
-                                  problems=problems, seeds=(1,)))
-                row.append(rate(cells[-1].loops(), cells[-1]["runs"]))
-            rows.append(row)
+    kinds = [(generator, contacts, mu) for generator in ("bodies", "integers", "psd", "small") for contacts in (3, 4)
+             for mu in FRICTION[:4]]
+
+    def cell_of(generator, contacts, mu):
+        return Cell(program, "--generator", generator, "--contacts", contacts, "--mu", mu, problems=problems,
+                    seeds=(1,))
+
+    cells, rows = together(cell_of, kinds), {}
+    for (generator, contacts, _), cell in zip(kinds, cells):
+        row = rows.setdefault((generator, contacts), [f"`{generator}`", contacts])
+        row.append(rate(cell.loops(), cell["runs"]))
     program.show(f"./run search --generator GENERATOR --contacts CONTACTS --mu MU --problems {problems} --store S")
     head = ["loops in a million", "contacts", *(f"mu = {mu}" if mu == "1" else mu for mu in FRICTION[:4])]
-    return table(head, rows) + "\n\n" + lower_bounds(cells)
+    return table(head, rows.values()) + "\n\n" + lower_bounds(cells)
 
 
 # ---- What doubles miss ---------------------------------------------------------------------------------------
@@ -97,33 +109,31 @@ GENERATORS = ("integers", "psd", "small", "near-degenerate", "duplicates", "cond
 
 def report_rows(program, store, name):
     """The rows of a CSV file of the report on a store."""
-    folder = program.folder / "report"
+    folder = f"{store}.report"
     program.text("report", store, "-o", folder, shown=False)
-    with open(folder / name, newline="") as file:
+    with open(f"{folder}/{name}", newline="") as file:
         return list(csv.DictReader(file))
 
 
 def audited_loops(program, generator, contacts, problems):
     """All problems run exactly: loops, and of these those that doubles ended otherwise without being suspected."""
-    store = program.folder / "cell.store"
-    store.unlink(missing_ok=True)
-    summary = program.json("search", "--generator", generator, "--contacts", contacts, "--audit-every", 1,
-                           "--enumerate-every", 1_000_000, "--problems", problems, "--store", store, shown=False)
+    with tempfile.TemporaryDirectory(dir=program.folder) as folder:
+        summary = program.json("search", "--generator", generator, "--contacts", contacts, "--audit-every", 1,
+                               "--enumerate-every", 1_000_000, "--problems", problems, "--store", f"{folder}/s",
+                               shown=False)
+        verdicts = report_rows(program, f"{folder}/s", "verdicts.csv")
     loops = sum(number for label, number in summary["findings"].items() if label.split("-")[-1] == "cycle")
-    seen = sum(int(row["count"]) for row in report_rows(program, store, "verdicts.csv")
-               if row["exact_outcome"] == "cycle")
+    seen = sum(int(row["count"]) for row in verdicts if row["exact_outcome"] == "cycle")
     return summary["runs"], loops, loops - seen
 
 
 def missed_by_doubles(program):
     problems = program.size(20_000)
-    rows, total = [], [0, 0, 0]
-    for generator in GENERATORS:
-        for contacts in (2, 3, 4, 5):
-            cell = audited_loops(program, generator, contacts, problems)
-            total = [a + b for a, b in zip(total, cell)]
-            if cell[1]:
-                rows.append((f"`{generator}`", contacts, count(cell[0]), cell[1], cell[2], share(cell[2], cell[1])))
+    kinds = [(generator, contacts) for generator in GENERATORS for contacts in (2, 3, 4, 5)]
+    cells = together(lambda *kind: audited_loops(program, *kind, problems), kinds)
+    rows = [(f"`{generator}`", contacts, count(runs), loops, missed, share(missed, loops))
+            for (generator, contacts), (runs, loops, missed) in zip(kinds, cells) if loops]
+    total = [sum(cell[i] for cell in cells) for i in range(3)]
     rows.append(("all, with those without a loop", "2 to 5", count(total[0]), *total[1:], share(total[2], total[1])))
     program.show(f"./run search --generator GENERATOR --contacts CONTACTS --audit-every 1 --enumerate-every 1000000 "
                  f"--problems {problems} --store S")
@@ -137,8 +147,9 @@ def missed_by_doubles(program):
 def existence(program):
     """Every problem run exactly, every method held against the others, a sample of certificates checked apart."""
     store = program.folder / "audit.store"
-    said = program.script("tests/setup/audit.py", "--problems", program.size(100_000), "--sample", 200, "--store",
-                          store)
+    # The largest first, so that a small audit has them.
+    said = program.script("tests/setup/audit.py", "--problems", program.size(270_000), "--contacts", 6, 5, 4, 3, 2, 1,
+                          "--sample", 200, "--store", store)
     rows = []
     for row in report_rows(program, store, "agreement.csv"):
         counts = [count(int(row[key])) for key in ("problems", "solved", "compared", "enumerated", "disagreements")]

@@ -16,7 +16,7 @@ from collections import namedtuple
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "corpus", "certify", "search", "reports")
 PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test",
-            "paths_test", "problem_test", "published_space_test", "replay_test", "safety_test", "solve_test", "store_test",
+            "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
             "usage_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
@@ -85,7 +85,7 @@ bug("most-violated-ties", "layout_.IsNormal(row) ? state_.a[row] < state_.a[othe
     "layout_.IsNormal(row) ? state_.a[row] <= state_.a[other] : Abs(state_.a[row]) >= Abs(state_.a[other])",
     "scan=most-violated takes the last of equal ones")
 
-bug = in_file("solver/published/scan.h", PUBLISHED + "|^solver: space|^program: published_space")
+bug = in_file("solver/published/scan.h", PUBLISHED + "|^solver: space")
 bug("round-from-the-first", "resume == Resume::kRound && last_driven >= 0",
     "resume == Resume::kRound && last_driven > 0", "resume=round forgets the first contact")
 bug("normals-first-mixed", "frictions && layout.HasFriction(row) && violated(row + 1)",
@@ -159,7 +159,7 @@ bug("polygon-negative-radius", "contact.mu * std::max<Scalar>(Scalar(0), f[row])
 
 # ---- solver/lemke ------------------------------------------------------------------
 
-bug = in_file("solver/lemke/lemke.ipp", "^solver: (lemke|equivalence)|^certify: (lemke|existence)|^program: (exist|solve)")
+bug = in_file("solver/lemke/lemke.ipp", "^solver: (lemke|equivalence)|^certify: (lemke|existence)|^program: existence")
 bug("first-row-tie", "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0",
     "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) < 0", "the first pivot is not lexicographic")
 bug("artificial-stays", "CompareQuotients(artificial, best, 0) <= 0 ? artificial : best",
@@ -217,7 +217,7 @@ bug("de-saxce", "a[row] + mu * hypot(a[row + 1], a[row + 2])", "a[row]", "withou
 bug("polar-cone", "if (mu * length <= -x[0]) return {Scalar(0), Scalar(0), Scalar(0)};", "",
     "points of the polar cone are projected wrongly")
 
-bug = in_file("solver/problem/weak_residual.h", "^solver: (weak|space)|^program: published_space")
+bug = in_file("solver/problem/weak_residual.h", "^solver: (weak|space)")
 bug("weak-power", "if (force > 0) worst = std::max(worst, r * (f[row + 1] * a[row + 1] + f[row + 2] * a[row + 2]) / force);",
     "", "(21) without fF.aF <= 0")
 

@@ -20,6 +20,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections import namedtuple
@@ -179,25 +180,10 @@ def run_test(test, number, seconds, scratch):
     return Result("passed" if process.returncode == 0 else "skipped" if skipped else "failed", took, output)
 
 
-class Scratch:
-    """A folder for the files of one bug's tests; it goes with them."""
-
-    def __init__(self, folder):
-        self.folder = folder
-
-    def __enter__(self):
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-        return self.folder
-
-    def __exit__(self, *_):
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-
-def run_baseline(tests, folder, jobs):
+def run_baseline(tests, jobs):
     """Seconds by name, of those that are not skipped. Ends the program if a test does not pass without a bug."""
     def run(test):
-        with Scratch(folder / "scratch" / f"baseline-{tests.index(test)}") as scratch:
+        with tempfile.TemporaryDirectory(prefix="m") as scratch:  # a short name: some commands name many files
             return run_test(test, 0, 900, scratch)
 
     with ThreadPoolExecutor(jobs) as pool:
@@ -215,13 +201,13 @@ def run_baseline(tests, folder, jobs):
 Verdict = namedtuple("Verdict", "test how seconds run")  # test None: survived; run: number of tests
 
 
-def judge(number, mutant, tests, seconds, folder):
+def judge(number, mutant, tests, seconds):
     """The likely tests first. One that is known to be equivalent is shown to those alone."""
     likely = [test for test in tests if re.search(mutant.tests, test.name)]
     others = [] if mutant.equivalent else [test for test in tests if test not in likely]
     quickest = sorted(likely, key=lambda test: seconds[test.name]) + sorted(others, key=lambda test: seconds[test.name])
     before = time.monotonic()
-    with Scratch(folder / "scratch" / str(number)) as scratch:
+    with tempfile.TemporaryDirectory(prefix="m") as scratch:
         for count, test in enumerate(quickest, 1):
             result = run_test(test, number, 20 + 10 * seconds[test.name], scratch)
             if result.how != "passed":
@@ -236,11 +222,11 @@ def describe(mutant, verdict):
     return f"{mutant.id}: SURVIVED {verdict.run} tests: {mutant.breaks}"
 
 
-def judge_all(chosen, tests, seconds, folder, jobs):
+def judge_all(chosen, tests, seconds, jobs):
     printing = threading.Lock()
 
     def run(item):
-        verdict = judge(*item, tests, seconds, folder)
+        verdict = judge(*item, tests, seconds)
         with printing:
             print(describe(item[1], verdict), flush=True)
         return verdict
@@ -280,7 +266,7 @@ def report(chosen, verdicts):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutation", metavar="DIR",
-                        help="where the copy, its build and the scratch files stand (default build/mutation)")
+                        help="where the copy and its build stand (default build/mutation)")
     parser.add_argument("--only", nargs="+", metavar="ID", help="these mutants only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="(default: the number of cores)")
     parser.add_argument("--check", action="store_true", help="only whether the table fits the sources")
@@ -302,13 +288,13 @@ def main():
     binary = build(folder, arguments.jobs)
     built = time.monotonic()
     tests = tests_of(binary)
-    seconds = run_baseline(tests, folder, arguments.jobs)
+    seconds = run_baseline(tests, arguments.jobs)
     tests = [test for test in tests if test.name in seconds]
     print(f"built in {built - before:.0f} s; {len(tests)} tests pass without a bug, {sum(seconds.values()):.0f} s")
     if arguments.prepare:
         return 0
     chosen = [(number, mutant) for number, mutant in numbered() if mutant.id in (arguments.only or [mutant.id])]
-    verdicts = judge_all(chosen, tests, seconds, folder, arguments.jobs)
+    verdicts = judge_all(chosen, tests, seconds, arguments.jobs)
     status = report(chosen, verdicts)
     print(f"{time.monotonic() - built:.0f} s of tests")
     return status

@@ -75,6 +75,40 @@ TEST_CASE("tables: what doubles said, by generator and in all") {
   }
 }
 
+TEST_CASE("tables: problems count once, runs for every policy, and what was only counted is not pending") {
+  ReportContent content;
+  content.units = 1;
+  for (const char* policy : {"paper", "ties=contacts"})
+    content.total.tallies[{"psd", 2, policy}].problems = 1234;
+  Finding finding;
+  finding.signature = "cycle-2c-4d-10s-00";
+  finding.kind = finding.exact_outcome = "cycle";
+  finding.contacts = 2;
+  finding.problem = R"({"format":"stiction-problem","version":1,"name":"n","dimension":2,)"
+                    R"("contacts":[{"kind":"frictionless"}],"A":[["1"]],"b":["1"]})";
+  Record record;
+  record.signatures = {{finding.signature, 7}, {"cycle-2c-4d-12s-00", 5}};
+  const std::vector<Finding> findings = {finding};
+  content.discoveries = Discoveries(record, findings);
+  const Html section = FoundSection(content);
+  CHECK(section.markup().find("<strong>1,234</strong> <span>problems run</span>") != std::string::npos);
+  CHECK(section.markup().find("<strong>2,468</strong>") != std::string::npos);
+  // runs, groups, finished, pending, only counted
+  const Cells all = RowOf(section, "Findings by kind", "all");
+  CHECK(Cells(all.begin(), all.begin() + 6) == Cells{"all", "12", "2", "0", "1", "1"});
+}
+
+TEST_CASE("tables: every policy loops if all of the grid do") {
+  GridOutcomes grid;
+  CHECK_FALSE(grid.AllLoop());
+  grid.counts[static_cast<int>(Outcome::kCycle)] = 3;
+  CHECK(grid.AllLoop());
+  grid.counts[static_cast<int>(Outcome::kStall)] = 2;
+  CHECK(grid.AllLoop());
+  grid.counts[static_cast<int>(Outcome::kSolved)] = 1;
+  CHECK_FALSE(grid.AllLoop());
+}
+
 TEST_CASE("tables: what must be zero stands where it is not") {
   const Html section = ExistenceSection(SmallRecord());
   for (const char* row : {"2", "all"}) {
