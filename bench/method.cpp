@@ -3,11 +3,14 @@
 
 #include <memory>
 
+#include "bench/plain_gauss.h"
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
+#include "certify/linear_system.h"
 #include "certify/verify_solution.h"
 #include "corpus/stopwatch.h"
+#include "solver/numeric/fast.h"
 #include "solver/problem/residual.h"
 
 namespace stiction {
@@ -164,6 +167,64 @@ BenchMethod IpoptMethod(Formulation formulation, int one_in) {
           }};
 }
 
+// The linear system of all contacts, whose forces may pull: a unit of time, and no method.
+BenchMethod GaussMethod() {
+  return {.name = "gauss",
+          .reading = "plain loops",
+          .arithmetic = "double",
+          .counts = "",
+          .run = [gauss = PlainGauss()](const BenchProblem& problem) mutable {
+            const Stopwatch watch;
+            gauss.Solve(problem.rounded.A, problem.rounded.b);
+            return Measure{.outcome = Outcome::kUndecided, .seconds = watch.Seconds()};
+          }};
+}
+
+BenchMethod FastMethod() {
+  return {.name = "fast",
+          .reading = "",
+          .arithmetic = "double",
+          .counts = "exchanges",
+          .run = [solver = FastSolver<double>()](const BenchProblem& problem) mutable {
+            return Timed<double>(problem, [&solver](const auto& data) {
+              const FastVerdict verdict = solver.Run(data);
+              return BenchAnswer<double>{{.outcome = verdict.outcome, .work = verdict.statistics.exchanges},
+                                         solver.f()};
+            });
+          }};
+}
+
+// Of a problem over integers.
+QuadraticProgram ProgramOf(const ExactProblem& problem) {
+  QuadraticProgram program;
+  for (int i = 0; i < problem.rows(); ++i) {
+    program.c.push_back(problem.b[i].get_num());
+    auto& row = program.M.emplace_back();
+    for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j).get_num());
+  }
+  return program;
+}
+
+// CGAL's QP_solver, exact, on a problem over integers; without the proof that A is definite.
+BenchMethod ExactQuadraticMethod(int one_in) {
+  return {.name = "qp",
+          .reading = "",
+          .arithmetic = "exact",
+          .counts = "iterations",
+          .one_in = one_in,
+          .run = [](const BenchProblem& problem) {
+            return Timed<Rational>(problem, [](const auto& data) {
+              const QuadraticEnd end = Minimize(ProgramOf(data));
+              BenchAnswer<Rational> answer;
+              answer.measure.work = end.iterations;
+              if (!end.bounded) return answer;
+              answer.measure.outcome = Outcome::kSolved;
+              answer.f = Eigen::Map<const ExactProblem::Vector>(end.x.data(), data.rows());
+              return answer;
+            });
+          }};
+}
+
 }  // namespace
 
 std::vector<BenchMethod> BenchedMethods() {
@@ -181,8 +242,8 @@ std::vector<BenchMethod> BenchedMethods() {
 }
 
 std::vector<BenchMethod> FrictionlessMethods() {
-  return {PublishedMethod<double>("paper"), LemkeMethod<double>(Cover::kUnits),
-          IpoptMethod(Formulation::kQuadratic, 1)};
+  return {GaussMethod(), PublishedMethod<double>("paper"),        LemkeMethod<double>(Cover::kUnits),
+          FastMethod(),  IpoptMethod(Formulation::kQuadratic, 1), ExactQuadraticMethod(1)};
 }
 
 }  // namespace stiction

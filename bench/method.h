@@ -39,8 +39,9 @@ inline constexpr std::array kPublished = {kPaper, kSuspended, kAsComplete};
 // Starts Ipopt's process: InputError if it cannot be run.
 std::vector<BenchMethod> BenchedMethods();
 
-// Without friction.
-enum FrictionlessPlace { kBaraffDouble, kLemkeDouble, kQuadratic };
+// Without friction: section 4, and beside it elimination of A f = -b, Lemke's method, the fast method, and the
+// quadratic program by Ipopt over doubles and by CGAL exactly.
+enum FrictionlessPlace { kGauss, kBaraffDouble, kLemkeDouble, kFastDouble, kQuadratic, kExactQuadratic };
 std::vector<BenchMethod> FrictionlessMethods();
 
 }  // namespace stiction

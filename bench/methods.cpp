@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suite `methods`: every method on the same problems. Counts, outcomes and times.
+// Suite `methods`: every method on the same problems. Counts, outcomes and times. Suite `frictionless`: its
+// last table, to 150 contacts.
 //
 // Counts are those of exact runs. Methods take turns at blocks of problems; times are compared problem by
 // problem. method.h says what a time is, and how answers are verified.
@@ -13,6 +14,7 @@
 #include <iostream>
 
 #include "bench/method.h"
+#include "bench/one_thread.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
@@ -266,21 +268,33 @@ BenchTable StartTable(const std::vector<Sample>& samples) {
 }
 
 BenchTable FrictionlessTable(const std::vector<Sample>& samples) {
-  BenchTable table{"frictionless",
-                   "without friction, microseconds: section 4, Lemke and, inside Ipopt, program (5)"};
+  BenchTable table{
+      "frictionless",
+      "without friction, microseconds: plain Gauss on A f = -b, section 4, Lemke, fast, inside Ipopt "
+      "program (5), and the program exactly by CGAL (qp)"};
   for (const Sample& sample : samples) {
+    const auto& gauss = sample.measures[kGauss];
     const auto& baraff = sample.measures[kBaraffDouble];
     const auto& lemke = sample.measures[kLemkeDouble];
+    const auto& fast = sample.measures[kFastDouble];
     const auto& program = sample.measures[kQuadratic];
+    const auto& exact = sample.measures[kExactQuadratic];
     table.rows.push_back({{"contacts", sample.contacts},
                           {"problems", baraff.size()},
                           {"baraff solved", SolvedOf(baraff)},
                           {"lemke solved", SolvedOf(lemke)},
+                          {"fast solved", SolvedOf(fast)},
                           {"ipopt solved", SolvedOf(program)},
+                          {"qp solved", SolvedOf(exact)},
+                          {"gauss us", Cell(Microseconds(gauss))},
                           {"baraff us", Cell(Microseconds(baraff))},
+                          {"baraff/gauss", Cell(RatioOf(baraff, gauss))},
                           {"lemke/baraff", Cell(RatioOf(lemke, baraff))},
+                          {"fast/baraff", Cell(RatioOf(fast, baraff))},
                           {"ipopt us", Cell(Microseconds(program, &Measure::library_seconds))},
-                          {"ipopt/baraff", Cell(RatioOf(program, baraff, &Measure::library_seconds))}});
+                          {"ipopt/baraff", Cell(RatioOf(program, baraff, &Measure::library_seconds))},
+                          {"qp us", Cell(Microseconds(exact))},
+                          {"qp/baraff", Cell(RatioOf(exact, baraff))}});
   }
   return table;
 }
@@ -289,10 +303,11 @@ BenchTable FrictionlessTable(const std::vector<Sample>& samples) {
 
 Json ToJson(const BenchOptions& options, std::int64_t problems, const std::vector<BenchTable>& tables,
             const std::vector<std::string>& mismatches) {
-  Json json = {{"suite", "methods"},
+  Json json = {{"suite", options.suite},
                {"seed", options.seed},
                {"generator", options.generator ? Row(*options.generator).name : "definite"},
-               {"problems", problems}};
+               {"problems", problems},
+               {"one_thread", ThreadsJson()}};
   for (const BenchTable& table : tables) json[table.name] = table.rows;
   json["mismatches"] = mismatches;
   return json;
@@ -300,8 +315,41 @@ Json ToJson(const BenchOptions& options, std::int64_t problems, const std::vecto
 
 // ---- The suite -----------------------------------------------------------------------------------
 
-// Exact arithmetic makes the answers of many contacts slow to verify.
-std::int64_t FrictionlessProblems(int contacts) { return contacts <= 12 ? 48 : contacts <= 25 ? 24 : 8; }
+// Exact arithmetic makes many contacts slow to solve and to verify.
+std::int64_t FrictionlessProblems(int contacts) {
+  return contacts <= 12 ? 48 : contacts <= 25 ? 24 : contacts <= 50 ? 8 : 4;
+}
+
+std::vector<Sample> MeasureFrictionless(const std::vector<int>& sizes, std::int64_t problems,
+                                        std::uint64_t seed) {
+  std::vector<BenchMethod> methods = FrictionlessMethods();
+  std::vector<Sample> samples;
+  for (const int n : sizes) {
+    samples.push_back(Measured(methods, n, std::min(problems, FrictionlessProblems(n)),
+                               [&](std::int64_t index) { return MakeFrictionless(n, seed, index); }));
+  }
+  return samples;
+}
+
+std::vector<std::string> MismatchesOf(const std::vector<Sample>& samples) {
+  std::vector<std::string> mismatches;
+  for (const Sample& sample : samples)
+    mismatches.insert(mismatches.end(), sample.mismatches.begin(), sample.mismatches.end());
+  return mismatches;
+}
+
+int Report(const BenchOptions& options, std::int64_t problems, const std::vector<BenchTable>& tables,
+           const std::vector<std::string>& mismatches) {
+  if (options.json) {
+    std::cout << JsonText(ToJson(options, problems, tables, mismatches)) << "\n";
+  } else {
+    fmt::print("{}\n", ThreadsText());
+    for (const BenchTable& table : tables) Print(table);
+    fmt::print("\n{} mismatches\n", mismatches.size());
+    for (const std::string& mismatch : mismatches) fmt::print("{}\n", mismatch);
+  }
+  return mismatches.empty() ? kExitDone : kExitNotSo;
+}
 
 }  // namespace
 
@@ -309,35 +357,29 @@ int BenchMethods(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(800);
   std::vector<int> contacts = options.contacts;
   if (contacts.empty()) contacts = {2, 3, 4, 5, 6};
-  std::vector<BenchMethod> methods = BenchedMethods(), frictionless_methods = FrictionlessMethods();
-  std::vector<Sample> samples, frictionless;
+  std::vector<BenchMethod> methods = BenchedMethods();
+  std::vector<Sample> samples;
   for (const int n : contacts) {
     samples.push_back(Measured(methods, n, problems, [&](std::int64_t index) {
       return MakeBenchProblem(options.generator, n, options.seed, index);
     }));
   }
-  for (const int n : {3, 6, 12, 25, 50}) {
-    frictionless.push_back(
-        Measured(frictionless_methods, n, std::min(problems, FrictionlessProblems(n)),
-                 [&](std::int64_t index) { return MakeFrictionless(n, options.seed, index); }));
-  }
-  std::vector<std::string> mismatches;
-  for (const auto* list : {&samples, &frictionless}) {
-    for (const Sample& sample : *list)
-      mismatches.insert(mismatches.end(), sample.mismatches.begin(), sample.mismatches.end());
-  }
-  const std::vector<BenchTable> tables = {RunTable(methods, samples),     FoldTable(samples),
-                                          FrictionTable(samples),         GiveUpTable(methods, samples),
-                                          TimeTable(methods, samples),    StartTable(samples),
-                                          FrictionlessTable(frictionless)};
-  if (options.json) {
-    std::cout << JsonText(ToJson(options, problems, tables, mismatches)) << "\n";
-  } else {
-    for (const BenchTable& table : tables) Print(table);
-    fmt::print("\n{} mismatches\n", mismatches.size());
-    for (const std::string& mismatch : mismatches) fmt::print("{}\n", mismatch);
-  }
-  return mismatches.empty() ? kExitDone : kExitNotSo;
+  const std::vector<Sample> smooth = MeasureFrictionless({3, 6, 12, 25, 50}, problems, options.seed);
+  std::vector<std::string> mismatches = MismatchesOf(samples);
+  for (const std::string& mismatch : MismatchesOf(smooth)) mismatches.push_back(mismatch);
+  return Report(
+      options, problems,
+      {RunTable(methods, samples), FoldTable(samples), FrictionTable(samples), GiveUpTable(methods, samples),
+       TimeTable(methods, samples), StartTable(samples), FrictionlessTable(smooth)},
+      mismatches);
+}
+
+int BenchFrictionless(const BenchOptions& options) {
+  const std::int64_t problems = options.problems.value_or(48);
+  std::vector<int> sizes = options.contacts;
+  if (sizes.empty()) sizes = {3, 6, 12, 25, 50, 100, 150};
+  const std::vector<Sample> samples = MeasureFrictionless(sizes, problems, options.seed);
+  return Report(options, problems, {FrictionlessTable(samples)}, MismatchesOf(samples));
 }
 
 }  // namespace stiction

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "bench/native_lu.h"
 #include "bench/one_thread.h"
@@ -74,22 +75,36 @@ Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   return MeasureTable(name, o);
 }
 
-// Packages complain on standard error, Siconos of every singular matrix; what they claim is in the tables.
-class QuietPackages {
+// A file descriptor that leads nowhere for a while.
+class Silenced {
  public:
-  QuietPackages() : kept_(dup(STDERR_FILENO)) {
+  explicit Silenced(int descriptor) : descriptor_(descriptor), kept_(dup(descriptor)) {
     const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDERR_FILENO);
+    dup2(nowhere, descriptor);
     close(nowhere);
   }
-  ~QuietPackages() {
-    dup2(kept_, STDERR_FILENO);
+  Silenced(const Silenced&) = delete;
+  Silenced& operator=(const Silenced&) = delete;
+  ~Silenced() {
+    std::fflush(stdout);
+    dup2(kept_, descriptor_);
     close(kept_);
   }
 
  private:
-  int kept_;
+  int descriptor_, kept_;
 };
+
+// Packages complain on standard error and output, Siconos of every singular matrix; what they claim is in the
+// tables.
+Json MeasureQuietly(const PeersOptions& o) {
+  const Silenced errors(STDERR_FILENO);
+  std::optional<Silenced> output;
+  if (o.json) output.emplace(STDOUT_FILENO);
+  Json tables = Json::array();
+  for (const std::string& name : o.tables) tables.push_back(MeasureNamed(name, o));
+  return tables;
+}
 
 void RequireScenes(const PeersOptions& o) {
   if (std::filesystem::is_directory(o.scenes)) return;
@@ -100,12 +115,8 @@ int RunPeers(const PeersOptions& o) {
   if (std::find(o.tables.begin(), o.tables.end(), "structure") != o.tables.end()) RequireScenes(o);
   Json json = HeadJson(o);
   if (!o.json) PrintHead();
-  json["tables"] = Json::array();
   const Clocks start = ReadClocks();
-  {
-    const QuietPackages quiet;
-    for (const std::string& name : o.tables) json["tables"].push_back(MeasureNamed(name, o));
-  }
+  json["tables"] = MeasureQuietly(o);
   const Clocks clocks = ReadClocks() - start;
   json["clocks"] = ToJson(clocks);
   json["threads"] = ThreadCount();

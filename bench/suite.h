@@ -31,7 +31,7 @@ int BenchSearch(const BenchOptions& options);
 
 // The methods side by side on the same problems (methods.cpp).
 int BenchMethods(const BenchOptions& options);
-// Section 4 beside elimination and quadratic programs, to 150 contacts (frictionless.cpp).
+// Section 4 beside elimination and quadratic programs, to 150 contacts (methods.cpp).
 int BenchFrictionless(const BenchOptions& options);
 
 // stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
