@@ -26,7 +26,7 @@ bool TakesSiconos(const std::string& text, SiconosKind kind) {
 bool FuzzSiconos(std::string_view bytes) {
   const std::string text(bytes);
   const bool lcp = TakesSiconos(text, SiconosKind::kLcp), friction = TakesSiconos(text, SiconosKind::kFriction);
-  Unrefused([&text] { return SiconosKindOf(text, "input"); });
+  Unrefused([&text] { return ParseSiconos(text, std::nullopt, "input"); });
   return lcp || friction;
 }
 
