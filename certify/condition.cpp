@@ -107,14 +107,25 @@ Rational Short(double x, int bits) {
   return Rational(std::ldexp(std::round(std::ldexp(mantissa, bits)), exponent - bits));
 }
 
+long BitsOf(const mpz_class& x) { return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2)); }
+
+Rational TimesPowerOfTwo(const Rational& x, long exponent) {
+  Rational product;
+  if (exponent >= 0) mpq_mul_2exp(product.get_mpq_t(), x.get_mpq_t(), static_cast<unsigned long>(exponent));
+  if (exponent < 0) mpq_div_2exp(product.get_mpq_t(), x.get_mpq_t(), static_cast<unsigned long>(-exponent));
+  return product;
+}
+
 }  // namespace
 
 std::optional<Rational> ConditionBound::SafeFriction() const {
   if (ratio == 0 || most == least) return std::nullopt;
   const Rational square = 4 * least * most / ((most - least) * (most - least) * ratio * ratio);
-  for (double mu = std::sqrt(square.get_d());; mu *= 1 - 0x1p-12) {
+  const long half = (BitsOf(square.get_num()) - BitsOf(square.get_den())) / 2;
+  const Rational reduced = TimesPowerOfTwo(square, -2 * half);  // not far from 1, whatever the square
+  for (double mu = std::sqrt(reduced.get_d());; mu *= 1 - 0x1p-12) {
     const Rational rounded = Short(mu, 12);
-    if (rounded * rounded < square) return rounded;
+    if (rounded * rounded < reduced) return TimesPowerOfTwo(rounded, half);
   }
 }
 

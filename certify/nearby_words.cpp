@@ -187,10 +187,12 @@ std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord
 
 namespace {
 
-// Multiples of 2^-20, so that their numbers are short; in the units of the problem.
+constexpr double kPlaces = 0x1p20;
+
+// Multiples of 1 / kPlaces, so that their numbers are short; in the units of the problem.
 std::vector<Rational> Shortened(const std::vector<double>& f, const Rational& unit) {
   std::vector<Rational> rounded;
-  for (const double x : f) rounded.push_back(Rational(std::round(x * 0x1p20) * 0x1p-20) * unit);
+  for (const double x : f) rounded.push_back(Rational(std::round(x * kPlaces) / kPlaces) * unit);
   return rounded;
 }
 
@@ -198,7 +200,7 @@ std::vector<Rational> Shortened(const std::vector<double>& f, const Rational& un
 
 NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
                          int words, std::set<ModeWord>& tried) {
-  if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); })) return {};
+  if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x * kPlaces); })) return {};
   const std::vector<Rational> near = Shortened(f, scaled.force);
   WordsByRank ranked(problem, scaled, f);
   NearbySolution result;

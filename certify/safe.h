@@ -34,14 +34,15 @@
 // (checked).
 //
 // A body with two sticking contacts has a singular word, so A of most scenes is not safe. *Weakly safe*: no
-// determinant is negative. That is enough for complete driving (proved; complete_driving.md, 4): there is no fold
-// and no descent, only pieces with df_v = 0, and b(eps) of part 5 has one solution. The published algorithm gives
-// nothing up under `apex=suspended` as long as the matrices that it meets are regular; what it does at singular
+// determinant is negative. Then (proved; condition_number.md) complete driving has no fold and no descent, at
+// most pieces with df_v = 0, whatever b; if A is symmetric semidefinite and b in range(A) + K*, b(eps) of
+// complete_driving.md, 5, has one solution. The published algorithm gives nothing up under `apex=suspended`,
+// for b nondegenerate in its order, as long as the matrices that it meets are regular; what it does at singular
 // ones is open. *Safe in the limit*: A + eps I is safe for all small eps > 0, as a solver makes it that softens
 // its constraints. The determinants of A + eps I are det(R(W) + eps I), whose coefficients are those of the
-// characteristic polynomial of -R(W); the last of them is 1, so that the sign for small eps > 0, that of the first
-// which is not zero, is always known. Safe in the limit implies weakly safe (eps = 0), not conversely. (Units
-// matter here: A + eps D, D diagonal and positive, may differ where A is weakly safe and no more.)
+// characteristic polynomial of -R(W); the last of them is 1, so that the sign for small eps > 0, that of the
+// first which is not zero, is always known. Safe in the limit implies weakly safe (eps = 0), not conversely.
+// (Units matter here: A + eps D, D diagonal and positive, may differ where A is weakly safe and no more.)
 //
 // A positive definite is safe for all mu small enough: for mu = 0 the determinants are principal minors.
 //
@@ -89,7 +90,8 @@ Safety DecideSafety(const ExactProblem& problem);
 struct WeakSafety {
   int vanishing = 0;                      // words whose determinant is zero
   std::optional<ModeWord> negative_word;  // the first whose determinant is negative: not weakly safe
-  std::optional<ModeWord> limit_word;     // the first whose determinant is negative for A + eps I: not safe in the limit
+  std::optional<ModeWord>
+      limit_word;  // the first whose determinant is negative for A + eps I: not safe in the limit
 };
 WeakSafety DecideWeakSafety(const ExactProblem& problem);
 

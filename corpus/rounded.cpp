@@ -20,11 +20,13 @@ bool Holds(const Rational& exact, Scalar x) {
   return is_normal || Rational(static_cast<double>(x)) == exact;
 }
 
-// `path`(): where the number stands.
+// `path`(): where the number stands. What underflows as a double is normal as a long double, without its
+// digits.
 template <class Scalar, class Path>
 Scalar Round(const Rational& exact, const Path& path) {
-  const auto x = static_cast<Scalar>(ToDouble(exact));
-  if (!Holds(exact, x)) throw RangeError(path(), exact, Name(kArithmeticOf<Scalar>));
+  const double nearest = ToDouble(exact);
+  const auto x = static_cast<Scalar>(nearest);
+  if (!Holds(exact, nearest) || !Holds(exact, x)) throw RangeError(path(), exact, Name(kArithmeticOf<Scalar>));
   return x;
 }
 

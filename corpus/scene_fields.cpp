@@ -26,12 +26,23 @@ void ReadTurn(const JsonPlace& place, Quaternion<Rational>& rotation) {
   if (rotation.squaredNorm() == 0) place.Refuse(expected);
 }
 
+namespace {
+
+// In radians; infinite ones have no cosine.
+double ReadAngle(const JsonPlace& place) {
+  const double radians = ToDouble(ExactNumber(place));
+  if (!std::isfinite(radians)) place.Refuse("an angle in the range of doubles");
+  return radians;
+}
+
+}  // namespace
+
 void ReadRotation(const JsonPlace& place, Vector2<Rational>& rotation) {
   const auto given = place.Optional("rotation"), angle = place.Optional("angle");
   if (given && angle) angle->Refuse("a rotation or an angle, not both");
   if (given) ReadTurn(*given, rotation);
   if (!angle) return;
-  const double radians = ToDouble(ExactNumber(*angle));
+  const double radians = ReadAngle(*angle);
   rotation = MakeVector2<Rational>(std::cos(radians), std::sin(radians));
 }
 
@@ -40,7 +51,7 @@ void ReadRotation(const JsonPlace& place, Quaternion<Rational>& rotation) {
   if (given && (axis || angle)) given->Refuse("a rotation, or an axis and an angle, not both");
   if (given) ReadTurn(*given, rotation);
   if (!axis && !angle) return;
-  const double half = ToDouble(ExactNumber(place.Required("angle", "an angle about the axis, rad"))) / 2;
+  const double half = ReadAngle(place.Required("angle", "an angle about the axis, rad")) / 2;
   const auto direction = ReadDirection<Space>(place.Required("axis", "an axis [x, y, z] of the angle"));
   rotation = MakeQuaternion<Rational>(Rational(std::cos(half)), Rational(std::sin(half)) * direction);
 }

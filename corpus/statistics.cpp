@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -13,25 +15,12 @@ Json ToJson(const Statistics& statistics) {
   return json;
 }
 
-Statistics StatisticsFromJson(const Json& json) {
-  Statistics statistics;
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t& value) {
-    value = json.at(name).get<std::int64_t>();
-  });
-  return statistics;
-}
-
 // Trailing zeros left out.
 template <class Array>
 Json Trimmed(const Array& values) {
   std::size_t size = values.size();
   while (size > 0 && values[size - 1] == 0) --size;
   return Json(std::vector<std::int64_t>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size)));
-}
-
-template <class Array>
-void Fill(Array& values, const Json& json) {
-  for (std::size_t i = 0; i < json.size(); ++i) values.at(i) = json[i].template get<std::int64_t>();
 }
 
 template <class Tally>
@@ -49,22 +38,11 @@ Json CountersToJson(int contacts, const Tally& tally) {
   return json;
 }
 
-template <class Tally>
-void FillCounters(Tally& tally, const Json& json) {
-  ForEachCounter(tally, [&json](const char* name, std::int64_t& value) {
-    value = json.at(name).template get<std::int64_t>();
-  });
-}
-
 // [[value, count], ...]
 Json ToJson(const std::map<int, std::int64_t>& histogram) {
   Json json = Json::array();
   for (const auto& [value, count] : histogram) json.push_back({value, count});
   return json;
-}
-
-void Fill(std::map<int, std::int64_t>& histogram, const Json& json) {
-  for (const Json& bin : json) histogram[bin.at(0).get<int>()] = bin.at(1).get<std::int64_t>();
 }
 
 void AddTo(std::map<int, std::int64_t>& sums, const std::map<int, std::int64_t>& histogram) {
@@ -105,22 +83,6 @@ Json ToJson(const Tally& tally) {
           {"sums", ToJson(tally.sums)},
           {"maxima", ToJson(tally.maxima)},
           {"steps", Trimmed(tally.steps)}};
-}
-
-Tally TallyFromJson(const Json& json) {
-  Tally tally;
-  tally.problems = json.at("problems").get<std::int64_t>();
-  Fill(tally.outcomes, json.at("outcomes"));
-  for (std::size_t i = 0; i < tally.verdicts.size(); ++i) Fill(tally.verdicts[i], json.at("verdicts").at(i));
-  tally.audited = json.at("audited").get<std::int64_t>();
-  tally.misjudged = json.at("misjudged").get<std::int64_t>();
-  tally.wrong = json.at("wrong").get<std::int64_t>();
-  tally.with_zero_steps = json.at("with_zero_steps").get<std::int64_t>();
-  tally.with_give_ups = json.at("with_give_ups").get<std::int64_t>();
-  tally.sums = StatisticsFromJson(json.at("sums"));
-  tally.maxima = StatisticsFromJson(json.at("maxima"));
-  Fill(tally.steps, json.at("steps"));
-  return tally;
 }
 
 void Record::Merge(const Record& other) {
@@ -164,27 +126,113 @@ std::string Serialize(const Record& record) {
       .dump();
 }
 
-Record ParseRecord(const std::string& text) {
-  const Json json = Json::parse(text);
+// ---- Reading ---------------------------------------------------------------------------------
+
+namespace {
+
+// More than any campaign counts; thousands of them add up within 64 bits.
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 48;
+
+std::int64_t ReadCount(const JsonPlace& place) {
+  return place.Integer(0, kMostCounted, fmt::format("a count, at most {}", kMostCounted));
+}
+std::int64_t ReadCount(const JsonPlace& place, const char* name) {
+  return ReadCount(place.Required(name, "a count"));
+}
+
+int ReadSmall(const JsonPlace& place) {
+  constexpr int kMost = 1 << 20;
+  return static_cast<int>(place.Integer(0, kMost, fmt::format("a number from 0 to {}", kMost)));
+}
+
+// Counters; what is not there at the end is zero.
+template <class Array>
+void ReadCounts(const JsonPlace& place, Array& values) {
+  const std::string expected = fmt::format("a list of at most {} counts", values.size());
+  const std::size_t size = place.Size(expected);
+  if (size > values.size()) place.Refuse(expected);
+  for (std::size_t i = 0; i < size; ++i) values[i] = ReadCount(place[i]);
+}
+
+Statistics ReadStatistics(const JsonPlace& place) {
+  Statistics statistics;
+  ForEachField(statistics, [&place](const char* name, const char*, std::int64_t& value) {
+    value = ReadCount(place, name);
+  });
+  return statistics;
+}
+
+template <class Tally>
+void ReadCounters(const JsonPlace& place, Tally& tally) {
+  ForEachCounter(tally, [&place](const char* name, std::int64_t& value) { value = ReadCount(place, name); });
+}
+
+void ReadHistogram(const JsonPlace& place, std::map<int, std::int64_t>& histogram) {
+  const std::size_t bins = place.Size("a list of pairs [value, count]");
+  for (std::size_t i = 0; i < bins; ++i) {
+    const JsonPlace bin = place[i];
+    if (bin.Size("a pair [value, count]") != 2) bin.Refuse("a pair [value, count]");
+    histogram[ReadSmall(bin[0])] = ReadCount(bin[1]);
+  }
+}
+
+Tally ReadTally(const JsonPlace& place) {
+  Tally tally;
+  tally.problems = ReadCount(place, "problems");
+  ReadCounts(place.Required("outcomes", "counts"), tally.outcomes);
+  const JsonPlace verdicts = place.Required("verdicts", "a list of counts for every outcome");
+  if (verdicts.Size("a list of lists") != tally.verdicts.size()) verdicts.Refuse("a list for every outcome");
+  for (std::size_t i = 0; i < tally.verdicts.size(); ++i) ReadCounts(verdicts[i], tally.verdicts[i]);
+  tally.audited = ReadCount(place, "audited");
+  tally.misjudged = ReadCount(place, "misjudged");
+  tally.wrong = ReadCount(place, "wrong");
+  tally.with_zero_steps = ReadCount(place, "with_zero_steps");
+  tally.with_give_ups = ReadCount(place, "with_give_ups");
+  tally.sums = ReadStatistics(place.Required("sums", "counters"));
+  tally.maxima = ReadStatistics(place.Required("maxima", "counters"));
+  ReadCounts(place.Required("steps", "counts"), tally.steps);
+  return tally;
+}
+
+TallyKey ReadKey(const JsonPlace& place) {
+  const auto text = [&place](const char* name) { return place.Required(name, "a text").Text("a text"); };
+  return {text("generator"), ReadSmall(place.Required("contacts", "a number")), text("policy"), text("method"),
+          text("arithmetic")};
+}
+
+// visit(element) for every element of a list.
+template <class Visit>
+void ForEachIn(const JsonPlace& list, const Visit& visit) {
+  const std::size_t size = list.Size("a list");
+  for (std::size_t i = 0; i < size; ++i) visit(list[i]);
+}
+
+}  // namespace
+
+Tally TallyFromJson(const Json& json) {
+  static const std::string source = "tally";
+  return ReadTally(JsonPlace(json, source, ""));
+}
+
+Record ParseRecord(const std::string& text, const std::string& source) {
+  const Json json = ParseJson(text, source);
+  const JsonPlace root(json, source, "");
   Record record;
-  for (const Json& entry : json.at("tallies")) {
-    const TallyKey key{entry.at("generator").get<std::string>(), entry.at("contacts").get<int>(),
-                       entry.at("policy").get<std::string>(), entry.at("method").get<std::string>(),
-                       entry.at("arithmetic").get<std::string>()};
-    record.tallies[key] = TallyFromJson(entry);
-  }
-  for (const auto& [signature, count] : json.at("signatures").items()) {
-    record.signatures[signature] = count.get<std::int64_t>();
-  }
-  for (const Json& entry : json.at("existence")) {
-    FillCounters(record.existence[entry.at("contacts").get<int>()], entry);
-  }
-  for (const Json& entry : json.at("agreement")) {
-    AgreementTally& tally = record.agreement[entry.at("contacts").get<int>()];
-    FillCounters(tally, entry);
-    Fill(tally.words, entry.at("words"));
-    Fill(tally.solutions, entry.at("solutions"));
-  }
+  ForEachIn(root.Required("tallies", "a list"),
+            [&record](const JsonPlace& entry) { record.tallies[ReadKey(entry)] = ReadTally(entry); });
+  const JsonPlace signatures = root.Required("signatures", "counts by signature");
+  signatures.RequireObject();
+  for (const auto& [signature, count] : signatures.json().items())
+    record.signatures[signature] = ReadCount(signatures.Child(signature, count));
+  ForEachIn(root.Required("existence", "a list"), [&record](const JsonPlace& entry) {
+    ReadCounters(entry, record.existence[ReadSmall(entry.Required("contacts", "a number"))]);
+  });
+  ForEachIn(root.Required("agreement", "a list"), [&record](const JsonPlace& entry) {
+    AgreementTally& tally = record.agreement[ReadSmall(entry.Required("contacts", "a number"))];
+    ReadCounters(entry, tally);
+    ReadHistogram(entry.Required("words", "a list"), tally.words);
+    ReadHistogram(entry.Required("solutions", "a list"), tally.solutions);
+  });
   return record;
 }
 

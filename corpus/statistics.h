@@ -78,7 +78,7 @@ struct Tally {
 };
 
 Json ToJson(const Tally& tally);
-Tally TallyFromJson(const Json& json);
+Tally TallyFromJson(const Json& json);  // InputError
 
 // Complete driving on the problems that were run exactly, by number of contacts.
 struct ExistenceTally {
@@ -151,7 +151,8 @@ struct Record {
 
 // The same record always has the same text.
 std::string Serialize(const Record& record);
-Record ParseRecord(const std::string& text);
+// `source` names the text in errors. InputError for what Serialize does not write, and for counts beyond 2^48.
+Record ParseRecord(const std::string& text, const std::string& source = "record");
 
 }  // namespace stiction
 

@@ -47,9 +47,20 @@ constexpr const char* kFindingColumns =
     "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
     "certificate, minimized, minimized_certificate, existence, minimized_existence, facts";
 
+std::string StoreName(sqlite3* db) { return sqlite3_db_filename(db, "main"); }
+
+bool IsUtf8(const std::string& text) {
+  try {
+    Json(text).dump();
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
 // What the last call on a database says: it cannot be written, or it is damaged or none.
 [[noreturn]] void Refuse(sqlite3* db) {
-  const std::string file = sqlite3_db_filename(db, "main"), reason = sqlite3_errmsg(db);
+  const std::string file = StoreName(db), reason = sqlite3_errmsg(db);
   switch (sqlite3_errcode(db)) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
@@ -90,9 +101,19 @@ class Statement {
     return status == SQLITE_ROW;
   }
   std::int64_t Integer(int column) const { return sqlite3_column_int64(statement_, column); }
+  // InputError, which names `what`, unless it is from `least` to `most`.
+  std::int64_t Integer(int column, std::int64_t least, std::int64_t most, const char* what) const {
+    const std::int64_t value = Integer(column);
+    if (least <= value && value <= most) return value;
+    throw InputError(StoreName(db_), what, std::to_string(value), fmt::format("{} to {}", least, most));
+  }
+  // InputError unless it is UTF-8.
   std::string Text(int column) const {
-    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
-    return {text == nullptr ? "" : text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+    std::string text(bytes == nullptr ? "" : bytes, size);
+    if (IsUtf8(text)) return text;
+    throw InputError(StoreName(db_), sqlite3_column_name(statement_, column), "bytes", "a text in UTF-8");
   }
 
  private:
@@ -177,6 +198,18 @@ void RequireDatabase(const fs::path& file) {
   if (head != kMagic) refuse(fmt::format("another file of {} bytes", fs::file_size(file)));
 }
 
+// Of rows that begin with shards, shard.
+Shard ReadShard(const Statement& row) {
+  const auto count = static_cast<int>(row.Integer(0, 1, 1 << 20, "shards"));
+  return {static_cast<int>(row.Integer(1, 0, count - 1, "shard")), count};
+}
+std::int64_t ReadBlock(const Statement& row, int column) {
+  return row.Integer(column, 0, std::int64_t{1} << 32, "block");
+}
+std::int64_t ReadUnit(const Statement& row, int column) {
+  return row.Integer(column, 0, std::int64_t{1} << 62, "unit");
+}
+
 Finding ReadFinding(const Statement& row) {
   Finding finding;
   finding.signature = row.Text(0);
@@ -184,7 +217,7 @@ Finding ReadFinding(const Statement& row) {
   finding.unit = row.Integer(2);
   finding.index = row.Integer(3);
   finding.generator = row.Text(4);
-  finding.contacts = static_cast<int>(row.Integer(5));
+  finding.contacts = static_cast<int>(row.Integer(5, 0, 1 << 20, "contacts"));
   finding.policy = row.Text(6);
   finding.inexact_outcome = row.Text(7);
   finding.exact_outcome = row.Text(8);
@@ -355,13 +388,14 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
         "{}: found format {} version {}, expected {} version {}. A store of another version of stiction is "
         "read "
         "by that version only; search anew with --store NEW_FILE",
-        sqlite3_db_filename(db_.get(), "main"), values["format"], values["version"], kFormat, kVersion));
+        StoreName(db_.get()), values["format"], values["version"], kFormat, kVersion));
   }
   std::uint64_t seed = 0;
   const std::string& text = values["seed"];
-  if (std::from_chars(text.data(), text.data() + text.size(), seed).ec != std::errc()) {
-    throw InputError(fmt::format("{}: found seed '{}', expected an integer from 0 to 2^64 - 1",
-                                 sqlite3_db_filename(db_.get(), "main"), text));
+  const char* const end = text.data() + text.size();
+  if (const auto read = std::from_chars(text.data(), end, seed); read.ec != std::errc() || read.ptr != end) {
+    throw InputError(
+        fmt::format("{}: found seed '{}', expected an integer from 0 to 2^64 - 1", StoreName(db_.get()), text));
   }
   return CampaignIdentity{values["definition"], seed, values["policies"], values["build"]};
 }
@@ -385,7 +419,7 @@ std::int64_t UnitSet::Count() const {
 UnitSet Store::Units() const {
   UnitSet units;
   Statement open(db_.get(), "SELECT unit FROM units");
-  while (open.Step()) units.AddUnit(open.Integer(0));
+  while (open.Step()) units.AddUnit(ReadUnit(open, 0));
   for (const BlockInfo& info : Blocks()) units.AddBlock(info.shard, info.block);
   return units;
 }
@@ -400,7 +434,7 @@ void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string&
   if (present.Bind(BlockOf(shard, unit)).Step()) {
     throw InputError(
         fmt::format("{}: holds unit {} already; does another search work on the same store and shard?",
-                    sqlite3_db_filename(db_.get(), "main"), unit));
+                    StoreName(db_.get()), unit));
   }
   Statement(db_.get(), "INSERT INTO units (unit, shards, shard, block, record) VALUES (?, ?, ?, ?, ?)")
       .Bind(unit)
@@ -449,7 +483,7 @@ void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
   Record sum;
   Statement records(db_.get(), "SELECT record" + of_block);
   bind(records);
-  while (records.Step()) sum.Merge(ParseRecord(records.Text(0)));
+  while (records.Step()) sum.Merge(ParseRecord(records.Text(0), "record of a unit"));
   Statement insert(db_.get(), "INSERT INTO blocks (shards, shard, block, record) VALUES (?, ?, ?, ?)");
   bind(insert).Bind(Serialize(sum)).Step();
   Statement remove(db_.get(), "DELETE" + of_block);
@@ -481,7 +515,8 @@ Record Store::Total() const {
   Record total;
   for (const char* table : {"blocks", "units"}) {
     Statement rows(db_.get(), fmt::format("SELECT record FROM {}", table));
-    while (rows.Step()) total.Merge(ParseRecord(rows.Text(0)));
+    while (rows.Step())
+      total.Merge(ParseRecord(rows.Text(0), fmt::format("{}: record of {}", StoreName(db_.get()), table)));
   }
   return total;
 }
@@ -490,7 +525,7 @@ std::vector<Store::BlockInfo> Store::Blocks() const {
   Statement rows(db_.get(), "SELECT shards, shard, block FROM blocks ORDER BY shards, shard, block");
   std::vector<BlockInfo> blocks;
   while (rows.Step()) {
-    blocks.push_back({{static_cast<int>(rows.Integer(1)), static_cast<int>(rows.Integer(0))}, rows.Integer(2)});
+    blocks.push_back({ReadShard(rows), ReadBlock(rows, 2)});
   }
   return blocks;
 }
@@ -501,13 +536,17 @@ void Store::MergeFrom(const Store& other) {
   }
   Transaction transaction(db_.get());
   const UnitSet before = Units();
-  const auto shard_of = [](const Statement& row) {
-    return Shard{static_cast<int>(row.Integer(1)), static_cast<int>(row.Integer(0))};
-  };
   Statement blocks(other.db_.get(), "SELECT shards, shard, block, record FROM blocks");
-  while (blocks.Step()) MergeBlock(shard_of(blocks), blocks.Integer(2), blocks.Text(3), before);
+  while (blocks.Step()) MergeBlock(ReadShard(blocks), ReadBlock(blocks, 2), blocks.Text(3), before);
   Statement units(other.db_.get(), "SELECT shards, shard, unit, record FROM units");
-  while (units.Step()) MergeUnit(shard_of(units), units.Integer(2), units.Text(3));
+  while (units.Step()) {
+    const Shard shard = ReadShard(units);
+    const std::int64_t unit = ReadUnit(units, 2);
+    if (!shard.Owns(unit))
+      throw InputError(fmt::format("merge: found unit {} in shard {}/{}, which does not have it", unit,
+                                   shard.index, shard.count));
+    MergeUnit(shard, unit, units.Text(3));
+  }
   for (const Finding& finding : other.Findings()) MergeFinding(finding);
   transaction.Commit();
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <regex>
@@ -17,6 +16,7 @@
 namespace stiction {
 namespace {
 
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 48;  // sums of them are no longer than 64 bits
 constexpr std::size_t kLongestName = 200;  // file systems allow 255, and extensions come on top
 
 // A signature names drives and steps of its loop: "cycle-2c-4d-10s-...".
@@ -33,16 +33,17 @@ GridOutcomes ReadGrid(const JsonPlace& facts) {
   counts.RequireObject();
   for (int i = 0; i < kOutcomeCount; ++i) {
     const auto count = counts.Optional(std::string(kOutcomeNames[i]));
-    if (count) grid.counts[i] = count->Integer(0, std::numeric_limits<std::int64_t>::max(), "a count");
+    if (count) grid.counts[i] = count->Integer(0, kMostCounted, "a count");
   }
   return grid;
 }
 
 RunFacts ReadRun(const JsonPlace& facts) {
-  const auto count = [&facts](const char* key) {
-    return facts.Required(key, "a count").Integer(0, std::numeric_limits<std::int64_t>::max(), "a count");
+  const auto count = [&facts](const char* key, std::int64_t most = kMostCounted) {
+    return facts.Required(key, "a count").Integer(0, most, "a count");
   };
-  RunFacts run = {count("contacts"), count("start"), count("period"), count("steps"), ReadGrid(facts), {}};
+  RunFacts run = {
+      count("contacts", 1 << 20), count("start"), count("period"), count("steps"), ReadGrid(facts), {}};
   const auto safe = facts.Optional("safe");
   if (safe && safe->json().is_boolean()) run.safe = safe->json().get<bool>();
   return run;

@@ -14,17 +14,25 @@ namespace {
 using Exact = mpq_class;
 
 template <int Size>
+Exact LargestEntry(const Eigen::Matrix<Exact, Size, 1>& v) {
+  Exact largest(0);
+  for (int i = 0; i < Size; ++i) largest = std::max<Exact>(largest, abs(v[i]));
+  return largest;
+}
+
+template <int Size>
 Exact RoundedLength(const Eigen::Matrix<Exact, Size, 1>& v) {
   const Exact square = v.squaredNorm();
   if (const auto root = RationalRoot(square)) return *root;
-  return Exact(std::sqrt(Nearest(square)));
+  if (const double nearest = Nearest(square); std::isnormal(nearest)) return Exact(std::sqrt(nearest));
+  const Exact scale = LargestEntry(v);  // so that nothing overflows or underflows
+  return scale * Exact(std::sqrt(Nearest(Exact(square / (scale * scale)))));
 }
 
 template <int Size>
 Eigen::Matrix<Exact, Size, 1> RoundedUnitVector(const Eigen::Matrix<Exact, Size, 1>& v) {
   if (const auto root = RationalRoot(Exact(v.squaredNorm()))) return v / *root;
-  Exact scale(0);  // so that nothing overflows
-  for (int i = 0; i < Size; ++i) scale = std::max<Exact>(scale, abs(v[i]));
+  const Exact scale = LargestEntry(v);  // so that nothing overflows
   const Eigen::Matrix<Exact, Size, 1> scaled = v / scale;
   return UnitVector(Nearest(scaled)).template cast<Exact>();
 }

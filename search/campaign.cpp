@@ -137,9 +137,9 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source) {
   Campaign campaign = ParseCampaign(identity.definition, source + ": definition");
   campaign.seed = identity.seed;
-  campaign.policies.clear();
-  const Json policies = ParseJson(identity.policies, source + ": policies");
-  for (const Json& policy : policies) campaign.policies.push_back(ParsePolicy(policy.get<std::string>()));
+  const std::string place = source + ": policies";
+  const Json policies = ParseJson(identity.policies, place);
+  campaign.policies = ReadList(JsonPlace(policies, place, ""), ReadPolicy);
   return campaign;
 }
 
@@ -193,8 +193,11 @@ std::int64_t UnitProblems(const Campaign& campaign, const Task& task) {
 
 std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems) {
   const std::vector<Task> schedule = Schedule(campaign);
-  std::int64_t of_round = 0;
-  for (const Task& task : schedule) of_round += UnitProblems(campaign, task);
+  std::int64_t of_round = 0;  // or of a part that is enough
+  for (const Task& task : schedule) {
+    if (of_round > problems) break;
+    of_round += UnitProblems(campaign, task);
+  }
   std::int64_t units = problems / of_round * static_cast<std::int64_t>(schedule.size());
   std::int64_t rest = problems % of_round;
   for (const Task& task : schedule) {

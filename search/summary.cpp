@@ -35,6 +35,17 @@ struct ByGravity {
   }
 };
 
+// What the facts of a finding say of its minimized problem: with a grid, contacts, start and period.
+Json MinimizedFacts(const Finding& finding) {
+  const std::string source = "facts of " + finding.signature;
+  const Json facts = ParseJson(finding.facts, source);
+  const JsonPlace minimized =
+      JsonPlace(facts, source, "").Required("minimized", "those of the minimized problem");
+  minimized.Required("grid", "outcomes over the policy grid").RequireObject();
+  for (const char* key : {"contacts", "start", "period"}) minimized.Required(key, "a number");
+  return minimized.json();
+}
+
 struct Digest {
   std::int64_t units = 0, problems = 0, runs = 0, suspicions = 0, confirmed = 0, audited = 0, misjudged = 0,
                wrong = 0;
@@ -88,8 +99,7 @@ Digest DigestOf(const Store& store) {
     ++(finding.done ? digest.finished : digest.pending);
     if (IsGrave(finding.kind)) digest.grave.push_back(finding);
     if (!finding.done || finding.minimized.empty()) continue;
-    const Json facts = ParseJson(finding.facts, finding.signature);
-    digest.whole_grid += IsLoopKind(finding.kind) && facts.at("minimized").at("grid").size() == 1;
+    digest.whole_grid += MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind);
     digest.simplest.push_back(std::move(finding));
   }
   const auto rank = [](const Finding& f) { return std::tuple(Gravity(f.kind), f.minimized.size()); };
@@ -99,7 +109,7 @@ Digest DigestOf(const Store& store) {
 }
 
 std::string FindingLine(const Finding& finding) {
-  const Json facts = ParseJson(finding.facts, finding.signature).at("minimized");
+  const Json facts = MinimizedFacts(finding);
   std::string grid;
   for (const auto& [outcome, count] : facts.at("grid").items()) {
     grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", outcome, count.dump());

@@ -152,6 +152,9 @@ class FclibReader {
       Refuse(path, fmt::format("{} numbers", count),
              size >= 0 ? fmt::format("{}", size) : fmt::format("at most {}", most));
     }
+    if (count > 0 && H5Dget_storage_size(set.id()) == 0) {  // HDF5 would make zeros of it, however many
+      Refuse(path, fmt::format("{} numbers that were never written", count), expected);
+    }
     std::vector<Number> values(count);
     const hid_t memory = kInteger ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
     if (count > 0 && H5Dread(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
@@ -252,6 +255,12 @@ class FclibReader {
            fmt::format("{} rows, {} columns", rows, columns));
   }
 
+  // A number for each of `count` equations. Read before anything is made of them: a matrix without entries may
+  // have any number of rows.
+  ExactProblem::Vector Equations(const std::string& name, int count) {
+    return count > 0 ? Vector(name, count) : ExactProblem::Vector(0);
+  }
+
   // `rows` rows of static contacts, then one bilateral contact for each of `equations`.
   void MakeContacts(const std::string& name, int rows, int equations) {
     if (rows % problem_.dimension != 0) {
@@ -278,9 +287,10 @@ class FclibReader {
       RequireShape("R", R, R.rows, R.rows);
       RequireShape("V", V, rows, R.rows);
     }
+    const ExactProblem::Vector s = Equations("s", R.rows);
     MakeContacts("W", rows, R.rows);
     problem_.b.head(rows) = Vector("q", rows);
-    if (R.rows > 0) problem_.b.tail(R.rows) = Vector("s", R.rows);
+    problem_.b.tail(R.rows) = s;
     for (const auto& [i, j, value] : W.entries) problem_.A[{i, j}] += Rational(value);
     for (const auto& [i, j, value] : R.entries) problem_.A[{rows + i, rows + j}] += Rational(value);
     for (const auto& [i, j, value] : V.entries) {
@@ -300,9 +310,10 @@ class FclibReader {
       RequireShape("G", G, M.rows, G.columns);
     }
     const int rows = H.columns + G.columns, first = M.rows, last = first + rows;
+    const ExactProblem::Vector b = Equations("b", G.columns);
     MakeContacts("H", H.columns, G.columns);
     problem_.b.head(H.columns) = Vector("w", H.columns);
-    if (G.columns > 0) problem_.b.tail(G.columns) = Vector("b", G.columns);
+    problem_.b.tail(G.columns) = b;
     const ExactProblem::Vector f = Vector("f", M.rows);
 
     std::vector<SparseRow> K(last);

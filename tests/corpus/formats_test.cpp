@@ -264,7 +264,7 @@ TEST_CASE("Siconos: LCP or friction is told by the first words") {
   CHECK(Parse(kColumns).contacts[0].kind == ContactKind::kStatic);
 }
 
-TEST_CASE("Siconos: behind the last number may stand a flag, 0 or 1, and text; any other number is refused") {
+TEST_CASE("Siconos: behind the last number may stand a flag, 0 or 1, and text, and no other number") {
   const std::string lcp = "2 0 2 2 2 2\n1 2\n3 4\n-5 6\n";
   const std::string friction = "2 1 0 2 2 2 2\n1 2\n3 4\n-5 6\n0.5\n";
   for (const std::string& text : {lcp, friction}) {

@@ -612,7 +612,7 @@ Tally FullTally() {
   for (Statistics* s : {&tally.sums, &tally.maxima}) {
     ForEachField(*s, [&next](const char*, const char*, std::int64_t& value) { value = next++; });
   }
-  for (auto& count : tally.steps) count = (std::int64_t{1} << 61) + next++;
+  for (auto& count : tally.steps) count = (std::int64_t{1} << 47) + next++;
   return tally;
 }
 

@@ -511,7 +511,7 @@ bug("all-confirmed", "if (exact == inexact) digest.confirmed += tally.verdicts[i
 bug("grave-not-named", "if (IsGrave(finding.kind)) digest.grave.push_back(finding);", "", "grave findings are not named")
 bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
     "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
-bug("grid-of-any-size", 'IsLoopKind(finding.kind) && facts.at("minimized").at("grid").size() == 1',
+bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
     "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
 bug("misjudged-not-summed", "digest.misjudged += tally.misjudged;", "", "misjudged runs are not told")
 

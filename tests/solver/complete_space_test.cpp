@@ -623,6 +623,18 @@ TEST_CASE("polygon: a corner is added once, in its place") {
   CHECK(polygon.reach(4) == Cross(polygon.corner(4), polygon.corner(0)));
 }
 
+TEST_CASE("polygon: a contact that pulls has no friction to spend") {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}};
+  problem.A = ExactMatrix::Identity(3, 3);
+  problem.b = Vector({1, -2, -2});
+  const ExactVector f = Vector({-1, 2, 2});
+  const ExactVector a = Accelerations(problem, f);
+  REQUIRE(a == Vector({0, 0, 0}));
+  CHECK(PolygonResidual(problem, Polygons{FrictionPolygon<Rational>(8)}, f, a) == 1);  // all of fF
+}
+
 TEST_CASE("polygon: the projection is the nearest point") {
   Choices choices(11);
   for (int index = 0; index < 300; ++index) {

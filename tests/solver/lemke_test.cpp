@@ -132,6 +132,21 @@ TEST_CASE("lemke: the cycling reference problem and the two-contact cycle of the
         Vector({Rational(169, 212), Rational(-845, 106), Rational(5383, 636), Rational(-3073, 636)}));
 }
 
+TEST_CASE("lemke: of rows that tie for the first pivot the last leaves, and z0 leaves as soon as it can") {
+  const auto run = [](const ExactProblem& problem) {
+    LemkeAlgorithm<Rational> lemke;
+    Trace<Rational> trace;
+    REQUIRE(lemke.Run(problem, &trace).outcome == Outcome::kSolved);
+    return trace.pivots;
+  };
+  // Unit vectors tell equal quotients apart: the last is the lexicographically smallest.
+  CHECK(run(MakeProblem({-1, -1}, {{1, 0}, {0, 1}}, {-1, -1})).front().leaving == "aN2");
+  // One push lets both contacts rest: the second comes to rest with z0.
+  const auto pivots = run(MakeProblem({-1, -1}, {{2, 1}, {1, 1}}, {-2, -1}));
+  CHECK(pivots.size() == 2);
+  CHECK(pivots.back().leaving == "z0");
+}
+
 TEST_CASE("lemke: no contacts, nothing to do, and a zero matrix") {
   LemkeAlgorithm<Rational> lemke;
   CHECK(lemke.Run(NoContacts()).outcome == Outcome::kSolved);

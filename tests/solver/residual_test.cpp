@@ -48,6 +48,13 @@ TEST_CASE("residual: the three solutions of one contact have none") {
   CHECK(Residual(ThreeSolutions(), Vector({2, -1})) > 0);
 }
 
+TEST_CASE("residual: a contact that pulls has no friction to spend") {
+  const ExactProblem problem = MakeProblem({1}, {{1, 0}, {0, 1}}, {1, -3});
+  const ExactVector f = Vector({-1, 3});
+  REQUIRE(Accelerations(problem, f) == Vector({0, 0}));
+  CHECK(NaturalResidual(problem, f, Accelerations(problem, f)) == 1);  // all of fF
+}
+
 TEST_CASE("residual: other units of force or acceleration do not change it") {
   const ExactProblem problem = ReferenceProblem();
   const ExactVector f = Vector({1, Rational(-1, 2), 2, -1});

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the fuzz targets (targets.h) with clang, libFuzzer and the sanitizers in build/fuzz, and runs them.
+
+    tests/fuzz/fuzz.py [--seconds N] [--target NAME ...]
+
+A target starts from its seeds (targets.json), from inputs that once failed (findings/NAME), and from what
+earlier runs found worth keeping (build/fuzz/corpus/NAME). An input that fails, takes too long or too much
+memory is written to build/fuzz/found/NAME, and the target goes on. Prints a line per target.
+Exit: 0 if nothing was found, 1 if something was.
+"""
+
+import argparse
+import collections
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build" / "fuzz"
+TABLE = json.loads((ROOT / "tests/fuzz/targets.json").read_text())
+
+SECONDS_PER_INPUT = 20
+MEGABYTES = 2560
+MOST_FINDINGS = 5  # of a target, then it has to be mended first
+WORDS_IN_DICTIONARY = 500
+
+
+def build(targets, jobs):
+    if not (BUILD / "build.ninja").exists():
+        subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, "-DCMAKE_CXX_COMPILER=clang++",
+                        "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -gline-tables-only",
+                        "-DSTICTION_FUZZ=ON"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["ninja", "-C", BUILD, "-j", str(jobs), *(f"fuzz_{name}" for name in targets)], check=True)
+
+
+# ---- Seeds -------------------------------------------------------------------------------------
+
+def seeds_of(name):
+    """Bytes of every seed that is not too long; a file of lines holds one each."""
+    for folder in TABLE[name]["seeds"]:
+        for file in sorted((ROOT / folder).iterdir()):
+            if file.suffix == ".lines":
+                yield from file.read_bytes().splitlines()
+            elif file.suffix in (".json", ".dat") and file.stat().st_size <= TABLE[name]["bytes"]:
+                yield file.read_bytes()
+
+
+def write_seeds(name):
+    folder = BUILD / "seeds" / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for seed in seeds_of(name):
+        (folder / hashlib.sha1(seed).hexdigest()).write_bytes(seed)
+    return folder
+
+
+def write_dictionary(name):
+    """Words of the seeds, the most frequent ones."""
+    words = collections.Counter()
+    for seed in seeds_of(name):
+        words.update(re.findall(rb'"[^"\\]{1,40}"|[^\s"\\,:\[\]{}]{1,40}', seed))
+    file = BUILD / f"{name}.dict"
+    escaped = ("".join(f"\\x{byte:02x}" for byte in word) for word, _ in words.most_common(WORDS_IN_DICTIONARY))
+    file.write_text("".join(f'"{word}"\n' for word in escaped))
+    return file
+
+
+# ---- Runs --------------------------------------------------------------------------------------
+
+class Run:
+    """What one target did."""
+
+    def __init__(self, name):
+        self.name = name
+        self.found = BUILD / "found" / name
+        self.corpus = BUILD / "corpus" / name
+        for folder in (self.found, self.corpus):
+            folder.mkdir(parents=True, exist_ok=True)
+        self.before = set(self.found.iterdir())
+        self.inputs = self.edges = 0
+        self.processor = 0.0
+        self.broken = False  # ended by itself without a file that says why
+
+    def findings(self):
+        new = set(self.found.iterdir()) - self.before
+        return sorted(file for file in new if not file.name.startswith("slow-unit"))
+
+    def command(self, seconds):
+        folders = [self.corpus, write_seeds(self.name), ROOT / "tests/fuzz/findings" / self.name]
+        dictionary = write_dictionary(self.name)
+        words = [f"-dict={dictionary}"] if dictionary.stat().st_size else []
+        return [BUILD / "tests/fuzz" / f"fuzz_{self.name}", *(f for f in folders if f.is_dir()), *words,
+                f"-max_total_time={seconds}", f"-max_len={TABLE[self.name]['bytes']}",
+                f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEGABYTES}",
+                f"-artifact_prefix={self.found}/", "-print_final_stats=1", "-report_slow_units=5"]
+
+    def once(self, seconds):
+        """libFuzzer until it has spent its time, or has found something."""
+        log = BUILD / "log" / f"{self.name}.txt"
+        log.parent.mkdir(exist_ok=True)
+        with log.open("ab") as output:
+            start = output.tell()
+            process = subprocess.Popen([str(word) for word in self.command(seconds)], stdin=subprocess.DEVNULL,
+                                       stdout=output, stderr=output)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        self.processor += usage.ru_utime + usage.ru_stime
+        text = log.read_bytes()[start:].decode(errors="replace")
+        executed = re.findall(r"stat::number_of_executed_units: (\d+)", text)
+        self.inputs += int(executed[-1]) if executed else 0
+        self.edges = max([self.edges, *map(int, re.findall(r"\bcov: (\d+)", text))])
+        return process.returncode == 0
+
+    def go(self, seconds):
+        end = time.monotonic() + seconds
+        while (left := round(end - time.monotonic())) > 0 and len(self.findings()) < MOST_FINDINGS:
+            before = len(self.findings())
+            if not self.once(left) and len(self.findings()) == before:
+                self.broken = True
+                break
+
+    def line(self):
+        return (f"{self.name:12} {self.inputs:>11} {self.processor:>9.0f} {self.edges:>9} "
+                f"{len(list(self.corpus.iterdir())):>8} {len(self.findings()):>9}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=int, default=60, help="of every target (default 60)")
+    parser.add_argument("--target", nargs="+", choices=list(TABLE), metavar="NAME",
+                        default=[name for name, row in TABLE.items() if not row.get("only_if_named")],
+                        help=f"of {', '.join(TABLE)}")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
+    o = parser.parse_args()
+    build(o.target, o.jobs)
+    print(f"{'target':12} {'inputs':>11} {'seconds':>9} {'edges':>9} {'corpus':>8} {'findings':>9}", flush=True)
+    bad = False
+    for name in o.target:
+        run = Run(name)
+        run.go(o.seconds)
+        print(run.line(), flush=True)
+        for file in run.findings():
+            print(f"  {file}: run {BUILD}/tests/fuzz/fuzz_{name} {file}")
+        if run.broken:
+            print(f"  ended by itself: {BUILD}/log/{name}.txt")
+        bad = bad or run.broken or bool(run.findings())
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

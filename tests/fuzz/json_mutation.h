@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON that stays JSON when it is changed: what random bytes hardly ever make.
+
+#ifndef STICTION_TESTS_FUZZ_JSON_MUTATION_H_
+#define STICTION_TESTS_FUZZ_JSON_MUTATION_H_
+
+#include <string>
+#include <string_view>
+
+#include "search/choices.h"
+
+namespace stiction::fuzz {
+
+// The document with one to three places of it changed: a value in the place of another, a number near the one
+// that stood there, a copy, a copy of another place, a member gone. A string that is JSON itself may be changed
+// inside. Text that is no JSON comes back as it is.
+std::string MutatedJson(std::string_view text, Choices& choices);
+
+}  // namespace stiction::fuzz
+
+#endif  // STICTION_TESTS_FUZZ_JSON_MUTATION_H_
