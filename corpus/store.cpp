@@ -49,15 +49,6 @@ constexpr const char* kFindingColumns =
 
 std::string StoreName(sqlite3* db) { return sqlite3_db_filename(db, "main"); }
 
-bool IsUtf8(const std::string& text) {
-  try {
-    Json(text).dump();
-    return true;
-  } catch (const Json::exception&) {
-    return false;
-  }
-}
-
 // What the last call on a database says: it cannot be written, or it is damaged or none.
 [[noreturn]] void Refuse(sqlite3* db) {
   const std::string file = StoreName(db), reason = sqlite3_errmsg(db);
@@ -107,13 +98,9 @@ class Statement {
     if (least <= value && value <= most) return value;
     throw InputError(StoreName(db_), what, std::to_string(value), fmt::format("{} to {}", least, most));
   }
-  // InputError unless it is UTF-8.
   std::string Text(int column) const {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
-    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
-    std::string text(bytes == nullptr ? "" : bytes, size);
-    if (IsUtf8(text)) return text;
-    throw InputError(StoreName(db_), sqlite3_column_name(statement_, column), "bytes", "a text in UTF-8");
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return {text == nullptr ? "" : text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
   }
 
  private:

@@ -159,34 +159,41 @@ Json SummaryToJson(const Store& store) {
   Json grave = Json::array();
   for (const Finding& finding : digest.grave)
     grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
-  return {{"seed", store.identity().seed},
-          {"build", store.identity().build},
-          {"units", digest.units},
-          {"problems", digest.problems},
-          {"runs", digest.runs},
-          {"findings", digest.findings},
-          {"groups", digest.groups},
-          {"rates", RatesToJson(digest)},
-          {"rates_are_lower_bounds", digest.audited + digest.suspicions < digest.runs},
-          {"finished", digest.finished},
-          {"pending", digest.pending},
-          {"whole_grid", digest.whole_grid},
-          {"suspicions", digest.suspicions},
-          {"confirmed", digest.confirmed},
-          {"audited", digest.audited},
-          {"misjudged", digest.misjudged},
-          {"misjudged_share", IntervalToJson(ShareInterval(digest.misjudged, digest.audited))},
-          {"wrong", digest.wrong},
-          {"existence_checked", digest.existence.problems},
-          {"existence_solved", digest.existence.solved},
-          {"compared", digest.agreement.compared},
-          {"enumerated", digest.agreement.enumerated},
-          {"disagreements_of_methods", digest.agreement.disagreements},
-          {"safety_decided", digest.agreement.safety_decided},
-          {"safe", digest.agreement.safe},
-          {"safe_gave_up", digest.agreement.safe_gave_up},
-          {"grave", grave},
-          {"minimized", simplest}};
+  Json summary = {{"seed", store.identity().seed},
+                  {"build", store.identity().build},
+                  {"units", digest.units},
+                  {"problems", digest.problems},
+                  {"runs", digest.runs},
+                  {"findings", digest.findings},
+                  {"groups", digest.groups},
+                  {"rates", RatesToJson(digest)},
+                  {"rates_are_lower_bounds", digest.audited + digest.suspicions < digest.runs},
+                  {"finished", digest.finished},
+                  {"pending", digest.pending},
+                  {"whole_grid", digest.whole_grid},
+                  {"suspicions", digest.suspicions},
+                  {"confirmed", digest.confirmed},
+                  {"audited", digest.audited},
+                  {"misjudged", digest.misjudged},
+                  {"misjudged_share", IntervalToJson(ShareInterval(digest.misjudged, digest.audited))},
+                  {"wrong", digest.wrong},
+                  {"existence_checked", digest.existence.problems},
+                  {"existence_solved", digest.existence.solved},
+                  {"compared", digest.agreement.compared},
+                  {"enumerated", digest.agreement.enumerated},
+                  {"disagreements_of_methods", digest.agreement.disagreements},
+                  {"safety_decided", digest.agreement.safety_decided},
+                  {"safe", digest.agreement.safe},
+                  {"safe_gave_up", digest.agreement.safe_gave_up},
+                  {"grave", grave},
+                  {"minimized", simplest}};
+  try {
+    summary.dump();
+  } catch (const Json::exception&) {
+    throw InputError(
+        "summary: found a signature or another text of the store that is no UTF-8, which JSON asks for");
+  }
+  return summary;
 }
 
 std::string SummaryText(const Store& store, const std::string& file) {
