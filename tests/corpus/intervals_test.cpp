@@ -12,7 +12,7 @@
 namespace stiction {
 namespace {
 
-struct Row {
+struct TabledInterval {
   std::int64_t count, of;
   double low, high;
 };
@@ -41,10 +41,10 @@ double BinomialUpTo(std::int64_t count, std::int64_t of, double chance) {
 }  // namespace
 
 TEST_CASE("intervals: Garwood's of counts, as tables of the Poisson mean have them") {
-  const std::vector<Row> table = {{0, 0, 0, 3.689},        {1, 0, 0.0253, 5.572},    {2, 0, 0.242, 7.225},
-                                  {5, 0, 1.623, 11.668},   {10, 0, 4.795, 18.390},   {20, 0, 12.217, 30.888},
-                                  {50, 0, 37.111, 65.919}, {100, 0, 81.364, 121.627}};
-  for (const Row& row : table) {
+  const std::vector<TabledInterval> table = {
+      {0, 0, 0, 3.689},       {1, 0, 0.0253, 5.572},   {2, 0, 0.242, 7.225},    {5, 0, 1.623, 11.668},
+      {10, 0, 4.795, 18.390}, {20, 0, 12.217, 30.888}, {50, 0, 37.111, 65.919}, {100, 0, 81.364, 121.627}};
+  for (const TabledInterval& row : table) {
     const Interval interval = CountInterval(row.count);
     CHECK(interval.low == Approx(row.low).margin(0.0006));
     CHECK(interval.high == Approx(row.high).margin(0.0006));
@@ -52,10 +52,10 @@ TEST_CASE("intervals: Garwood's of counts, as tables of the Poisson mean have th
 }
 
 TEST_CASE("intervals: Clopper's and Pearson's of shares, as tables have them") {
-  const std::vector<Row> table = {{0, 10, 0, 0.3085},      {1, 10, 0.0025, 0.4450}, {5, 10, 0.1871, 0.8129},
-                                  {10, 10, 0.6915, 1},     {4, 20, 0.0573, 0.4366}, {2, 13, 0.0192, 0.4545},
-                                  {1, 100, 0.0003, 0.0545}};
-  for (const Row& row : table) {
+  const std::vector<TabledInterval> table = {
+      {0, 10, 0, 0.3085},      {1, 10, 0.0025, 0.4450}, {5, 10, 0.1871, 0.8129}, {10, 10, 0.6915, 1},
+      {4, 20, 0.0573, 0.4366}, {2, 13, 0.0192, 0.4545}, {1, 100, 0.0003, 0.0545}};
+  for (const TabledInterval& row : table) {
     const Interval interval = ShareInterval(row.count, row.of);
     CHECK(interval.low == Approx(row.low).margin(0.00006));
     CHECK(interval.high == Approx(row.high).margin(0.00006));
