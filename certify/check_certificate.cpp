@@ -342,7 +342,7 @@ const std::map<std::string, WitnessCheck*>& Checks() {
 }
 
 // The check of the claim, which the report names from now on.
-const WitnessCheck& ReadClaim(const Json& certificate, CheckReport& report) {
+WitnessCheck& ReadClaim(const Json& certificate, CheckReport& report) {
   RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
   if (certificate["format"] != "stiction-certificate") {
     throw Rejected{"format", Shown(certificate["format"]), "\"stiction-certificate\""};
@@ -372,7 +372,7 @@ void RequireFewContacts(const Json& problem) {
 CheckReport CheckCertificate(const Json& certificate, const std::string& source, const std::string& digest) {
   CheckReport report;
   try {
-    const WitnessCheck& check = ReadClaim(certificate, report);
+    WitnessCheck& check = ReadClaim(certificate, report);
     RequireFewContacts(certificate["problem"]);
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
     report.digest = ProblemDigest(problem);
