@@ -35,7 +35,7 @@ class Rows:
     """What the rows of a planar problem are."""
 
     def __init__(self, problem):
-        self.A, self.b, self.variables = problem.A, problem.b, []
+        self.A, self.b, self.contacts, self.variables = problem.A, problem.b, len(problem.contacts), []
         self.held = []     # of bilateral contacts, which stay in C (4.5)
         self.sliding = {}  # normal row of a sliding contact: the factor of fF = -mu slip fN (24), in the row behind
         for i, contact, span in planar_contacts(problem):
@@ -263,7 +263,7 @@ class Published:
         return max(found, key=lambda row: abs(self.a[row]), default=None)
 
     def scan_order(self):
-        count, down = self.variables[-1].contact + 1, self.policy["scan"] == "highest"
+        count, down = self.rows.contacts, self.policy["scan"] == "highest"
         first = self.remembered()
         if first is None:
             first = count - 1 if down else 0
@@ -365,9 +365,9 @@ class Published:
             self.left[row], self.sets[row] = self.sets[row], into
 
 
-def run(problem, policy, on_step):
+def run(rows, policy, on_step):
     """The run from f = 0 under a policy (its canonical text)."""
-    return Published(Rows(problem), read_policy(policy), on_step).compute_forces()
+    return Published(rows, read_policy(policy), on_step).compute_forces()
 
 
 # --- The claim cycle ---------------------------------------------------------------
@@ -388,7 +388,7 @@ def same(value, computed, place, policy):
              json.dumps(computed), f" under {policy}")
 
 
-def check_policy(problem, stated, place, policy):
+def check_policy(rows, stated, place, policy):
     """Runs the policy as long as its steps are those stated; returns the run if it is the one stated."""
     steps = items(stated["pivots"], place + ".pivots")
 
@@ -398,7 +398,7 @@ def check_policy(problem, stated, place, policy):
         at, step = steps[len(made) - 1]
         same(step, made[-1], at, policy)
 
-    found = run(problem, policy, compare)
+    found = run(rows, policy, compare)
     need(found.outcome == "cycle", place, "a cycle", f"{found.outcome} after {len(found.pivots)} steps",
          f" under {policy}")
     for key in ("start", "period", "pivots", "state"):
@@ -408,7 +408,7 @@ def check_policy(problem, stated, place, policy):
 
 def check_runs(problem, witness):
     """The runs of a witness; the facts to print."""
-    first, runs = {}, []
+    rows, first, runs = Rows(problem), {}, []
     for place, stated in items(witness["runs"], "$.witness.runs"):
         fields(stated, place, "policies", "start", "period", "pivots", "state")
         policies = items(stated["policies"], place + ".policies")
@@ -417,7 +417,7 @@ def check_runs(problem, witness):
             read_policy(policy, at)
             need(policy not in first, at, policy, f"no policy twice, see {first.get(policy)}")
             first[policy] = at
-            found = check_policy(problem, stated, place, policy)
+            found = check_policy(rows, stated, place, policy)
         need(found not in runs, place, "a run listed before", "no two runs the same")
         runs.append(found)
     need(runs, "$.witness.runs", [], "at least one run")

@@ -130,6 +130,11 @@ def of_runs(honest):
     for key in ("start", "period"):
         for value in (run[key] + 1, -1, float(run[key]), True, str(run[key]), 2**64, None):
             yield f"{key} {value}", edited(honest, *where, key, value=value)
+    nothing = {**honest["problem"], "contacts": [], "A": [], "b": []}
+    state = {**run["state"], "sets": {}, "f": []}
+    for pivots in ([], run["pivots"]):
+        empty = edited(honest, "witness", "runs", value=[{**run, "pivots": pivots, "state": state}])
+        yield f"no contacts, {len(pivots)} steps", {**empty, "problem": nothing}
     yield "the claim stall", edited(honest, "claim", value="stall")
 
 

@@ -28,18 +28,11 @@ sys.dont_write_bytecode = True
 
 
 class Independent:
-    """The published algorithm of the independent checker, whichever of its programs has it."""
+    """The published algorithm of check_runs.py."""
 
     def __init__(self, sources):
-        folder = Path(sources) / "certify"
-        sys.path.insert(0, str(folder))  # its programs use each other
-        texts = {path.stem: path.read_text() for path in sorted(folder.glob("*.py"))}
-        self.algorithm = self.first(texts, "class Published")
-        self.read_problem = self.first(texts, "def read_problem").read_problem
-
-    @staticmethod
-    def first(texts, definition):
-        return importlib.import_module(next(name for name, text in texts.items() if definition in text))
+        sys.path.insert(0, str(Path(sources) / "certify"))
+        self.algorithm, self.reader = map(importlib.import_module, ("check_runs", "certificate_reader"))
 
     def run(self, problem, policy):
         """At most MOST_STEPS steps."""
@@ -47,7 +40,8 @@ class Independent:
             if len(steps) >= MOST_STEPS:
                 raise self.algorithm.Ended("limit")
 
-        return self.algorithm.run(self.read_problem(problem), policy, end_if_long)
+        rows = self.algorithm.Rows(self.reader.read_problem(problem))
+        return self.algorithm.run(rows, policy, end_if_long)
 
 
 def random_contact(dice):

@@ -157,7 +157,7 @@ class Kinds(cli.TestCase):
     def test_the_independent_checker_runs_every_kind_as_replay_does(self):
         sys.path.insert(0, str(cli.ROOT / "certify"))
         from certificate_reader import read_problem
-        from check_runs import Ended, run
+        from check_runs import Ended, Rows, run
 
         def end_after_1000(steps):
             if len(steps) == 1000:
@@ -177,7 +177,7 @@ class Kinds(cli.TestCase):
             with self.subTest(index=index, policy=policy, problem=problem):
                 replay = cli.run("replay", self.file("p.json", problem), "--policy", policy, "--json").json()
                 plain = {key: problem[key] for key in ("format", "version", "dimension", "contacts", "A", "b")}
-                found = run(read_problem(plain), policy, end_after_1000)
+                found = run(Rows(read_problem(plain)), policy, end_after_1000)
                 self.assertEqual(found.outcome, replay["outcome"])
                 self.assertEqual(json.loads(json.dumps(found.pivots, default=str)), replay["pivots"])
                 if found.outcome == "solved":
