@@ -140,10 +140,10 @@ void RequireSafetyDecidable(const ExactProblem& problem) {
   }
 }
 
-bool HasFewWords(const ExactProblem& problem) {
+bool HasFewWords(const ExactProblem& problem, int most) {
   ExactProblem rough = problem;  // mu = 1: a static contact has all its modes
   for (auto& contact : rough.contacts) contact.mu = contact.HasFrictionRows() ? 1 : 0;
-  return Completions(rough, 0) <= kMaxSafetyWords;
+  return Completions(rough, 0) <= most;
 }
 
 Safety DecideSafety(const ExactProblem& problem) {

@@ -81,12 +81,13 @@ void RequireSafetyDecidable(const ExactProblem& problem);
 // The same, of a certificate: otherwise Rejected.
 void RequireClaimableSafety(const ExactProblem& problem);
 
-// Whether there are at most kMaxSafetyWords words, whatever mu.
-bool HasFewWords(const ExactProblem& problem);
+// Whether there are at most so many words, whatever mu.
+bool HasFewWords(const ExactProblem& problem, int most = kMaxSafetyWords);
 
 Safety DecideSafety(const ExactProblem& problem);
 
-// As above, with as many words.
+// As above. Every word is looked at, and singular ones more than once: seconds for so many.
+inline constexpr int kMaxWeakSafetyWords = 1 << 12;
 struct WeakSafety {
   int vanishing = 0;                      // words whose determinant is zero
   std::optional<ModeWord> negative_word;  // the first whose determinant is negative: not weakly safe

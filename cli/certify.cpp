@@ -174,6 +174,9 @@ std::string SafetyText(const Json& result, bool has_words) {
     text += "safe for every uniform mu > 0\n";
   }
   if (result.contains("limit")) text += WeakSafetyText(result);
+  if (has_words && !safe.get<bool>() && !result.contains("limit")) {
+    text += "weakly safe, safe in the limit: not looked at, too many words\n";
+  }
   if (result.contains("condition")) text += ConditionText(result["condition"]);
   return text;
 }
@@ -183,7 +186,9 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   const auto by_condition = ConditionCertificate(file.problem);
   Json result = {{"safe", by_condition ? Json(true) : Json()}};
   if (has_words) AddWords(file.problem, result);
-  if (result["safe"] == false) AddWeakSafety(file.problem, result);
+  if (result["safe"] == false && HasFewWords(file.problem, kMaxWeakSafetyWords)) {
+    AddWeakSafety(file.problem, result);
+  }
   AddCondition(file.problem, result);
   const bool decided = !result["safe"].is_null();
   if (!o.output.empty() && decided)

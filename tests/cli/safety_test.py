@@ -70,6 +70,13 @@ class Safety(cli.TestCase):
                 self.assertLessEqual(done.code == 0, said["safe"])
         self.assertTrue(all(seen.values()), seen)
 
+    def test_many_words_are_said_not_to_be_looked_at(self):
+        # Seven copies of one contact: rows of a body that cannot be told apart.
+        rows = [[["1", "1"], ["1", "1"]][i % 2] * 7 for i in range(14)]
+        many = {**generated(random.Random(1)), "contacts": [{"kind": "static", "mu": "1"}] * 7, "A": rows, "b": ["0"] * 14}
+        done = self.succeeds("certify", self.file("p.json", many), "--safe")
+        self.assertIn("not looked at", done.out)
+
     def test_scenes_of_the_corpus_with_few_contacts(self):
         spoken = 0
         for scene in sorted((cli.ROOT / "corpus/scenes").glob("*.json")):
