@@ -26,6 +26,9 @@ struct BenchOptions {
   bool json = false;
 };
 
+// The optimizers of a search side by side (adversary.cpp).
+int BenchAdversary(const BenchOptions& options);
+
 // Problems a second of the search's hot path, one thread (search_rate.cpp).
 int BenchSearch(const BenchOptions& options);
 

@@ -18,6 +18,7 @@
 #include "corpus/kinds.h"
 #include "corpus/store_lock.h"
 #include "reports/report.h"
+#include "search/adversary/optimized_unit.h"
 #include "search/exponential.h"
 #include "search/summary.h"
 #include "search/unit.h"
@@ -38,6 +39,8 @@ struct SearchVerb {
   std::optional<std::int64_t> problems, audit_every, enumerate_every;
   std::string shard = "0/1";
   int threads = 0;
+  std::string objective, optimizer;
+  bool gravity_only = false;
   bool json = false;
 };
 
@@ -86,6 +89,12 @@ Campaign CampaignOf(const SearchVerb& o) {
       }
     }
   }
+  campaign.gravity_only |= o.gravity_only;
+  if (!o.objective.empty()) campaign.objective = o.objective;
+  if (!o.optimizer.empty()) campaign.optimizer = o.optimizer;
+  if (!o.optimizer.empty() && campaign.objective.empty())
+    throw InputError(fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
+  RequireConsistent(campaign);
   return campaign;
 }
 
@@ -189,6 +198,7 @@ struct ProblemVerb {
   std::optional<std::int64_t> unit, index;
   std::optional<int> exponential;  // contacts
   bool scaled = false;
+  bool best = false;
 };
 
 ProblemFile ExponentialFile(int contacts, bool scaled) {
@@ -202,6 +212,17 @@ ProblemFile ExponentialFile(int contacts, bool scaled) {
 ProblemFile StoredFile(const ProblemVerb& o) {
   const Store store = Store::OpenToRead(o.store);
   const Campaign campaign = CampaignOf(store.identity(), o.store);
+  if (o.best) {
+    const std::vector<Elite> best = BestOf(store, 1);
+    if (best.empty()) throw InputError(fmt::format("{}: has no best problem: it is of no search with an objective", o.store));
+    ProblemFile file = FileOf(best.front().candidate, "best-" + campaign.objective);
+    (*file.origin)["objective"] = campaign.objective;
+    return file;
+  }
+  if (!campaign.objective.empty()) {
+    throw InputError(
+        fmt::format("{}: found an optimized search, expected --best: its units are not drawn at random", o.store));
+  }
   if (!store.Units().Contains(*o.unit))
     throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));
   const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), *o.unit));
@@ -214,8 +235,11 @@ ProblemFile StoredFile(const ProblemVerb& o) {
 
 int RunProblem(const ProblemVerb& o) {
   const bool stored = !o.store.empty();
-  if (stored == o.exponential.has_value() || stored != o.index.has_value() || (o.scaled && stored))
-    throw InputError("problem: expected either STORE UNIT INDEX, or --exponential N and perhaps --scaled");
+  const bool complete = o.index.has_value() != o.best && (!o.best || !o.unit.has_value());
+  if (stored == o.exponential.has_value() || (stored ? !complete || o.scaled : o.best || o.index.has_value())) {
+    throw InputError(
+        "problem: expected either STORE UNIT INDEX, or STORE --best, or --exponential N and perhaps --scaled");
+  }
   WriteText(o.output, Print(stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled)));
   return kExitDone;
 }
@@ -254,6 +278,20 @@ std::string MinutesError(const std::string& text) {
   return fits ? "" : fmt::format("found '{}', expected a number of minutes, above 0 to {}", text, kMost);
 }
 
+template <class Rows>
+std::vector<std::string> NamesOf(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.emplace_back(row.name);
+  return names;
+}
+
+template <class Rows>
+std::string HelpOf(const Rows& rows) {
+  std::string help;
+  for (const auto& row : rows) help += fmt::format("\n  {}: {}", row.name, row.help);
+  return help;
+}
+
 void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   std::vector<std::string> names;
   for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
@@ -270,6 +308,11 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   verb.Option("--enumerate-every", o.enumerate_every, "try all contact modes of one problem in so many")
       .AtLeast(1)
       .Details("Of those of at most three contacts that are run exactly");
+  verb.Flag("--gravity-only", o.gravity_only, "bodies without applied forces: of generators of bodies");
+  verb.Option("--objective", o.objective, "optimize instead of drawing at random: one of the objectives below")
+      .OneOf(NamesOf(Objectives()))
+      .Details("A unit starts from the best of earlier ones");
+  verb.Option("--optimizer", o.optimizer, "how; by default evolution").OneOf(NamesOf(Optimizers()));
   verb.Option("--seed", o.seed, "the one source of randomness; by default 1");
 }
 
@@ -288,6 +331,7 @@ void AddSearch(CommandLine& program) {
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
+  verb.footer += "\nObjectives:" + HelpOf(Objectives()) + "\nOptimizers:" + HelpOf(Optimizers());
 }
 
 void AddStatus(CommandLine& program) {
@@ -311,6 +355,7 @@ void AddProblem(CommandLine& program) {
   verb.Positional("STORE", o.store, "store of a search");
   verb.Positional("UNIT", o.unit, "number of the unit").AtLeast(0);
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
+  verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");

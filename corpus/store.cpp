@@ -42,6 +42,7 @@ CREATE TABLE IF NOT EXISTS findings (
   certificate TEXT NOT NULL, minimized TEXT NOT NULL, minimized_certificate TEXT NOT NULL,
   existence TEXT NOT NULL, minimized_existence TEXT NOT NULL, facts TEXT NOT NULL)
   WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS elites (unit INTEGER PRIMARY KEY, elites TEXT NOT NULL);
 )sql";
 constexpr const char* kFindingColumns =
     "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
@@ -433,9 +434,11 @@ void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string&
 }
 
 std::vector<Finding> Store::AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
-                                    const std::vector<Finding>& candidates) {
+                                    const std::vector<Finding>& candidates, const std::string& elites) {
   Transaction transaction(db_.get());
   InsertUnit(shard, unit, Serialize(record));
+  if (!elites.empty())
+    Statement(db_.get(), "INSERT INTO elites (unit, elites) VALUES (?, ?)").Bind(unit).Bind(elites).Step();
   std::vector<Finding> representatives;
   for (const Finding& candidate : candidates) {
     if (Represent(candidate)) representatives.push_back(candidate);
@@ -443,6 +446,15 @@ std::vector<Finding> Store::AddUnit(const Shard& shard, std::int64_t unit, const
   CloseBlockIfComplete(shard, BlockOf(shard, unit));
   transaction.Commit();
   return representatives;
+}
+
+std::map<std::int64_t, std::string> Store::Elites() const {
+  std::map<std::int64_t, std::string> elites;
+  Statement table(db_.get(), "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'elites'");
+  if (!table.Step()) return elites;  // a store from before there were any
+  Statement rows(db_.get(), "SELECT unit, elites FROM elites ORDER BY unit");
+  while (rows.Step()) elites[ReadUnit(rows, 0)] = rows.Text(1);
+  return elites;
 }
 
 // Whether the candidate is now the representative of its group.
@@ -535,6 +547,12 @@ void Store::MergeFrom(const Store& other) {
     MergeUnit(shard, unit, units.Text(3));
   }
   for (const Finding& finding : other.Findings()) MergeFinding(finding);
+  for (const auto& [unit, elites] : other.Elites()) {
+    Statement(db_.get(), "INSERT OR REPLACE INTO elites (unit, elites) VALUES (?, ?)")
+        .Bind(unit)
+        .Bind(elites)
+        .Step();
+  }
   transaction.Commit();
 }
 

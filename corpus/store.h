@@ -5,6 +5,7 @@
 //   blocks     statistics of kUnitsPerBlock consecutive units of one shard
 //   units      statistics of single units, of blocks that are not complete yet
 //   findings   one representative per signature, with certificate and minimized form
+//   elites     of an optimized search: the best of every unit
 //
 // Never a row per problem tried. Units may be added in any order, each once; a finding's representative is
 // the one with the smallest (unit, index), whoever came first. So the same units leave the same store,
@@ -109,8 +110,11 @@ class Store {
   UnitSet Units() const;
   // A unit of a shard: its statistics and candidates for representatives. Returns those candidates that are now
   // representatives.
+  // `elites`: what later units of an optimized search start from; empty of other searches.
   std::vector<Finding> AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
-                               const std::vector<Finding>& candidates);
+                               const std::vector<Finding>& candidates, const std::string& elites = {});
+  // By unit.
+  std::map<std::int64_t, std::string> Elites() const;
   // Fills in a representative, unless a smaller one has taken its place meanwhile.
   void Finish(const Finding& finding);
   // Representatives that are not done, fewest contacts first, then by (unit, index).

@@ -7,11 +7,12 @@
 #include <limits>
 
 #include "corpus/json_text.h"
+#include "search/adversary/optimizer.h"
 
 namespace stiction {
 namespace {
 
-constexpr int kLargestMuPart = 64;
+constexpr int kLargestMuPart = 1'000'000;
 
 int WeightOf(int contacts) {
   switch (contacts) {
@@ -26,16 +27,6 @@ int WeightOf(int contacts) {
   }
 }
 
-GeneratorId ReadGenerator(const JsonPlace& place) {
-  const auto id = FindGenerator(place.Text("the name of a generator"));
-  if (!id) {
-    std::vector<std::string_view> names;
-    for (const GeneratorRow& row : Generators()) names.push_back(row.name);
-    place.Refuse(fmt::format("one of {}", fmt::join(names, ", ")));
-  }
-  return *id;
-}
-
 Policy ReadPolicy(const JsonPlace& place) {
   try {
     return ParsePolicy(place.Text("a policy"));
@@ -44,12 +35,11 @@ Policy ReadPolicy(const JsonPlace& place) {
   }
 }
 
-MuChoice ReadMu(const JsonPlace& place) {
-  try {
-    return ParseMu(place.Text("a friction coefficient as a string"));
-  } catch (const InputError& error) {
-    place.Refuse(error.what());
-  }
+template <class Rows>
+std::string NamesOf(const Rows& rows) {
+  std::string names;
+  for (const auto& row : rows) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  return names;
 }
 
 template <class Read>
@@ -63,8 +53,28 @@ auto ReadList(const JsonPlace& list, Read read) {
 
 }  // namespace
 
+GeneratorId ReadGenerator(const JsonPlace& place) {
+  const auto id = FindGenerator(place.Text("the name of a generator"));
+  if (!id) {
+    std::vector<std::string_view> names;
+    for (const GeneratorRow& row : Generators()) names.push_back(row.name);
+    place.Refuse(fmt::format("one of {}", fmt::join(names, ", ")));
+  }
+  return *id;
+}
+
+MuChoice ReadMu(const JsonPlace& place) {
+  try {
+    return ParseMu(place.Text("a friction coefficient as a string"));
+  } catch (const InputError& error) {
+    place.Refuse(error.what());
+  }
+}
+
 Campaign::Campaign() {
-  for (const GeneratorRow& row : Generators()) generators.push_back(row.id);
+  for (const GeneratorRow& row : Generators()) {
+    if (row.by_default) generators.push_back(row.id);
+  }
 }
 
 MuChoice ParseMu(const std::string& text) {
@@ -86,7 +96,8 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   root.RequireObject();
   root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
                   "audit_every", "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives",
-                  "max_pivots", "max_bits"});
+                  "max_pivots", "max_bits", "gravity_only",
+                  "objective", "optimizer"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -125,10 +136,39 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
           place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
     });
   }
+  if (const auto place = root.Optional("gravity_only")) {
+    if (!place->json().is_boolean()) place->Refuse("true or false");
+    campaign.gravity_only = place->json().get<bool>();
+  }
+  if (const auto place = root.Optional("objective")) {
+    campaign.objective = place->Text("the name of an objective");
+    if (FindObjective(campaign.objective) == nullptr) place->Refuse("one of " + NamesOf(Objectives()));
+  }
+  if (const auto place = root.Optional("optimizer")) {
+    campaign.optimizer = place->Text("the name of an optimizer");
+    if (FindOptimizer(campaign.optimizer) == nullptr) place->Refuse("one of " + NamesOf(Optimizers()));
+  }
   return campaign;
 }
 
 }  // namespace
+
+void RequireConsistent(const Campaign& campaign) {
+  for (const GeneratorId id : campaign.generators) {
+    if (campaign.gravity_only && !Row(id).has_gravity) {
+      throw InputError(fmt::format("gravity only: found generator {}, expected one of bodies", Row(id).name));
+    }
+    const int most = LargestMuPart(id);
+    for (const MuChoice& mu : campaign.palette) {
+      if (mu.numerator <= most && mu.denominator <= most) continue;
+      throw InputError(fmt::format("friction coefficient: found {}/{} for {}, expected p/q of at most {}",
+                                   mu.numerator, mu.denominator, Row(id).name, most));
+    }
+  }
+  if (!campaign.objective.empty() && campaign.policies.size() != 1) {
+    throw InputError(fmt::format("policies: found {}, expected one, for an objective", campaign.policies.size()));
+  }
+}
 
 Campaign ReadCampaign(const std::filesystem::path& file) {
   return ParseCampaign(ReadText(file), file.string());
@@ -149,7 +189,7 @@ Json DefinitionToJson(const Campaign& campaign) {
   for (const MuChoice& mu : campaign.palette) {
     palette.push_back(ToString(Rational(mu.numerator) / Rational(mu.denominator)));
   }
-  return {{"format", "stiction-campaign"},
+  Json definition = {{"format", "stiction-campaign"},
           {"version", 1},
           {"generators", generators},
           {"contacts", campaign.contacts},
@@ -162,6 +202,12 @@ Json DefinitionToJson(const Campaign& campaign) {
           {"max_drives", campaign.limits.drives},
           {"max_pivots", campaign.limits.pivots},
           {"max_bits", campaign.limits.bits}};
+  if (campaign.gravity_only) definition["gravity_only"] = true;
+  if (!campaign.objective.empty()) {
+    definition["objective"] = campaign.objective;
+    definition["optimizer"] = campaign.optimizer;
+  }
+  return definition;
 }
 
 CampaignIdentity IdentityOf(const Campaign& campaign, const std::string& build) {

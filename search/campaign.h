@@ -16,7 +16,8 @@ namespace stiction {
 
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
 // "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "lemke_every",
-// "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits".
+// "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits", "gravity_only",
+// "objective", "optimizer".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all
@@ -33,12 +34,21 @@ struct Campaign {
   std::int64_t enumerate_every = 1000;
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
+  bool gravity_only = false;  // bodies without applied forces
+  // A unit spends its problems on the candidates of an optimizer, under the one policy (adversary/). Empty: random
+  // problems.
+  std::string objective;
+  std::string optimizer = "evolution";
 
   Campaign();
   bool operator==(const Campaign&) const = default;
 };
 
 Campaign ReadCampaign(const std::filesystem::path& file);
+// InputError if what it asks for does not fit together: a generator and its friction coefficients or its gravity, an
+// objective and its policies.
+void RequireConsistent(const Campaign& campaign);
+inline Surroundings SurroundingsOf(const Campaign& campaign) { return {campaign.palette, campaign.gravity_only}; }
 // The campaign of a store. InputError if it holds none.
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
 // Everything but the seed and the policies, canonical.
@@ -62,6 +72,8 @@ std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems);
 
 // "1/2" or "0.5" -> MuChoice; InputError otherwise.
 MuChoice ParseMu(const std::string& text);
+MuChoice ReadMu(const JsonPlace& place);
+GeneratorId ReadGenerator(const JsonPlace& place);
 
 }  // namespace stiction
 

@@ -36,14 +36,28 @@ constexpr std::uint64_t ProblemSeed(std::uint64_t campaign_seed, std::uint64_t u
   return Mix(Mix(campaign + kOdd * (unit + 1)) + kOdd * (index + 1));
 }
 
+// A choice that was made, and the range that was asked for.
+struct Choice {
+  std::int64_t value = 0, low = 0, high = 0;
+
+  bool operator==(const Choice&) const = default;
+};
+
+// What was chosen, without the ranges.
+inline std::vector<std::int64_t> ValuesOf(std::span<const Choice> choices) {
+  std::vector<std::int64_t> values;
+  for (const Choice& choice : choices) values.push_back(choice.value);
+  return values;
+}
+
 class Choices {
  public:
   // Choices from a seed, noted down in `record` where one is given.
-  explicit Choices(std::uint64_t seed, std::vector<std::int64_t>* record = nullptr)
+  explicit Choices(std::uint64_t seed, std::vector<Choice>* record = nullptr)
       : state_(seed), record_(record) {}
 
   // Choices from `sequence`, which must outlive them; `record` receives the values after clamping.
-  static Choices Replay(std::span<const std::int64_t> sequence, std::vector<std::int64_t>* record = nullptr) {
+  static Choices Replay(std::span<const std::int64_t> sequence, std::vector<Choice>* record = nullptr) {
     Choices choices(0, record);
     choices.replaying_ = true;
     choices.rest_ = sequence;
@@ -62,7 +76,7 @@ class Choices {
       value = static_cast<std::int64_t>(static_cast<std::uint64_t>(low) + digit);
     }
     if (record_ != nullptr) [[unlikely]]
-      record_->push_back(value);
+      record_->push_back({value, low, high});
     return value;
   }
 
@@ -81,7 +95,7 @@ class Choices {
       const int used = std::min(kDigits, count - first);
       for (int i = 0; i < used; ++i) take(first + i, values[i]);
       if (record_ != nullptr) [[unlikely]]
-        record_->insert(record_->end(), values.begin(), values.begin() + used);
+        for (int i = 0; i < used; ++i) record_->push_back({values[i], kLow, kHigh});
     }
   }
 
@@ -128,7 +142,7 @@ class Choices {
   }
 
   std::uint64_t state_;
-  std::vector<std::int64_t>* record_;
+  std::vector<Choice>* record_;
   bool replaying_ = false;
   std::span<const std::int64_t> rest_;
 };

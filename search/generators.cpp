@@ -42,7 +42,7 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "1 to 3 planar rigid bodies at rest and the world, joined at n points: rational masses, inertias, "
        "points and unit normals (Pythagorean), under gravity, applied forces or both; A = J M^-1 J', b = J "
        "M^-1 F. Overlap of shapes is not modelled.",
-       false},
+       false, true},
       {kExponential, "exponential",
        "The normals are the family on which n contacts without friction take 2^n - 1 pivots: J = L', ones on "
        "the diagonal and 2 above, b = (8^(i-n-1) - 1). Every friction row has a column of its own, or, with "
@@ -58,7 +58,11 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "beside and wedged between each other, under gravity and, with probability 1/2, applied forces and "
        "moments; every body has a contact, and one at least is on the floor. A = J M^-1 J', b = J M^-1 F. Two "
        "bodies have one friction coefficient. Problem files carry the scene.",
-       false},
+       false, true},
+      {kFineScenes, "fine-scenes",
+       "As scenes, with numbers of three to four digits for slopes, places, shapes and masses where those have one or "
+       "two: for optimizers. Not part of a campaign that names no generators.",
+       false, true, false},
   }};
   return kRows;
 }
@@ -72,7 +76,7 @@ std::optional<GeneratorId> FindGenerator(std::string_view name) {
 }
 
 #define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                           \
-  template void Generate<Scalar, Rows>(GeneratorId, int, std::span<const MuChoice>, Choices&, \
+  template void Generate<Scalar, Rows>(GeneratorId, int, const Surroundings&, Choices&, \
                                        ContactProblem<Scalar, Rows>&)
 
 STICTION_INSTANTIATE_GENERATE(double, 2);

@@ -9,7 +9,8 @@
 //
 // Shapes      rows = 2 contacts: the normal of a contact and then its friction. J: rows x columns.
 // Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed; a palette that is
-//             not empty, of coefficients with 0 <= numerator <= 64, 1 <= denominator <= 64.
+//             not empty, of coefficients with 0 <= numerator <= most and 1 <= denominator <= most, where most
+//             is LargestMuPart(id); gravity_only only where the generator has gravity.
 // Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
 
 #ifndef STICTION_SEARCH_GENERATORS_H_
@@ -50,8 +51,9 @@ enum class GeneratorId : std::uint8_t {
   kBodies,
   kExponential,
   kScenes,
+  kFineScenes,
 };
-inline constexpr int kGeneratorCount = 9;
+inline constexpr int kGeneratorCount = 10;
 
 struct GeneratorRow {
   GeneratorId id;
@@ -60,12 +62,28 @@ struct GeneratorRow {
   // Whether the double problem is the rational problem, given a palette of exact doubles. Otherwise the
   // double problem is a filter: what it shows must be seen again over rationals.
   bool exact_in_double;
+  bool has_gravity = false;  // bodies, which `gravity_only` leaves without applied forces
+  bool by_default = true;    // part of a campaign that names no generators
 };
 
 // The table itself (generators.cpp), in the order of GeneratorId.
 const std::array<GeneratorRow, kGeneratorCount>& Generators();
 
 inline const GeneratorRow& Row(GeneratorId id) { return Generators()[static_cast<int>(id)]; }
+
+// Of friction coefficients. Forces of `near-degenerate` are multiples of their parts, and must stay exact.
+constexpr int LargestMuPart(GeneratorId id) { return id == GeneratorId::kNearDegenerate ? 64 : 1'000'000; }
+
+// What all problems of a generator share.
+struct Surroundings {
+  // From anything that holds coefficients; it must outlive this.
+  template <class Palette>
+  Surroundings(const Palette& coefficients, bool only_gravity = false)  // NOLINT: a palette is most of it
+      : palette(coefficients), gravity_only(only_gravity) {}
+
+  std::span<const MuChoice> palette;
+  bool gravity_only = false;  // no applied forces; of generators with `has_gravity`
+};
 
 // Empty if no generator has this name.
 std::optional<GeneratorId> FindGenerator(std::string_view name);
@@ -74,7 +92,7 @@ std::optional<GeneratorId> FindGenerator(std::string_view name);
 // of the palette for all contacts with probability 1/2, otherwise one per contact, uniformly; contacts of two
 // bodies of `scenes` share that of their first.
 template <class Scalar, int Rows>
-void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, Choices& choices,
+void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
               ContactProblem<Scalar, Rows>& problem);
 
 }  // namespace stiction

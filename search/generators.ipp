@@ -448,10 +448,10 @@ void SetFromBodies(const BodyJacobian<Scalar, Rows>& J, int bodies, const std::a
 // Not modelled: shapes. Bodies may overlap each other and
 // the world, and lie on either side of a contact.
 template <class Scalar, int Rows>
-void Bodies(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+void Bodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const int bodies = static_cast<int>(choices.Integer(1, std::min(kMaxBodies, rows / 2)));
-  const int load = static_cast<int>(choices.Integer(0, 2));
+  const int load = gravity_only ? 0 : static_cast<int>(choices.Integer(0, 2));
   std::array<Body<Scalar>, kMaxBodies> body;
   for (int i = 0; i < bodies; ++i) body[i] = DrawBody<Scalar>(load != 1, load != 0, choices);
   const BodyJacobian<Scalar, Rows> J = DrawContacts<Scalar, Rows>(rows, bodies, body, choices);
@@ -544,9 +544,9 @@ void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int
 }
 
 template <class Scalar, int Rows>
-void Scenes(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
-  const SceneDesign design = DrawSceneDesign(rows / 2, choices);
+  const SceneDesign design = DrawSceneDesign(rows / 2, grain, gravity_only, choices);
   std::array<SceneBody<Scalar>, kMaxBodies> body;
   for (int c = 0; c < design.cells; ++c) body[c] = MakeSceneBody<Scalar>(design, c);
   BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, design.cells);
@@ -570,13 +570,14 @@ void Scenes(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
 }  // namespace generators
 
 template <class Scalar, int Rows>
-void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, Choices& choices,
+void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
               ContactProblem<Scalar, Rows>& problem) {
   STICTION_CHECK(contacts >= 1 && contacts <= kMaxContacts, "generators make 1 to 8 contacts");
   STICTION_CHECK(Rows == Eigen::Dynamic || Rows == 2 * contacts, "two rows per contact");
-  STICTION_CHECK(!palette.empty(), "a palette has at least one friction coefficient");
+  STICTION_CHECK(!surroundings.palette.empty(), "a palette has at least one friction coefficient");
+  STICTION_CHECK(!surroundings.gravity_only || Row(id).has_gravity, "gravity is for bodies");
   generators::Resize(contacts, problem);
-  const auto mu = generators::DrawFriction(palette, choices, problem);
+  const auto mu = generators::DrawFriction(surroundings.palette, choices, problem);
   switch (id) {
     case GeneratorId::kIntegers:
       return generators::Integers(choices, problem);
@@ -591,11 +592,13 @@ void Generate(GeneratorId id, int contacts, std::span<const MuChoice> palette, C
     case GeneratorId::kConditioned:
       return generators::Conditioned(choices, problem);
     case GeneratorId::kBodies:
-      return generators::Bodies(choices, problem);
+      return generators::Bodies(surroundings.gravity_only, choices, problem);
     case GeneratorId::kExponential:
       return generators::Exponential(choices, problem);
     case GeneratorId::kScenes:
-      return generators::Scenes(choices, problem);
+      return generators::Scenes(kCoarseScenes, surroundings.gravity_only, choices, problem);
+    case GeneratorId::kFineScenes:
+      return generators::Scenes(kFineScenes, surroundings.gravity_only, choices, problem);
   }
 }
 

@@ -23,9 +23,9 @@ bool Less(const Ratio& p, const Ratio& q) {
 SceneLine WithNormal(int p, int q) { return {2 * p * q, p * p - q * q, p * p + q * q, 0, 0}; }
 
 // Upright, or up to 37 degrees off.
-SceneLine DrawUpright(Choices& choices) {
-  const int p = static_cast<int>(choices.Integer(3, 7));
-  return WithNormal(p, static_cast<int>(choices.Integer(-1, 1)));
+SceneLine DrawUpright(int slope, Choices& choices) {
+  const int p = static_cast<int>(choices.Integer(3 * slope, 7 * slope));
+  return WithNormal(p, static_cast<int>(choices.Integer(-slope, slope)));
 }
 
 SceneLine Turned(const SceneLine& line, int quarters) {
@@ -40,7 +40,9 @@ SceneLine DrawCut(const SceneDesign& design, Choices& choices) {
   const int kind = static_cast<int>(choices.Integer(0, 3));
   SceneLine cut = design.lines[kind == 1 ? 1 : 0];
   if (kind >= 2) {
-    const int p = static_cast<int>(choices.Integer(-4, 4)), q = static_cast<int>(choices.Integer(-4, 4));
+    const int most = 4 * design.grain.slope;
+    const int p = static_cast<int>(choices.Integer(-most, most));
+    const int q = static_cast<int>(choices.Integer(-most, most));
     cut = WithNormal(p == 0 && q == 0 ? 1 : p, q);
   }
   cut.x = static_cast<int>(choices.Integer(design.lines[1].x + 1, design.lines[2].x - 1));
@@ -49,24 +51,26 @@ SceneLine DrawCut(const SceneDesign& design, Choices& choices) {
 }
 
 void DrawLines(Choices& choices, SceneDesign& design) {
-  design.lines[0] = DrawUpright(choices);
-  design.lines[1] = Turned(DrawUpright(choices), -1);
-  design.lines[1].x = static_cast<int>(choices.Integer(-15, -4));
-  design.lines[2] = Turned(DrawUpright(choices), 1);
-  design.lines[2].x = static_cast<int>(choices.Integer(4, 15));
-  design.lines[kCeiling] = {0, -1, 1, 0, static_cast<int>(choices.Integer(8, 30))};
+  const int slope = design.grain.slope, tenth = design.grain.unit / 10;
+  design.lines[0] = DrawUpright(slope, choices);
+  design.lines[1] = Turned(DrawUpright(slope, choices), -1);
+  design.lines[1].x = static_cast<int>(choices.Integer(-15 * tenth, -4 * tenth));
+  design.lines[2] = Turned(DrawUpright(slope, choices), 1);
+  design.lines[2].x = static_cast<int>(choices.Integer(4 * tenth, 15 * tenth));
+  design.lines[kCeiling] = {0, -1, 1, 0, static_cast<int>(choices.Integer(8 * tenth, 30 * tenth))};
   if (design.cells > 1) design.lines[kFirstCut] = DrawCut(design, choices);
   if (design.cells > 2) design.lines[kSecondCut] = DrawCut(design, choices);
 }
 
 // A pile of boxes between upright walls.
 void SetPlainLines(SceneDesign& design) {
+  const int tenth = design.grain.unit / 10;
   design.lines = {{{0, 1, 1, 0, 0},
-                   {1, 0, 1, -6, 0},
-                   {-1, 0, 1, 6, 0},
-                   {0, -1, 1, 0, 20},
-                   {0, 1, 1, 0, 6},
-                   {0, 1, 1, 0, 12}}};
+                   {1, 0, 1, -6 * tenth, 0},
+                   {-1, 0, 1, 6 * tenth, 0},
+                   {0, -1, 1, 0, 20 * tenth},
+                   {0, 1, 1, 0, 6 * tenth},
+                   {0, 1, 1, 0, 12 * tenth}}};
 }
 
 // ---- Cells and interfaces --------------------------------------------------------------------
@@ -113,7 +117,7 @@ bool IsCell(const SceneDesign& design, const SceneCell& cell) {
 bool IsLong(const SceneLine& line, const LinePiece& piece) {
   const auto [a, b] = std::pair<std::int64_t, std::int64_t>(piece.from.numerator, piece.from.denominator);
   const auto [c, d] = std::pair<std::int64_t, std::int64_t>(piece.to.numerator, piece.to.denominator);
-  return (c * b - a * d) * line.length >= b * d;
+  return (c * b - a * d) * line.length >= line.unit / 10 * (b * d);
 }
 
 void AddInterface(int line, int lower, int upper, SceneDesign& design) {
@@ -168,15 +172,15 @@ bool PlaceContacts(int contacts, SceneDesign& design, Choices& choices) {
 }
 
 // Who has what at an interface. `below`: the lower body must cover, since it reaches beyond the interface.
-void DrawPlaces(bool below, SceneInterface& interface, Choices& choices) {
+void DrawPlaces(int places, bool below, SceneInterface& interface, Choices& choices) {
   const bool two = interface.contacts == 2;
-  const int first = static_cast<int>(choices.Integer(two ? 1 : 2, 14));
-  const int last = two ? static_cast<int>(choices.Integer(first + 1, 15)) : first;
+  const int first = static_cast<int>(choices.Integer(two ? 1 : 2, places - 2));
+  const int last = two ? static_cast<int>(choices.Integer(first + 1, places - 1)) : first;
   interface.at = {first, last};
   interface.of_lower = interface.of_upper = interface.at;
   if (interface.lower == kTheWorld) return;
   const int from = static_cast<int>(choices.Integer(1, two ? first : first - 1));
-  const int to = static_cast<int>(choices.Integer(two ? last : last + 1, 15));
+  const int to = static_cast<int>(choices.Integer(two ? last : last + 1, places - 1));
   const int kind = below ? 0 : static_cast<int>(choices.Integer(0, two ? 2 : 1));
   if (kind == 0) interface.of_lower = {from, to};
   if (kind == 1) interface.of_upper = {from, to};
@@ -194,7 +198,8 @@ void DrawAllPlaces(SceneDesign& design, Choices& choices) {
   design.interfaces = kept;
   for (int i = 0; i < kept; ++i) {
     SceneInterface& interface = design.interface[i];
-    DrawPlaces(interface.line == kFirstCut && on_first_cut == 2, interface, choices);
+    const bool below = interface.line == kFirstCut && on_first_cut == 2;
+    DrawPlaces(design.grain.places, below, interface, choices);
   }
 }
 
@@ -204,6 +209,7 @@ bool DrawArrangement(int contacts, bool plain, SceneDesign& design, Choices& cho
   } else {
     DrawLines(choices, design);
   }
+  for (SceneLine& line : design.lines) line.unit = design.grain.unit;
   SetSides(design);
   for (int c = 0; c < design.cells; ++c) {
     if (!IsCell(design, design.cell[c])) return false;
@@ -212,13 +218,13 @@ bool DrawArrangement(int contacts, bool plain, SceneDesign& design, Choices& cho
   return PlaceContacts(contacts, design, choices);
 }
 
-void DrawBodies(SceneDesign& design, Choices& choices) {
-  const bool applied = choices.Integer(0, 1) == 1;
+void DrawBodies(bool gravity_only, SceneDesign& design, Choices& choices) {
+  const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
   for (int c = 0; c < design.cells; ++c) {
     SceneCell& cell = design.cell[c];
-    cell.fill = static_cast<int>(choices.Integer(1, 7));
-    cell.mass.numerator = static_cast<int>(choices.Integer(1, 5));
-    cell.mass.denominator = static_cast<int>(choices.Integer(1, 5));
+    cell.fill = static_cast<int>(choices.Integer(1, design.grain.fill - 1));
+    cell.mass.numerator = static_cast<int>(choices.Integer(1, design.grain.mass));
+    cell.mass.denominator = static_cast<int>(choices.Integer(1, design.grain.mass));
     for (int k = 0; applied && k < 3; ++k) cell.load[k] = static_cast<int>(choices.Integer(-20, 20));
   }
 }
@@ -238,7 +244,7 @@ RigidBody<Rational> WallBody(const SceneDesign& design, int wall) {
     if (Less(edge->from, whole->from)) whole->from = edge->from;
     if (Less(whole->to, edge->to)) whole->to = edge->to;
   }
-  const Rational beyond(1, line.length);
+  const Rational beyond = Rational(line.unit / 10) / Rational(line.length);
   const auto normal = NormalOf<Rational>(line);
   const auto p = PointOf<Rational>(line, Value<Rational>(whole->from) - beyond);
   const auto q = PointOf<Rational>(line, Value<Rational>(whole->to) + beyond);
@@ -302,8 +308,9 @@ std::optional<LinePiece> EdgeOf(const SceneDesign& design, const SceneCell& cell
   return piece;
 }
 
-SceneDesign DrawSceneDesign(int contacts, Choices& choices) {
+SceneDesign DrawSceneDesign(int contacts, const SceneGrain& grain, bool gravity_only, Choices& choices) {
   SceneDesign design;
+  design.grain = grain;
   for (int attempt = 0; attempt <= kAttempts; ++attempt) {
     const bool plain = attempt == kAttempts;
     // One body has at most six contacts with a floor and two walls.
@@ -314,19 +321,20 @@ SceneDesign DrawSceneDesign(int contacts, Choices& choices) {
     if (placed) break;
   }
   DrawAllPlaces(design, choices);
-  DrawBodies(design, choices);
+  DrawBodies(gravity_only, design, choices);
   return design;
 }
 
-std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, std::span<const MuChoice> palette,
+std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, const Surroundings& surroundings,
                                              Choices& choices) {
-  if (id != GeneratorId::kScenes) return std::nullopt;
+  if (id != GeneratorId::kScenes && id != GeneratorId::kFineScenes) return std::nullopt;
   ContactProblem<Rational> problem;
   generators::Resize(contacts, problem);
-  generators::DrawFriction(palette, choices, problem);
+  generators::DrawFriction(surroundings.palette, choices, problem);
   std::vector<Rational> mu;
   for (const auto& contact : problem.contacts) mu.push_back(contact.mu);
-  return SceneOf(DrawSceneDesign(contacts, choices), mu);
+  const SceneGrain& grain = id == GeneratorId::kScenes ? kCoarseScenes : kFineScenes;
+  return SceneOf(DrawSceneDesign(contacts, grain, surroundings.gravity_only, choices), mu);
 }
 
 }  // namespace stiction

@@ -36,16 +36,28 @@ inline constexpr int kSceneLines = 6;  // floor, left wall, right wall, ceiling,
 inline constexpr int kSceneWalls = 3;  // of these lines the first three are bodies of the world
 inline constexpr int kTheWorld = -1;   // where a cell is expected
 
+// How finely a design is drawn. `scenes` has numbers that people can read, `fine-scenes` what an optimizer asks for.
+struct SceneGrain {
+  int unit;    // in parts of so many of a metre stand the points of lines; a multiple of 10
+  int slope;   // slopes of lines are q/p with p and q up to a few times this
+  int places;  // an interface is divided into so many parts
+  int fill;    // and the way of a corner from the mean of its cell
+  int mass;    // numerator and denominator of a mass are at most this
+};
+inline constexpr SceneGrain kCoarseScenes = {10, 1, 16, 8, 5};
+inline constexpr SceneGrain kFineScenes = {1000, 8, 4096, 256, 1000};
+
 // denominator > 0.
 struct Ratio {
   int numerator = 0, denominator = 1;
 };
 
-// Through (x, y), in tenths of a metre, across the normal N = (nx, ny) of integer length. Points of it are
+// Through (x, y), in metres times `unit`, across the normal N = (nx, ny) of integer length. Points of it are
 // (x, y) + t D with D = (-ny, nx). Its upper side is the one that N points to.
 struct SceneLine {
   int nx = 0, ny = 1, length = 1;
   int x = 0, y = 0;
+  int unit = kCoarseScenes.unit;
 };
 
 // A piece of a line, from < to.
@@ -53,7 +65,7 @@ struct LinePiece {
   Ratio from, to;
 };
 
-// Places on it are sixteenths of `piece`, strictly between its ends.
+// Places on it divide `piece` into SceneGrain::places parts; strictly between its ends.
 struct SceneInterface {
   int line = 0;
   int lower = kTheWorld, upper = 0;  // cells below and above the line
@@ -65,12 +77,13 @@ struct SceneInterface {
 
 struct SceneCell {
   std::array<int, kSceneLines> side{};  // 1 above, -1 below the line, 0 where it does not matter
-  int fill = 0;                         // corners of the cell are drawn to fill / 8 of their way from the mean
+  int fill = 0;                         // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
   Ratio mass = {1, 1};                  // kg
   std::array<int, 3> load{};            // applied force, N, and moment, N m
 };
 
 struct SceneDesign {
+  SceneGrain grain = kCoarseScenes;
   int cells = 0;
   int interfaces = 0;  // that have contacts
   std::array<SceneLine, kSceneLines> lines;
@@ -80,14 +93,14 @@ struct SceneDesign {
 
 // A design of exactly so many contacts, 1 to 8. Every body but the first touches one before it, and one touches
 // the floor.
-SceneDesign DrawSceneDesign(int contacts, Choices& choices);
+SceneDesign DrawSceneDesign(int contacts, const SceneGrain& grain, bool gravity_only, Choices& choices);
 
 // The edge of the cell on this line, empty if it has none.
 std::optional<LinePiece> EdgeOf(const SceneDesign& design, const SceneCell& cell, int line);
 
 // The scene of the problem that Generate (generators.h) makes of the same choices; empty unless `id` is
-// kScenes. Walls that nothing touches are left out.
-std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, std::span<const MuChoice> palette,
+// kScenes or kFineScenes. Walls that nothing touches are left out.
+std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, const Surroundings& surroundings,
                                              Choices& choices);
 
 }  // namespace stiction

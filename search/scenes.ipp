@@ -26,15 +26,15 @@ Vector2<Scalar> NormalOf(const SceneLine& line) {
 // The point t of a line, in metres.
 template <class Scalar>
 Vector2<Scalar> PointOf(const SceneLine& line, const Scalar& t) {
-  return MakeVector2<Scalar>(Scalar(Scalar(line.x) - t * Scalar(line.ny)) / Scalar(10),
-                             Scalar(Scalar(line.y) + t * Scalar(line.nx)) / Scalar(10));
+  return MakeVector2<Scalar>(Scalar(Scalar(line.x) - t * Scalar(line.ny)) / Scalar(line.unit),
+                             Scalar(Scalar(line.y) + t * Scalar(line.nx)) / Scalar(line.unit));
 }
 
-// The point at so many sixteenths of an interface.
+// The point after so many parts of an interface.
 template <class Scalar>
-Vector2<Scalar> PointAt(const SceneDesign& design, const SceneInterface& interface, int sixteenths) {
+Vector2<Scalar> PointAt(const SceneDesign& design, const SceneInterface& interface, int parts) {
   const Scalar from = Value<Scalar>(interface.piece.from), to = Value<Scalar>(interface.piece.to);
-  const Scalar t = from + (to - from) * Scalar(sixteenths) / Scalar(16);
+  const Scalar t = from + (to - from) * Scalar(parts) / Scalar(design.grain.places);
   return PointOf<Scalar>(design.lines[interface.line], t);
 }
 
@@ -117,7 +117,7 @@ SceneBody<Scalar> MakeSceneBody(const SceneDesign& design, int c) {
     mean += all.points[all.size - 1];
   }
   for (int k = 0; k < 2; ++k) mean[k] /= Scalar(all.size);
-  const Scalar fill = Scalar(cell.fill) / Scalar(8);
+  const Scalar fill = Scalar(cell.fill) / Scalar(design.grain.fill);
   for (int i = 0; i < all.size; ++i) {
     for (int k = 0; k < 2; ++k) all.points[i][k] = Scalar(mean[k] + fill * Scalar(all.points[i][k] - mean[k]));
   }

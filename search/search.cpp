@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "corpus/store_lock.h"
+#include "search/adversary/optimized_unit.h"
 #include "search/finish.h"
 #include "search/unit.h"
 
@@ -36,7 +37,10 @@ class Search {
         options_(options),
         lock_(options.store, options.shard),
         store_(options.store, identity),
-        done_(store_.Units()) {
+        done_(store_.Units()),
+        heritage_(campaign, options.shard) {
+    for (const auto& [unit, text] : store_.Elites())
+      heritage_.Add(unit, ElitesFromText(text, options.store.string()));
     for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
     if (!options.problems) return;
     wanted_units_ = UnitsFor(campaign, *options.problems);
@@ -114,11 +118,27 @@ class Search {
 
   std::optional<std::int64_t> NextUnit() {  // under the mutex
     while (!wanted_units_ || next_unit_ < *wanted_units_) {
-      const std::int64_t unit = next_unit_++;
-      if (!options_.shard.Owns(unit)) continue;
-      if (!done_.Contains(unit)) return unit;
+      const std::int64_t unit = next_unit_;
+      const bool wanted = options_.shard.Owns(unit) && !done_.Contains(unit);
+      if (wanted && IsWaiting(unit)) return std::nullopt;
+      ++next_unit_;
+      if (wanted) return unit;
     }
     return std::nullopt;
+  }
+
+  // Units of an optimized search start from what earlier epochs left.
+  bool IsWaiting(std::int64_t unit) const {
+    const auto epoch = [this](std::int64_t u) { return Heritage::EpochOf(u, options_.shard); };
+    return !campaign_.objective.empty() && !in_work_.empty() && epoch(*in_work_.begin()) < epoch(unit);
+  }
+
+  // Empty if it was cancelled: half an optimized unit is none.
+  std::optional<UnitResult> Run(UnitRunner& runner, std::int64_t unit, const std::vector<Candidate>& parents) {
+    if (campaign_.objective.empty()) return runner.Run(unit);
+    UnitResult result = RunOptimizedUnit(campaign_, unit, parents, [this] { return Stopped(); });
+    if (Stopped()) return std::nullopt;
+    return result;
   }
 
   bool RunOneUnit(UnitRunner& runner) {
@@ -126,12 +146,19 @@ class Search {
     const auto unit = NextUnit();
     if (!unit) return false;
     ++busy_;
+    in_work_.insert(*unit);
+    const auto parents = campaign_.objective.empty() ? std::vector<Candidate>() : heritage_.ParentsOf(*unit);
     lock.unlock();
-    const UnitResult result = runner.Run(*unit);
+    const std::optional<UnitResult> run = Run(runner, *unit, parents);
     lock.lock();
     --busy_;
+    in_work_.erase(*unit);
+    if (!run) return true;
+    const UnitResult& result = *run;
+    if (!result.elites.empty()) heritage_.Add(*unit, ElitesFromText(result.elites, "a unit"));
     // A group's former representative may be waiting here; a smaller one takes its place.
-    for (Finding& finding : store_.AddUnit(options_.shard, *unit, result.record, result.candidates)) {
+    for (Finding& finding : store_.AddUnit(options_.shard, *unit, result.record, result.candidates,
+                                          result.elites)) {
       std::erase_if(pending_, [&](const Finding& other) { return other.signature == finding.signature; });
       pending_.insert(std::move(finding));
     }
@@ -169,6 +196,8 @@ class Search {
   StoreLock lock_;
   Store store_;  // under the mutex
   UnitSet done_;
+  Heritage heritage_;                // under the mutex
+  std::set<std::int64_t> in_work_;  // likewise
   std::optional<std::int64_t> wanted_units_;
   Clock::time_point start_;
   std::optional<Clock::time_point> deadline_;

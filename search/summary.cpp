@@ -11,6 +11,7 @@
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
+#include "search/adversary/optimized_unit.h"
 
 namespace stiction {
 namespace {
@@ -147,9 +148,80 @@ Json RatesToJson(const Digest& d) {
   return rates;
 }
 
+// ---- Of a search with an objective: its best, and no rates, since nothing was drawn at random ------
+
+struct Yield {
+  std::int64_t units = 0, evaluations = 0, confirmations = 0, denied = 0;
+};
+
+Yield YieldOf(const Store& store) {
+  Yield yield;
+  for (const auto& [unit, text] : store.Elites()) {
+    const UnitElites elites = ElitesFromText(text, fmt::format("elites of unit {}", unit));
+    ++yield.units;
+    yield.evaluations += elites.evaluations;
+    yield.confirmations += elites.confirmations;
+    yield.denied += elites.denied;
+  }
+  return yield;
+}
+
+std::string ValueText(const Objective& objective, const Score& score) {
+  if (!score.value) return fmt::format("no loop, the nearest at distance {:.3g}", -score.nearness);
+  return fmt::format("{:.6g}{}{}", objective.sign * *score.value, objective.unit.empty() ? "" : " ", objective.unit);
+}
+
+std::string OptimizedText(const Store& store, const Campaign& campaign, const std::string& file) {
+  const Objective& objective = *FindObjective(campaign.objective);
+  const Yield yield = YieldOf(store);
+  std::string text = fmt::format(
+      "{}: {} candidates in {} units, seed {}\n  objective {}, {}: {}\n  optimizer {}: {} exact runs, which denied "
+      "{} values of doubles\n",
+      file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
+      objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
+      Grouped(yield.confirmations), Grouped(yield.denied));
+  for (const Elite& elite : BestOf(store, 1)) {
+    text += fmt::format("  {:18} {} contacts, mu = {}: {}\n", Row(elite.candidate.generator).name,
+                        elite.candidate.contacts,
+                        ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
+                        ValueText(objective, elite.score));
+  }
+  std::int64_t finished = 0, pending = 0;
+  for (const Finding& finding : store.Findings()) ++(finding.done ? finished : pending);
+  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n", finished + pending, finished);
+  text += fmt::format(
+      "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the same "
+      "search again goes on.\n",
+      file);
+  return text;
+}
+
+Json OptimizedToJson(const Store& store, const Campaign& campaign) {
+  const Objective& objective = *FindObjective(campaign.objective);
+  const Yield yield = YieldOf(store);
+  Json best = Json::array();
+  for (const Elite& elite : BestOf(store, 1)) {
+    Json row = {{"candidate", ToJson(elite.candidate)}};
+    row["value"] = elite.score.value ? Json(objective.sign * *elite.score.value) : Json();
+    if (!elite.score.value) row["distance"] = -elite.score.nearness;
+    best.push_back(std::move(row));
+  }
+  return {{"seed", campaign.seed},
+          {"build", store.identity().build},
+          {"objective", objective.name},
+          {"optimizer", campaign.optimizer},
+          {"units", yield.units},
+          {"candidates", yield.evaluations},
+          {"confirmations", yield.confirmations},
+          {"denied", yield.denied},
+          {"best", best}};
+}
+
 }  // namespace
 
 Json SummaryToJson(const Store& store) {
+  const Campaign campaign = CampaignOf(store.identity(), "summary");
+  if (!campaign.objective.empty()) return OptimizedToJson(store, campaign);
   const Digest digest = DigestOf(store);
   Json simplest = Json::array();
   for (const Finding& finding : digest.simplest) {
@@ -197,6 +269,8 @@ Json SummaryToJson(const Store& store) {
 }
 
 std::string SummaryText(const Store& store, const std::string& file) {
+  const Campaign campaign = CampaignOf(store.identity(), file);
+  if (!campaign.objective.empty()) return OptimizedText(store, campaign, file);
   const Digest digest = DigestOf(store);
   std::string text = fmt::format("{}: {} problems in {} units, seed {}\n", file, Grouped(digest.problems),
                                  Grouped(digest.units), store.identity().seed);

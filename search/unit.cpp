@@ -36,7 +36,7 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
                      {"index", index}};
   Choices choices(
       ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
-  if (auto scene = GenerateScene(task.generator, task.contacts, campaign.palette, choices)) {
+  if (auto scene = GenerateScene(task.generator, task.contacts, SurroundingsOf(campaign), choices)) {
     scene->name = file.name;
     SceneFile scene_file;
     scene_file.scene = *std::move(scene);
@@ -222,11 +222,12 @@ class Kernel final : public SizedKernel {
 
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
     const std::int64_t problems = UnitProblems(campaign_, task);
+    const Surroundings surroundings = SurroundingsOf(campaign_);
     std::int64_t until_audit = 1;  // the first problem is audited
     for (std::int64_t index = 0; index < problems; ++index) {
       Choices choices(
           ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
-      Generate<double, Rows>(task.generator, task.contacts, campaign_.palette, choices, problem_);
+      Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
       const bool audit = --until_audit == 0;
       if (audit) until_audit = campaign_.audit_every;
       for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) Try(index, policy, audit, collector);
@@ -328,7 +329,7 @@ ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std:
   Choices choices(
       ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
   ExactProblem problem;
-  Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, campaign.palette, choices, problem);
+  Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, SurroundingsOf(campaign), choices, problem);
   return problem;
 }
 

@@ -21,7 +21,7 @@ namespace stiction {
 namespace {
 
 using DoubleProblem = ContactProblem<double>;
-using ChoiceList = std::vector<std::int64_t>;
+using ChoiceList = std::vector<Choice>;
 
 constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
@@ -365,10 +365,10 @@ TEST_CASE("generators: recorded choices make the same problem again, over double
       const std::uint64_t seed = Seed(id, contacts, index);
       const auto problem = Make<DoubleProblem>(id, contacts, Choices(seed, &record));
       REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices(seed))));
-      REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices::Replay(record, &again))));
+      REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices::Replay(ValuesOf(record), &again))));
       REQUIRE(again == record);
       REQUIRE(Equal(Make<ExactProblem>(id, contacts, Choices(seed)),
-                    Make<ExactProblem>(id, contacts, Choices::Replay(record))));
+                    Make<ExactProblem>(id, contacts, Choices::Replay(ValuesOf(record)))));
     }
   });
 }
@@ -378,8 +378,9 @@ TEST_CASE("generators: any sequence of choices makes a problem that meets the as
   ForEachKind([](GeneratorId id, int contacts) {
     Choices edits(Seed(id, contacts, 77));
     for (int index = 0; index < 20; ++index) {
-      ChoiceList sequence;
-      Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &sequence));
+      ChoiceList record;
+      Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &record));
+      std::vector<std::int64_t> sequence = ValuesOf(record);
       sequence.resize(edits.Integer(0, static_cast<std::int64_t>(sequence.size())));
       for (std::int64_t& value : sequence) {
         if (edits.Integer(0, 4) == 0) value = edits.Integer(-1000, 1000);
@@ -416,7 +417,7 @@ TEST_CASE("generators: outside 1 to 8 contacts, or without a palette, is an inte
   Choices choices(1);
   CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 0, kDefaultPalette, choices, problem));
   CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 9, kDefaultPalette, choices, problem));
-  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 2, {}, choices, problem));
+  CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 2, std::span<const MuChoice>(), choices, problem));
   ContactProblem<double, 4> fixed;
   CHECK_THROWS(Generate<double>(GeneratorId::kPsd, 3, kDefaultPalette, choices, fixed));
 }

@@ -23,27 +23,30 @@ struct Made {
   ExactProblem problem;
 };
 
-Made Make(int contacts, Choices for_scene, Choices for_problem) {
+Made Make(GeneratorId id, int contacts, Choices for_scene, Choices for_problem) {
   Made made;
-  made.scene = GenerateScene(GeneratorId::kScenes, contacts, kPalette, for_scene).value();
-  Generate(GeneratorId::kScenes, contacts, kPalette, for_problem, made.problem);
+  made.scene = GenerateScene(id, contacts, kPalette, for_scene).value();
+  Generate(id, contacts, kPalette, for_problem, made.problem);
   return made;
 }
 
-Made Make(int contacts, int index) {
+Made Make(GeneratorId id, int contacts, int index) {
   const std::uint64_t seed = ProblemSeed(5, contacts, index);
-  return Make(contacts, Choices(seed), Choices(seed));
+  return Make(id, contacts, Choices(seed), Choices(seed));
 }
+Made Make(int contacts, int index) { return Make(GeneratorId::kScenes, contacts, index); }
 
 // visit(contacts, made) for all sizes, and for choices that have run out.
 template <class Visit>
 void ForEachScene(Visit visit) {
-  for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
-    CAPTURE(contacts);
-    visit(contacts, Make(contacts, Choices::Replay({}), Choices::Replay({})));
-    for (int index = 0; index < kIndices; ++index) {
-      CAPTURE(index);
-      visit(contacts, Make(contacts, index));
+  for (const GeneratorId id : {GeneratorId::kScenes, GeneratorId::kFineScenes}) {
+    for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
+      CAPTURE(Row(id).name, contacts);
+      visit(contacts, Make(id, contacts, Choices::Replay({}), Choices::Replay({})));
+      for (int index = 0; index < kIndices; ++index) {
+        CAPTURE(index);
+        visit(contacts, Make(id, contacts, index));
+      }
     }
   }
 }
@@ -157,7 +160,26 @@ TEST_CASE("scenes: all arrangements occur") {
   CHECK(corners > 50);
 }
 
-TEST_CASE("scenes: only the generator of that name has scenes") {
+TEST_CASE("scenes: under gravity alone no body is pushed, and what is drawn else stays as it is") {
+  const Surroundings quiet(kPalette, /*only_gravity=*/true);
+  for (const GeneratorId id : {GeneratorId::kScenes, GeneratorId::kFineScenes}) {
+    for (int index = 0; index < kIndices; ++index) {
+      const std::uint64_t seed = ProblemSeed(5, 4, index);
+      Choices for_scene(seed), for_problem(seed);
+      const auto scene = GenerateScene(id, 4, quiet, for_scene).value();
+      for (const auto& body : scene.bodies) REQUIRE((body.force[0] == 0 && body.force[1] == 0 && body.torque == 0));
+      ExactProblem problem;
+      Generate(id, 4, quiet, for_problem, problem);
+      const ExactProblem model = FullModel(scene);
+      REQUIRE((model.A == problem.A && model.b == problem.b));
+    }
+  }
+  Choices choices(1);
+  ExactProblem problem;
+  CHECK_THROWS(Generate(GeneratorId::kPsd, 2, quiet, choices, problem));
+}
+
+TEST_CASE("scenes: only the generators of that name have scenes") {
   Choices choices(1);
   CHECK_FALSE(GenerateScene(GeneratorId::kBodies, 2, kPalette, choices).has_value());
 }

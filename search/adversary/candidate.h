@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candidate: one problem of an optimized search, as the choices that its generator is given.
+//
+// Any sequence of integers is a problem that meets the paper's hypotheses exactly (choices.h), and where the
+// generator makes scenes, one that can be built. So optimizers change integers, and whatever they do is valid.
+
+#ifndef STICTION_SEARCH_ADVERSARY_CANDIDATE_H_
+#define STICTION_SEARCH_ADVERSARY_CANDIDATE_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "search/generators.h"
+
+namespace stiction {
+
+struct Candidate {
+  GeneratorId generator = GeneratorId::kScenes;
+  int contacts = 2;
+  MuChoice mu = {1, 1};  // of all contacts
+  bool gravity_only = false;
+  std::vector<std::int64_t> choices;
+
+  bool operator==(const Candidate&) const = default;
+};
+
+// Of random choices.
+Candidate RandomCandidate(const Candidate& like, std::uint64_t seed);
+// The problem, and the choices that were made with their ranges: those of the candidate clamped, without what was
+// not asked for.
+ContactProblem<double> RoundedOf(const Candidate& candidate, std::vector<Choice>* made);
+ExactProblem ExactOf(const Candidate& candidate);
+// With its scene where it has one, and the candidate as its origin.
+ProblemFile FileOf(const Candidate& candidate, const std::string& name);
+
+Json ToJson(const Candidate& candidate);
+Candidate CandidateFromJson(const JsonPlace& place);  // InputError
+
+// The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter of mu.
+// Zero stays.
+MuChoice Lowered(const MuChoice& mu, int k);
+// The simplest coefficient within one part in two thousand of `mu`, at most 1,000,000 / 1,000,000; `otherwise` if
+// there is none.
+MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_CANDIDATE_H_

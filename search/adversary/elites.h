@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Elites: the best candidates of every behaviour, all confirmed over rationals.
+
+#ifndef STICTION_SEARCH_ADVERSARY_ELITES_H_
+#define STICTION_SEARCH_ADVERSARY_ELITES_H_
+
+#include <functional>
+#include <vector>
+
+#include "search/adversary/judge.h"
+
+namespace stiction {
+
+class Elites {
+ public:
+  static constexpr std::size_t kMost = 48;
+
+  // `on_loop` is called for every loop that is taken in.
+  explicit Elites(Judge& judge, std::function<void(const Judged&)> on_loop = {})
+      : judge_(judge), on_loop_(std::move(on_loop)) {}
+
+  // Whether the candidate was taken in: it is no worse than the one of its behaviour, or has a new one and is not the
+  // worst of a full house. What would be taken in is confirmed first, and then asked again.
+  bool Admit(Judged judged);
+
+  bool empty() const { return all_.empty(); }
+  // In the order in which behaviours came.
+  const std::vector<Judged>& all() const { return all_; }
+  // Requires: not empty.
+  const Judged& Best() const;
+  // The best of a few drawn at random.
+  const Judged& Draw(Choices& random) const;
+
+ private:
+  // Where it would stand; all_.size() for a new place, none if it is not wanted.
+  std::optional<std::size_t> PlaceFor(const Judged& judged) const;
+
+  Judge& judge_;
+  std::function<void(const Judged&)> on_loop_;
+  std::vector<Judged> all_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_ELITES_H_

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Judge: what a candidate is worth, over doubles first, over rationals before it counts.
+
+#ifndef STICTION_SEARCH_ADVERSARY_JUDGE_H_
+#define STICTION_SEARCH_ADVERSARY_JUDGE_H_
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "search/adversary/candidate.h"
+#include "search/adversary/objective.h"
+
+namespace stiction {
+
+// Any value is better than none; without one what is nearer to a loop is better.
+struct Score {
+  std::optional<double> value;
+  double nearness = -1e9;  // minus the distance to a loop; of objectives of loops
+
+  bool operator<(const Score& other) const;
+};
+
+// What a run does, coarsely: candidates of different behaviour are kept beside each other.
+using Behaviour = std::array<std::int64_t, 5>;
+
+struct Judged {
+  Candidate candidate;       // its choices clamped, without what no choice asked for
+  std::vector<Choice> made;  // the same choices with their ranges
+  Score score;
+  Behaviour behaviour = {};
+  bool confirmed = false;  // the score is of the exact problem
+};
+
+class Judge {
+ public:
+  // The objective, one of the table, must outlive this.
+  Judge(const Objective& objective, const Policy& policy, const Limits& limits)
+      : objective_(objective), policy_(policy), limits_(limits) {}
+
+  const Objective& objective() const { return objective_; }
+
+  // One evaluation: over doubles, or, where the objective has no shortcut, over rationals.
+  Judged Look(Candidate candidate);
+  // Over rationals. A candidate whose double run was mistaken loses its value here.
+  void Confirm(Judged& judged);
+
+  std::int64_t looks() const { return looks_; }
+  std::int64_t confirmations() const { return confirmations_; }  // exact runs
+  // Values over doubles that rationals denied.
+  std::int64_t denied() const { return denied_; }
+
+ private:
+  Objective objective_;
+  Policy policy_;
+  Limits limits_;
+  std::int64_t looks_ = 0, confirmations_ = 0, denied_ = 0;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_JUDGE_H_

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/adversary/objective.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "certify/enumerate.h"
+#include "certify/exact.h"
+#include "corpus/rounded.h"
+
+namespace stiction {
+namespace {
+
+using Value = std::optional<double>;
+
+constexpr int kMostContactsEnumerated = 4;
+
+// ---- Rows --------------------------------------------------------------------------------------
+
+struct Text {
+  std::string_view name, help, unit;
+  int sign = 1;
+};
+
+// Of any run: `value` of a trial over either kind of numbers.
+template <class F>
+constexpr Objective OfRuns(const Text& text, F) {
+  return {text.name, text.help, text.unit, text.sign, false, false,
+          [](InexactTrial& trial) -> Value { return F{}(trial); },
+          [](ExactTrial& trial) -> Value { return F{}(trial); }};
+}
+
+// Of loops.
+template <class F>
+constexpr Objective OfLoops(const Text& text, F value) {
+  Objective objective = OfRuns(text, value);
+  objective.of_loops = true;
+  objective.inexact = [](InexactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
+  objective.exact = [](ExactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
+  return objective;
+}
+
+// Of rationals alone.
+template <class F>
+constexpr Objective Exactly(const Text& text, F) {
+  return {text.name, text.help, text.unit, text.sign, false, false, nullptr,
+          [](ExactTrial& trial) -> Value { return F{}(trial); }};
+}
+
+// A counter of runs that end solved: what a loop counts is only when it was noticed.
+template <auto kCounter, class Scalar>
+Value OfSolved(Trial<Scalar>& trial) {
+  if (!trial.Solves()) return std::nullopt;
+  return static_cast<double>(trial.Published().verdict.statistics.*kCounter);
+}
+
+// ---- Values ------------------------------------------------------------------------------------
+
+template <class Scalar>
+Scalar LargestFriction(const Trial<Scalar>& trial) {
+  Scalar mu(0);
+  for (const auto& contact : trial.problem().contacts) mu = std::max(mu, contact.mu);
+  return mu;
+}
+
+double AsDouble(double x) { return x; }
+double AsDouble(const Rational& x) { return ToDouble(x); }
+
+Value NegativeCondition(const ContactProblem<double>& problem) {
+  const auto condition = Condition(problem);
+  return condition ? Value(-*condition) : Value();
+}
+
+// Largest difference of a force between doubles and rationals, relative to the largest force.
+Value RoundingError(ExactTrial& trial) {
+  InexactTrial rounded(Rounded<double>(trial.problem()), trial.policy(), trial.limits());
+  if (!trial.Solves() || !rounded.Solves()) return std::nullopt;
+  const auto& exact = trial.Published().f;
+  const auto& inexact = rounded.Published().f;
+  Rational largest = 0, apart = 0;
+  for (Eigen::Index i = 0; i < exact.size(); ++i) {
+    largest = std::max<Rational>(largest, abs(exact[i]));
+    apart = std::max<Rational>(apart, abs(exact[i] - Rational(inexact[i])));
+  }
+  if (largest == 0 || apart == 0) return std::nullopt;
+  return std::log10(ToDouble(apart / largest));
+}
+
+double DifferentEnds(ExactTrial& trial) {
+  std::set<std::tuple<Outcome, std::int64_t, std::int64_t>> ends;
+  for (const PolicyClass& equal : RunPolicies(trial.problem(), PlanarGrid(), trial.limits()))
+    ends.insert({equal.verdict.outcome, equal.verdict.start, equal.verdict.period});
+  return static_cast<double>(ends.size());
+}
+
+Value NumberOfSolutions(ExactTrial& trial) {
+  if (trial.contacts() > kMostContactsEnumerated) return std::nullopt;
+  return static_cast<double>(EnumerateModes(trial.problem()).distinct_witnesses);
+}
+
+}  // namespace
+
+std::span<const Objective> Objectives() {
+  static const std::array kRows = {
+      OfRuns({"steps", "steps of the published algorithm until it has solved the problem", "steps"},
+             [](auto& t) { return OfSolved<&Statistics::steps>(t); }),
+      OfRuns({"steps-per-contact", "the same by contact", "steps a contact"},
+             [](auto& t) {
+               const Value steps = OfSolved<&Statistics::steps>(t);
+               return steps ? Value(*steps / t.contacts()) : steps;
+             }),
+      OfRuns({"zero-steps", "steps of length zero, of a run that solves", "steps"},
+             [](auto& t) { return OfSolved<&Statistics::zero_steps>(t); }),
+      OfRuns({"zero-run", "the longest run of them within a drive", "steps"},
+             [](auto& t) { return OfSolved<&Statistics::longest_zero_run>(t); }),
+      OfRuns({"give-ups", "variables that a run gives up and yet solves", "give-ups"},
+             [](auto& t) { return OfSolved<&Statistics::give_ups>(t); }),
+      OfRuns({"scans", "scans for a violated condition, of a run that solves", "scans"},
+             [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); }),
+      OfLoops({"period", "drives of a loop's period", "drives"},
+              [](auto& t) { return static_cast<double>(t.Published().verdict.period); }),
+      OfLoops({"start", "drives before a loop begins", "drives"},
+              [](auto& t) { return static_cast<double>(t.Published().verdict.start); }),
+      OfRuns({"distance", "how near a run comes to a state that it was in, relative to its forces", "", -1},
+             [](auto& t) {
+               const Value distance = DistanceToLoop(t);
+               return distance ? Value(-*distance) : distance;
+             }),
+      OfRuns({"pivot", "the smallest pivot, relative to its diagonal entry: -log10", "decades"},
+             [](auto& t) {
+               const Value pivot = SmallestPivot(t);
+               return pivot ? Value(-std::log10(*pivot)) : pivot;
+             }),
+      Exactly({"bits", "the longest number of an exact run", "bits"},
+              [](ExactTrial& t) { return static_cast<double>(LongestNumber(t)); }),
+      OfLoops({"condition", "condition number of a definite A with a loop", "", -1},
+              [](auto& t) {
+                if constexpr (std::is_same_v<std::remove_reference_t<decltype(t)>, InexactTrial>)
+                  return NegativeCondition(t.problem());
+                else
+                  return NegativeCondition(Rounded<double>(t.problem()));
+              }),
+      [] {
+        Objective row = OfLoops({"friction", "the friction coefficient of a loop", "mu", -1},
+                                [](auto& t) { return -AsDouble(LargestFriction(t)); });
+        row.lowers_friction = true;
+        return row;
+      }(),
+      Exactly({"rounding", "error of the forces over doubles, relative to the largest: log10", "decades"},
+              [](ExactTrial& t) { return RoundingError(t); }),
+      Exactly({"policies", "different ends (outcome, start, period) over the grid of policies", "ends"},
+              [](ExactTrial& t) { return DifferentEnds(t); }),
+      OfRuns({"folds", "folds of complete driving", "folds"},
+             [](auto& t) { return static_cast<double>(t.Complete().statistics.folds); }),
+      OfRuns({"descents", "descents of complete driving", "descents"},
+             [](auto& t) { return static_cast<double>(t.Complete().statistics.descents); }),
+      OfRuns({"pieces", "linear pieces of complete driving", "pieces"},
+             [](auto& t) { return static_cast<double>(t.Complete().statistics.pieces); }),
+      Exactly({"solutions", "different solutions among all contact modes, up to four contacts", "solutions"},
+              [](ExactTrial& t) { return NumberOfSolutions(t); }),
+      [] {
+        Objective row = Exactly({"margin", "least relative gap of any decision of a loop: how robust it is", ""},
+                                [](ExactTrial& t) { return Margin(t); });
+        row.of_loops = true;
+        return row;
+      }(),
+  };
+  return kRows;
+}
+
+const Objective* FindObjective(std::string_view name) {
+  const auto rows = Objectives();
+  const auto row = std::find_if(rows.begin(), rows.end(), [name](const Objective& o) { return o.name == name; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+}  // namespace stiction

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objectives: what an optimized search makes large, functions of one problem. Higher is worse for the solver.
+//
+// A new one is a row of the table in objective.cpp. Optimizers exploit tolerances, so a value over doubles is only
+// ever a reason to look again: it is the one over rationals that counts (judge.h).
+
+#ifndef STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_
+#define STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "search/adversary/trial.h"
+
+namespace stiction {
+
+struct Objective {
+  std::string_view name;  // on the command line
+  std::string_view help;
+  std::string_view unit;  // of what is shown
+  // Shown is this times the value: -1 where less is worse for the solver.
+  int sign = 1;
+  bool of_loops = false;        // loops alone have a value; what is near to one leads there
+  bool lowers_friction = false;  // optimizers change mu too
+  // Empty where the problem has no value. Null: there is no shortcut over doubles.
+  std::optional<double> (*inexact)(InexactTrial&) = nullptr;
+  std::optional<double> (*exact)(ExactTrial&) = nullptr;
+};
+
+// The table itself.
+std::span<const Objective> Objectives();
+// Null if none has this name.
+const Objective* FindObjective(std::string_view name);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_

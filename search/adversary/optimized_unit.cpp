@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/adversary/optimized_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "certify/exact.h"
+#include "corpus/json_text.h"
+#include "search/signature.h"
+#include "solver/problem/check.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::size_t kElitesOfUnit = 8;
+constexpr std::size_t kParents = 16;
+
+bool Better(const Elite& left, const Elite& right) { return right.score < left.score; }
+
+// The best first, each problem once, at most so many.
+void KeepBest(std::vector<Elite>& elites, std::size_t most) {
+  std::stable_sort(elites.begin(), elites.end(), Better);
+  std::vector<Elite> kept;
+  for (Elite& elite : elites) {
+    const auto same = [&elite](const Elite& other) { return other.candidate == elite.candidate; };
+    if (kept.size() < most && std::none_of(kept.begin(), kept.end(), same)) kept.push_back(std::move(elite));
+  }
+  elites = std::move(kept);
+}
+
+double Number(const JsonPlace& place) {
+  if (!place.json().is_number()) place.Refuse("a number");
+  return place.json().get<double>();
+}
+
+// A loop as a finding; its index is the place among the loops of its unit.
+Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
+                  const Judged& judged, std::string signature, const ExactRun& run) {
+  const std::string generator(Row(task.generator).name);
+  Finding finding;
+  finding.signature = std::move(signature);
+  finding.kind = Name(run.verdict.outcome);
+  finding.unit = unit;
+  finding.index = index;
+  finding.generator = generator;
+  finding.contacts = task.contacts;
+  finding.policy = PolicyName(campaign.policies.front());
+  finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
+  finding.problem = ToJson(FileOf(judged.candidate, fmt::format("{}-{}-{}", generator, unit, index))).dump();
+  return finding;
+}
+
+}  // namespace
+
+std::string ToText(const UnitElites& unit) {
+  Json elites = Json::array();
+  for (const Elite& elite : unit.elites) {
+    Json json = {{"candidate", ToJson(elite.candidate)}, {"nearness", elite.score.nearness}};
+    if (elite.score.value) json["value"] = *elite.score.value;
+    elites.push_back(std::move(json));
+  }
+  return Json{{"elites", std::move(elites)},
+              {"evaluations", unit.evaluations},
+              {"confirmations", unit.confirmations},
+              {"denied", unit.denied}}
+      .dump();
+}
+
+UnitElites ElitesFromText(const std::string& text, const std::string& source) {
+  const Json json = ParseJson(text, source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"elites", "evaluations", "confirmations", "denied"});
+  const auto count = [&root](const char* key) {
+    return root.Required(key, "a count").Integer(0, std::int64_t{1} << 53, "a count");
+  };
+  UnitElites unit{{}, count("evaluations"), count("confirmations"), count("denied")};
+  const JsonPlace list = root.Required("elites", "a list");
+  for (std::size_t i = 0; i < list.Size("a list"); ++i) {
+    const JsonPlace place = list[i];
+    place.RequireObject();
+    place.AllowKeys({"candidate", "nearness", "value"});
+    Elite elite;
+    elite.candidate = CandidateFromJson(place.Required("candidate", "a candidate"));
+    elite.score.nearness = Number(place.Required("nearness", "a number"));
+    if (const auto value = place.Optional("value")) elite.score.value = Number(*value);
+    unit.elites.push_back(std::move(elite));
+  }
+  return unit;
+}
+
+void Heritage::Add(std::int64_t unit, const UnitElites& elites) {
+  if (shard_.Owns(unit)) units_[unit] = elites.elites;
+}
+
+std::vector<Candidate> Heritage::ParentsOf(std::int64_t unit) const {
+  const Task task = TaskOf(schedule_, unit);
+  std::vector<Elite> best;
+  for (const auto& [earlier, elites] : units_) {
+    if (EpochOf(earlier, shard_) >= EpochOf(unit, shard_)) break;
+    const Task other = TaskOf(schedule_, earlier);
+    if (other.generator != task.generator || other.contacts != task.contacts) continue;
+    best.insert(best.end(), elites.begin(), elites.end());
+  }
+  KeepBest(best, kParents);
+  std::vector<Candidate> parents;
+  for (Elite& elite : best) parents.push_back(std::move(elite.candidate));
+  return parents;
+}
+
+UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const std::vector<Candidate>& parents,
+                            const std::function<bool()>& cancelled) {
+  const Task task = TaskOf(Schedule(campaign), unit);
+  Optimization optimization;
+  optimization.objective = FindObjective(campaign.objective);
+  optimization.like = {task.generator, task.contacts, campaign.palette.front(), campaign.gravity_only, {}};
+  optimization.palette = campaign.palette;
+  optimization.parents = parents;
+  optimization.seed = ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), 0);
+  optimization.evaluations = UnitProblems(campaign, task);
+  optimization.policy = campaign.policies.front();
+  optimization.limits = campaign.limits;
+  optimization.cancelled = cancelled;
+  Optimized optimized = FindOptimizer(campaign.optimizer)->run(optimization);
+
+  UnitResult result;
+  result.problems = optimized.evaluations;
+  UnitElites elites{{}, optimized.evaluations, optimized.confirmations, optimized.denied};
+  for (const Judged& judged : optimized.elites) elites.elites.push_back({judged.candidate, judged.score});
+  KeepBest(elites.elites, kElitesOfUnit);
+  result.elites = ToText(elites);
+  // The best loops stand for their signatures.
+  std::stable_sort(optimized.loops.begin(), optimized.loops.end(),
+                   [](const Judged& left, const Judged& right) { return right.score < left.score; });
+  std::int64_t index = 0;
+  for (const Judged& judged : optimized.loops) {
+    const ExactProblem problem = ExactOf(judged.candidate);
+    const ExactRun run = RunExact(problem, {campaign.policies.front(), {}, campaign.limits});
+    std::string signature = Signature(problem, run);
+    if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
+    const bool first = ++result.record.signatures[signature] == 1;
+    const bool room = static_cast<std::int64_t>(result.candidates.size()) < campaign.representatives_per_unit;
+    if (first && room)
+      result.candidates.push_back(FindingOf(campaign, task, unit, index, judged, std::move(signature), run));
+    ++index;
+  }
+  return result;
+}
+
+std::vector<Elite> BestOf(const Store& store, std::size_t most) {
+  std::map<std::pair<GeneratorId, int>, std::vector<Elite>> by_task;
+  for (const auto& [unit, text] : store.Elites()) {
+    for (Elite& elite : ElitesFromText(text, fmt::format("elites of unit {}", unit)).elites)
+      by_task[{elite.candidate.generator, elite.candidate.contacts}].push_back(std::move(elite));
+  }
+  std::vector<Elite> best;
+  for (auto& [task, elites] : by_task) {
+    KeepBest(elites, most);
+    best.insert(best.end(), elites.begin(), elites.end());
+  }
+  std::stable_sort(best.begin(), best.end(), Better);
+  return best;
+}
+
+}  // namespace stiction

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/adversary/trial.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "certify/exact.h"
+
+namespace stiction {
+namespace {
+
+double AsDouble(double x) { return x; }
+double AsDouble(const Rational& x) { return ToDouble(x); }
+
+template <class Scalar>
+double LargestOf(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
+  double largest = 0;
+  for (const Scalar& x : vector) largest = std::max(largest, std::abs(AsDouble(x)));
+  return largest;
+}
+
+// The last steps of all drives.
+template <class Scalar>
+std::vector<const Pivot<Scalar>*> EndsOfDrives(const Trace<Scalar>& trace) {
+  std::vector<const Pivot<Scalar>*> ends;
+  for (const Pivot<Scalar>& pivot : trace.pivots) {
+    if (!ends.empty() && ends.back()->drive == pivot.drive) ends.pop_back();
+    ends.push_back(&pivot);
+  }
+  return ends;
+}
+
+template <class Scalar>
+double DistanceOf(const Pivot<Scalar>& left, const Pivot<Scalar>& right) {
+  int different = 0;
+  for (std::size_t i = 0; i < left.sets.size(); ++i) different += left.sets[i] != right.sets[i];
+  if (different > 0) return 1 + different;
+  double apart = 0;
+  for (Eigen::Index i = 0; i < left.f.size(); ++i)
+    apart = std::max(apart, std::abs(AsDouble(Scalar(left.f[i] - right.f[i]))));
+  const double largest = std::max(LargestOf<Scalar>(left.f), LargestOf<Scalar>(right.f));
+  return largest == 0 ? 0 : std::min(1.0, apart / largest);
+}
+
+template <class Scalar>
+std::optional<double> Distance(Trial<Scalar>& trial) {
+  if (trial.Loops()) return 0;
+  const auto ends = EndsOfDrives(trial.Published().trace);
+  std::optional<double> least;
+  for (std::size_t j = 1; j < ends.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const double distance = DistanceOf(*ends[i], *ends[j]);
+      if (!least || distance < *least) least = distance;
+    }
+  }
+  return least;
+}
+
+template <class Scalar>
+std::optional<double> LeastPivot(Trial<Scalar>& trial) {
+  std::optional<double> least;
+  for (const Pivot<Scalar>& pivot : trial.Published().trace.pivots) {
+    const double diagonal = AsDouble(trial.problem().A(pivot.driven, pivot.driven));
+    const double force = std::abs(AsDouble(pivot.df[pivot.driven]));
+    const double acceleration = std::abs(AsDouble(pivot.da[pivot.driven]));
+    if (diagonal == 0 || force == 0 || acceleration == 0) continue;
+    const double relative = acceleration / (force * diagonal);
+    if (!least || relative < *least) least = relative;
+  }
+  return least;
+}
+
+// A quantity whose sign a condition asks for, where a step begins, and how it changes per unit step.
+struct Quantity {
+  Rational value, rate;
+};
+
+template <class Visit>
+void ForEachQuantity(const ExactProblem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
+                     const ExactProblem::Vector& df, const ExactProblem::Vector& da, Visit visit) {
+  for (std::size_t contact = 0; contact < problem.contacts.size(); ++contact) {
+    const auto n = static_cast<Eigen::Index>(2 * contact), t = n + 1;
+    const Rational& mu = problem.contacts[contact].mu;
+    visit(Quantity{f[n], df[n]});
+    visit(Quantity{a[n], da[n]});
+    visit(Quantity{a[t], da[t]});
+    visit(Quantity{mu * f[n] - f[t], mu * df[n] - df[t]});
+    visit(Quantity{mu * f[n] + f[t], mu * df[n] + df[t]});
+  }
+}
+
+// How much later than s, relative to the later, the next quantity reaches zero. 1 where none does.
+double GapOfStep(const ExactProblem& problem, const Pivot<Rational>& before, const Pivot<Rational>& step) {
+  if (step.s == 0) return 0;
+  double gap = 1;
+  ForEachQuantity(problem, before.f, before.a, step.df, step.da, [&](const Quantity& q) {
+    if (q.value == 0 || sgn(q.value) == sgn(q.rate) || q.rate == 0) return;
+    const Rational zero = -q.value / q.rate;
+    if (zero > step.s) gap = std::min(gap, ToDouble((zero - step.s) / zero));
+    if (zero < step.s) gap = std::min(gap, ToDouble((step.s - zero) / step.s));
+  });
+  return gap;
+}
+
+// The least size of what is not zero between two drives, relative to its kind.
+double GapOfScan(const ExactProblem& problem, const Pivot<Rational>& end) {
+  const double largest_f = LargestOf<Rational>(end.f), largest_a = LargestOf<Rational>(end.a);
+  double gap = 1;
+  int k = 0;
+  ForEachQuantity(problem, end.f, end.a, end.f, end.a, [&](const Quantity& q) {
+    const bool of_acceleration = k % 5 == 1 || k % 5 == 2;
+    ++k;
+    const double scale = of_acceleration ? largest_a : largest_f;
+    if (q.value != 0 && scale > 0) gap = std::min(gap, std::abs(ToDouble(q.value)) / scale);
+  });
+  return gap;
+}
+
+}  // namespace
+
+std::optional<double> DistanceToLoop(InexactTrial& trial) { return Distance(trial); }
+std::optional<double> DistanceToLoop(ExactTrial& trial) { return Distance(trial); }
+std::optional<double> SmallestPivot(InexactTrial& trial) { return LeastPivot(trial); }
+std::optional<double> SmallestPivot(ExactTrial& trial) { return LeastPivot(trial); }
+
+std::optional<double> Margin(ExactTrial& trial) {
+  if (!trial.Loops()) return std::nullopt;
+  const auto& run = trial.Published();
+  const auto& pivots = run.trace.pivots;
+  double margin = 1;
+  for (std::size_t k = 0; k < pivots.size(); ++k) {
+    if (pivots[k].drive <= run.verdict.start) continue;
+    Pivot<Rational> rest;  // before the first step
+    if (k == 0) {
+      rest.f = ExactProblem::Vector::Constant(trial.problem().rows(), Rational(0));
+      rest.a = trial.problem().b;
+    }
+    const Pivot<Rational>& before = k == 0 ? rest : pivots[k - 1];
+    margin = std::min(margin, GapOfStep(trial.problem(), before, pivots[k]));
+    const bool last_of_drive = k + 1 == pivots.size() || pivots[k + 1].drive != pivots[k].drive;
+    if (last_of_drive) margin = std::min(margin, GapOfScan(trial.problem(), pivots[k]));
+  }
+  return margin;
+}
+
+std::int64_t LongestNumber(ExactTrial& trial) {
+  std::int64_t longest = 0;
+  for (const Pivot<Rational>& pivot : trial.Published().trace.pivots) {
+    for (const Rational& x : pivot.f) longest = std::max(longest, Bits(x));
+    for (const Rational& x : pivot.a) longest = std::max(longest, Bits(x));
+  }
+  return longest;
+}
+
+std::optional<double> Condition(const ContactProblem<double>& problem) {
+  constexpr double kClear = 1e-10;  // of the largest eigenvalue
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(problem.A, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues().minCoeff(), most = solver.eigenvalues().maxCoeff();
+  if (!(least > kClear * most)) return std::nullopt;
+  return most / least;
+}
+
+}  // namespace stiction

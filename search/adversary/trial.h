@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trial: one problem and what the methods make of it, each run once, when it is first asked for.
+
+#ifndef STICTION_SEARCH_ADVERSARY_TRIAL_H_
+#define STICTION_SEARCH_ADVERSARY_TRIAL_H_
+
+#include <optional>
+
+#include "corpus/problem_file.h"
+#include "solver/complete/complete.h"
+#include "solver/published/published.h"
+
+namespace stiction {
+
+template <class Scalar>
+class Trial {
+ public:
+  using Problem = ContactProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+
+  // The published algorithm under one policy.
+  struct PublishedRun {
+    Verdict verdict;
+    Trace<Scalar> trace;
+    Vector f;
+  };
+
+  Trial(Problem problem, const Policy& policy, const Limits& limits)
+      : problem_(std::move(problem)), policy_(policy), limits_(limits) {}
+
+  const Problem& problem() const { return problem_; }
+  const Policy& policy() const { return policy_; }
+  const Limits& limits() const { return limits_; }
+  int contacts() const { return static_cast<int>(problem_.contacts.size()); }
+
+  const PublishedRun& Published() {
+    if (!published_) {
+      PublishedAlgorithm<Scalar> algorithm({policy_, {}, limits_});
+      published_.emplace();
+      published_->verdict = algorithm.Run(problem_, &published_->trace);
+      published_->f = algorithm.state().f;
+    }
+    return *published_;
+  }
+  bool Loops() { return IsLoop(Published().verdict.outcome); }
+  bool Solves() { return Published().verdict.outcome == Outcome::kSolved; }
+
+  const CompleteVerdict& Complete() {
+    if (!complete_) complete_ = CompleteDriving<Scalar>({{}, limits_}).Run(problem_);
+    return *complete_;
+  }
+
+ private:
+  Problem problem_;
+  Policy policy_;
+  Limits limits_;
+  std::optional<PublishedRun> published_;
+  std::optional<CompleteVerdict> complete_;
+};
+
+using InexactTrial = Trial<double>;
+using ExactTrial = Trial<Rational>;
+
+// How far a run is from a loop: the least distance of two of its states between drives. States with equal sets
+// are as far apart as their forces, relative to the largest, at most 1; others 1 and one more for each set
+// that differs. 0 at a loop; empty for a run of fewer than two drives.
+std::optional<double> DistanceToLoop(InexactTrial& trial);
+std::optional<double> DistanceToLoop(ExactTrial& trial);
+
+// The smallest pivot: of all steps the least acceleration of the driven variable per unit of its force, relative to
+// its diagonal entry. Empty for a run without a step.
+std::optional<double> SmallestPivot(InexactTrial& trial);
+std::optional<double> SmallestPivot(ExactTrial& trial);
+
+// How robust a loop is: the least relative gap of any decision of its first period. A step ends where the first of the
+// quantities fN, aN, aF, mu fN - fF, mu fN + fF of all contacts reaches zero; its gap is how much later the
+// next would, relative to the later. A scan between drives decides by the signs of the same quantities; the gap is
+// their size, relative to the largest force or acceleration. Zero means a tie, or a step of length zero. A lower
+// bound: quantities that no condition reads are among them. Empty unless the run loops.
+std::optional<double> Margin(ExactTrial& trial);
+
+// Bits of the longest number in the forces and accelerations of a run.
+std::int64_t LongestNumber(ExactTrial& trial);
+
+// lambda_max / lambda_min of A, over doubles; empty unless A is definite by a clear margin.
+std::optional<double> Condition(const ContactProblem<double>& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_TRIAL_H_

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// Optimized searches: every candidate is a problem, every value is exact, and nothing depends on threads or kills.
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <set>
+
+#include "certify/condition.h"
+#include "certify/properties.h"
+#include "corpus/json_text.h"
+#include "search/adversary/optimized_unit.h"
+#include "search/search.h"
+#include "search/summary.h"
+#include "tests/scratch.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using testing::ReferenceProblem;
+
+Optimization Problem(const char* objective, GeneratorId generator, int contacts, std::int64_t evaluations,
+                     std::uint64_t seed = 1) {
+  Optimization o;
+  o.objective = FindObjective(objective);
+  REQUIRE(o.objective != nullptr);
+  o.like = {generator, contacts, {1, 1}, false, {}};
+  o.palette = {{1, 1}};
+  o.evaluations = evaluations;
+  o.seed = seed;
+  o.limits = Campaign().limits;
+  return o;
+}
+
+double Exactly(const char* objective, const ExactProblem& problem) {
+  ExactTrial trial(problem, {}, Campaign().limits);
+  const auto value = FindObjective(objective)->exact(trial);
+  REQUIRE(value.has_value());
+  return *value;
+}
+
+// ---- Candidates --------------------------------------------------------------------------------
+
+TEST_CASE("adversary: any integers are a candidate, over doubles and rationals, and come back from JSON") {
+  Choices random(3);
+  for (const GeneratorRow& row : Generators()) {
+    for (int contacts = 1; contacts <= 4; ++contacts) {
+      CAPTURE(row.name, contacts);
+      Candidate candidate{row.id, contacts, {3, 7}, row.has_gravity, {}};
+      for (int k = 0; k < 60; ++k) candidate.choices.push_back(random.Integer(-2000, 2000));
+      const ExactProblem exact = ExactOf(candidate);
+      REQUIRE(IsSymmetric(exact));
+      for (const auto& contact : exact.contacts) REQUIRE(contact.mu == Rational(3, 7));
+      std::vector<Choice> made;
+      const ContactProblem<double> rounded = RoundedOf(candidate, &made);
+      for (int i = 0; i < exact.rows(); ++i)
+        REQUIRE(rounded.b[i] == Approx(ToDouble(exact.b[i])).epsilon(1e-9).margin(1e-9));
+      for (const Choice& choice : made) REQUIRE((choice.low <= choice.value && choice.value <= choice.high));
+      Candidate clamped = candidate;
+      clamped.choices = ValuesOf(made);
+      const ExactProblem again = ExactOf(clamped);
+      REQUIRE((again.A == exact.A && again.b == exact.b));
+      const Json json = ToJson(candidate);
+      const std::string source = "test";
+      REQUIRE(CandidateFromJson(JsonPlace(json, source, "")) == candidate);
+      const ProblemFile file = FileOf(candidate, "candidate");
+      REQUIRE(file.scene.has_value() == (row.id == GeneratorId::kScenes || row.id == GeneratorId::kFineScenes));
+      REQUIRE(file.problem.A == exact.A);
+    }
+  }
+}
+
+TEST_CASE("adversary: friction is lowered to the simplest coefficient of its range, and never to zero") {
+  for (const MuChoice mu : {MuChoice{1, 1}, MuChoice{1, 11}, MuChoice{4, 55}, MuChoice{999, 1000}}) {
+    for (int k = 1; k <= 12; ++k) {
+      const MuChoice lowered = Lowered(mu, k);
+      const Rational old = Rational(mu.numerator) / Rational(mu.denominator);
+      const Rational now = Rational(lowered.numerator) / Rational(lowered.denominator);
+      const Rational part = 1 / Rational(mpz_class(1) << k);
+      CAPTURE(mu.numerator, mu.denominator, k, ToString(now));
+      CHECK(now > 0);
+      CHECK(now <= old * (1 - part));
+      CHECK(now >= old * (k == 1 ? Rational(1, 4) : Rational(1 - 2 * part)));
+      for (int q = 1; q < lowered.denominator; ++q) {  // nothing simpler is in the range
+        const mpz_class p = mpz_class(Rational(old * (1 - part) * q).get_num() / Rational(old * (1 - part) * q).get_den());
+        const Rational simpler = Rational(p) / q;
+        REQUIRE_FALSE((simpler >= old * (k == 1 ? Rational(1, 4) : Rational(1 - 2 * part)) && simpler > 0));
+      }
+    }
+  }
+  CHECK(Lowered({0, 1}, 3) == MuChoice{0, 1});
+  CHECK(Lowered({1, 1'000'000}, 12) == MuChoice{1, 1'000'000});  // no room for its parts: it stays
+  CHECK(SimplestNear(Rational(333333, 1000000), {1, 1}) == MuChoice{1, 3});
+  CHECK(SimplestNear(0, {1, 2}) == MuChoice{1, 2});
+}
+
+// ---- Objectives --------------------------------------------------------------------------------
+
+TEST_CASE("adversary: objectives have names of their own, and say what they are") {
+  std::set<std::string_view> names;
+  for (const Objective& objective : Objectives()) {
+    names.insert(objective.name);
+    CHECK(FindObjective(objective.name)->name == objective.name);
+    CHECK(objective.help.size() > 10);
+    CHECK(objective.exact != nullptr);
+    CHECK(std::abs(objective.sign) == 1);
+  }
+  CHECK(names.size() == Objectives().size());
+  CHECK(FindObjective("nothing") == nullptr);
+  CHECK(FindOptimizer("nothing") == nullptr);
+}
+
+TEST_CASE("adversary: the values of a known loop and of a known solution") {
+  const ExactProblem loop = ReferenceProblem();
+  const ExactRun run = RunExact(loop, {{}, {}, Campaign().limits});
+  REQUIRE(run.verdict.outcome == Outcome::kCycle);
+  CHECK(Exactly("period", loop) == static_cast<double>(run.verdict.period));
+  CHECK(Exactly("start", loop) == static_cast<double>(run.verdict.start));
+  CHECK(Exactly("friction", loop) == -1);
+  CHECK(Exactly("distance", loop) == 0);
+  const double condition = -Exactly("condition", loop);
+  CHECK(condition > 5.828);  // safe below: certify/condition_number.md
+  const double margin = Exactly("margin", loop);
+  CHECK((margin > 0 && margin < 1));
+  const ExactProblem solved = testing::GiveUpProblem();
+  const ExactRun solving = RunExact(solved, {{}, {}, Campaign().limits});
+  REQUIRE(solving.verdict.outcome == Outcome::kSolved);
+  CHECK(Exactly("steps", solved) == static_cast<double>(solving.verdict.statistics.steps));
+  CHECK(Exactly("give-ups", solved) == static_cast<double>(solving.verdict.statistics.give_ups));
+  CHECK(Exactly("scans", solved) == static_cast<double>(solving.verdict.statistics.outer_scans));
+  CHECK(Exactly("solutions", testing::ThreeSolutions()) == 3);
+  ExactTrial trial(solved, {}, Campaign().limits);
+  for (const char* of_loops : {"period", "start", "friction", "condition", "margin"})
+    CHECK_FALSE(FindObjective(of_loops)->exact(trial).has_value());
+}
+
+// One part in a thousand of the margin of every decision: the same loop, whatever entry is moved.
+TEST_CASE("adversary: a loop survives changes that are small beside its margin") {
+  const ExactProblem loop = ReferenceProblem();
+  const ExactRun run = RunExact(loop, {{}, {}, Campaign().limits});
+  const Rational small = Rational(Exactly("margin", loop)) / 10000;
+  for (int i = 0; i < loop.rows(); ++i) {
+    for (int j = i; j < loop.rows(); ++j) {
+      ExactProblem moved = loop;
+      moved.A(i, j) += small;
+      moved.A(j, i) = moved.A(i, j);
+      const ExactRun again = RunExact(moved, {{}, {}, Campaign().limits});
+      REQUIRE(again.verdict.outcome == Outcome::kCycle);
+      REQUIRE(again.verdict.period == run.verdict.period);
+    }
+  }
+}
+
+// ---- Optimizers --------------------------------------------------------------------------------
+
+TEST_CASE("adversary: every optimizer repeats itself, keeps its budget, and its values are those of exact problems") {
+  for (const OptimizerRow& optimizer : Optimizers()) {
+    for (const char* objective : {"steps", "period", "friction", "bits", "margin"}) {
+      CAPTURE(optimizer.name, objective);
+      const Optimization o = Problem(objective, GeneratorId::kPsd, 2, 600);
+      const Optimized first = optimizer.run(o), second = optimizer.run(o);
+      CHECK(first.evaluations <= 600);
+      CHECK(first.evaluations >= 590);
+      REQUIRE(!first.elites.empty());
+      REQUIRE(first.elites.size() == second.elites.size());
+      for (std::size_t i = 0; i < first.elites.size(); ++i) {
+        const Judged &mine = first.elites[i], &other = second.elites[i];
+        REQUIRE(mine.candidate == other.candidate);
+        REQUIRE(mine.confirmed);
+        REQUIRE_FALSE((i > 0 && first.elites[i - 1].score < mine.score));
+        ExactTrial trial(ExactOf(mine.candidate), o.policy, o.limits);
+        REQUIRE(o.objective->exact(trial) == mine.score.value);
+      }
+      for (const Judged& loop : first.loops)
+        REQUIRE(RunExact(ExactOf(loop.candidate), {o.policy, {}, o.limits}).verdict.outcome == Outcome::kCycle);
+    }
+  }
+}
+
+TEST_CASE("adversary: what is learned beats what is drawn at random") {
+  const auto best = [](const char* optimizer, const char* objective) {
+    const Optimized result = FindOptimizer(optimizer)->run(Problem(objective, GeneratorId::kPsd, 3, 8000));
+    return result.elites.front().score;
+  };
+  for (const char* optimizer : {"evolution", "nlopt", "continuation"}) {
+    CAPTURE(optimizer);
+    CHECK(best("random", "pivot") < best(optimizer, "pivot"));
+  }
+  CHECK(best("random", "steps") < best("evolution", "steps"));
+  CHECK(best("random", "friction") < best("evolution", "friction"));
+}
+
+TEST_CASE("adversary: a value over doubles that rationals deny is no value") {
+  // mu is a third over rationals alone: what ties there does not over doubles.
+  Judge judge(*FindObjective("steps"), {}, Campaign().limits);
+  Judged judged = judge.Look(RandomCandidate({GeneratorId::kPsd, 2, {1, 1}, false, {}}, 7));
+  judged.score.value = 1e6;  // what a mistaken run might say
+  judge.Confirm(judged);
+  ExactTrial trial(ExactOf(judged.candidate), {}, Campaign().limits);
+  CHECK(judged.score.value == FindObjective("steps")->exact(trial));
+  CHECK(judge.confirmations() == 1);
+}
+
+TEST_CASE("adversary: elites keep one of every behaviour, the better one, and no more than there is room for") {
+  Judge judge(*FindObjective("steps"), {}, Campaign().limits);
+  Elites elites(judge);
+  const auto make = [](std::int64_t behaviour, double value) {
+    Judged judged;
+    judged.behaviour = {0, behaviour, 0, 0, 0};
+    judged.score.value = value;
+    judged.confirmed = true;
+    return judged;
+  };
+  CHECK(elites.Admit(make(1, 5)));
+  CHECK_FALSE(elites.Admit(make(1, 4)));
+  CHECK(elites.Admit(make(1, 5)));  // as good: it drifts
+  CHECK(elites.Admit(make(2, 1)));
+  CHECK(elites.all().size() == 2);
+  CHECK(*elites.Best().score.value == 5);
+  for (std::size_t k = 3; k < 200; ++k) elites.Admit(make(static_cast<std::int64_t>(k), static_cast<double>(k)));
+  CHECK(elites.all().size() == Elites::kMost);
+  CHECK(*elites.Best().score.value == 199);
+  CHECK_FALSE(elites.Admit(make(1000, 0)));  // new, but the worst
+}
+
+// ---- Campaigns ---------------------------------------------------------------------------------
+
+Campaign Adversarial(const char* objective, const char* optimizer) {
+  Campaign campaign;
+  campaign.generators = {GeneratorId::kPsd};
+  campaign.contacts = {2};
+  campaign.palette = {{1, 1}};
+  campaign.unit_problems = 150;
+  campaign.objective = objective;
+  campaign.optimizer = optimizer;
+  return campaign;
+}
+
+void Run(const Campaign& campaign, const std::filesystem::path& store, int threads, std::int64_t problems) {
+  SearchOptions options;
+  options.store = store;
+  options.threads = threads;
+  options.problems = problems;
+  RunSearch(campaign, IdentityOf(campaign, "test"), options, [](const SearchProgress&) {});
+}
+
+void RequireEqualStores(const std::filesystem::path& left, const std::filesystem::path& right) {
+  const Store mine = Store::OpenToRead(left), other = Store::OpenToRead(right);
+  REQUIRE(mine.Elites() == other.Elites());
+  REQUIRE(mine.Findings() == other.Findings());
+  REQUIRE(mine.Total() == other.Total());
+}
+
+TEST_CASE("adversary: the same records on one thread and on three, at once and in pieces") {
+  const testing::Scratch scratch;
+  for (const char* optimizer : {"evolution", "nlopt"}) {
+    CAPTURE(optimizer);
+    const Campaign campaign = Adversarial("friction", optimizer);
+    const std::string name(optimizer);
+    const auto alone = scratch / (name + "-1"), shared = scratch / (name + "-3"), pieces = scratch / (name + "-p");
+    Run(campaign, alone, 1, 150 * 20);  // two epochs and a half
+    Run(campaign, shared, 3, 150 * 20);
+    RequireEqualStores(alone, shared);
+    for (const std::int64_t units : {3, 9, 10, 20}) Run(campaign, pieces, 2, 150 * units);
+    RequireEqualStores(alone, pieces);
+  }
+}
+
+TEST_CASE("adversary: parents are the best of earlier epochs, of the same task and shard") {
+  Campaign campaign = Adversarial("steps", "evolution");
+  campaign.contacts = {2, 5};  // several tasks
+  const std::vector<Task> schedule = Schedule(campaign);
+  const Shard shard{1, 3};
+  Heritage heritage(campaign, shard);
+  const auto elite = [&](std::int64_t unit, double value) {
+    UnitElites elites;
+    const Task task = TaskOf(schedule, unit);
+    elites.elites.push_back({{task.generator, task.contacts, {1, 1}, false, {unit}}, {value, 0}});
+    return elites;
+  };
+  for (std::int64_t unit = 0; unit < 200; ++unit) heritage.Add(unit, elite(unit, static_cast<double>(unit % 37)));
+  CHECK(heritage.ParentsOf(1).empty());
+  const std::int64_t later = 100;
+  REQUIRE(shard.Owns(later));
+  const auto parents = heritage.ParentsOf(later);
+  REQUIRE(!parents.empty());
+  double last = 1e9;
+  for (const Candidate& parent : parents) {
+    const std::int64_t unit = parent.choices.front();
+    CHECK(shard.Owns(unit));
+    CHECK(Heritage::EpochOf(unit, shard) < Heritage::EpochOf(later, shard));
+    CHECK(TaskOf(schedule, unit).contacts == TaskOf(schedule, later).contacts);
+    CHECK(static_cast<double>(unit % 37) <= last);
+    last = static_cast<double>(unit % 37);
+  }
+}
+
+TEST_CASE("adversary: a store says what was best, and no rate") {
+  const testing::Scratch scratch;
+  const Campaign campaign = Adversarial("period", "evolution");
+  Run(campaign, scratch / "store", 2, 150 * 4);
+  const Store store = Store::OpenToRead(scratch / "store");
+  const auto best = BestOf(store, 1);
+  REQUIRE(best.size() == 1);
+  const std::string text = SummaryText(store, "store");
+  CHECK(text.find("objective period") != std::string::npos);
+  CHECK(text.find("in a million") == std::string::npos);
+  const Json json = SummaryToJson(store);
+  CHECK(json.at("candidates").get<std::int64_t>() >= 590);
+  if (best.front().score.value) CHECK(json.at("best").at(0).at("value").get<double>() == *best.front().score.value);
+  for (const Finding& finding : store.Findings()) CHECK(finding.kind == "cycle");
+}
+
+TEST_CASE("adversary: damaged elites are refused by their place") {
+  const UnitElites elites{{{{GeneratorId::kPsd, 2, {1, 1}, false, {1, 2}}, {3.0, 0}}}, 10, 2, 1};
+  const std::string text = ToText(elites);
+  const UnitElites read = ElitesFromText(text, "store");
+  REQUIRE(read.elites.size() == 1);
+  CHECK(read.elites[0].candidate == elites.elites[0].candidate);
+  CHECK(ToText(read) == text);
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"\"psd\"", "\"nothing\""}, {"[1,2]", "[1,true]"}, {"\"contacts\":2", "\"contacts\":99"},
+           {"\"value\":3.0", "\"value\":\"x\""}, {"\"denied\":1", "\"denied\":-1"}, {"\"1\"", "\"-1\""}}) {
+    std::string damaged = text;
+    REQUIRE(damaged.find(from) != std::string::npos);
+    damaged.replace(damaged.find(from), from.size(), to);
+    CAPTURE(damaged);
+    CHECK_THROWS_AS(ElitesFromText(damaged, "store"), InputError);
+  }
+}
+
+TEST_CASE("adversary: campaigns that cannot be are refused by name") {
+  Campaign campaign = Adversarial("steps", "evolution");
+  RequireConsistent(campaign);
+  campaign.gravity_only = true;
+  CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("psd"));
+  campaign.gravity_only = false;
+  campaign.palette = {{1, 1000}};
+  RequireConsistent(campaign);
+  campaign.generators = {GeneratorId::kNearDegenerate};
+  CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("near-degenerate") && Catch::Contains("1/1000"));
+  campaign = Adversarial("steps", "evolution");
+  campaign.policies = PlanarGrid();
+  CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("policies"));
+}
+
+}  // namespace
+}  // namespace stiction
