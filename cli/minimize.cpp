@@ -12,6 +12,7 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
+#include "search/adversary/minimize_candidate.h"
 #include "search/finish.h"
 #include "search/signature.h"
 
@@ -24,6 +25,7 @@ struct MinimizeVerb {
   std::string keep;  // empty: the outcome under the policy
   std::string policy = "paper";
   bool keep_signature = false;
+  bool as_scene = false;
   bool json = false;
   Limits limits;
 };
@@ -39,6 +41,36 @@ std::string CheckKeep(const std::string& text) {
   if (FindOutcome(outcome)) return "";
   return fmt::format("found '{}', expected one of {}, with :* behind it for the whole policy grid", text,
                      fmt::join(kOutcomeNames, ", "));
+}
+
+// The choices of the generator that made the file are made simpler, and the problem with its scene anew of them.
+int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy& policy,
+                    const MinimizeOptions& options) {
+  const std::string place = o.file + ": origin";
+  if (!file.origin || !file.origin->contains("choices")) {
+    throw InputError(fmt::format(
+        "{}: found none with choices, expected a problem of an optimized search, as `problem STORE --best` writes it",
+        place));
+  }
+  Json origin = *file.origin;
+  origin.erase("objective");
+  const Candidate candidate = CandidateFromJson(JsonPlace(origin, place, ""));
+  const auto keep = [&](const ExactProblem& problem) {
+    const bool kept = std::all_of(options.policies.begin(), options.policies.end(), [&](const Policy& p) {
+      return RunExact(problem, {p, {}, o.limits}).verdict.outcome == options.keep;
+    });
+    return kept && (!options.signature ||
+                    Signature(problem, RunExact(problem, {policy, {}, o.limits})) == *options.signature);
+  };
+  const MinimizedCandidate minimized = MinimizeCandidate(candidate, keep);
+  ProblemFile simple = FileOf(minimized.candidate, file.name + "-minimized");
+  simple.expect = {{options.policies.size() > 1 ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
+  WriteText(o.output, Print(simple));
+  (o.output == "-" ? std::cerr : std::cout)
+      << fmt::format("{}: {} contacts, {} choices; was {}, {}. Tried {}, took {}.\n", Name(options.keep),
+                     minimized.candidate.contacts, minimized.candidate.choices.size(), candidate.contacts,
+                     candidate.choices.size(), minimized.tried, minimized.accepted);
+  return kExitDone;
 }
 
 int RunMinimize(const MinimizeVerb& o) {
@@ -57,6 +89,7 @@ int RunMinimize(const MinimizeVerb& o) {
   }
   if (o.keep_signature) options.signature = Signature(file.problem, run);
   options.limits = o.limits;
+  if (o.as_scene) return MinimizeAsScene(o, file, policy, options);
   const Simplicity before = SimplicityOf(file.problem);
   const Minimized minimized = Minimize(file.problem, options);
   const Simplicity after = SimplicityOf(minimized.problem);
@@ -125,6 +158,7 @@ void AddMinimize(CommandLine& program) {
       .Details("With :* behind it under every policy of the planar grid")
       .Check(CheckKeep);
   verb.Flag("--keep-signature", o.keep_signature, "keep the sequence of pivots of the loop as well");
+  verb.Flag("--as-scene", o.as_scene, "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

@@ -21,7 +21,8 @@ namespace stiction {
 namespace {
 
 using DoubleProblem = ContactProblem<double>;
-using ChoiceList = std::vector<Choice>;
+using ChoiceList = std::vector<std::int64_t>;
+using Record = std::vector<Choice>;  // with ranges
 
 constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
@@ -195,7 +196,7 @@ TEST_CASE("choices: numbers that share a word are independent in pairs") {
 
 TEST_CASE("choices: a replay clamps into the range and goes on with the value nearest zero") {
   const ChoiceList sequence = {100, -100, 3, kLowest, kHighest};
-  ChoiceList used;
+  Record used;
   Choices choices = Choices::Replay(sequence, &used);
   CHECK(choices.Integer(-5, 5) == 5);
   CHECK(choices.Integer(-5, 5) == -5);
@@ -204,7 +205,10 @@ TEST_CASE("choices: a replay clamps into the range and goes on with the value ne
   CHECK(choices.Integer(-5, 5) == 0);
   CHECK(choices.Integer(2, 5) == 2);
   CHECK(choices.Integer(-5, -2) == -2);
-  CHECK(used == ChoiceList{5, -5, 3, -5, kHighest, 0, 2, -2});
+  CHECK(ValuesOf(used) == ChoiceList{5, -5, 3, -5, kHighest, 0, 2, -2});
+  CHECK(used[0] == Choice{5, -5, 5});
+  CHECK(used[3] == Choice{-5, -5, 5});
+  CHECK(used[4] == Choice{kHighest, kLowest, kHighest});
 }
 
 TEST_CASE("choices: seeds differ between the problems of a unit, between units and between campaigns") {
@@ -361,7 +365,7 @@ TEST_CASE("generators: a problem depends on nothing that was in its memory befor
 TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals") {
   ForEachKind([](GeneratorId id, int contacts) {
     for (int index = 0; index < 50; ++index) {
-      ChoiceList record, again;
+      Record record, again;
       const std::uint64_t seed = Seed(id, contacts, index);
       const auto problem = Make<DoubleProblem>(id, contacts, Choices(seed, &record));
       REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices(seed))));
@@ -378,9 +382,9 @@ TEST_CASE("generators: any sequence of choices makes a problem that meets the as
   ForEachKind([](GeneratorId id, int contacts) {
     Choices edits(Seed(id, contacts, 77));
     for (int index = 0; index < 20; ++index) {
-      ChoiceList record;
+      Record record;
       Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &record));
-      std::vector<std::int64_t> sequence = ValuesOf(record);
+      ChoiceList sequence = ValuesOf(record);
       sequence.resize(edits.Integer(0, static_cast<std::int64_t>(sequence.size())));
       for (std::int64_t& value : sequence) {
         if (edits.Integer(0, 4) == 0) value = edits.Integer(-1000, 1000);
@@ -536,9 +540,9 @@ TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed
                           1, -15, 18,             // F
                           0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
                           5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
-  ChoiceList used;
+  Record used;
   const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices, &used), kPalette);
-  CHECK(used == choices);
+  CHECK(ValuesOf(used) == choices);
   CHECK((problem.contacts[0].mu == 2 && problem.contacts[1].mu == 10));
   const auto q = [](int numerator, int denominator) {
     Rational x(numerator, denominator);

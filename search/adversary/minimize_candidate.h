@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Minimizing a candidate as what it is: a scene stays a scene that can be built, with fewer contacts and bodies and
+// rounder numbers.
+//
+// What is changed are choices, so nothing has to be checked but that the finding is still there. Simpler, in this order:
+// fewer contacts; fewer choices, which are fewer bodies and corners; fewer significant digits of all choices; a smaller
+// sum of their sizes. Passes run until none makes progress. Deterministic; no clock.
+
+#ifndef STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
+#define STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
+
+#include <functional>
+
+#include "search/adversary/candidate.h"
+
+namespace stiction {
+
+struct MinimizedCandidate {
+  Candidate candidate;
+  std::int64_t tried = 0, accepted = 0;
+  bool cancelled = false;
+};
+
+// `keep` says whether a problem still shows the finding. Requires keep(ExactOf(candidate)), otherwise InputError.
+MinimizedCandidate MinimizeCandidate(
+    const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
+    const std::function<bool()>& cancelled = [] { return false; });
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
