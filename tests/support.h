@@ -5,7 +5,9 @@
 #define STICTION_TESTS_SUPPORT_H_
 
 #include <cstdint>
+#include <cstdlib>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,12 @@ namespace stiction::testing {
 
 using ExactVector = ExactProblem::Vector;
 using ExactMatrix = ExactProblem::Matrix;
+
+// Whether long tests are asked to be short, as in all builds of the matrix but the first.
+inline bool Short() {
+  const char* const tests = std::getenv("STICTION_TESTS");
+  return tests != nullptr && std::string_view(tests) == "short";
+}
 
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }
 

@@ -9,6 +9,7 @@ Every attack is made from a certificate that is accepted. Python standard librar
 
 import copy
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -215,7 +216,8 @@ def other_problem(makers, programs):
 def main(stiction, sources):
     sources, failures, count = Path(sources), [], 0
     programs = {"stiction check": [stiction, "check"]}
-    for script in ("check_certificate.py", "check_runs.py"):
+    short = os.environ.get("STICTION_TESTS") == "short"  # the scripts are the same in every build
+    for script in () if short else ("check_certificate.py", "check_runs.py"):
         programs[script] = [sys.executable, sources / "certify" / script]
     with tempfile.TemporaryDirectory() as name:
         makers = Makers(stiction, sources, Path(name))

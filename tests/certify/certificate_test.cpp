@@ -429,8 +429,9 @@ class Alterations {
 
 TEST_CASE("certificate: an altered certificate is refused unless it is still true") {
   for (const Json& original : OneOfEveryClaim()) {
-    int refused = 0;
+    int refused = 0, k = 0;
     for (const Altered& altered : Alterations(original).Take()) {
+      if (testing::Short() && k++ % 4 != 0) continue;
       const CheckReport report = CheckCertificate(altered.certificate, "c.json");
       refused += !report.accepted;
       if (report.accepted && (altered.form || !IsTrue(altered.certificate, original))) {
@@ -439,7 +440,7 @@ TEST_CASE("certificate: an altered certificate is refused unless it is still tru
       if (!report.accepted && report.reason.empty()) FAIL_CHECK("refused without a reason: " << altered.how);
     }
     CAPTURE(ClaimOf(original));
-    CHECK(refused > 100);
+    CHECK(refused > (testing::Short() ? 20 : 100));
   }
 }
 

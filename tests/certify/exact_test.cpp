@@ -20,10 +20,12 @@ using namespace testing;
 // Every policy of the grid run by itself, against the class that speaks for it.
 void CheckAgainstBruteForce(const ExactProblem& problem) {
   std::set<std::string> seen;
+  int k = 0;
   for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
     for (const Policy& policy : equal.policies) {
       CAPTURE(PolicyName(policy), PolicyName(equal.policies.front()));
       CHECK(seen.insert(PolicyName(policy)).second);
+      if (testing::Short() && k++ % 8 != 0) continue;
       const Verdict verdict = RunExact(problem, {policy, {}, {}}).verdict;
       REQUIRE(verdict.outcome == equal.verdict.outcome);
       REQUIRE(verdict.start == equal.verdict.start);

@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+SHORT = os.environ.get("STICTION_TESTS") == "short"
 TABLES = {
     "campaign": "key",
     "blocks": "shards, shard, block",

@@ -96,7 +96,8 @@ TEST_CASE("proximal: problems of every generator are solved, or undecided, never
 }
 
 TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction and without") {
-  for (const Rational& mu : {Rational(0), Rational(1, 5), Rational(3, 2)}) {
+  for (const Rational& mu : {Rational(1, 5), Rational(0), Rational(3, 2)}) {
+    if (Short() && mu != Rational(1, 5)) continue;
     CAPTURE(mu);
     const SparseProblem heap = Discs(30, 16, mu);
     REQUIRE(heap.contacts.size() > 1000);
