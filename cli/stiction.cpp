@@ -34,6 +34,7 @@ int Main(int argc, char** argv) {
   AddStatus(program);
   AddMerge(program);
   AddProblem(program);
+  AddRecords(program);
   AddImport(program);
   AddExport(program);
   AddSurvey(program);

@@ -27,6 +27,7 @@ void AddSimulate(CommandLine& program);
 void AddDraw(CommandLine& program);
 void AddPolicies(CommandLine& program);
 void AddMethods(CommandLine& program);
+void AddRecords(CommandLine& program);
 
 }  // namespace stiction
 

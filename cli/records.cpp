@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction records: the worst problems that are known.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/shared.h"
+#include "cli/verbs.h"
+#include "cli/version.h"
+#include "corpus/grouped.h"
+#include "corpus/json_text.h"
+#include "search/adversary/record.h"
+
+namespace stiction {
+namespace {
+
+struct RecordsVerb {
+  std::string folder = "corpus/records";
+  std::string add, frontier, what, objective, command;
+  std::string random;
+  std::optional<double> seconds;
+  std::int64_t random_evaluations = 0;
+  bool check = false, json = false;
+  Limits limits;
+};
+
+std::string Shown(const Rational& value) {
+  return value.get_den() <= 100000 && value.get_num() <= 100000 ? ToString(value)
+                                                                : fmt::format("{:.6g}", ToDouble(value));
+}
+
+int Add(const RecordsVerb& o) {
+  if (o.frontier.empty() || o.what.empty() || o.objective.empty() || o.command.empty() || !o.seconds)
+    throw InputError("records: --add asks for --frontier, --what, --objective, --command and --seconds");
+  FrontierRecord record = MakeRecord(*FindObjective(o.objective), ReadPlanarProblem(o.add), o.limits);
+  record.frontier = o.frontier;
+  record.what = o.what;
+  record.command = o.command;
+  record.build = BuildId();
+  record.processor_seconds = *o.seconds;
+  if (!o.random.empty()) {
+    record.random_value = ParseRational(o.random);
+    if (!record.random_value) throw InputError(fmt::format("--random: found '{}', expected a number p/q", o.random));
+  }
+  record.random_evaluations = o.random_evaluations;
+  const std::string file = o.folder + "/" + o.frontier + ".json";
+  WriteText(file, Print(record));
+  fmt::print("{}: {}\n", file, Shown(record.value));
+  return kExitDone;
+}
+
+int RunRecords(const RecordsVerb& o) {
+  if (!o.add.empty()) return Add(o);
+  int faults = 0;
+  Json rows = Json::array();
+  for (const FrontierRecord& record : ReadRecords(o.folder)) {
+    const std::string fault = o.check ? FaultOf(record, o.limits) : "";
+    faults += !fault.empty();
+    Json row = {{"frontier", record.frontier},
+                {"what", record.what},
+                {"objective", record.objective->name},
+                {"value", ToString(record.value)},
+                {"status", record.status},
+                {"command", record.command},
+                {"processor_seconds", record.processor_seconds},
+                {"random", record.random_value ? Json(ToString(*record.random_value)) : Json()},
+                {"random_evaluations", record.random_evaluations}};
+    if (o.check) row["fault"] = fault.empty() ? Json() : Json(fault);
+    rows.push_back(std::move(row));
+    if (o.json) continue;
+    fmt::print("{:28} {:>14}  {}, {}; random: {} of {}{}\n    {}\n", record.frontier, Shown(record.value),
+               record.objective->sign > 0 ? "to be high" : "to be low", record.status,
+               record.random_value ? Shown(*record.random_value) : "nothing", Grouped(record.random_evaluations),
+               !o.check ? "" : fault.empty() ? "; holds" : "; DOES NOT HOLD: " + fault, record.what);
+  }
+  if (o.json) std::cout << JsonText(rows) << "\n";
+  return faults == 0 ? kExitDone : kExitNotSo;
+}
+
+}  // namespace
+
+void AddRecords(CommandLine& program) {
+  auto [verb, o] = program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
+  std::vector<std::string> objectives;
+  for (const Objective& objective : Objectives()) objectives.emplace_back(objective.name);
+  verb.Option("--folder", o.folder, "of records");
+  verb.Flag("--check", o.check, "compute every value anew, and check every certificate");
+  verb.Option("--add", o.add, "instead: make a record of this problem file");
+  verb.Option("--frontier", o.frontier, "its name, and that of its file");
+  verb.Option("--what", o.what, "what the record is one of, in words");
+  verb.Option("--objective", o.objective, "what is counted").OneOf(objectives);
+  verb.Option("--command", o.command, "what found it");
+  verb.Option("--seconds", o.seconds, "processor time of that");
+  verb.Option("--random", o.random, "the best of random problems at equal cost; without it nothing was found");
+  verb.Option("--random-evaluations", o.random_evaluations, "how many of them").AtLeast(0);
+  verb.Flag("--json", o.json, "machine output");
+  AddLimits(verb, o.limits);
+}
+
+}  // namespace stiction

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/adversary/record.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "certify/certificate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
+#include "certify/properties.h"
+#include "corpus/digest.h"
+#include "corpus/json_text.h"
+#include "corpus/rounded.h"
+
+namespace stiction {
+namespace {
+
+Rational ReadNumber(const JsonPlace& place) {
+  const auto x = ParseRational(place.Text("a number p/q as a string"));
+  if (!x) place.Refuse("a number p/q as a string");
+  return *x;
+}
+
+double ReadSeconds(const JsonPlace& place) {
+  if (!place.json().is_number()) place.Refuse("seconds");
+  return place.json().get<double>();
+}
+
+bool OfCondition(const Objective& objective) { return objective.name == "condition"; }
+
+// Whether all eigenvalues of A are in [l, u], 0 < l.
+bool Encloses(const ExactMatrix& A, const Rational& l, const Rational& u) {
+  if (l <= 0 || FindAsymmetry(A)) return false;
+  const ExactMatrix identity = ExactMatrix::Identity(A.rows(), A.cols());
+  const ExactMatrix above = A - l * identity, below = u * identity - A;
+  return std::holds_alternative<LdltFactors>(DecideSemidefinite(above)) &&
+         std::holds_alternative<LdltFactors>(DecideSemidefinite(below));
+}
+
+// Bounds of a few digits, as near to the eigenvalues as they can be proved.
+std::optional<std::pair<Rational, Rational>> EigenvalueBounds(const ExactProblem& problem) {
+  const auto A = Rounded<double>(problem).A;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues().minCoeff(), most = solver.eigenvalues().maxCoeff();
+  for (double slack = 1e-9; slack < 1e-3; slack *= 10) {
+    const Rational l(least * (1 - slack)), u(most * (1 + slack));
+    if (Encloses(problem.A, l, u)) return std::pair(l, u);
+  }
+  return std::nullopt;
+}
+
+// The value, exactly: of an objective whose double is exact, or of the friction of a loop.
+Rational ShownValue(const Objective& objective, ExactTrial& trial) {
+  const auto value = objective.exact(trial);
+  if (!value) throw InputError(fmt::format("record: the problem has no value for objective {}", objective.name));
+  if (objective.lowers_friction) {
+    Rational mu = 0;
+    for (const auto& contact : trial.problem().contacts) mu = std::max(mu, contact.mu);
+    return mu;
+  }
+  const double shown = objective.sign * *value;
+  if (std::floor(shown) != shown)
+    throw InputError(fmt::format("record: objective {} has values that are no counts", objective.name));
+  return shown;
+}
+
+}  // namespace
+
+FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem, const Limits& limits) {
+  FrontierRecord record;
+  record.objective = &objective;
+  record.problem = problem;
+  ExactTrial trial(problem.problem, {}, limits);
+  if (OfCondition(objective)) {
+    record.bounds = EigenvalueBounds(problem.problem);
+    if (!record.bounds || !trial.Loops())
+      throw InputError("record: found no definite matrix with a loop, expected one for objective condition");
+    record.value = record.bounds->second / record.bounds->first;
+  } else {
+    record.value = ShownValue(objective, trial);
+  }
+  if (trial.Loops()) {
+    record.certificate = CycleCertificate(problem.problem, {Policy{}}, limits);
+  } else {
+    record.certificate = DecideExistence(problem.problem, limits).certificate;
+  }
+  return record;
+}
+
+std::string FaultOf(const FrontierRecord& record, const Limits& limits) {
+  ExactTrial trial(record.problem.problem, {}, limits);
+  const Objective& objective = *record.objective;
+  if (objective.of_loops && !trial.Loops()) return "its problem does not loop under the policy paper";
+  if (OfCondition(objective)) {
+    if (!record.bounds || record.bounds->second / record.bounds->first != record.value)
+      return "the quotient of its bounds is not its value";
+    if (!Encloses(record.problem.problem.A, record.bounds->first, record.bounds->second))
+      return "eigenvalues of A are not in its bounds";
+  } else {
+    const Rational value = ShownValue(objective, trial);
+    if (value != record.value)
+      return fmt::format("its value is {}, that of its problem {}", ToString(record.value), ToString(value));
+  }
+  const CheckReport report =
+      CheckCertificate(record.certificate, record.frontier, ProblemDigest(record.problem.problem));
+  if (!report.accepted) return "its certificate is refused: " + report.reason;
+  const std::string claim = trial.Loops() ? "cycle" : "solution-exists";
+  if (report.claim != claim) return fmt::format("its certificate claims {}, expected {}", report.claim, claim);
+  return "";
+}
+
+FrontierRecord ReadRecord(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const Json json = ParseJson(ReadText(file), source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"format", "version", "frontier", "what", "objective", "value", "bounds", "status", "proof", "command",
+                  "build", "processor_seconds", "random", "problem", "certificate"});
+  const auto text = [&root](const char* key) { return root.Required(key, "a text").Text("a text"); };
+  const JsonPlace format = root.Required("format", "\"stiction-record\"");
+  if (format.Text("\"stiction-record\"") != "stiction-record") format.Refuse("\"stiction-record\"");
+  root.Required("version", "1").Integer(1, 1, "1");
+  FrontierRecord record;
+  record.frontier = text("frontier");
+  record.what = text("what");
+  const JsonPlace objective = root.Required("objective", "the name of an objective");
+  record.objective = FindObjective(objective.Text("the name of an objective"));
+  if (record.objective == nullptr) objective.Refuse("the name of an objective");
+  record.value = ReadNumber(root.Required("value", "a number p/q as a string"));
+  if (const auto bounds = root.Optional("bounds")) {
+    if (bounds->Size("two numbers") != 2) bounds->Refuse("two numbers");
+    record.bounds = {ReadNumber((*bounds)[0]), ReadNumber((*bounds)[1])};
+  }
+  const JsonPlace status = root.Required("status", "\"best so far\" or \"proved\"");
+  record.status = status.Text("\"best so far\" or \"proved\"");
+  if (record.status != "best so far" && record.status != "proved") status.Refuse("\"best so far\" or \"proved\"");
+  if (record.status == "proved") record.proof = text("proof");
+  record.command = text("command");
+  record.build = text("build");
+  record.processor_seconds = ReadSeconds(root.Required("processor_seconds", "seconds"));
+  const JsonPlace random = root.Required("random", "an object");
+  random.RequireObject();
+  random.AllowKeys({"value", "evaluations"});
+  const JsonPlace value = random.Required("value", "a number p/q as a string, or null");
+  if (!value.json().is_null()) record.random_value = ReadNumber(value);
+  record.random_evaluations = random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
+  record.problem = ParseProblem(root.Required("problem", "a problem").json().dump(), source + ": problem");
+  record.certificate = root.Required("certificate", "a certificate").json();
+  return record;
+}
+
+std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(fmt::format("{}: found no folder, expected one of records", folder.string()));
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  if (files.empty()) throw InputError(fmt::format("{}: found no record", folder.string()));
+  std::sort(files.begin(), files.end());
+  std::vector<FrontierRecord> records;
+  for (const auto& file : files) {
+    records.push_back(ReadRecord(file));
+    if (records.back().frontier != file.stem())
+      throw InputError(fmt::format("{}: frontier: found \"{}\", expected the name of the file", file.string(),
+                                   records.back().frontier));
+  }
+  return records;
+}
+
+std::string Print(const FrontierRecord& record) {
+  Json json = {{"format", "stiction-record"},
+               {"version", 1},
+               {"frontier", record.frontier},
+               {"what", record.what},
+               {"objective", record.objective->name},
+               {"value", ToString(record.value)},
+               {"status", record.status},
+               {"command", record.command},
+               {"build", record.build},
+               {"processor_seconds", record.processor_seconds},
+               {"random",
+                {{"value", record.random_value ? Json(ToString(*record.random_value)) : Json()},
+                 {"evaluations", record.random_evaluations}}},
+               {"problem", ToJson(record.problem)},
+               {"certificate", record.certificate}};
+  if (record.bounds) json["bounds"] = {ToString(record.bounds->first), ToString(record.bounds->second)};
+  if (record.status == "proved") json["proof"] = record.proof;
+  return JsonText(json) + "\n";
+}
+
+}  // namespace stiction

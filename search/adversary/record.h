@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records: the worst problems that are known, one per frontier, as corpus/records keeps them.
+//
+// {"format": "stiction-record", "version": 1, "frontier", "what", "objective", "value", "status", "command", "build",
+//  "processor_seconds", "random", "problem", "certificate"}: all of it is read, and all that is claimed can be checked:
+// the value is computed anew from the exact problem, the certificate is accepted and speaks of that problem.
+//
+//   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all eigenvalues of A are
+//            in [l, u].
+//   status   "best so far" or "proved", with "proof" naming where
+//   random   what random problems reach at equal cost: {"value" (null: nothing), "evaluations"}
+
+#ifndef STICTION_SEARCH_ADVERSARY_RECORD_H_
+#define STICTION_SEARCH_ADVERSARY_RECORD_H_
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "search/adversary/objective.h"
+
+namespace stiction {
+
+struct FrontierRecord {
+  std::string frontier;  // name of the file, too
+  std::string what;
+  const Objective* objective = nullptr;
+  Rational value;
+  std::optional<std::pair<Rational, Rational>> bounds;
+  std::string status = "best so far";
+  std::string proof;    // where; empty unless proved
+  std::string command;  // that found it
+  std::string build;
+  double processor_seconds = 0;
+  std::optional<Rational> random_value;
+  std::int64_t random_evaluations = 0;
+  ProblemFile problem;
+  Json certificate;
+};
+
+FrontierRecord ReadRecord(const std::filesystem::path& file);  // InputError
+// Of a folder, in the order of their names. InputError if there is none.
+std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder);
+std::string Print(const FrontierRecord& record);
+
+// A record of this problem: value and certificate made. InputError if the objective has no value there, or none
+// that a record can hold exactly.
+FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem, const Limits& limits);
+
+// What is not as the record says; empty if all is.
+std::string FaultOf(const FrontierRecord& record, const Limits& limits);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_ADVERSARY_RECORD_H_
