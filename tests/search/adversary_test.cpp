@@ -8,6 +8,7 @@
 #include "certify/condition.h"
 #include "certify/properties.h"
 #include "corpus/json_text.h"
+#include "scene/polygon.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/search.h"
 #include "search/summary.h"
@@ -342,6 +343,72 @@ TEST_CASE("adversary: campaigns that cannot be are refused by name") {
   campaign = Adversarial("steps", "evolution");
   campaign.policies = PlanarGrid();
   CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("policies"));
+}
+
+// ---- Frontiers (search/adversary/frontiers.md) -------------------------------------------------
+
+TEST_CASE("adversary: one contact never loops") {
+  int problems = 0;
+  std::int64_t most_drives = 0;
+  for (int nn = 0; nn <= 2; ++nn) {
+    for (int ff = 0; ff <= 2; ++ff) {
+      for (int nf = -2; nf <= 2; ++nf) {
+        for (int bn = -2; bn <= 2; ++bn) {
+          for (int bf = -2; bf <= 2; ++bf) {
+            for (const Rational& mu : {Rational(0), Rational(1, 3), Rational(1), Rational(4)}) {
+              const ExactProblem problem = testing::MakeProblem({mu}, {{nn, nf}, {nf, ff}}, {bn, bf});
+              if (!MeetsAssumptions(problem)) continue;
+              ++problems;
+              for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
+                CAPTURE(nn, nf, ff, bn, bf, ToString(mu), PolicyName(equal.policies.front()));
+                REQUIRE(equal.verdict.outcome == Outcome::kSolved);
+                REQUIRE(equal.verdict.statistics.steps == equal.verdict.statistics.drives);
+                REQUIRE(equal.verdict.statistics.give_ups == 0);
+                most_drives = std::max(most_drives, equal.verdict.statistics.drives);
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  CHECK(problems > 1000);
+  CHECK(most_drives == 2);
+}
+
+// k^2 = I / m and d^2 of a uniform triangle, with the contact at its first corner.
+TEST_CASE("adversary: a corner of a uniform triangle folds at no mu up to 3/4, and a thin one just above") {
+  using Point = Vector2<Rational>;
+  const auto quotient = [](const Point& p, const Point& q, const Point& r, const Point& normal) {
+    BodyShape<Rational> shape;
+    shape.corners = {p, q, r};
+    const auto properties = MassPropertiesOf({shape});
+    const Rational k2 = properties.inertia / properties.mass;
+    const Point arm = properties.center - p;
+    const Rational y = arm.dot(normal), x = Cross<Rational>(normal, arm);
+    return x * y == 0 ? Rational(1000) : Rational((k2 + x * x) / abs(Rational(x * y)));
+  };
+  Choices random(5);
+  const auto point = [&random] {
+    return MakeVector2<Rational>(Rational(random.Integer(-20, 20)), Rational(random.Integer(-20, 20)));
+  };
+  for (int k = 0; k < 2000; ++k) {
+    Point p = point(), q = point(), r = point();
+    const Rational area = Cross<Rational>(Point(q - p), Point(r - p));
+    if (area == 0) continue;
+    if (area < 0) std::swap(q, r);
+    for (const auto& [nx, ny] : {std::pair(3, 4), std::pair(-7, 24), std::pair(0, 1), std::pair(5, -12)}) {
+      const int length = nx == 0 ? 1 : nx == 3 ? 5 : nx == 5 ? 13 : 25;
+      const Point normal = MakeVector2<Rational>(Rational(nx) / length, Rational(ny) / length);
+      REQUIRE(quotient(p, q, r, normal) > Rational(3, 4));
+    }
+  }
+  // Height 10 along (1, 3), half a base of 1/10 across.
+  const Point apex = MakeVector2<Rational>(Rational(0), Rational(0)), up = MakeVector2<Rational>(Rational(0), Rational(1));
+  const Point left = MakeVector2<Rational>(Rational(97, 10), Rational(301, 10)), right = MakeVector2<Rational>(Rational(103, 10), Rational(299, 10));
+  const Rational thin = quotient(apex, right, left, up);
+  CHECK(thin > Rational(3, 4));
+  CHECK(thin < Rational(3001, 4000));
 }
 
 }  // namespace
