@@ -47,6 +47,7 @@ constexpr std::array kTrials = {
     Trials{"friction", "scenes", 4, {1, 1}, 60000},
     Trials{"rounding", "psd", 3, {1, 1}, 4000},
     Trials{"policies", "psd", 2, {1, 1}, 600},
+    Trials{"ipopt", "psd", 2, {1, 1}, 300},
     Trials{"folds", "psd", 4, {1, 1}, 40000},
     Trials{"descents", "psd", 4, {1, 1}, 40000},
     Trials{"pieces", "psd", 4, {1, 1}, 40000},

@@ -9,6 +9,7 @@
 
 #include "certify/exact.h"
 #include "certify/properties.h"
+#include "search/choices.h"
 #include "search/rounding.h"
 #include "search/signature.h"
 #include "solver/problem/reduction.h"
@@ -94,6 +95,10 @@ constexpr std::int64_t kRoundSizes[] = {
     1000000000000, 1000000000000000};
 // clang-format on
 
+// A few seconds for three contacts, much less for two.
+constexpr int kMostRowsOfGlobalPasses = 6;
+constexpr int kAttemptsOfSize = 300;
+
 class Minimizer {
  public:
   Minimizer(const ExactProblem& problem, const MinimizeOptions& options)
@@ -112,6 +117,7 @@ class Minimizer {
       progress |= DivideCommonFactors();
       progress |= SimplifyEntries();
       progress |= SimplifyCoefficients();
+      if (!progress) progress = RoundAtRandom() || ChangePairs();
     }
     return std::move(result_);
   }
@@ -239,6 +245,61 @@ class Minimizer {
       if (Try(candidate)) return true;
     }
     return false;
+  }
+
+  // Further than one change at a time goes: small integers near the problem in several units, each entry rounded up or
+  // down by lot. The same lots every time, so that what is left after this pass is left by it again.
+  bool RoundAtRandom() {
+    if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
+    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
+                                               result_.problem};
+    for (int size = 2; size <= 12; ++size) {
+      for (int attempt = 0; attempt < kAttemptsOfSize && !Cancelled(); ++attempt) {
+        Choices lots(ProblemSeed(1994, static_cast<std::uint64_t>(size), static_cast<std::uint64_t>(attempt)));
+        const ExactProblem& base = bases[static_cast<std::size_t>(attempt) % bases.size()];
+        if (Try(RoundedByLot(base, size, lots))) return true;
+      }
+    }
+    return false;
+  }
+
+  // Two entries at once, each one more, one less, zero, or turned.
+  bool ChangePairs() {
+    const int rows = result_.problem.rows();
+    if (rows > kMostRowsOfGlobalPasses) return false;
+    std::vector<std::pair<int, int>> places;  // as in SimplifyEntry
+    for (int i = 0; i < rows; ++i) {
+      for (int j = i; j <= rows; ++j) places.emplace_back(i, j);
+    }
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      for (std::size_t q = 0; q < p && !Cancelled(); ++q) {
+        for (const Rational& first : Neighbours(EntryAt(result_.problem, places[p]))) {
+          for (const Rational& second : Neighbours(EntryAt(result_.problem, places[q]))) {
+            ExactProblem candidate = result_.problem;
+            SetEntryAt(candidate, places[p], first);
+            SetEntryAt(candidate, places[q], second);
+            if (Try(candidate)) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  static Rational EntryAt(const ExactProblem& problem, const std::pair<int, int>& place) {
+    const auto [i, j] = place;
+    return j == problem.rows() ? problem.b[i] : problem.A(i, j);
+  }
+  static void SetEntryAt(ExactProblem& problem, const std::pair<int, int>& place, const Rational& value) {
+    const auto [i, j] = place;
+    if (j == problem.rows()) {
+      problem.b[i] = value;
+    } else {
+      problem.A(i, j) = problem.A(j, i) = value;
+    }
+  }
+  static std::array<Rational, 4> Neighbours(const Rational& x) {
+    return {Rational(0), Rational(x - 1), Rational(x + 1), Rational(-x)};
   }
 
   bool SimplifyCoefficients() {

@@ -99,6 +99,23 @@ ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::in
   return rounded;
 }
 
+ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots) {
+  ExactProblem rounded = problem;
+  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size) / largest_A);
+  const Rational size_b(lots.Integer((size + 1) / 2, size));
+  const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(size_b / largest_b);
+  const auto round = [&lots](const Rational& x) {
+    return Rounded(Rational(x + Rational(lots.Integer(-12, 12)) / 16));
+  };
+  for (int i = 0; i < problem.rows(); ++i) {
+    rounded.b[i] = round(Rational(problem.b[i] * scale_b));
+    for (int j = i; j < problem.rows(); ++j)
+      rounded.A(i, j) = rounded.A(j, i) = round(Rational(problem.A(i, j) * scale_A));
+  }
+  return rounded;
+}
+
 namespace {
 
 // The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of

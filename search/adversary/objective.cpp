@@ -9,6 +9,7 @@
 
 #include "certify/enumerate.h"
 #include "certify/exact.h"
+#include "certify/feasibility_nlp.h"
 #include "corpus/rounded.h"
 
 namespace stiction {
@@ -101,6 +102,15 @@ Value NumberOfSolutions(ExactTrial& trial) {
   return static_cast<double>(EnumerateModes(trial.problem()).distinct_witnesses);
 }
 
+// One more than all of them if none led to a solution.
+double StartsOfIpopt(ExactTrial& trial) {
+  thread_local IpoptProposer proposer;
+  const ProposalOptions options;
+  ProposalStatistics statistics;
+  const bool solved = proposer.ProposeSolution(trial.problem(), options, statistics).has_value();
+  return static_cast<double>(solved ? statistics.starts : options.starts + 1);
+}
+
 }  // namespace
 
 std::span<const Objective> Objectives() {
@@ -153,6 +163,9 @@ std::span<const Objective> Objectives() {
               [](ExactTrial& t) { return RoundingError(t); }),
       Exactly({"policies", "different ends (outcome, start, period) over the grid of policies", "ends"},
               [](ExactTrial& t) { return DifferentEnds(t); }),
+      Exactly({"ipopt", "starts of Ipopt until one led to a solution, 21 if none did; as the machine's libraries have it",
+               "starts"},
+              [](ExactTrial& t) { return StartsOfIpopt(t); }),
       OfRuns({"folds", "folds of complete driving", "folds"},
              [](auto& t) { return static_cast<double>(t.Complete().statistics.folds); }),
       OfRuns({"descents", "descents of complete driving", "descents"},

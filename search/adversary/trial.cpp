@@ -22,9 +22,9 @@ double LargestOf(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
 
 // The last steps of all drives.
 template <class Scalar>
-std::vector<const Pivot<Scalar>*> EndsOfDrives(const Trace<Scalar>& trace) {
+std::vector<const Pivot<Scalar>*> EndsOfDrives(const std::vector<Pivot<Scalar>>& steps) {
   std::vector<const Pivot<Scalar>*> ends;
-  for (const Pivot<Scalar>& pivot : trace.pivots) {
+  for (const Pivot<Scalar>& pivot : steps) {
     if (!ends.empty() && ends.back()->drive == pivot.drive) ends.pop_back();
     ends.push_back(&pivot);
   }
@@ -46,7 +46,7 @@ double DistanceOf(const Pivot<Scalar>& left, const Pivot<Scalar>& right) {
 template <class Scalar>
 std::optional<double> Distance(Trial<Scalar>& trial) {
   if (trial.Loops()) return 0;
-  const auto ends = EndsOfDrives(trial.Published().trace);
+  const auto ends = EndsOfDrives(trial.Steps());
   std::optional<double> least;
   for (std::size_t j = 1; j < ends.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
@@ -60,7 +60,7 @@ std::optional<double> Distance(Trial<Scalar>& trial) {
 template <class Scalar>
 std::optional<double> LeastPivot(Trial<Scalar>& trial) {
   std::optional<double> least;
-  for (const Pivot<Scalar>& pivot : trial.Published().trace.pivots) {
+  for (const Pivot<Scalar>& pivot : trial.Steps()) {
     const double diagonal = AsDouble(trial.problem().A(pivot.driven, pivot.driven));
     const double force = std::abs(AsDouble(pivot.df[pivot.driven]));
     const double acceleration = std::abs(AsDouble(pivot.da[pivot.driven]));
@@ -126,11 +126,11 @@ std::optional<double> SmallestPivot(ExactTrial& trial) { return LeastPivot(trial
 
 std::optional<double> Margin(ExactTrial& trial) {
   if (!trial.Loops()) return std::nullopt;
-  const auto& run = trial.Published();
-  const auto& pivots = run.trace.pivots;
+  const std::int64_t start = trial.Published().verdict.start;
+  const auto& pivots = trial.Steps();
   double margin = 1;
   for (std::size_t k = 0; k < pivots.size(); ++k) {
-    if (pivots[k].drive <= run.verdict.start) continue;
+    if (pivots[k].drive <= start) continue;
     Pivot<Rational> rest;  // before the first step
     if (k == 0) {
       rest.f = ExactProblem::Vector::Constant(trial.problem().rows(), Rational(0));
@@ -146,7 +146,7 @@ std::optional<double> Margin(ExactTrial& trial) {
 
 std::int64_t LongestNumber(ExactTrial& trial) {
   std::int64_t longest = 0;
-  for (const Pivot<Rational>& pivot : trial.Published().trace.pivots) {
+  for (const Pivot<Rational>& pivot : trial.Steps()) {
     for (const Rational& x : pivot.f) longest = std::max(longest, Bits(x));
     for (const Rational& x : pivot.a) longest = std::max(longest, Bits(x));
   }

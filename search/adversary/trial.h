@@ -21,7 +21,6 @@ class Trial {
   // The published algorithm under one policy.
   struct PublishedRun {
     Verdict verdict;
-    Trace<Scalar> trace;
     Vector f;
   };
 
@@ -34,13 +33,13 @@ class Trial {
   int contacts() const { return static_cast<int>(problem_.contacts.size()); }
 
   const PublishedRun& Published() {
-    if (!published_) {
-      PublishedAlgorithm<Scalar> algorithm({policy_, {}, limits_});
-      published_.emplace();
-      published_->verdict = algorithm.Run(problem_, &published_->trace);
-      published_->f = algorithm.state().f;
-    }
+    if (!published_) Run(nullptr);
     return *published_;
+  }
+  // All steps of that run. Most objectives ask for none of them.
+  const std::vector<Pivot<Scalar>>& Steps() {
+    if (!trace_) Run(&trace_.emplace());
+    return trace_->pivots;
   }
   bool Loops() { return IsLoop(Published().verdict.outcome); }
   bool Solves() { return Published().verdict.outcome == Outcome::kSolved; }
@@ -51,10 +50,17 @@ class Trial {
   }
 
  private:
+  void Run(Trace<Scalar>* trace) {
+    PublishedAlgorithm<Scalar> algorithm({policy_, {}, limits_});
+    const Verdict verdict = algorithm.Run(problem_, trace);
+    published_ = PublishedRun{verdict, algorithm.state().f};
+  }
+
   Problem problem_;
   Policy policy_;
   Limits limits_;
   std::optional<PublishedRun> published_;
+  std::optional<Trace<Scalar>> trace_;
   std::optional<CompleteVerdict> complete_;
 };
 

@@ -130,6 +130,8 @@ TEST_CASE("adversary: the values of a known loop and of a known solution") {
   CHECK(Exactly("give-ups", solved) == static_cast<double>(solving.verdict.statistics.give_ups));
   CHECK(Exactly("scans", solved) == static_cast<double>(solving.verdict.statistics.outer_scans));
   CHECK(Exactly("solutions", testing::ThreeSolutions()) == 3);
+  CHECK(Exactly("ipopt", solved) >= 1);
+  CHECK(Exactly("ipopt", solved) <= 21);
   ExactTrial trial(solved, {}, Campaign().limits);
   for (const char* of_loops : {"period", "start", "friction", "condition", "margin"})
     CHECK_FALSE(FindObjective(of_loops)->exact(trial).has_value());
