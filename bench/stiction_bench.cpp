@@ -28,6 +28,7 @@ constexpr int kMostOfMethods = 30;  // 4^n - 1 pieces are counted in 64 bits
 
 constexpr std::array kSuites = {
     Suite{"adversary", "the optimizers of a search beside random problems, by objective", kMaxContacts, BenchAdversary},
+    Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts, BenchPatches},
     Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
     Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts", 2000,

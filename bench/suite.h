@@ -29,6 +29,9 @@ struct BenchOptions {
 // The optimizers of a search side by side (adversary.cpp).
 int BenchAdversary(const BenchOptions& options);
 
+// Ways to change the published algorithm, and how often each still fails (patches.cpp).
+int BenchPatches(const BenchOptions& options);
+
 // Problems a second of the search's hot path, one thread (search_rate.cpp).
 int BenchSearch(const BenchOptions& options);
 
