@@ -26,6 +26,9 @@ inline bool Short() {
   return tests != nullptr && std::string_view(tests) == "short";
 }
 
+// So many, or a quarter of them.
+inline int Few(int count) { return Short() ? count / 4 : count; }
+
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }
 
 inline ExactVector Vector(const std::vector<Rational>& values) {

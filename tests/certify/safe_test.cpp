@@ -224,7 +224,7 @@ bool IsSafeWithKeptFriction(const ExactProblem& problem) {
 
 TEST_CASE("safe: the published algorithm gives nothing up in a safe problem, and solves it") {
   int safe = 0, safe_with_kept = 0, with_give_ups = 0;
-  for (int index = 0; index < 400; ++index) {
+  for (int index = 0; index < testing::Few(400); ++index) {
     CAPTURE(index);
     ExactProblem problem = RandomDefinite(1 + index % 4, index);
     for (const Rational& mu : {Rational(1, 10), Rational(1, 2), Rational(5)}) {
@@ -246,9 +246,9 @@ TEST_CASE("safe: the published algorithm gives nothing up in a safe problem, and
       }
     }
   }
-  CHECK(safe > 300);
-  CHECK(safe_with_kept > 300);
-  CHECK(with_give_ups > 10);
+  CHECK(safe > testing::Few(300));
+  CHECK(safe_with_kept > testing::Few(300));
+  CHECK(with_give_ups > testing::Few(10));
 }
 
 TEST_CASE("safe: at an apex that is kept the published algorithm gives up in a safe problem") {

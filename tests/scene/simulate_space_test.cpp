@@ -91,8 +91,8 @@ TEST_CASE("simulate in space: a stack of five boxes does not creep over 1,000 st
 
 TEST_CASE("simulate in space: dominoes fall one after the other") {
   SimulationInSpace simulation = Started("dominoes");
-  std::vector<double> fell(simulation.scene().bodies.size(), 0);
-  while (simulation.time() < 3) {
+  std::vector<double> fell(testing::Short() ? 5 : simulation.scene().bodies.size(), 0);  // of the first of them
+  while (simulation.time() < 3 && fell.back() == 0) {
     simulation.Step();
     for (std::size_t i = 1; i < fell.size(); ++i) {
       const double up = RotationMatrix<double>(simulation.scene().bodies[i].rotation)(2, 2);
@@ -340,6 +340,7 @@ TEST_CASE("simulate in space: the piston of a slider-crank is where its crank sa
   }
   CHECK(least == Approx(std::sqrt(1.28) - 1).margin(1e-3));  // the dead centres, met and passed
   CHECK(greatest == Approx(std::sqrt(1.28) + 1).margin(1e-3));
+  if (testing::Short()) return;
   const Worst coarse = RunFor(Started("slider-crank").scene(), 4, 480);
   CHECK(coarse.drift < 1e-6);
   CheckFinerIsBetter(coarse, RunFor(Started("slider-crank").scene(), 4, 960));
