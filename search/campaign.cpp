@@ -73,7 +73,7 @@ MuChoice ReadMu(const JsonPlace& place) {
 
 Campaign::Campaign() {
   for (const GeneratorRow& row : Generators()) {
-    if (row.by_default) generators.push_back(row.id);
+    if (generators.size() < kOrdinaryGeneratorCount) generators.push_back(row.id);
   }
 }
 

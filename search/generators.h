@@ -52,8 +52,11 @@ enum class GeneratorId : std::uint8_t {
   kExponential,
   kScenes,
   kFineScenes,
+  kOneBody,
 };
-inline constexpr int kGeneratorCount = 10;
+inline constexpr int kGeneratorCount = 11;
+// Of these the first are part of a campaign that names none.
+inline constexpr int kOrdinaryGeneratorCount = 9;
 
 struct GeneratorRow {
   GeneratorId id;
@@ -63,7 +66,6 @@ struct GeneratorRow {
   // double problem is a filter: what it shows must be seen again over rationals.
   bool exact_in_double;
   bool has_gravity = false;  // bodies, which `gravity_only` leaves without applied forces
-  bool by_default = true;    // part of a campaign that names no generators
 };
 
 // The table itself (generators.cpp), in the order of GeneratorId.

@@ -458,6 +458,50 @@ void Bodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& p
   SetFromBodies(J, bodies, body, problem);
 }
 
+// The rows of one contact in the columns of one body, as SetContactRows.
+template <class Scalar, class Columns>
+void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int contact, int index, int sign,
+                  Columns& J) {
+  const Vector2<Scalar> n = Scalar(sign) * normal, t = Quarter<Scalar>(n);
+  for (int k = 0; k < 2; ++k) {
+    J(2 * contact, 3 * index + k) = n[k];
+    J(2 * contact + 1, 3 * index + k) = t[k];
+  }
+  J(2 * contact, 3 * index + 2) = Cross<Scalar>(arm, n);
+  J(2 * contact + 1, 3 * index + 2) = Cross<Scalar>(arm, t);
+}
+
+// ---- one-body ---------------------------------------------------------------------------------
+
+// The centre of mass is the origin; points in millimetres.
+template <class Scalar, int Rows>
+void OneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
+  std::array<Body<Scalar>, kMaxBodies> body;
+  const Scalar inertia = Scalar(static_cast<int>(choices.Integer(1, 1000))) /
+                         Scalar(static_cast<int>(choices.Integer(1, 1'000'000'000)));
+  body[0].inverse_mass = {Scalar(1), Scalar(1), Scalar(Scalar(1) / inertia)};
+  body[0].free_acceleration = {Scalar(0), Scalar(-10), Scalar(0)};
+  for (int k = 0; applied && k < 3; ++k) {
+    const Scalar load = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(100);
+    body[0].free_acceleration[k] += load * body[0].inverse_mass[k];
+  }
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, 1);
+  for (int contact = 0; contact < rows / 2; ++contact) {
+    const Scalar x = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    const Scalar y = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    int p = static_cast<int>(choices.Integer(-64, 64));
+    const int q = static_cast<int>(choices.Integer(-64, 64));
+    if (p == 0 && q == 0) p = 1;
+    const Scalar length = Scalar(p * p + q * q);
+    const Vector2<Scalar> normal =
+        MakeVector2<Scalar>(Scalar(Scalar(2 * p * q) / length), Scalar(Scalar(p * p - q * q) / length));
+    SetSceneRows<Scalar>(normal, MakeVector2<Scalar>(x, y), contact, 0, 1, J);
+  }
+  SetFromBodies(J, 1, body, problem);
+}
+
 // ---- exponential ------------------------------------------------------------------------------
 
 // y with L' y = (8^-n - 1, ..., 8^-1 - 1), in units of 8^-n: abs(y) <= 3 * 2^24. With the sums S_i = y_i +
@@ -530,19 +574,6 @@ void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
 
 // ---- scenes -----------------------------------------------------------------------------------
 
-// The rows of one contact in the columns of one body, as SetContactRows.
-template <class Scalar, class Columns>
-void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int contact, int index, int sign,
-                  Columns& J) {
-  const Vector2<Scalar> n = Scalar(sign) * normal, t = Quarter<Scalar>(n);
-  for (int k = 0; k < 2; ++k) {
-    J(2 * contact, 3 * index + k) = n[k];
-    J(2 * contact + 1, 3 * index + k) = t[k];
-  }
-  J(2 * contact, 3 * index + 2) = Cross<Scalar>(arm, n);
-  J(2 * contact + 1, 3 * index + 2) = Cross<Scalar>(arm, t);
-}
-
 template <class Scalar, int Rows>
 void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
@@ -597,6 +628,8 @@ void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Ch
       return generators::Exponential(choices, problem);
     case GeneratorId::kScenes:
       return generators::Scenes(kCoarseScenes, surroundings.gravity_only, choices, problem);
+    case GeneratorId::kOneBody:
+      return generators::OneBody(surroundings.gravity_only, choices, problem);
     case GeneratorId::kFineScenes:
       return generators::Scenes(kFineScenes, surroundings.gravity_only, choices, problem);
   }

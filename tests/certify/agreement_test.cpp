@@ -41,7 +41,7 @@ std::string What(const ExactProblem& problem, const Answers& answers) {
 TEST_CASE("agreement: methods that are right agree") {
   for (const ExactProblem& problem : {ReferenceProblem(), GiveUpProblem(), ThreeSolutions()})
     CHECK(What(problem, AnswersOf(problem)).empty());
-  for (int generator = 0; generator < kGeneratorCount; ++generator) {
+  for (int generator = 0; generator < kOrdinaryGeneratorCount; ++generator) {
     for (const int contacts : {1, 2, 3}) {
       for (std::uint64_t index = 0; index < 4; ++index) {
         const auto problem = Random<Rational>(static_cast<GeneratorId>(generator), contacts, index);

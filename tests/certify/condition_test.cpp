@@ -40,7 +40,7 @@ TEST_CASE("condition: the bound is sharp for one contact") {
 TEST_CASE("condition: what it calls safe has positive determinants, whatever the generator") {
   int shown = 0, unsafe = 0;
   for (int index = 0; index < testing::Few(1000); ++index) {
-    const auto generator = static_cast<GeneratorId>(index % kGeneratorCount);
+    const auto generator = static_cast<GeneratorId>(index % kOrdinaryGeneratorCount);
     ExactProblem problem = Random<Rational>(generator, 1 + index % 3, index);
     for (auto& contact : problem.contacts) contact.mu /= 1 + index % 7;
     CAPTURE(index);

@@ -54,7 +54,7 @@ std::string With(const std::string& members) {
 
 TEST_CASE("campaign: what a file leaves out has its default") {
   CHECK(Read(With("")) == Campaign{});
-  CHECK(Campaign{}.generators.size() == kGeneratorCount);
+  CHECK(Campaign{}.generators.size() == kOrdinaryGeneratorCount);
   CHECK(Campaign{}.policies == std::vector{Policy{}});
 }
 

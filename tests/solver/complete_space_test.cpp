@@ -489,7 +489,7 @@ TEST_CASE("space: a problem of the plane, put into space, is solved by forces of
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
     const int n = 1 + index % 3;
-    const auto plane = Random<Rational>(static_cast<GeneratorId>(index % kGeneratorCount), n, index);
+    const auto plane = Random<Rational>(static_cast<GeneratorId>(index % kOrdinaryGeneratorCount), n, index);
     ExactProblem problem;
     problem.dimension = 3;
     problem.contacts = plane.contacts;

@@ -439,7 +439,7 @@ TEST_CASE("complete: frictionless, static and smooth contacts mix, degenerate or
   for (int index = 0; index < 1400; ++index) {
     CAPTURE(index);
     Choices choices(index);
-    const auto id = static_cast<GeneratorId>(index % kGeneratorCount);
+    const auto id = static_cast<GeneratorId>(index % kOrdinaryGeneratorCount);
     const ExactProblem problem = WithMixedKinds(Random<Rational>(id, 2 + index % 4, 2000 + index), choices);
     const CompleteRun run = RunComplete(problem);
     CheckSolved(problem, run);
@@ -454,7 +454,7 @@ TEST_CASE("complete: frictionless, static and smooth contacts mix, degenerate or
 
 TEST_CASE("complete: every problem of every generator is solved exactly, within the bound") {
   std::int64_t tied = 0, degenerate_directions = 0;
-  for (int g = 0; g < kGeneratorCount; ++g) {
+  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
     for (int n = 1; n <= 5; ++n) {
       for (int index = 0; index < testing::Few(150); ++index) {
         CAPTURE(g, n, index);
@@ -487,7 +487,7 @@ ExactProblem Perturbed(ExactProblem problem) {
 }
 
 TEST_CASE("complete: ties are told as a small perturbation of b tells them") {
-  for (int g = 0; g < kGeneratorCount; ++g) {
+  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
     for (int index = 0; index < 40; ++index) {
       CAPTURE(g, index);
       const ExactProblem problem = Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 4, 1000 + index);
@@ -594,7 +594,7 @@ std::uint64_t HashOfPaths(int problems) {
   CompleteDriving<Scalar> algorithm;
   std::uint64_t hash = 14695981039346656037u;
   for (int n = 1; n <= 6; ++n) {
-    for (int g = 0; g < kGeneratorCount; ++g) {
+    for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
       for (int index = 0; index < problems; ++index) {
         Trace<Scalar> trace;
         algorithm.Run(Random<Scalar>(static_cast<GeneratorId>(g), n, index), &trace);
@@ -667,7 +667,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
                    long double) {
   CompleteDriving<TestType> algorithm;
   std::map<Outcome, int> counts;
-  for (int g = 0; g < kGeneratorCount; ++g) {
+  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
     for (int index = 0; index < 300; ++index) {
       CAPTURE(g, index);
       const ExactProblem exact =
@@ -681,7 +681,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
       CHECK(NaturalResidual(exact, f, Accelerations(exact, f)) <= Rational(1, 1000000));
     }
   }
-  CHECK(counts[Outcome::kSolved] + counts[Outcome::kUndecided] == 300 * kGeneratorCount);
+  CHECK(counts[Outcome::kSolved] + counts[Outcome::kUndecided] == 300 * kOrdinaryGeneratorCount);
   CHECK(counts[Outcome::kSolved] > (sizeof(TestType) == 4 ? 1800 : 2000));
 }
 

@@ -172,7 +172,7 @@ TEST_CASE("elimination: runs over rationals and over rationals of unknown intege
   for (int index = 0; index < 280; ++index) {
     CAPTURE(index);
     ExactProblem problem =
-        Random<Rational>(static_cast<GeneratorId>(index % kGeneratorCount), 1 + index % 5, index);
+        Random<Rational>(static_cast<GeneratorId>(index % kOrdinaryGeneratorCount), 1 + index % 5, index);
     if (index % 3 == 0) {  // so that columns are scaled
       for (auto& contact : problem.contacts) contact.mu *= Rational(2, 3);
       ++inexact_mu;

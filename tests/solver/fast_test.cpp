@@ -53,7 +53,7 @@ TEMPLATE_TEST_CASE("fast: problems of every generator are solved, or undecided, 
                    long double) {
   FastSolver<TestType> solver;
   int solved = 0, runs = 0;
-  for (int g = 0; g < kGeneratorCount; ++g) {
+  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
     for (int index = 0; index < 200; ++index) {
       for (const bool friction : {true, false}) {
         CAPTURE(g, index, friction);
@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE("fast: problems of every generator are solved, or undecided, 
 TEST_CASE("fast: the residual of a solved run, from its forces alone, is within the tolerance") {
   FastSolver<double> solver;
   for (int index = 0; index < 600; ++index) {
-    const auto id = static_cast<GeneratorId>(index % kGeneratorCount);
+    const auto id = static_cast<GeneratorId>(index % kOrdinaryGeneratorCount);
     const auto problem = Random<double>(id, 1 + index % 8, 7000 + index);
     solver.options().residual = index % 2 == 0 ? 1e-8 : 1e-13;
     if (solver.Run(problem).outcome != Outcome::kSolved) continue;
