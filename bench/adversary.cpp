@@ -55,6 +55,7 @@ constexpr std::array kTrials = {
     Trials{"margin", "psd", 2, {1, 1}, 60000},
 };
 constexpr int kUnits = 4;
+constexpr std::size_t kParents = 8;
 
 double ProcessorSeconds() {
   timespec time;
@@ -77,6 +78,7 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
   optimization.limits = Campaign().limits;
   optimization.evaluations = std::max<std::int64_t>(1, o.problems.value_or(trials.evaluations) / kUnits);
   Outcomes outcomes;
+  std::vector<Assessed> best;  // of all units
   const double before = ProcessorSeconds();
   for (int unit = 0; unit < kUnits; ++unit) {
     optimization.seed = ProblemSeed(o.seed, static_cast<std::uint64_t>(unit), 0);
@@ -84,15 +86,19 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
     outcomes.evaluations += optimized.evaluations;
     outcomes.confirmations += optimized.confirmations;
     outcomes.denied += optimized.denied;
-    for (const Judged& loop : optimized.loops) {
+    for (const Assessed& loop : optimized.loops) {
       const ExactProblem problem = ExactOf(loop.candidate);
       outcomes.loops.insert(Signature(problem, RunExact(problem, {optimization.policy, {}, optimization.limits})));
     }
-    for (const Judged& elite : optimized.elites) {
-      if (elite.score.value && (!outcomes.best || *elite.score.value > *outcomes.best)) outcomes.best = elite.score.value;
-      if (optimization.parents.size() < 16) optimization.parents.push_back(elite.candidate);
+    for (const Assessed& elite : optimized.elites) {
+      if (elite.worth.value && (!outcomes.best || *elite.worth.value > *outcomes.best)) outcomes.best = elite.worth.value;
     }
-    if (optimization.parents.size() > 8) optimization.parents.resize(8);
+    best.insert(best.end(), optimized.elites.begin(), optimized.elites.end());
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
+    if (best.size() > kParents) best.resize(kParents);
+    optimization.parents.clear();
+    for (const Assessed& elite : best) optimization.parents.push_back(elite.candidate);
   }
   outcomes.seconds = ProcessorSeconds() - before;
   return outcomes;

@@ -70,9 +70,9 @@ std::string RangeText(const OptionRow& row) {
   return fmt::format("{:g} to {:g}", row.min, row.max);
 }
 
-bool AreExplained(const std::vector<Choice>& choices) {
+bool AreExplained(const std::vector<AllowedValue>& choices) {
   return std::any_of(choices.begin(), choices.end(),
-                     [](const Choice& choice) { return !choice.meaning.empty(); });
+                     [](const AllowedValue& choice) { return !choice.meaning.empty(); });
 }
 
 // "(drives; 1 to 1e+12; default 10000)"
@@ -89,9 +89,9 @@ std::string Notes(const OptionRow& row) {
   return notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
 }
 
-std::string NamesOf(const std::vector<Choice>& choices) {
+std::string NamesOf(const std::vector<AllowedValue>& choices) {
   std::vector<std::string_view> names;
-  for (const Choice& choice : choices) names.push_back(choice.name);
+  for (const AllowedValue& choice : choices) names.push_back(choice.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -101,7 +101,7 @@ std::string EntryOf(const OptionRow& row) {
   if (!row.choices.empty() && !explained) text += ": " + NamesOf(row.choices);
   std::string entry = Entry(Term(row), text + Notes(row) + (row.details.empty() ? "" : ". " + row.details));
   if (explained) {
-    for (const Choice& choice : row.choices) {
+    for (const AllowedValue& choice : row.choices) {
       const std::string meaning = choice.meaning.empty() ? "" : ": " + choice.meaning;
       entry += std::string(kColumn, ' ') + Wrapped(choice.name + meaning, kColumn, kColumn + 2);
     }

@@ -56,9 +56,7 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
   origin.erase("objective");
   const Candidate candidate = CandidateFromJson(JsonPlace(origin, place, ""));
   const auto keep = [&](const ExactProblem& problem) {
-    const bool kept = std::all_of(options.policies.begin(), options.policies.end(), [&](const Policy& p) {
-      return RunExact(problem, {p, {}, o.limits}).verdict.outcome == options.keep;
-    });
+    const bool kept = AllEndIn(options.keep, problem, options.policies, o.limits);
     return kept && (!options.signature ||
                     Signature(problem, RunExact(problem, {policy, {}, o.limits})) == *options.signature);
   };

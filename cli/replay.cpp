@@ -260,8 +260,8 @@ int Replay(const ReplayOptions& o) {
   return ReplayAll(o, file);
 }
 
-std::vector<Choice> PathMethodChoices() {
-  std::vector<Choice> choices;
+std::vector<AllowedValue> PathMethodChoices() {
+  std::vector<AllowedValue> choices;
   for (const MethodFacts& facts : AllMethods()) {
     if (facts.has_path) choices.push_back({std::string(facts.name), std::string(facts.title)});
   }

@@ -88,8 +88,8 @@ int RunSolve(const SolveVerb& o) {
   return ExitOf(solution.outcome());
 }
 
-std::vector<Choice> MethodChoices() {
-  std::vector<Choice> choices = {{std::string(kAutomatic), "one that ends; the answer names it"}};
+std::vector<AllowedValue> MethodChoices() {
+  std::vector<AllowedValue> choices = {{std::string(kAutomatic), "one that ends; the answer names it"}};
   for (const MethodFacts& facts : AllMethods())
     choices.push_back({std::string(facts.name), std::string(facts.title)});
   return choices;

@@ -76,7 +76,7 @@ std::string ExpectedNumber(const OptionRow& row) {
 std::string ErrorOf(const OptionRow& row, const std::string& word) {
   if (!row.choices.empty()) {
     std::vector<std::string_view> names;
-    for (const Choice& choice : row.choices) names.push_back(choice.name);
+    for (const AllowedValue& choice : row.choices) names.push_back(choice.name);
     if (std::find(names.begin(), names.end(), word) == names.end())
       return fmt::format("found '{}', expected one of {}", word, fmt::join(names, ", "));
   }

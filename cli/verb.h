@@ -39,7 +39,7 @@ using Field = std::variant<bool*, int*, std::int64_t*, double*, std::string*, st
                            std::vector<int>*, std::vector<std::string>*>;
 
 // A value that is allowed, and, where it needs one, an explanation.
-struct Choice {
+struct AllowedValue {
   std::string name;
   std::string meaning;
 };
@@ -59,7 +59,7 @@ struct OptionRow {
   std::string unit;
   std::string group;  // heading in the help; empty: Options
   std::string needs;  // the option, in a row before, without which this one says nothing
-  std::vector<Choice> choices;
+  std::vector<AllowedValue> choices;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
@@ -73,7 +73,7 @@ struct OptionRow {
   OptionRow& Needs(std::string_view option) { return needs = option, *this; }
   OptionRow& Range(double least, double most) { return min = least, max = most, *this; }
   OptionRow& AtLeast(double least) { return Range(least, kMostInteger); }
-  OptionRow& Choices(std::vector<Choice> all) { return choices = std::move(all), *this; }
+  OptionRow& Choices(std::vector<AllowedValue> all) { return choices = std::move(all), *this; }
   OptionRow& OneOf(const std::vector<std::string>& names);
   OptionRow& Check(std::function<std::string(const std::string&)> of) { return check = std::move(of), *this; }
 

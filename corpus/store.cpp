@@ -548,10 +548,12 @@ void Store::MergeFrom(const Store& other) {
   }
   for (const Finding& finding : other.Findings()) MergeFinding(finding);
   for (const auto& [unit, elites] : other.Elites()) {
-    Statement(db_.get(), "INSERT OR REPLACE INTO elites (unit, elites) VALUES (?, ?)")
-        .Bind(unit)
-        .Bind(elites)
-        .Step();
+    Statement same(db_.get(), "SELECT elites FROM elites WHERE unit = ?");
+    if (same.Bind(unit).Step()) {
+      STICTION_CHECK(same.Text(0) == elites, fmt::format("two copies of the elites of unit {} differ", unit));
+      continue;
+    }
+    Statement(db_.get(), "INSERT INTO elites (unit, elites) VALUES (?, ?)").Bind(unit).Bind(elites).Step();
   }
   transaction.Commit();
 }

@@ -20,7 +20,7 @@ namespace stiction {
 // "objective", "optimizer".
 struct Campaign {
   std::uint64_t seed = 1;
-  std::vector<GeneratorId> generators;  // default: all
+  std::vector<GeneratorId> generators;  // default: all ordinary ones (generators.h)
   std::vector<int> contacts = {1, 2, 3, 4, 5, 6, 7, 8};
   std::vector<MuChoice> palette = {kDefaultPalette.begin(), kDefaultPalette.end()};
   std::vector<Policy> policies = {Policy{}};

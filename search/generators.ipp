@@ -479,8 +479,9 @@ void OneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& 
   const int rows = problem.rows();
   const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
   std::array<Body<Scalar>, kMaxBodies> body;
-  const Scalar inertia = Scalar(static_cast<int>(choices.Integer(1, 1000))) /
-                         Scalar(static_cast<int>(choices.Integer(1, 1'000'000'000)));
+  const int numerator = static_cast<int>(choices.Integer(1, 1000));
+  const int denominator = static_cast<int>(choices.Integer(1, 1'000'000'000));
+  const Scalar inertia = Scalar(numerator) / Scalar(denominator);
   body[0].inverse_mass = {Scalar(1), Scalar(1), Scalar(Scalar(1) / inertia)};
   body[0].free_acceleration = {Scalar(0), Scalar(-10), Scalar(0)};
   for (int k = 0; applied && k < 3; ++k) {

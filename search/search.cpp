@@ -72,7 +72,7 @@ class Search {
 
   SearchEnd End() const {
     if (Interrupted()) return SearchEnd::kInterrupted;
-    const bool unfinished = !pending_.empty() || !wanted_units_ || next_unit_ < *wanted_units_;
+    const bool unfinished = abandoned_ || !pending_.empty() || !wanted_units_ || next_unit_ < *wanted_units_;
     return unfinished ? SearchEnd::kTimeUp : SearchEnd::kDone;
   }
 
@@ -111,7 +111,7 @@ class Search {
   // Whether no other thread can still bring something to finish. Otherwise waits a little.
   bool Idle() {
     std::unique_lock lock(mutex_);
-    if (busy_ == 0 && pending_.empty()) return true;
+    if (busy_ == 0 && pending_.empty()) return wanted_units_ && next_unit_ >= *wanted_units_;
     changed_.wait_for(lock, std::chrono::milliseconds(20));
     return false;
   }
@@ -153,7 +153,7 @@ class Search {
     lock.lock();
     --busy_;
     in_work_.erase(*unit);
-    if (!run) return true;
+    if (!run) return abandoned_ = true;
     const UnitResult& result = *run;
     if (!result.elites.empty()) heritage_.Add(*unit, ElitesFromText(result.elites, "a unit"));
     // A group's former representative may be waiting here; a smaller one takes its place.
@@ -209,6 +209,7 @@ class Search {
   std::set<std::string> signatures_;
   SearchProgress progress_;
   int busy_ = 0;
+  bool abandoned_ = false;  // a unit was
   int running_ = 0;
   std::exception_ptr failure_;
   std::atomic<bool> failed_ = false;

@@ -166,9 +166,10 @@ Yield YieldOf(const Store& store) {
   return yield;
 }
 
-std::string ValueText(const Objective& objective, const Score& score) {
-  if (!score.value) return fmt::format("no loop, the nearest at distance {:.3g}", -score.nearness);
-  return fmt::format("{:.6g}{}{}", objective.sign * *score.value, objective.unit.empty() ? "" : " ", objective.unit);
+std::string ValueText(const Objective& objective, const Worth& worth) {
+  if (!worth.value && !objective.of_loops) return "no value";
+  if (!worth.value) return fmt::format("no loop, the nearest at distance {:.3g}", -worth.nearness);
+  return fmt::format("{:.6g}{}{}", objective.sign * *worth.value, objective.unit.empty() ? "" : " ", objective.unit);
 }
 
 std::string OptimizedText(const Store& store, const Campaign& campaign, const std::string& file) {
@@ -184,7 +185,7 @@ std::string OptimizedText(const Store& store, const Campaign& campaign, const st
     text += fmt::format("  {:18} {} contacts, mu = {}: {}\n", Row(elite.candidate.generator).name,
                         elite.candidate.contacts,
                         ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
-                        ValueText(objective, elite.score));
+                        ValueText(objective, elite.worth));
   }
   std::int64_t finished = 0, pending = 0;
   for (const Finding& finding : store.Findings()) ++(finding.done ? finished : pending);
@@ -202,8 +203,8 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
   Json best = Json::array();
   for (const Elite& elite : BestOf(store, 1)) {
     Json row = {{"candidate", ToJson(elite.candidate)}};
-    row["value"] = elite.score.value ? Json(objective.sign * *elite.score.value) : Json();
-    if (!elite.score.value) row["distance"] = -elite.score.nearness;
+    row["value"] = elite.worth.value ? Json(objective.sign * *elite.worth.value) : Json();
+    if (!elite.worth.value && objective.of_loops) row["distance"] = -elite.worth.nearness;
     best.push_back(std::move(row));
   }
   return {{"seed", campaign.seed},

@@ -32,9 +32,8 @@ Rational SimplestBetween(const Rational& low, const Rational& high) {
 }
 
 // `otherwise` where a part is too large.
-MuChoice ChoiceOf(const Rational& mu, const MuChoice& otherwise) {
-  constexpr int kMost = 1'000'000;
-  if (mu.get_num() > kMost || mu.get_den() > kMost) return otherwise;
+MuChoice ChoiceOf(const Rational& mu, const MuChoice& otherwise, int most_part) {
+  if (mu.get_num() > most_part || mu.get_den() > most_part) return otherwise;
   return {static_cast<int>(mu.get_num().get_si()), static_cast<int>(mu.get_den().get_si())};
 }
 
@@ -91,6 +90,8 @@ Candidate CandidateFromJson(const JsonPlace& place) {
   const JsonPlace gravity = place.Required("gravity_only", "true or false");
   if (!gravity.json().is_boolean()) gravity.Refuse("true or false");
   candidate.gravity_only = gravity.json().get<bool>();
+  if (candidate.gravity_only && !Row(candidate.generator).has_gravity)
+    gravity.Refuse("false, since this generator has no bodies");
   const JsonPlace choices = place.Required("choices", "a list of integers");
   for (std::size_t i = 0; i < choices.Size("a list of integers"); ++i) {
     candidate.choices.push_back(
@@ -99,16 +100,16 @@ Candidate CandidateFromJson(const JsonPlace& place) {
   return candidate;
 }
 
-MuChoice Lowered(const MuChoice& mu, int k) {
+MuChoice Lowered(const MuChoice& mu, int k, int most_part) {
   if (mu.numerator == 0) return mu;
   const Rational old = Rational(mu.numerator) / Rational(mu.denominator);
   const Rational less = old / Rational(mpz_class(1) << k);
-  return ChoiceOf(SimplestBetween(k == 1 ? Rational(old / 4) : Rational(old - 2 * less), old - less), mu);
+  return ChoiceOf(SimplestBetween(k == 1 ? Rational(old / 4) : Rational(old - 2 * less), old - less), mu, most_part);
 }
 
-MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise) {
+MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise, int most_part) {
   if (mu <= 0) return otherwise;
-  return ChoiceOf(SimplestBetween(mu * Rational(4095, 4096), mu * Rational(4097, 4096)), otherwise);
+  return ChoiceOf(SimplestBetween(mu * Rational(4095, 4096), mu * Rational(4097, 4096)), otherwise, most_part);
 }
 
 }  // namespace stiction

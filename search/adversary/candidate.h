@@ -38,11 +38,10 @@ Json ToJson(const Candidate& candidate);
 Candidate CandidateFromJson(const JsonPlace& place);  // InputError
 
 // The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter of mu.
-// Zero stays.
-MuChoice Lowered(const MuChoice& mu, int k);
-// The simplest coefficient within one part in two thousand of `mu`, at most 1,000,000 / 1,000,000; `otherwise` if
-// there is none.
-MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise);
+// Zero stays, and what has no room for its parts: numerator and denominator are at most `most_part`.
+MuChoice Lowered(const MuChoice& mu, int k, int most_part);
+// The simplest coefficient within one part in four thousand of `mu`; `otherwise` if there is none with such parts.
+MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise, int most_part);
 
 }  // namespace stiction
 

@@ -29,7 +29,7 @@ std::vector<double> Direction(const std::vector<Choice>& made, const std::vector
   return direction;
 }
 
-Candidate Moved(const Judged& from, const std::vector<double>& direction, double step) {
+Candidate Moved(const Assessed& from, const std::vector<double>& direction, double step) {
   Candidate moved = from.candidate;
   for (std::size_t i = 0; i < from.made.size(); ++i) {
     const auto by = static_cast<std::int64_t>(direction[i] * step);
@@ -39,11 +39,12 @@ Candidate Moved(const Judged& from, const std::vector<double>& direction, double
 }
 
 // As far as the line is good.
-void Walk(Attempt& attempt, const Judged& from, const std::vector<double>& direction, double first) {
+void Walk(Attempt& attempt, const Assessed& from, const std::vector<double>& direction, double first) {
   double step = first, reached = 0;
   bool growing = true;
   for (int k = 0; k < 12 && !attempt.Ended(); ++k) {
-    if (attempt.Try(Moved(from, direction, reached + step))) {
+    Candidate moved = Moved(from, direction, reached + step);
+    if (moved.choices != from.candidate.choices && attempt.Try(std::move(moved))) {
       reached += step;
       if (growing) step *= 2;
     } else {
@@ -57,8 +58,8 @@ void LowerFriction(Attempt& attempt, Candidate candidate) {
   for (int k = 2; k <= 10 && !attempt.Ended(); ++k) {
     while (!attempt.Ended()) {
       Candidate lowered = candidate;
-      lowered.mu = Lowered(candidate.mu, k);
-      if (!attempt.Try(lowered)) break;
+      lowered.mu = Lowered(candidate.mu, k, LargestMuPart(candidate.generator));
+      if (lowered.mu == candidate.mu || !attempt.TryValue(lowered)) break;
       candidate = lowered;
     }
   }
@@ -71,15 +72,17 @@ Optimized Continue(const Optimization& optimization) {
   Choices& random = attempt.random();
   attempt.Begin();
   while (!attempt.Ended()) {
-    const Judged from = random.Integer(0, 1) == 0 ? attempt.elites().Best() : attempt.elites().Draw(random);
-    if (optimization.objective->lowers_friction && from.score.value && random.Integer(0, 15) == 0)
+    const Assessed from = random.Integer(0, 1) == 0 ? attempt.elites().Best() : attempt.elites().Draw(random);
+    if (optimization.objective->lowers_friction && from.worth.value && random.Integer(0, 15) == 0)
       LowerFriction(attempt, from.candidate);
     const std::vector<std::size_t> wide = WideChoices(from.made);
     if (wide.empty()) {
       attempt.Try(attempt.Random());
       continue;
     }
-    Walk(attempt, from, Direction(from.made, wide, random), 1.0 / static_cast<double>(1 << random.Integer(0, 10)));
+    const std::vector<double> direction = Direction(from.made, wide, random);
+    const double first = 1.0 / static_cast<double>(1 << random.Integer(0, 10));
+    Walk(attempt, from, direction, first);
   }
   return attempt.Take();
 }

@@ -5,7 +5,7 @@
 // an integer of its range; and, where friction is to be lowered, mu from a quarter of the candidate's to all of it. So every point of the cube is a valid exact problem. The narrow choices (numbers of columns, kinds,
 // places) stay those of the candidate. Global methods and local ones take turns, each from another candidate.
 //
-// What NLopt is told    the value, or where there is none a penalty of 1e9 and 1e6 times the distance to a loop. Never
+// What NLopt is told    the value, or where there is none a penalty of 1e15 and 1e9 times the distance to a loop. Never
 //                       a NaN, which it would take. Exceptions are kept and thrown again outside: it loses their text.
 // Random numbers        nlopt::srand, of this thread, before every start.
 
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <exception>
 #include <nlopt.hpp>
+#include <stdexcept>
 
 #include "search/adversary/optimizer.h"
 
@@ -26,10 +27,10 @@ constexpr std::size_t kMostCoordinates = 64;
 
 class Cube {
  public:
-  Cube(Attempt& attempt, const Judged& from)
+  Cube(Attempt& attempt, const Assessed& from)
       : attempt_(attempt), from_(from), wide_(WideChoices(from.made)) {
     if (wide_.size() > kMostCoordinates) wide_.resize(kMostCoordinates);
-    lowers_ = attempt.optimization().objective->lowers_friction && from.candidate.mu.numerator > 0;
+    lowers_ = attempt.optimization().objective->lowers_friction && from.candidate.mu.numerator > 0 && from.worth.value;
   }
 
   std::size_t coordinates() const { return wide_.size() + (lowers_ ? 1 : 0); }
@@ -45,12 +46,13 @@ class Cube {
   }
 
   double Value(const std::vector<double>& x) {
-    const Judged judged = attempt_.judge().Look(At(x));
-    const Score score = judged.score;
-    attempt_.elites().Admit(judged);
-    if (score.value) return *score.value;
-    return -1e9 + 1e6 * std::max(score.nearness, -1e3);
+    const Assessed assessed = attempt_.assessor().Look(At(x));
+    const Worth worth = assessed.worth;
+    attempt_.elites().Admit(assessed);
+    if (worth.value) return *worth.value;
+    return -1e15 + 1e9 * std::max(worth.nearness, -1e3);
   }
+  bool Ended() const { return attempt_.Ended(); }
 
   std::exception_ptr error;
 
@@ -68,13 +70,13 @@ class Cube {
       const auto part = std::clamp<std::int64_t>(std::llround(x.back() * kParts), 0, kParts);
       const Rational mu = Rational(candidate.mu.numerator) / Rational(candidate.mu.denominator) *
                           Rational(kParts + 3 * part) / Rational(4 * kParts);
-      candidate.mu = SimplestNear(mu, candidate.mu);
+      candidate.mu = SimplestNear(mu, candidate.mu, LargestMuPart(candidate.generator));
     }
     return candidate;
   }
 
   Attempt& attempt_;
-  const Judged from_;
+  const Assessed from_;
   std::vector<std::size_t> wide_;
   bool lowers_ = false;
 };
@@ -82,6 +84,7 @@ class Cube {
 double CubeValue(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
   (void)gradient;  // none of the methods asks for one
   Cube& cube = *static_cast<Cube*>(data);
+  if (cube.Ended()) throw nlopt::forced_stop();
   try {
     return cube.Value(x);
   } catch (...) {
@@ -90,14 +93,14 @@ double CubeValue(const std::vector<double>& x, std::vector<double>& gradient, vo
   }
 }
 
-void Optimize(Attempt& attempt, nlopt::algorithm method, const Judged& from, std::int64_t evaluations) {
+void Optimize(Attempt& attempt, nlopt::algorithm method, const Assessed& from, std::int64_t evaluations) {
   Cube cube(attempt, from);
   nlopt::srand(static_cast<unsigned long>(attempt.random().Integer(1, (std::int64_t{1} << 31) - 1)));
   nlopt::opt nlopt(method, static_cast<unsigned>(cube.coordinates()));
   nlopt.set_lower_bounds(0.0);
   nlopt.set_upper_bounds(1.0);
   nlopt.set_max_objective(CubeValue, &cube);
-  nlopt.set_maxeval(static_cast<int>(evaluations));
+  nlopt.set_maxeval(static_cast<int>(std::min<std::int64_t>(evaluations, 1 << 30)));
   nlopt.set_xtol_abs(1e-6);
   nlopt.set_initial_step(0.1);
   std::vector<double> x = cube.Start();
@@ -107,7 +110,7 @@ void Optimize(Attempt& attempt, nlopt::algorithm method, const Judged& from, std
   } catch (const nlopt::roundoff_limited&) {  // the best so far is in the elites
   } catch (const nlopt::forced_stop&) {
     if (cube.error) std::rethrow_exception(cube.error);
-    throw;
+  } catch (const std::runtime_error&) {  // a failure of the method: another has its turn
   }
 }
 
@@ -118,7 +121,7 @@ Optimized OptimizeContinuously(const Optimization& optimization) {
   attempt.Begin();
   const std::int64_t each = std::max<std::int64_t>(200, optimization.evaluations / 16);
   for (std::size_t turn = 0; !attempt.Ended(); ++turn) {
-    const Judged from = turn % 2 == 0 ? attempt.elites().Draw(attempt.random()) : attempt.elites().Best();
+    const Assessed from = turn % 2 == 0 ? attempt.elites().Draw(attempt.random()) : attempt.elites().Best();
     const std::int64_t before = attempt.Left();
     if (Cube(attempt, from).coordinates() > 0)
       Optimize(attempt, kMethods[turn % kMethods.size()], from, std::min(each, attempt.Left()));

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "search/adversary/judge.h"
+#include "search/adversary/assessor.h"
 
 namespace stiction {
 
@@ -16,28 +16,28 @@ class Elites {
   static constexpr std::size_t kMost = 48;
 
   // `on_loop` is called for every loop that is taken in.
-  explicit Elites(Judge& judge, std::function<void(const Judged&)> on_loop = {})
-      : judge_(judge), on_loop_(std::move(on_loop)) {}
+  explicit Elites(Assessor& assessor, std::function<void(const Assessed&)> on_loop = {})
+      : assessor_(assessor), on_loop_(std::move(on_loop)) {}
 
   // Whether the candidate was taken in: it is no worse than the one of its behaviour, or has a new one and is not the
   // worst of a full house. What would be taken in is confirmed first, and then asked again.
-  bool Admit(Judged judged);
+  bool Admit(Assessed assessed);
 
   bool empty() const { return all_.empty(); }
   // In the order in which behaviours came.
-  const std::vector<Judged>& all() const { return all_; }
+  const std::vector<Assessed>& all() const { return all_; }
   // Requires: not empty.
-  const Judged& Best() const;
+  const Assessed& Best() const;
   // The best of a few drawn at random.
-  const Judged& Draw(Choices& random) const;
+  const Assessed& Draw(Choices& random) const;
 
  private:
   // Where it would stand; all_.size() for a new place, none if it is not wanted.
-  std::optional<std::size_t> PlaceFor(const Judged& judged) const;
+  std::optional<std::size_t> PlaceFor(const Assessed& assessed) const;
 
-  Judge& judge_;
-  std::function<void(const Judged&)> on_loop_;
-  std::vector<Judged> all_;
+  Assessor& assessor_;
+  std::function<void(const Assessed&)> on_loop_;
+  std::vector<Assessed> all_;
 };
 
 }  // namespace stiction

@@ -20,7 +20,8 @@ std::int64_t Changed(const Choice& choice, Choices& random) {
   if (random.Integer(0, 2) == 0) return random.Integer(choice.low, choice.high);
   const int bits = std::bit_width(static_cast<std::uint64_t>(span));
   const std::int64_t most = std::int64_t{1} << random.Integer(0, bits - 1);
-  const std::int64_t step = random.Integer(1, most) * (random.Integer(0, 1) == 0 ? 1 : -1);
+  const std::int64_t length = random.Integer(1, most);
+  const std::int64_t step = random.Integer(0, 1) == 0 ? length : -length;
   return std::clamp(choice.value + step, choice.low, choice.high);
 }
 
@@ -37,8 +38,11 @@ std::vector<std::int64_t> Mutant(const std::vector<Choice>& parent, Choices& ran
                                            : Changed(parent[at], random);
   }
   if (random.Integer(0, 31) == 0) values.erase(values.begin() + Below(random, values.size()));
-  if (random.Integer(0, 31) == 0 && !values.empty())
-    values.insert(values.begin() + Below(random, values.size()), values[static_cast<std::size_t>(Below(random, values.size()))]);
+  if (random.Integer(0, 31) == 0 && !values.empty()) {
+    const auto at = Below(random, values.size());
+    const std::int64_t value = values[static_cast<std::size_t>(Below(random, values.size()))];
+    values.insert(values.begin() + at, value);
+  }
   return values;
 }
 
@@ -67,7 +71,8 @@ std::vector<std::int64_t> Crossed(const std::vector<std::int64_t>& left, const s
 // Lower, or another of the palette.
 MuChoice ChangedFriction(const Attempt& attempt, const MuChoice& mu, Choices& random) {
   const Optimization& o = attempt.optimization();
-  if (o.objective->lowers_friction) return Lowered(mu, static_cast<int>(random.Integer(1, 8)));
+  if (o.objective->lowers_friction)
+    return Lowered(mu, static_cast<int>(random.Integer(1, 8)), LargestMuPart(o.like.generator));
   return o.palette[static_cast<std::size_t>(Below(random, o.palette.size()))];
 }
 
@@ -82,19 +87,23 @@ Optimized Evolve(const Optimization& optimization) {
       attempt.Try(attempt.Random());
       continue;
     }
-    const Judged parent = attempt.elites().Draw(random);
+    const Assessed parent = attempt.elites().Draw(random);
     Candidate child = parent.candidate;
     if (random.Integer(0, 7) == 0) {
       child.choices = Crossed(child.choices, attempt.elites().Draw(random).candidate.choices, child.contacts, random);
     } else {
       child.choices = Mutant(parent.made, random);
     }
-    if (random.Integer(0, 3) == 0) child.mu = ChangedFriction(attempt, child.mu, random);
-    if (!attempt.Try(child) || !optimization.objective->lowers_friction) continue;
+    const bool lowers = optimization.objective->lowers_friction;
+    if ((!lowers || parent.worth.value) && random.Integer(0, 3) == 0)
+      child.mu = ChangedFriction(attempt, child.mu, random);
+    if (!attempt.Try(child) || !lowers || !parent.worth.value) continue;
     // While it goes down, further down.
     while (!attempt.Ended()) {
-      child.mu = Lowered(child.mu, 4);
-      if (!attempt.Try(child)) break;
+      const MuChoice lower = Lowered(child.mu, 4, LargestMuPart(child.generator));
+      if (lower == child.mu) break;
+      child.mu = lower;
+      if (!attempt.TryValue(child)) break;
     }
   }
   return attempt.Take();

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kElitesOfUnit = 8;
 constexpr std::size_t kParents = 16;
 
-bool Better(const Elite& left, const Elite& right) { return right.score < left.score; }
+bool Better(const Elite& left, const Elite& right) { return right.worth < left.worth; }
 
 // The best first, each problem once, at most so many.
 void KeepBest(std::vector<Elite>& elites, std::size_t most) {
@@ -36,7 +36,7 @@ double Number(const JsonPlace& place) {
 
 // A loop as a finding; its index is the place among the loops of its unit.
 Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
-                  const Judged& judged, std::string signature, const ExactRun& run) {
+                  const Assessed& assessed, std::string signature, const ExactRun& run) {
   const std::string generator(Row(task.generator).name);
   Finding finding;
   finding.signature = std::move(signature);
@@ -47,7 +47,7 @@ Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit,
   finding.contacts = task.contacts;
   finding.policy = PolicyName(campaign.policies.front());
   finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
-  finding.problem = ToJson(FileOf(judged.candidate, fmt::format("{}-{}-{}", generator, unit, index))).dump();
+  finding.problem = ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))).dump();
   return finding;
 }
 
@@ -56,8 +56,8 @@ Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit,
 std::string ToText(const UnitElites& unit) {
   Json elites = Json::array();
   for (const Elite& elite : unit.elites) {
-    Json json = {{"candidate", ToJson(elite.candidate)}, {"nearness", elite.score.nearness}};
-    if (elite.score.value) json["value"] = *elite.score.value;
+    Json json = {{"candidate", ToJson(elite.candidate)}, {"nearness", elite.worth.nearness}};
+    if (elite.worth.value) json["value"] = *elite.worth.value;
     elites.push_back(std::move(json));
   }
   return Json{{"elites", std::move(elites)},
@@ -83,8 +83,8 @@ UnitElites ElitesFromText(const std::string& text, const std::string& source) {
     place.AllowKeys({"candidate", "nearness", "value"});
     Elite elite;
     elite.candidate = CandidateFromJson(place.Required("candidate", "a candidate"));
-    elite.score.nearness = Number(place.Required("nearness", "a number"));
-    if (const auto value = place.Optional("value")) elite.score.value = Number(*value);
+    elite.worth.nearness = Number(place.Required("nearness", "a number"));
+    if (const auto value = place.Optional("value")) elite.worth.value = Number(*value);
     unit.elites.push_back(std::move(elite));
   }
   return unit;
@@ -123,26 +123,27 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.limits = campaign.limits;
   optimization.cancelled = cancelled;
   Optimized optimized = FindOptimizer(campaign.optimizer)->run(optimization);
+  if (cancelled()) return {};
 
   UnitResult result;
   result.problems = optimized.evaluations;
   UnitElites elites{{}, optimized.evaluations, optimized.confirmations, optimized.denied};
-  for (const Judged& judged : optimized.elites) elites.elites.push_back({judged.candidate, judged.score});
+  for (const Assessed& assessed : optimized.elites) elites.elites.push_back({assessed.candidate, assessed.worth});
   KeepBest(elites.elites, kElitesOfUnit);
   result.elites = ToText(elites);
   // The best loops stand for their signatures.
   std::stable_sort(optimized.loops.begin(), optimized.loops.end(),
-                   [](const Judged& left, const Judged& right) { return right.score < left.score; });
+                   [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
   std::int64_t index = 0;
-  for (const Judged& judged : optimized.loops) {
-    const ExactProblem problem = ExactOf(judged.candidate);
+  for (const Assessed& assessed : optimized.loops) {
+    const ExactProblem problem = ExactOf(assessed.candidate);
     const ExactRun run = RunExact(problem, {campaign.policies.front(), {}, campaign.limits});
     std::string signature = Signature(problem, run);
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
     const bool first = ++result.record.signatures[signature] == 1;
     const bool room = static_cast<std::int64_t>(result.candidates.size()) < campaign.representatives_per_unit;
     if (first && room)
-      result.candidates.push_back(FindingOf(campaign, task, unit, index, judged, std::move(signature), run));
+      result.candidates.push_back(FindingOf(campaign, task, unit, index, assessed, std::move(signature), run));
     ++index;
   }
   return result;

@@ -16,10 +16,10 @@
 
 namespace stiction {
 
-// A candidate that a unit leaves behind; its score is of the exact problem.
+// A candidate that a unit leaves behind; its worth is of the exact problem.
 struct Elite {
   Candidate candidate;
-  Score score;
+  Worth worth;
 };
 
 // As a store keeps those of a unit, with what they cost.

@@ -35,8 +35,8 @@ const OptimizerRow* FindOptimizer(std::string_view name) {
 Attempt::Attempt(const Optimization& optimization)
     : optimization_(optimization),
       random_(optimization.seed),
-      judge_(*optimization.objective, optimization.policy, optimization.limits),
-      elites_(judge_, [this](const Judged& loop) { loops_.push_back(loop); }) {}
+      assessor_(*optimization.objective, optimization.policy, optimization.limits),
+      elites_(assessor_, [this](const Assessed& loop) { loops_.push_back(loop); }) {}
 
 Candidate Attempt::Random() {
   const auto pick = random_.Integer(0, static_cast<std::int64_t>(optimization_.palette.size()) - 1);
@@ -45,7 +45,12 @@ Candidate Attempt::Random() {
   return RandomCandidate(like, static_cast<std::uint64_t>(random_.Integer(0, std::int64_t{1} << 62)));
 }
 
-bool Attempt::Try(Candidate candidate) { return elites_.Admit(judge_.Look(std::move(candidate))); }
+bool Attempt::Try(Candidate candidate) { return elites_.Admit(assessor_.Look(std::move(candidate))); }
+
+bool Attempt::TryValue(Candidate candidate) {
+  Assessed assessed = assessor_.Look(std::move(candidate));
+  return assessed.worth.value.has_value() && elites_.Admit(std::move(assessed));
+}
 
 void Attempt::Begin() {
   for (const Candidate& parent : optimization_.parents) {
@@ -58,9 +63,9 @@ void Attempt::Begin() {
 }
 
 Optimized Attempt::Take() {
-  Optimized result{elites_.all(), std::move(loops_), judge_.looks(), judge_.confirmations(), judge_.denied()};
+  Optimized result{elites_.all(), std::move(loops_), assessor_.looks(), assessor_.confirmations(), assessor_.denied()};
   std::stable_sort(result.elites.begin(), result.elites.end(),
-                   [](const Judged& left, const Judged& right) { return right.score < left.score; });
+                   [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Optimizers: ways to look for candidates that are worse for the solver. Each is a function of what it is given: the
-// same seed, parents and number of evaluations give the same elites on any machine.
+// same seed, parents and number of evaluations give the same elites, as far as the machine's libraries compute the same:
+// objectives and NLopt take logarithms, roots and eigenvalues from them, and `ipopt` is Ipopt's.
 
 #ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
 #define STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
@@ -28,8 +29,8 @@ struct Optimization {
 };
 
 struct Optimized {
-  std::vector<Judged> elites;  // confirmed, the best first
-  std::vector<Judged> loops;   // confirmed, in the order in which they came
+  std::vector<Assessed> elites;  // confirmed, the best first
+  std::vector<Assessed> loops;   // confirmed, in the order in which they came
   std::int64_t evaluations = 0, confirmations = 0, denied = 0;
 };
 
@@ -52,15 +53,17 @@ class Attempt {
 
   const Optimization& optimization() const { return optimization_; }
   Choices& random() { return random_; }
-  Judge& judge() { return judge_; }
+  Assessor& assessor() { return assessor_; }
   Elites& elites() { return elites_; }
 
-  std::int64_t Left() const { return optimization_.evaluations - judge_.looks(); }
+  std::int64_t Left() const { return optimization_.evaluations - assessor_.looks(); }
   bool Ended() const { return Left() <= 0 || optimization_.cancelled(); }
 
   Candidate Random();
   // Looks at a candidate and takes it in if it is wanted.
   bool Try(Candidate candidate);
+  // Only if it has a value.
+  bool TryValue(Candidate candidate);
   // The parents, then random candidates until a part of the evaluations is spent.
   void Begin();
 
@@ -69,8 +72,8 @@ class Attempt {
  private:
   Optimization optimization_;
   Choices random_;
-  Judge judge_;
-  std::vector<Judged> loops_;
+  Assessor assessor_;
+  std::vector<Assessed> loops_;
   Elites elites_;
 };
 

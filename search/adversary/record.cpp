@@ -40,7 +40,7 @@ bool Encloses(const ExactMatrix& A, const Rational& l, const Rational& u) {
          std::holds_alternative<LdltFactors>(DecideSemidefinite(below));
 }
 
-// Bounds of a few digits, as near to the eigenvalues as they can be proved.
+// Bounds that are doubles, as near to the eigenvalues as they can be proved.
 std::optional<std::pair<Rational, Rational>> EigenvalueBounds(const ExactProblem& problem) {
   const auto A = Rounded<double>(problem).A;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, Eigen::EigenvaluesOnly);
@@ -90,7 +90,7 @@ FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem
   return record;
 }
 
-std::string FaultOf(const FrontierRecord& record, const Limits& limits) {
+std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
   ExactTrial trial(record.problem.problem, {}, limits);
   const Objective& objective = *record.objective;
   if (objective.of_loops && !trial.Loops()) return "its problem does not loop under the policy paper";
@@ -110,6 +110,8 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) {
   const std::string claim = trial.Loops() ? "cycle" : "solution-exists";
   if (report.claim != claim) return fmt::format("its certificate claims {}, expected {}", report.claim, claim);
   return "";
+} catch (const InputError& error) {
+  return error.what();
 }
 
 FrontierRecord ReadRecord(const std::filesystem::path& file) {

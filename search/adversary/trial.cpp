@@ -91,16 +91,30 @@ void ForEachQuantity(const ExactProblem& problem, const ExactProblem::Vector& f,
 }
 
 // How much later than s, relative to the later, the next quantity reaches zero. 1 where none does.
-double GapOfStep(const ExactProblem& problem, const Pivot<Rational>& before, const Pivot<Rational>& step) {
-  if (step.s == 0) return 0;
+double GapOfStep(const ExactProblem& problem, const Pivot<Rational>& before, const Pivot<Rational>& step,
+                 bool bounce) {
+  if (step.s == 0) return bounce ? 1 : 0;
   double gap = 1;
+  int k = 0;
   ForEachQuantity(problem, before.f, before.a, step.df, step.da, [&](const Quantity& q) {
+    const int contact = k++ / 5;
     if (q.value == 0 || sgn(q.value) == sgn(q.rate) || q.rate == 0) return;
     const Rational zero = -q.value / q.rate;
+    if (zero == step.s && contact != step.limiting / 2) gap = 0;
     if (zero > step.s) gap = std::min(gap, ToDouble((zero - step.s) / zero));
     if (zero < step.s) gap = std::min(gap, ToDouble((step.s - zero) / step.s));
   });
   return gap;
+}
+
+// Whether the variable that limits a step of length zero limited a step just before: it wants back at once. That is how
+// a determinant turns, and no tie.
+bool IsBounce(const std::vector<Pivot<Rational>>& steps, std::size_t k) {
+  for (std::size_t i = k; i-- > 0 && steps[i].drive == steps[k].drive;) {
+    if (steps[i].limiting == steps[k].limiting) return true;
+    if (steps[i].s != 0) return false;
+  }
+  return false;
 }
 
 // The least size of what is not zero between two drives, relative to its kind.
@@ -137,7 +151,7 @@ std::optional<double> Margin(ExactTrial& trial) {
       rest.a = trial.problem().b;
     }
     const Pivot<Rational>& before = k == 0 ? rest : pivots[k - 1];
-    margin = std::min(margin, GapOfStep(trial.problem(), before, pivots[k]));
+    margin = std::min(margin, GapOfStep(trial.problem(), before, pivots[k], IsBounce(pivots, k)));
     const bool last_of_drive = k + 1 == pivots.size() || pivots[k + 1].drive != pivots[k].drive;
     if (last_of_drive) margin = std::min(margin, GapOfScan(trial.problem(), pivots[k]));
   }

@@ -18,6 +18,7 @@ TABLES = {
     "blocks": "shards, shard, block",
     "units": "unit",
     "findings": "signature",
+    "elites": "unit",
 }
 
 # Cycles under the reference policy, solved under others.

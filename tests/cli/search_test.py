@@ -167,7 +167,7 @@ class Search(cli.TestCase):
             ("--problems", 0), ("--problems", -1), ("--problems", "many"), ("--problems", 1.5),
             ("--minutes", 0), ("--minutes", -1), ("--minutes", "nan"), ("--minutes", "inf"), ("--minutes", "1e300"),
             ("--threads", 0), ("--threads", "all"), ("--audit-every", 0), ("--enumerate-every", 0), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
-            ("--mu", "-1"), ("--mu", "x"), ("--mu", "65"), ("--policy", "nonsense"), ("--policy", "ties=none"),
+            ("--mu", "-1"), ("--mu", "x"), ("--mu", "1000001"), ("--policy", "nonsense"), ("--policy", "ties=none"),
             ("--policy", "paper", "scan=lowest"),
             ("--seed", -1), ("--seed", 2**64), ("--seed", "x"), ("--seed", 1.5),
             ("--shard", "2/2"), ("--shard", "-1/2"), ("--shard", "0/0"), ("--shard", "1"), ("--shard", "a/b"),

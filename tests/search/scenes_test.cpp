@@ -160,7 +160,7 @@ TEST_CASE("scenes: all arrangements occur") {
   CHECK(corners > 50);
 }
 
-TEST_CASE("scenes: under gravity alone no body is pushed, and what is drawn else stays as it is") {
+TEST_CASE("scenes: under gravity alone no body is pushed, and the model of the scene is the problem") {
   const Surroundings quiet(kPalette, /*only_gravity=*/true);
   for (const GeneratorId id : {GeneratorId::kScenes, GeneratorId::kFineScenes}) {
     for (int index = 0; index < kIndices; ++index) {

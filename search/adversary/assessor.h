@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Judge: what a candidate is worth, over doubles first, over rationals before it counts.
+// Assessor: what a candidate is worth, over doubles first, over rationals before it counts.
 
-#ifndef STICTION_SEARCH_ADVERSARY_JUDGE_H_
-#define STICTION_SEARCH_ADVERSARY_JUDGE_H_
+#ifndef STICTION_SEARCH_ADVERSARY_ASSESSOR_H_
+#define STICTION_SEARCH_ADVERSARY_ASSESSOR_H_
 
 #include <array>
 #include <compare>
@@ -16,36 +16,36 @@
 namespace stiction {
 
 // Any value is better than none; without one what is nearer to a loop is better.
-struct Score {
+struct Worth {
   std::optional<double> value;
   double nearness = -1e9;  // minus the distance to a loop; of objectives of loops
 
-  bool operator<(const Score& other) const;
+  bool operator<(const Worth& other) const;
 };
 
 // What a run does, coarsely: candidates of different behaviour are kept beside each other.
 using Behaviour = std::array<std::int64_t, 5>;
 
-struct Judged {
+struct Assessed {
   Candidate candidate;       // its choices clamped, without what no choice asked for
   std::vector<Choice> made;  // the same choices with their ranges
-  Score score;
+  Worth worth;
   Behaviour behaviour = {};
-  bool confirmed = false;  // the score is of the exact problem
+  bool confirmed = false;  // the worth is of the exact problem
 };
 
-class Judge {
+class Assessor {
  public:
   // The objective, one of the table, must outlive this.
-  Judge(const Objective& objective, const Policy& policy, const Limits& limits)
+  Assessor(const Objective& objective, const Policy& policy, const Limits& limits)
       : objective_(objective), policy_(policy), limits_(limits) {}
 
   const Objective& objective() const { return objective_; }
 
   // One evaluation: over doubles, or, where the objective has no shortcut, over rationals.
-  Judged Look(Candidate candidate);
+  Assessed Look(Candidate candidate);
   // Over rationals. A candidate whose double run was mistaken loses its value here.
-  void Confirm(Judged& judged);
+  void Confirm(Assessed& assessed);
 
   std::int64_t looks() const { return looks_; }
   std::int64_t confirmations() const { return confirmations_; }  // exact runs
@@ -61,4 +61,4 @@ class Judge {
 
 }  // namespace stiction
 
-#endif  // STICTION_SEARCH_ADVERSARY_JUDGE_H_
+#endif  // STICTION_SEARCH_ADVERSARY_ASSESSOR_H_

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes made simpler as scenes, minimizing further than one entry at a time, and records.
+
+#include "search/adversary/minimize_candidate.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "corpus/json_text.h"
+#include "scene/assemble.h"
+#include "search/adversary/optimizer.h"
+#include "search/adversary/record.h"
+#include "search/minimize.h"
+#include "tests/scratch.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+bool Cycles(const ExactProblem& problem) {
+  return RunExact(problem, {{}, {}, Campaign().limits}).verdict.outcome == Outcome::kCycle;
+}
+
+// A loop of two blocks and more, as random scenes have them.
+Candidate LoopingScene() {
+  Candidate like{GeneratorId::kScenes, 4, {1, 1}, false, {}};
+  for (std::uint64_t seed = 0; seed < 200000; ++seed) {
+    Candidate candidate = RandomCandidate(like, seed);
+    InexactTrial trial(RoundedOf(candidate, nullptr), {}, Campaign().limits);
+    if (trial.Loops() && Cycles(ExactOf(candidate))) return candidate;
+  }
+  FAIL("no scene loops");
+  return like;
+}
+
+TEST_CASE("minimize candidate: a scene becomes a simpler scene with the same outcome, and then stays") {
+  const Candidate found = LoopingScene();
+  const MinimizedCandidate minimized = MinimizeCandidate(found, Cycles);
+  CHECK(minimized.accepted > 0);
+  CHECK(minimized.accepted < minimized.tried);
+  const ProblemFile file = FileOf(minimized.candidate, "simple");
+  REQUIRE(Cycles(file.problem));
+  REQUIRE(file.scene.has_value());
+  CHECK(minimized.candidate.contacts <= found.contacts);
+  CHECK(minimized.candidate.choices.size() <= found.choices.size());
+  const MinimizedCandidate again = MinimizeCandidate(minimized.candidate, Cycles);
+  CHECK(again.candidate == minimized.candidate);
+  CHECK(again.accepted == 0);
+  CHECK_THROWS_AS(MinimizeCandidate(found, [](const ExactProblem&) { return false; }), InputError);
+  const MinimizedCandidate stopped = MinimizeCandidate(found, Cycles, [] { return true; });
+  CHECK(stopped.cancelled);
+  CHECK(stopped.accepted == 0);
+}
+
+// What rounding all at once and changing one entry at a time leave with entries of two digits and more.
+TEST_CASE("minimize: a loop under the whole grid comes down to single digits") {
+  int small = 0, tried = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Choices random(seed);
+    ExactProblem problem = testing::MakeProblem(
+        {1, 1}, {{3, -4, 2, 0}, {-4, 7, -4, 1}, {2, -4, 7, -6}, {0, 1, -6, 7}}, {-1, 0, 0, -2});
+    for (int i = 0; i < 4; ++i) {  // other units, and another loop nearby
+      const Rational unit = Rational(random.Integer(50, 200)) / 100;
+      problem.b[i] = (problem.b[i] + Rational(random.Integer(-3, 3)) / 1000) * unit;
+      for (int j = 0; j < 4; ++j) problem.A(i, j) *= unit, problem.A(j, i) *= unit;
+    }
+    MinimizeOptions options;
+    options.policies = PlanarGrid();
+    options.limits = Campaign().limits;
+    if (!AllEndIn(Outcome::kCycle, problem, PlanarGrid(), options.limits)) continue;
+    ++tried;
+    const Minimized minimized = Minimize(problem, options);
+    Rational largest = 0;
+    for (int i = 0; i < 4; ++i) {
+      largest = std::max<Rational>(largest, abs(minimized.problem.b[i]));
+      for (int j = 0; j < 4; ++j) largest = std::max<Rational>(largest, abs(minimized.problem.A(i, j)));
+    }
+    CAPTURE(seed, ToString(largest));
+    CHECK(largest <= 9);
+    small += largest <= 9;
+    CHECK(Minimize(minimized.problem, options).accepted == 0);
+  }
+  CHECK(tried >= 2);
+  CHECK(small == tried);
+}
+
+// ---- Records -----------------------------------------------------------------------------------
+
+FrontierRecord SomeRecord(const char* objective) {
+  ProblemFile file;
+  file.name = "reference";
+  file.problem = testing::ReferenceProblem();
+  FrontierRecord record = MakeRecord(*FindObjective(objective), file, Campaign().limits);
+  record.frontier = "some";
+  record.what = "a record of a test";
+  record.command = "none";
+  record.build = "test";
+  record.processor_seconds = 1;
+  record.random_evaluations = 10;
+  return record;
+}
+
+TEST_CASE("record: what is written is read, and holds") {
+  const testing::Scratch scratch;
+  for (const char* objective : {"period", "friction", "condition", "pieces"}) {
+    CAPTURE(objective);
+    const FrontierRecord record = SomeRecord(objective);
+    CHECK(FaultOf(record, Campaign().limits) == "");
+    const auto file = scratch / "some.json";
+    std::ofstream(file) << Print(record);
+    const FrontierRecord read = ReadRecord(file);
+    CHECK(Print(read) == Print(record));
+    CHECK(FaultOf(read, Campaign().limits) == "");
+    CHECK(ReadRecords(file.parent_path()).size() == 1);
+  }
+  CHECK(SomeRecord("friction").value == 1);
+  const FrontierRecord condition = SomeRecord("condition");
+  CHECK(condition.value > Rational(5828, 1000));
+}
+
+TEST_CASE("record: every false one is caught") {
+  const Limits limits = Campaign().limits;
+  FrontierRecord record = SomeRecord("period");
+  record.value += 1;
+  CHECK(FaultOf(record, limits).find("its value is") != std::string::npos);
+  record = SomeRecord("condition");
+  record.bounds->first *= 2;  // more than the least eigenvalue
+  record.value = record.bounds->second / record.bounds->first;
+  CHECK(FaultOf(record, limits).find("not in its bounds") != std::string::npos);
+  record = SomeRecord("condition");
+  record.value -= Rational(1, 1000);
+  CHECK(FaultOf(record, limits).find("quotient") != std::string::npos);
+  record = SomeRecord("friction");
+  record.problem.problem = testing::GiveUpProblem();
+  CHECK(FaultOf(record, limits).find("does not loop") != std::string::npos);
+  record = SomeRecord("friction");
+  record.problem.problem.b[0] *= 2, record.problem.problem.b[1] *= 2, record.problem.problem.b[2] *= 2,
+      record.problem.problem.b[3] *= 2;  // loops too, but the certificate is of another
+  CHECK(FaultOf(record, limits).find("certificate is refused") != std::string::npos);
+}
+
+TEST_CASE("record: broken files are refused by their place") {
+  const testing::Scratch scratch;
+  const std::string text = Print(SomeRecord("friction"));
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"\"stiction-record\"", "\"stiction-problem\""}, {"\"friction\"", "\"nothing\""},
+           {"\"best so far\"", "\"perhaps\""}, {"\"best so far\"", "\"proved\""}, {"\"evaluations\": 10", "\"evaluations\": -1"}}) {
+    std::string damaged = text;
+    REQUIRE(damaged.find(from) != std::string::npos);
+    damaged.replace(damaged.find(from), from.size(), to);
+    std::ofstream(scratch / "some.json") << damaged;
+    CAPTURE(from, to);
+    CHECK_THROWS_AS(ReadRecord(scratch / "some.json"), InputError);
+  }
+  std::ofstream(scratch / "other.json") << text;
+  std::filesystem::remove(scratch / "some.json");
+  CHECK_THROWS_WITH(ReadRecords(scratch / "."), Catch::Contains("the name of the file"));
+  CHECK_THROWS_AS(ReadRecords(scratch / "none"), InputError);
+}
+
+}  // namespace
+}  // namespace stiction
