@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction search --objective, problem --best, minimize --as-scene, records: from a seed to a record that holds."""
+
+import json
+import subprocess
+import sys
+
+import cli
+
+
+class Adversary(cli.TestCase):
+    def search(self, store, *options, code=0):
+        return self.succeeds("search", "--store", store, "--json", *options, code=code)
+
+    def test_a_scene_is_made_worse_then_simpler_and_stays_a_scene(self):
+        store, best, simple = (self.folder / name for name in ("s", "best.json", "simple.json"))
+        summary = self.search(store, "--objective", "friction", "--generator", "scenes", "--contacts", 4, "--mu", 1,
+                              "--gravity-only", "--problems", 8000).json()
+        self.assertEqual((summary["objective"], summary["optimizer"]), ("friction", "evolution"))
+        self.assertGreaterEqual(summary["candidates"], 7900)
+        self.assertLess(summary["best"][0]["value"], 1)
+        self.succeeds("problem", store, "--best", "-o", best)
+        problem = json.loads(best.read_text())
+        self.assertTrue(all(body.get("force", ["0", "0"]) == ["0", "0"] for body in problem["scene"]["bodies"]))
+        mu = {contact["mu"] for contact in problem["contacts"]}
+        self.assertEqual(len(mu), 1)
+        self.succeeds("replay", best, "--json", code=1)
+        self.succeeds("minimize", best, "--as-scene", "-o", simple)
+        simpler = json.loads(simple.read_text())
+        self.assertIn("scene", simpler)
+        self.assertEqual(simpler["expect"], {"paper": "cycle"})
+        self.succeeds("replay", simple, "--all-policies", "--json")
+        assembled = self.folder / "assembled.json"
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps(simpler["scene"]))
+        self.succeeds("assemble", scene, "--full", "-o", assembled)
+        again = json.loads(assembled.read_text())
+        self.assertEqual((again["A"], again["b"]), (simpler["A"], simpler["b"]))
+
+    def test_threads_and_pieces_leave_the_same_store(self):
+        options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt"]
+        one, two = self.folder / "one", self.folder / "two"
+        self.search(one, *options, "--problems", 90000, "--threads", 1)
+        for problems in (30000, 60000, 90000):
+            self.search(two, *options, "--problems", problems, "--threads", 3)
+        self.assertSameContent(one, two)
+
+    def test_what_cannot_be_is_refused(self):
+        store = self.folder / "s"
+        self.refuses("search", "--objective", "nothing", "--store", store, says=["--objective", "friction"])
+        self.refuses("search", "--optimizer", "nlopt", "--store", store, says=["--optimizer", "--objective"])
+        self.refuses("search", "--gravity-only", "--generator", "psd", "--store", store, says=["psd", "bodies"])
+        self.refuses("search", "--mu", "1/100", "--generator", "near-degenerate", "--store", store,
+                     says=["near-degenerate", "1/100"])
+        self.search(store, "--objective", "steps", "--generator", "psd", "--contacts", 2, "--problems", 10000)
+        self.refuses("problem", store, 0, 0, says=["--best"])
+        random = self.folder / "random"
+        self.search(random, "--generator", "psd", "--contacts", 2, "--problems", 10000)
+        self.refuses("problem", random, "--best", says=["no search with an objective"])
+        self.refuses("problem", random, "--best", "--exponential", 3, says=["--best"])
+        self.refuses("minimize", self.file("p.json", cli.REFERENCE), "--as-scene", "-o", "-", says=["origin", "choices"])
+
+
+class Records(cli.TestCase):
+    FOLDER = "corpus/records"
+
+    def test_all_records_hold(self):
+        rows = self.succeeds("records", "--folder", cli.ROOT / self.FOLDER, "--check", "--json").json()
+        self.assertTrue(rows)
+        self.assertEqual([row["frontier"] for row in rows if row["fault"] is not None], [])
+
+    def test_the_independent_checker_accepts_their_certificates(self):
+        for file in sorted((cli.ROOT / self.FOLDER).glob("*.json")):
+            with self.subTest(record=file.stem):
+                record = json.loads(file.read_text())
+                certificate = self.file("certificate.json", record["certificate"])
+                problem = self.file("problem.json", record["problem"])
+                done = subprocess.run([sys.executable, cli.ROOT / "certify/check_certificate.py", certificate,
+                                       "--problem", problem], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_a_record_is_made_and_a_false_one_caught(self):
+        problem = self.file("p.json", cli.REFERENCE)
+        folder = self.folder / "records"
+        folder.mkdir()
+        self.succeeds("records", "--folder", folder, "--add", problem, "--frontier", "period", "--what", "a test",
+                      "--objective", "period", "--command", "none", "--seconds", 1)
+        self.succeeds("records", "--folder", folder, "--check")
+        record = json.loads((folder / "period.json").read_text())
+        record["value"] = "99"
+        (folder / "period.json").write_text(json.dumps(record))
+        done = self.succeeds("records", "--folder", folder, "--check", code=1)
+        self.assertIn("DOES NOT HOLD", done.out)
+        self.refuses("records", "--folder", folder, "--add", problem, says=["--frontier"])
+        self.refuses("records", "--folder", self.folder / "none", says=["none"])
+
+
+if __name__ == "__main__":
+    cli.main()
