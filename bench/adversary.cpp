@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench --suite adversary: the optimizers side by side, each objective with the same number of evaluations.
 //
-// An optimizer runs as in a campaign: units one after the other, each starting from the best of those before. A value
-// is that of an exact problem. `gain` says how many times worse for the solver an optimizer's best is than the best of
-// random problems: the quotient of the values, or 10^difference where they are logarithms. A loop that random problems
-// never met counts as a gain of "inf".
+// An optimizer runs as in a campaign: units one after the other, each starting from the best of those before. A
+// value is that of an exact problem. `gain` says how many times worse for the solver an optimizer's best is
+// than the best of random problems: the quotient of the values, or 10^difference where they are logarithms. A
+// loop that random problems never met counts as a gain of "inf".
 
 #include <fmt/format.h>
 
@@ -88,10 +88,12 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
     outcomes.denied += optimized.denied;
     for (const Assessed& loop : optimized.loops) {
       const ExactProblem problem = ExactOf(loop.candidate);
-      outcomes.loops.insert(Signature(problem, RunExact(problem, {optimization.policy, {}, optimization.limits})));
+      outcomes.loops.insert(
+          Signature(problem, RunExact(problem, {optimization.policy, {}, optimization.limits})));
     }
     for (const Assessed& elite : optimized.elites) {
-      if (elite.worth.value && (!outcomes.best || *elite.worth.value > *outcomes.best)) outcomes.best = elite.worth.value;
+      if (elite.worth.value && (!outcomes.best || *elite.worth.value > *outcomes.best))
+        outcomes.best = elite.worth.value;
     }
     best.insert(best.end(), optimized.elites.begin(), optimized.elites.end());
     std::stable_sort(best.begin(), best.end(),
@@ -105,7 +107,8 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
 }
 
 // Empty where neither has a value.
-std::optional<double> Gain(const Objective& objective, std::optional<double> best, std::optional<double> random) {
+std::optional<double> Gain(const Objective& objective, std::optional<double> best,
+                           std::optional<double> random) {
   if (!best) return random ? std::optional<double>(0) : std::nullopt;
   if (!random) return std::numeric_limits<double>::infinity();
   if (objective.unit == "decades") return std::pow(10, *best - *random);
@@ -154,7 +157,8 @@ int BenchAdversary(const BenchOptions& o) {
   }
   Print(table);
   for (const auto& [name, count] : doubled)
-    fmt::print("{}: at least twice as bad for the solver as random in {} of {} objectives\n", name, count, kTrials.size());
+    fmt::print("{}: at least twice as bad for the solver as random in {} of {} objectives\n", name, count,
+               kTrials.size());
   return kExitDone;
 }
 

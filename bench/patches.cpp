@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suite `patches`: ways to change the published algorithm, from the cheapest on, and how often each still fails.
+// Suite `patches`: ways to change the published algorithm, from the cheapest on, and how often each still
+// fails.
 //
 //   published     give-up=first, previous, second: what is given up differs, nothing else (readings.md)
-//   fold          where the determinant turns, the driven force goes back; where it is zero again the run fails: complete
+//   fold          where the determinant turns, the driven force goes back; where it is zero again the run
+//   fails: complete
 //                 driving without its descents
 //   lemke         at the first give-up the problem is handed to Lemke's method
 //   complete      complete driving
 //
-// Runs are over doubles. A cycle there, or another end than `solved`, is run again exactly, and counts as a failure if it
-// fails there too; of `fold` a descent is one, of `lemke` an end of Lemke's method without a solution.
+// Runs are over doubles. A cycle there, or another end than `solved`, is run again exactly, and counts as a
+// failure if it fails there too; of `fold` a descent is one, of `lemke` an end of Lemke's method without a
+// solution.
 
 #include <fmt/format.h>
 
@@ -54,7 +57,8 @@ class Patches {
  private:
   template <class Scalar>
   void Make(std::int64_t index, ContactProblem<Scalar>& problem) const {
-    Choices choices(ProblemSeed(seed_, static_cast<std::uint64_t>(contacts_), static_cast<std::uint64_t>(index)));
+    Choices choices(
+        ProblemSeed(seed_, static_cast<std::uint64_t>(contacts_), static_cast<std::uint64_t>(index)));
     Generate<Scalar, Eigen::Dynamic>(generator_, contacts_, kDefaultPalette, choices, problem);
   }
 
@@ -127,7 +131,8 @@ int BenchPatches(const BenchOptions& options) {
   BenchTable table{"patches", "failures in a million problems, with exact intervals at 95 %, of each way"};
   for (const GeneratorId generator : generators) {
     for (const int contacts : sizes)
-      table.rows.push_back(RowOf(generator, contacts, Patches(generator, contacts, options.seed).Run(problems)));
+      table.rows.push_back(
+          RowOf(generator, contacts, Patches(generator, contacts, options.seed).Run(problems)));
   }
   if (options.json)
     std::cout << JsonText({{"suite", "patches"}, {"seed", options.seed}, {"rows", table.rows}}) << "\n";

@@ -27,8 +27,10 @@ struct Suite {
 constexpr int kMostOfMethods = 30;  // 4^n - 1 pieces are counted in 64 bits
 
 constexpr std::array kSuites = {
-    Suite{"adversary", "the optimizers of a search beside random problems, by objective", kMaxContacts, BenchAdversary},
-    Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts, BenchPatches},
+    Suite{"adversary", "the optimizers of a search beside random problems, by objective", kMaxContacts,
+          BenchAdversary},
+    Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts,
+          BenchPatches},
     Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
     Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
     Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts", 2000,
@@ -75,7 +77,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
       ->check(CLI::PositiveNumber);
   verb.add_option(
           "--problems", o->problems,
-          "adversary: candidates of a row (default 300 to 60000); search: problems per run at two contacts, a quarter for each contact more (default 200000); "
+          "adversary: candidates of a row (default 300 to 60000); search: problems per run at two contacts, a "
+          "quarter for each contact more (default 200000); "
           "methods, peers, random: problems of each number of contacts (default 800, 400, 400); structure: at "
           "most "
           "so many of a family; frictionless: at most so many of each number (default 48); linear-algebra: "

@@ -43,14 +43,16 @@ std::string CheckKeep(const std::string& text) {
                      fmt::join(kOutcomeNames, ", "));
 }
 
-// The choices of the generator that made the file are made simpler, and the problem with its scene anew of them.
+// The choices of the generator that made the file are made simpler, and the problem with its scene anew of
+// them.
 int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy& policy,
                     const MinimizeOptions& options) {
   const std::string place = o.file + ": origin";
   if (!file.origin || !file.origin->contains("choices")) {
-    throw InputError(fmt::format(
-        "{}: found none with choices, expected a problem of an optimized search, as `problem STORE --best` writes it",
-        place));
+    throw InputError(
+        fmt::format("{}: found none with choices, expected a problem of an optimized search, as `problem STORE "
+                    "--best` writes it",
+                    place));
   }
   Json origin = *file.origin;
   origin.erase("objective");
@@ -156,7 +158,8 @@ void AddMinimize(CommandLine& program) {
       .Details("With :* behind it under every policy of the planar grid")
       .Check(CheckKeep);
   verb.Flag("--keep-signature", o.keep_signature, "keep the sequence of pivots of the loop as well");
-  verb.Flag("--as-scene", o.as_scene, "keep it a scene that can be built: of a problem with the choices of a generator");
+  verb.Flag("--as-scene", o.as_scene,
+            "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

@@ -41,7 +41,8 @@ int Add(const RecordsVerb& o) {
   record.processor_seconds = *o.seconds;
   if (!o.random.empty()) {
     record.random_value = ParseRational(o.random);
-    if (!record.random_value) throw InputError(fmt::format("--random: found '{}', expected a number p/q", o.random));
+    if (!record.random_value)
+      throw InputError(fmt::format("--random: found '{}', expected a number p/q", o.random));
   }
   record.random_evaluations = o.random_evaluations;
   const std::string file = o.folder + "/" + o.frontier + ".json";
@@ -71,8 +72,12 @@ int RunRecords(const RecordsVerb& o) {
     if (o.json) continue;
     fmt::print("{:28} {:>14}  {}, {}; random: {} of {}{}\n    {}\n", record.frontier, Shown(record.value),
                record.objective->sign > 0 ? "to be high" : "to be low", record.status,
-               record.random_value ? Shown(*record.random_value) : "nothing", Grouped(record.random_evaluations),
-               !o.check ? "" : fault.empty() ? "; holds" : "; DOES NOT HOLD: " + fault, record.what);
+               record.random_value ? Shown(*record.random_value) : "nothing",
+               Grouped(record.random_evaluations),
+               !o.check        ? ""
+               : fault.empty() ? "; holds"
+                               : "; DOES NOT HOLD: " + fault,
+               record.what);
   }
   if (o.json) std::cout << JsonText(rows) << "\n";
   return faults == 0 ? kExitDone : kExitNotSo;
@@ -81,7 +86,8 @@ int RunRecords(const RecordsVerb& o) {
 }  // namespace
 
 void AddRecords(CommandLine& program) {
-  auto [verb, o] = program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
+  auto [verb, o] =
+      program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
   std::vector<std::string> objectives;
   for (const Objective& objective : Objectives()) objectives.emplace_back(objective.name);
   verb.Option("--folder", o.folder, "of records");

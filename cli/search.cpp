@@ -93,7 +93,8 @@ Campaign CampaignOf(const SearchVerb& o) {
   if (!o.objective.empty()) campaign.objective = o.objective;
   if (!o.optimizer.empty()) campaign.optimizer = o.optimizer;
   if (!o.optimizer.empty() && campaign.objective.empty())
-    throw InputError(fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
+    throw InputError(
+        fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
   RequireConsistent(campaign);
   return campaign;
 }
@@ -214,14 +215,15 @@ ProblemFile StoredFile(const ProblemVerb& o) {
   const Campaign campaign = CampaignOf(store.identity(), o.store);
   if (o.best) {
     const std::vector<Elite> best = BestOf(store, 1);
-    if (best.empty()) throw InputError(fmt::format("{}: has no best problem: it is of no search with an objective", o.store));
+    if (best.empty())
+      throw InputError(fmt::format("{}: has no best problem: it is of no search with an objective", o.store));
     ProblemFile file = FileOf(best.front().candidate, "best-" + campaign.objective);
     (*file.origin)["objective"] = campaign.objective;
     return file;
   }
   if (!campaign.objective.empty()) {
-    throw InputError(
-        fmt::format("{}: found an optimized search, expected --best: its units are not drawn at random", o.store));
+    throw InputError(fmt::format(
+        "{}: found an optimized search, expected --best: its units are not drawn at random", o.store));
   }
   if (!store.Units().Contains(*o.unit))
     throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));

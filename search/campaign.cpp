@@ -96,8 +96,7 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   root.RequireObject();
   root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
                   "audit_every", "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives",
-                  "max_pivots", "max_bits", "gravity_only",
-                  "objective", "optimizer"});
+                  "max_pivots", "max_bits", "gravity_only", "objective", "optimizer"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -166,7 +165,8 @@ void RequireConsistent(const Campaign& campaign) {
     }
   }
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
-    throw InputError(fmt::format("policies: found {}, expected one, for an objective", campaign.policies.size()));
+    throw InputError(
+        fmt::format("policies: found {}, expected one, for an objective", campaign.policies.size()));
   }
 }
 
@@ -190,18 +190,18 @@ Json DefinitionToJson(const Campaign& campaign) {
     palette.push_back(ToString(Rational(mu.numerator) / Rational(mu.denominator)));
   }
   Json definition = {{"format", "stiction-campaign"},
-          {"version", 1},
-          {"generators", generators},
-          {"contacts", campaign.contacts},
-          {"mu", palette},
-          {"unit_problems", campaign.unit_problems},
-          {"audit_every", campaign.audit_every},
-          {"lemke_every", campaign.lemke_every},
-          {"enumerate_every", campaign.enumerate_every},
-          {"representatives_per_unit", campaign.representatives_per_unit},
-          {"max_drives", campaign.limits.drives},
-          {"max_pivots", campaign.limits.pivots},
-          {"max_bits", campaign.limits.bits}};
+                     {"version", 1},
+                     {"generators", generators},
+                     {"contacts", campaign.contacts},
+                     {"mu", palette},
+                     {"unit_problems", campaign.unit_problems},
+                     {"audit_every", campaign.audit_every},
+                     {"lemke_every", campaign.lemke_every},
+                     {"enumerate_every", campaign.enumerate_every},
+                     {"representatives_per_unit", campaign.representatives_per_unit},
+                     {"max_drives", campaign.limits.drives},
+                     {"max_pivots", campaign.limits.pivots},
+                     {"max_bits", campaign.limits.bits}};
   if (campaign.gravity_only) definition["gravity_only"] = true;
   if (!campaign.objective.empty()) {
     definition["objective"] = campaign.objective;

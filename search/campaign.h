@@ -35,8 +35,8 @@ struct Campaign {
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
   bool gravity_only = false;  // bodies without applied forces
-  // A unit spends its problems on the candidates of an optimizer, under the one policy (adversary/). Empty: random
-  // problems.
+  // A unit spends its problems on the candidates of an optimizer, under the one policy (adversary/). Empty:
+  // random problems.
   std::string objective;
   std::string optimizer = "evolution";
 
@@ -45,10 +45,12 @@ struct Campaign {
 };
 
 Campaign ReadCampaign(const std::filesystem::path& file);
-// InputError if what it asks for does not fit together: a generator and its friction coefficients or its gravity, an
-// objective and its policies.
+// InputError if what it asks for does not fit together: a generator and its friction coefficients or its
+// gravity, an objective and its policies.
 void RequireConsistent(const Campaign& campaign);
-inline Surroundings SurroundingsOf(const Campaign& campaign) { return {campaign.palette, campaign.gravity_only}; }
+inline Surroundings SurroundingsOf(const Campaign& campaign) {
+  return {campaign.palette, campaign.gravity_only};
+}
 // The campaign of a store. InputError if it holds none.
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
 // Everything but the seed and the policies, canonical.

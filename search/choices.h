@@ -53,8 +53,7 @@ inline std::vector<std::int64_t> ValuesOf(std::span<const Choice> choices) {
 class Choices {
  public:
   // Choices from a seed, noted down in `record` where one is given.
-  explicit Choices(std::uint64_t seed, std::vector<Choice>* record = nullptr)
-      : state_(seed), record_(record) {}
+  explicit Choices(std::uint64_t seed, std::vector<Choice>* record = nullptr) : state_(seed), record_(record) {}
 
   // Choices from `sequence`, which must outlive them; `record` receives the values after clamping.
   static Choices Replay(std::span<const std::int64_t> sequence, std::vector<Choice>* record = nullptr) {

@@ -60,12 +60,15 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "bodies have one friction coefficient. Problem files carry the scene.",
        false, true},
       {kFineScenes, "fine-scenes",
-       "As scenes, with numbers of three to four digits for slopes, places, shapes and masses where those have one or "
+       "As scenes, with numbers of three to four digits for slopes, places, shapes and masses where those have "
+       "one or "
        "two: for optimizers. Not part of a campaign that names no generators.",
        false, true},
       {kOneBody, "one-body",
-       "One planar rigid body at rest and the world, joined at n points: as bodies, with numbers of four digits, and any "
-       "distribution of mass: mass 1, inertia p/q with p in 1..1000 and q in 1..10^9, so that its centre may be far from "
+       "One planar rigid body at rest and the world, joined at n points: as bodies, with numbers of four "
+       "digits, and any "
+       "distribution of mass: mass 1, inertia p/q with p in 1..1000 and q in 1..10^9, so that its centre may "
+       "be far from "
        "the points beside its radius of inertia. Not part of a campaign that names no generators.",
        false, true},
   }};
@@ -80,7 +83,7 @@ std::optional<GeneratorId> FindGenerator(std::string_view name) {
   return row->id;
 }
 
-#define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                           \
+#define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                     \
   template void Generate<Scalar, Rows>(GeneratorId, int, const Surroundings&, Choices&, \
                                        ContactProblem<Scalar, Rows>&)
 

@@ -576,7 +576,8 @@ void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
 // ---- scenes -----------------------------------------------------------------------------------
 
 template <class Scalar, int Rows>
-void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices,
+            ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const SceneDesign design = DrawSceneDesign(rows / 2, grain, gravity_only, choices);
   std::array<SceneBody<Scalar>, kMaxBodies> body;

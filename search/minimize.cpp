@@ -247,8 +247,9 @@ class Minimizer {
     return false;
   }
 
-  // Further than one change at a time goes: small integers near the problem in several units, each entry rounded up or
-  // down by lot. The same lots every time, so that what is left after this pass is left by it again.
+  // Further than one change at a time goes: small integers near the problem in several units, each entry
+  // rounded up or down by lot. The same lots every time, so that what is left after this pass is left by it
+  // again.
   bool RoundAtRandom() {
     if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
     const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),

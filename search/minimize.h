@@ -10,8 +10,8 @@
 //   take bilateral contacts out (solver/problem/reduction.h); drop contacts; drop friction; stretch tangents to
 //   mu = 1 (with f = S f', A' = S A S, b' = S b and mu' = mu s_N / s_F it is the same problem in other units);
 //   round A and b to small integers; round the factors of A = L D L' and b = L c; divide A and b by common
-//   factors; move entries to zero and toward small numbers one by one. Where nothing of this helps, and there are at
-//   most three contacts: entries rounded up or down by lot, and two entries changed at once.
+//   factors; move entries to zero and toward small numbers one by one. Where nothing of this helps, and there
+//   are at most three contacts: entries rounded up or down by lot, and two entries changed at once.
 // Deterministic; no clock. Cost: one exact run per candidate, one run of the policies per accepted one.
 
 #ifndef STICTION_SEARCH_MINIMIZE_H_

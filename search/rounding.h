@@ -35,8 +35,8 @@ struct Ridge {
 // A and b scaled to largest entries size_A and size_b, with a ridge, rounded.
 ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
                        const Ridge& ridge);
-// A and b scaled to largest entries of `size` and of half of it to all of it, each number rounded after up to 3/4 is
-// added or taken away.
+// A and b scaled to largest entries of `size` and of half of it to all of it, each number rounded after up to
+// 3/4 is added or taken away.
 ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots);
 // A = L D L' and b = L c with L, D and c to so many significant bits, common factors taken out: semidefinite
 // whatever the rounding, which matters where A is nearly singular. Requires: A positive semidefinite.

@@ -36,7 +36,8 @@ inline constexpr int kSceneLines = 6;  // floor, left wall, right wall, ceiling,
 inline constexpr int kSceneWalls = 3;  // of these lines the first three are bodies of the world
 inline constexpr int kTheWorld = -1;   // where a cell is expected
 
-// How finely a design is drawn. `scenes` has numbers that people can read, `fine-scenes` what an optimizer asks for.
+// How finely a design is drawn. `scenes` has numbers that people can read, `fine-scenes` what an optimizer asks
+// for.
 struct SceneGrain {
   int unit;    // in parts of so many of a metre stand the points of lines; a multiple of 10
   int slope;   // slopes of lines are q/p with p and q up to a few times this
@@ -77,9 +78,9 @@ struct SceneInterface {
 
 struct SceneCell {
   std::array<int, kSceneLines> side{};  // 1 above, -1 below the line, 0 where it does not matter
-  int fill = 0;                         // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
-  Ratio mass = {1, 1};                  // kg
-  std::array<int, 3> load{};            // applied force, N, and moment, N m
+  int fill = 0;         // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
+  Ratio mass = {1, 1};  // kg
+  std::array<int, 3> load{};  // applied force, N, and moment, N m
 };
 
 struct SceneDesign {

@@ -157,8 +157,8 @@ class Search {
     const UnitResult& result = *run;
     if (!result.elites.empty()) heritage_.Add(*unit, ElitesFromText(result.elites, "a unit"));
     // A group's former representative may be waiting here; a smaller one takes its place.
-    for (Finding& finding : store_.AddUnit(options_.shard, *unit, result.record, result.candidates,
-                                          result.elites)) {
+    for (Finding& finding :
+         store_.AddUnit(options_.shard, *unit, result.record, result.candidates, result.elites)) {
       std::erase_if(pending_, [&](const Finding& other) { return other.signature == finding.signature; });
       pending_.insert(std::move(finding));
     }
@@ -196,7 +196,7 @@ class Search {
   StoreLock lock_;
   Store store_;  // under the mutex
   UnitSet done_;
-  Heritage heritage_;                // under the mutex
+  Heritage heritage_;               // under the mutex
   std::set<std::int64_t> in_work_;  // likewise
   std::optional<std::int64_t> wanted_units_;
   Clock::time_point start_;

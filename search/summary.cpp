@@ -169,29 +169,33 @@ Yield YieldOf(const Store& store) {
 std::string ValueText(const Objective& objective, const Worth& worth) {
   if (!worth.value && !objective.of_loops) return "no value";
   if (!worth.value) return fmt::format("no loop, the nearest at distance {:.3g}", -worth.nearness);
-  return fmt::format("{:.6g}{}{}", objective.sign * *worth.value, objective.unit.empty() ? "" : " ", objective.unit);
+  return fmt::format("{:.6g}{}{}", objective.sign * *worth.value, objective.unit.empty() ? "" : " ",
+                     objective.unit);
 }
 
 std::string OptimizedText(const Store& store, const Campaign& campaign, const std::string& file) {
   const Objective& objective = *FindObjective(campaign.objective);
   const Yield yield = YieldOf(store);
   std::string text = fmt::format(
-      "{}: {} candidates in {} units, seed {}\n  objective {}, {}: {}\n  optimizer {}: {} exact runs, which denied "
+      "{}: {} candidates in {} units, seed {}\n  objective {}, {}: {}\n  optimizer {}: {} exact runs, which "
+      "denied "
       "{} values of doubles\n",
       file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
       objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
       Grouped(yield.confirmations), Grouped(yield.denied));
   for (const Elite& elite : BestOf(store, 1)) {
-    text += fmt::format("  {:18} {} contacts, mu = {}: {}\n", Row(elite.candidate.generator).name,
-                        elite.candidate.contacts,
-                        ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
-                        ValueText(objective, elite.worth));
+    text += fmt::format(
+        "  {:18} {} contacts, mu = {}: {}\n", Row(elite.candidate.generator).name, elite.candidate.contacts,
+        ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
+        ValueText(objective, elite.worth));
   }
   std::int64_t finished = 0, pending = 0;
   for (const Finding& finding : store.Findings()) ++(finding.done ? finished : pending);
-  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n", finished + pending, finished);
+  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n", finished + pending,
+                      finished);
   text += fmt::format(
-      "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the same "
+      "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the "
+      "same "
       "search again goes on.\n",
       file);
   return text;

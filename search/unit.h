@@ -25,7 +25,7 @@ struct UnitResult {
   std::int64_t problems = 0;
   Record record;
   std::vector<Finding>
-      candidates;  // first of each signature, at most representatives_per_unit beside the grave ones
+      candidates;      // first of each signature, at most representatives_per_unit beside the grave ones
   std::string elites;  // of a campaign with an objective: adversary/optimized_unit.h
 };
 

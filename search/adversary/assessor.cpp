@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "search/adversary/trial.h"
+
 namespace stiction {
 namespace {
 
@@ -19,7 +21,8 @@ Behaviour BehaviourOf(Trial<Scalar>& trial) {
 
 // The value of an objective, or what stands for it; no number is no value.
 template <class Scalar>
-Worth WorthOf(const Objective& objective, Trial<Scalar>& trial, std::optional<double> (*value)(Trial<Scalar>&)) {
+Worth WorthOf(const Objective& objective, Trial<Scalar>& trial,
+              std::optional<double> (*value)(Trial<Scalar>&)) {
   Worth worth;
   worth.value = value(trial);
   if (worth.value && !(*worth.value > -1e300 && *worth.value < 1e300)) worth.value.reset();

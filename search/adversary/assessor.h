@@ -12,6 +12,7 @@
 
 #include "search/adversary/candidate.h"
 #include "search/adversary/objective.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 

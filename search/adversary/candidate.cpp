@@ -104,7 +104,8 @@ MuChoice Lowered(const MuChoice& mu, int k, int most_part) {
   if (mu.numerator == 0) return mu;
   const Rational old = Rational(mu.numerator) / Rational(mu.denominator);
   const Rational less = old / Rational(mpz_class(1) << k);
-  return ChoiceOf(SimplestBetween(k == 1 ? Rational(old / 4) : Rational(old - 2 * less), old - less), mu, most_part);
+  return ChoiceOf(SimplestBetween(k == 1 ? Rational(old / 4) : Rational(old - 2 * less), old - less), mu,
+                  most_part);
 }
 
 MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise, int most_part) {

@@ -27,8 +27,8 @@ struct Candidate {
 
 // Of random choices.
 Candidate RandomCandidate(const Candidate& like, std::uint64_t seed);
-// The problem, and the choices that were made with their ranges: those of the candidate clamped, without what was
-// not asked for.
+// The problem, and the choices that were made with their ranges: those of the candidate clamped, without what
+// was not asked for.
 ContactProblem<double> RoundedOf(const Candidate& candidate, std::vector<Choice>* made);
 ExactProblem ExactOf(const Candidate& candidate);
 // With its scene where it has one, and the candidate as its origin.
@@ -37,10 +37,11 @@ ProblemFile FileOf(const Candidate& candidate, const std::string& name);
 Json ToJson(const Candidate& candidate);
 Candidate CandidateFromJson(const JsonPlace& place);  // InputError
 
-// The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter of mu.
-// Zero stays, and what has no room for its parts: numerator and denominator are at most `most_part`.
+// The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter
+// of mu. Zero stays, and what has no room for its parts: numerator and denominator are at most `most_part`.
 MuChoice Lowered(const MuChoice& mu, int k, int most_part);
-// The simplest coefficient within one part in four thousand of `mu`; `otherwise` if there is none with such parts.
+// The simplest coefficient within one part in four thousand of `mu`; `otherwise` if there is none with such
+// parts.
 MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise, int most_part);
 
 }  // namespace stiction

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Continuation: from a loop along a line as far as it stays one and becomes better, then along another line.
 //
-// In the interior of the parameters with one word the conditions of a loop are polynomial inequalities, so a line stays
-// inside up to a border; where it leaves, the run beyond is another word, which is looked at like any candidate. Steps
-// are doubled as long as they are taken in and halved where they are not.
+// In the interior of the parameters with one word the conditions of a loop are polynomial inequalities, so a
+// line stays inside up to a border; where it leaves, the run beyond is another word, which is looked at like
+// any candidate. Steps are doubled as long as they are taken in and halved where they are not.
 
 #include <algorithm>
 
@@ -13,7 +13,8 @@ namespace stiction {
 namespace {
 
 // One coordinate, two, or all of them, by directions of up to 2^-3 of each range.
-std::vector<double> Direction(const std::vector<Choice>& made, const std::vector<std::size_t>& wide, Choices& random) {
+std::vector<double> Direction(const std::vector<Choice>& made, const std::vector<std::size_t>& wide,
+                              Choices& random) {
   std::vector<double> direction(made.size(), 0.0);
   const auto size = static_cast<std::int64_t>(wide.size());
   const auto kind = random.Integer(0, 2);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // NLopt on what is nearly continuous.
 //
-// Coordinates: the choices of a candidate whose range is wide (WideChoices), each as a number in [0, 1] that is rounded to
-// an integer of its range; and, where friction is to be lowered, mu from a quarter of the candidate's to all of it. So every point of the cube is a valid exact problem. The narrow choices (numbers of columns, kinds,
-// places) stay those of the candidate. Global methods and local ones take turns, each from another candidate.
+// Coordinates: the choices of a candidate whose range is wide (WideChoices), each as a number in [0, 1] that is
+// rounded to an integer of its range; and, where friction is to be lowered, mu from a quarter of the
+// candidate's to all of it. So every point of the cube is a valid exact problem. The narrow choices (numbers of
+// columns, kinds, places) stay those of the candidate. Global methods and local ones take turns, each from
+// another candidate.
 //
-// What NLopt is told    the value, or where there is none a penalty of 1e15 and 1e9 times the distance to a loop. Never
-//                       a NaN, which it would take. Exceptions are kept and thrown again outside: it loses their text.
+// What NLopt is told    the value, or where there is none a penalty of 1e15 and 1e9 times the distance to a
+// loop. Never
+//                       a NaN, which it would take. Exceptions are kept and thrown again outside: it loses
+//                       their text.
 // Random numbers        nlopt::srand, of this thread, before every start.
 
 #include <algorithm>
@@ -27,10 +31,10 @@ constexpr std::size_t kMostCoordinates = 64;
 
 class Cube {
  public:
-  Cube(Attempt& attempt, const Assessed& from)
-      : attempt_(attempt), from_(from), wide_(WideChoices(from.made)) {
+  Cube(Attempt& attempt, const Assessed& from) : attempt_(attempt), from_(from), wide_(WideChoices(from.made)) {
     if (wide_.size() > kMostCoordinates) wide_.resize(kMostCoordinates);
-    lowers_ = attempt.optimization().objective->lowers_friction && from.candidate.mu.numerator > 0 && from.worth.value;
+    lowers_ = attempt.optimization().objective->lowers_friction && from.candidate.mu.numerator > 0 &&
+              from.worth.value;
   }
 
   std::size_t coordinates() const { return wide_.size() + (lowers_ ? 1 : 0); }
@@ -39,7 +43,8 @@ class Cube {
     std::vector<double> x;
     for (const std::size_t i : wide_) {
       const Choice& choice = from_.made[i];
-      x.push_back(static_cast<double>(choice.value - choice.low) / static_cast<double>(choice.high - choice.low));
+      x.push_back(static_cast<double>(choice.value - choice.low) /
+                  static_cast<double>(choice.high - choice.low));
     }
     if (lowers_) x.push_back(1);
     return x;

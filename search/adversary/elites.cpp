@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/problem/check.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 namespace {
@@ -13,8 +14,9 @@ bool Worse(const Assessed& left, const Assessed& right) { return left.worth < ri
 }  // namespace
 
 std::optional<std::size_t> Elites::PlaceFor(const Assessed& assessed) const {
-  const auto same = std::find_if(all_.begin(), all_.end(),
-                                 [&assessed](const Assessed& other) { return other.behaviour == assessed.behaviour; });
+  const auto same = std::find_if(all_.begin(), all_.end(), [&assessed](const Assessed& other) {
+    return other.behaviour == assessed.behaviour;
+  });
   if (same != all_.end()) {
     if (assessed.worth < same->worth) return std::nullopt;  // equal ones replace it, so that all drifts
     return static_cast<std::size_t>(same - all_.begin());

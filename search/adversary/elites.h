@@ -19,8 +19,8 @@ class Elites {
   explicit Elites(Assessor& assessor, std::function<void(const Assessed&)> on_loop = {})
       : assessor_(assessor), on_loop_(std::move(on_loop)) {}
 
-  // Whether the candidate was taken in: it is no worse than the one of its behaviour, or has a new one and is not the
-  // worst of a full house. What would be taken in is confirmed first, and then asked again.
+  // Whether the candidate was taken in: it is no worse than the one of its behaviour, or has a new one and is
+  // not the worst of a full house. What would be taken in is confirmed first, and then asked again.
   bool Admit(Assessed assessed);
 
   bool empty() const { return all_.empty(); }

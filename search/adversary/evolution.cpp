@@ -90,7 +90,8 @@ Optimized Evolve(const Optimization& optimization) {
     const Assessed parent = attempt.elites().Draw(random);
     Candidate child = parent.candidate;
     if (random.Integer(0, 7) == 0) {
-      child.choices = Crossed(child.choices, attempt.elites().Draw(random).candidate.choices, child.contacts, random);
+      child.choices =
+          Crossed(child.choices, attempt.elites().Draw(random).candidate.choices, child.contacts, random);
     } else {
       child.choices = Mutant(parent.made, random);
     }

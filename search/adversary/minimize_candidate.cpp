@@ -106,7 +106,8 @@ class Minimizer {
         const std::int64_t value = result_.candidate.choices[i];
         const std::int64_t down = value / step * step;
         bool taken = false;
-        for (const std::int64_t rounded : {down, down + (value < 0 ? -step : step), down + (value < 0 ? step : -step)}) {
+        for (const std::int64_t rounded :
+             {down, down + (value < 0 ? -step : step), down + (value < 0 ? step : -step)}) {
           if (rounded == value || rounded < made_[i].low || rounded > made_[i].high) continue;
           Candidate rounder = result_.candidate;
           rounder.choices[i] = rounded;
@@ -129,7 +130,8 @@ class Minimizer {
 
 }  // namespace
 
-MinimizedCandidate MinimizeCandidate(const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
+MinimizedCandidate MinimizeCandidate(const Candidate& candidate,
+                                     const std::function<bool(const ExactProblem&)>& keep,
                                      const std::function<bool()>& cancelled) {
   return Minimizer(candidate, keep, cancelled).Run();
 }

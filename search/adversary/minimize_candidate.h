@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Minimizing a candidate as what it is: a scene stays a scene that can be built, with fewer contacts and bodies and
-// rounder numbers.
+// Minimizing a candidate as what it is: a scene stays a scene that can be built, with fewer contacts and bodies
+// and rounder numbers.
 //
-// What is changed are choices, so nothing has to be checked but that the finding is still there. Simpler, in this order:
-// fewer contacts; fewer choices, which are fewer bodies and corners; fewer significant digits of all choices; a smaller
-// sum of their sizes. Passes run until none makes progress. Deterministic; no clock.
+// What is changed are choices, so nothing has to be checked but that the finding is still there. Simpler, in
+// this order: fewer contacts; fewer choices, which are fewer bodies and corners; fewer significant digits of
+// all choices; a smaller sum of their sizes. Passes run until none makes progress. Deterministic; no clock.
 
 #ifndef STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
 #define STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
@@ -21,7 +21,8 @@ struct MinimizedCandidate {
   bool cancelled = false;
 };
 
-// `keep` says whether a problem still shows the finding. Requires keep(ExactOf(candidate)), otherwise InputError.
+// `keep` says whether a problem still shows the finding. Requires keep(ExactOf(candidate)), otherwise
+// InputError.
 MinimizedCandidate MinimizeCandidate(
     const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
     const std::function<bool()>& cancelled = [] { return false; });

@@ -11,6 +11,7 @@
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
 #include "corpus/rounded.h"
+#include "search/adversary/trial.h"
 
 namespace stiction {
 namespace {
@@ -29,7 +30,12 @@ struct Text {
 // Of any run: `value` of a trial over either kind of numbers.
 template <class F>
 constexpr Objective OfRuns(const Text& text, F) {
-  return {text.name, text.help, text.unit, text.sign, false, false,
+  return {text.name,
+          text.help,
+          text.unit,
+          text.sign,
+          false,
+          false,
           [](InexactTrial& trial) -> Value { return F{}(trial); },
           [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
@@ -47,8 +53,8 @@ constexpr Objective OfLoops(const Text& text, F value) {
 // Of rationals alone.
 template <class F>
 constexpr Objective Exactly(const Text& text, F) {
-  return {text.name, text.help, text.unit, text.sign, false, false, nullptr,
-          [](ExactTrial& trial) -> Value { return F{}(trial); }};
+  return {text.name, text.help, text.unit, text.sign,
+          false,     false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
 
 // A counter of runs that end solved: what a loop counts is only when it was noticed.
@@ -163,9 +169,11 @@ std::span<const Objective> Objectives() {
               [](ExactTrial& t) { return RoundingError(t); }),
       Exactly({"policies", "different ends (outcome, start, period) over the grid of policies", "ends"},
               [](ExactTrial& t) { return DifferentEnds(t); }),
-      Exactly({"ipopt", "starts of Ipopt until one led to a solution, 21 if none did; as the machine's libraries have it",
-               "starts"},
-              [](ExactTrial& t) { return StartsOfIpopt(t); }),
+      Exactly(
+          {"ipopt",
+           "starts of Ipopt until one led to a solution, 21 if none did; as the machine's libraries have it",
+           "starts"},
+          [](ExactTrial& t) { return StartsOfIpopt(t); }),
       OfRuns({"folds", "folds of complete driving", "folds"},
              [](auto& t) { return static_cast<double>(t.Complete().statistics.folds); }),
       OfRuns({"descents", "descents of complete driving", "descents"},
@@ -175,8 +183,9 @@ std::span<const Objective> Objectives() {
       Exactly({"solutions", "different solutions among all contact modes, up to four contacts", "solutions"},
               [](ExactTrial& t) { return NumberOfSolutions(t); }),
       [] {
-        Objective row = Exactly({"margin", "least relative gap of any decision of a loop: how robust it is", ""},
-                                [](ExactTrial& t) { return Margin(t); });
+        Objective row =
+            Exactly({"margin", "least relative gap of any decision of a loop: how robust it is", ""},
+                    [](ExactTrial& t) { return Margin(t); });
         row.of_loops = true;
         return row;
       }(),
@@ -186,7 +195,8 @@ std::span<const Objective> Objectives() {
 
 const Objective* FindObjective(std::string_view name) {
   const auto rows = Objectives();
-  const auto row = std::find_if(rows.begin(), rows.end(), [name](const Objective& o) { return o.name == name; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [name](const Objective& o) { return o.name == name; });
   return row == rows.end() ? nullptr : &*row;
 }
 

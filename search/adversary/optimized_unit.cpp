@@ -128,7 +128,8 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   UnitResult result;
   result.problems = optimized.evaluations;
   UnitElites elites{{}, optimized.evaluations, optimized.confirmations, optimized.denied};
-  for (const Assessed& assessed : optimized.elites) elites.elites.push_back({assessed.candidate, assessed.worth});
+  for (const Assessed& assessed : optimized.elites)
+    elites.elites.push_back({assessed.candidate, assessed.worth});
   KeepBest(elites.elites, kElitesOfUnit);
   result.elites = ToText(elites);
   // The best loops stand for their signatures.

@@ -52,11 +52,12 @@ class Heritage {
   std::map<std::int64_t, std::vector<Elite>> units_;
 };
 
-UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const std::vector<Candidate>& parents,
-                            const std::function<bool()>& cancelled = [] { return false; });
+UnitResult RunOptimizedUnit(
+    const Campaign& campaign, std::int64_t unit, const std::vector<Candidate>& parents,
+    const std::function<bool()>& cancelled = [] { return false; });
 
-// The best candidates of a store, over all its units: the best first, at most `most` of each generator and number
-// of contacts.
+// The best candidates of a store, over all its units: the best first, at most `most` of each generator and
+// number of contacts.
 std::vector<Elite> BestOf(const Store& store, std::size_t most);
 
 }  // namespace stiction

@@ -19,7 +19,8 @@ std::span<const OptimizerRow> Optimizers() {
   static constexpr std::array<OptimizerRow, 4> kRows = {{
       {"evolution", "mutates and crosses the choices of what was found, and keeps the best of every behaviour",
        Evolve},
-      {"nlopt", "NLopt's CRS2, ESCH, Subplex and Nelder and Mead on the choices of a wide range", OptimizeContinuously},
+      {"nlopt", "NLopt's CRS2, ESCH, Subplex and Nelder and Mead on the choices of a wide range",
+       OptimizeContinuously},
       {"continuation", "walks from a loop, or the best so far, as far as a direction improves it", Continue},
       {"random", "draws each candidate anew, to compare with", TryRandomly},
   }};
@@ -28,7 +29,8 @@ std::span<const OptimizerRow> Optimizers() {
 
 const OptimizerRow* FindOptimizer(std::string_view name) {
   const auto rows = Optimizers();
-  const auto row = std::find_if(rows.begin(), rows.end(), [name](const OptimizerRow& o) { return o.name == name; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [name](const OptimizerRow& o) { return o.name == name; });
   return row == rows.end() ? nullptr : &*row;
 }
 
@@ -63,7 +65,8 @@ void Attempt::Begin() {
 }
 
 Optimized Attempt::Take() {
-  Optimized result{elites_.all(), std::move(loops_), assessor_.looks(), assessor_.confirmations(), assessor_.denied()};
+  Optimized result{elites_.all(), std::move(loops_), assessor_.looks(), assessor_.confirmations(),
+                   assessor_.denied()};
   std::stable_sort(result.elites.begin(), result.elites.end(),
                    [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
   return result;

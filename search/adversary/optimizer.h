@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optimizers: ways to look for candidates that are worse for the solver. Each is a function of what it is given: the
-// same seed, parents and number of evaluations give the same elites, as far as the machine's libraries compute the same:
-// objectives and NLopt take logarithms, roots and eigenvalues from them, and `ipopt` is Ipopt's.
+// Optimizers: ways to look for candidates that are worse for the solver. Each is a function of what it is
+// given: the same seed, parents and number of evaluations give the same elites, as far as the machine's
+// libraries compute the same: objectives and NLopt take logarithms, roots and eigenvalues from them, and
+// `ipopt` is Ipopt's.
 
 #ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
 #define STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
@@ -18,11 +19,11 @@ namespace stiction {
 
 struct Optimization {
   const Objective* objective = nullptr;
-  Candidate like;                        // all but its choices
-  std::vector<MuChoice> palette;         // to draw mu from
-  std::vector<Candidate> parents;        // what was found before, the best first
+  Candidate like;                  // all but its choices
+  std::vector<MuChoice> palette;   // to draw mu from
+  std::vector<Candidate> parents;  // what was found before, the best first
   std::uint64_t seed = 1;
-  std::int64_t evaluations = 10000;      // over doubles, or, without a shortcut, over rationals
+  std::int64_t evaluations = 10000;  // over doubles, or, without a shortcut, over rationals
   Policy policy;
   Limits limits;
   std::function<bool()> cancelled = [] { return false; };

@@ -14,6 +14,7 @@
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
+#include "search/adversary/trial.h"
 
 namespace stiction {
 namespace {
@@ -55,7 +56,8 @@ std::optional<std::pair<Rational, Rational>> EigenvalueBounds(const ExactProblem
 // The value, exactly: of an objective whose double is exact, or of the friction of a loop.
 Rational ShownValue(const Objective& objective, ExactTrial& trial) {
   const auto value = objective.exact(trial);
-  if (!value) throw InputError(fmt::format("record: the problem has no value for objective {}", objective.name));
+  if (!value)
+    throw InputError(fmt::format("record: the problem has no value for objective {}", objective.name));
   if (objective.lowers_friction) {
     Rational mu = 0;
     for (const auto& contact : trial.problem().contacts) mu = std::max(mu, contact.mu);
@@ -119,8 +121,8 @@ FrontierRecord ReadRecord(const std::filesystem::path& file) {
   const Json json = ParseJson(ReadText(file), source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"format", "version", "frontier", "what", "objective", "value", "bounds", "status", "proof", "command",
-                  "build", "processor_seconds", "random", "problem", "certificate"});
+  root.AllowKeys({"format", "version", "frontier", "what", "objective", "value", "bounds", "status", "proof",
+                  "command", "build", "processor_seconds", "random", "problem", "certificate"});
   const auto text = [&root](const char* key) { return root.Required(key, "a text").Text("a text"); };
   const JsonPlace format = root.Required("format", "\"stiction-record\"");
   if (format.Text("\"stiction-record\"") != "stiction-record") format.Refuse("\"stiction-record\"");
@@ -138,7 +140,8 @@ FrontierRecord ReadRecord(const std::filesystem::path& file) {
   }
   const JsonPlace status = root.Required("status", "\"best so far\" or \"proved\"");
   record.status = status.Text("\"best so far\" or \"proved\"");
-  if (record.status != "best so far" && record.status != "proved") status.Refuse("\"best so far\" or \"proved\"");
+  if (record.status != "best so far" && record.status != "proved")
+    status.Refuse("\"best so far\" or \"proved\"");
   if (record.status == "proved") record.proof = text("proof");
   record.command = text("command");
   record.build = text("build");
@@ -148,7 +151,8 @@ FrontierRecord ReadRecord(const std::filesystem::path& file) {
   random.AllowKeys({"value", "evaluations"});
   const JsonPlace value = random.Required("value", "a number p/q as a string, or null");
   if (!value.json().is_null()) record.random_value = ReadNumber(value);
-  record.random_evaluations = random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
+  record.random_evaluations =
+      random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
   record.problem = ParseProblem(root.Required("problem", "a problem").json().dump(), source + ": problem");
   record.certificate = root.Required("certificate", "a certificate").json();
   return record;

@@ -107,8 +107,8 @@ double GapOfStep(const ExactProblem& problem, const Pivot<Rational>& before, con
   return gap;
 }
 
-// Whether the variable that limits a step of length zero limited a step just before: it wants back at once. That is how
-// a determinant turns, and no tie.
+// Whether the variable that limits a step of length zero limited a step just before: it wants back at once.
+// That is how a determinant turns, and no tie.
 bool IsBounce(const std::vector<Pivot<Rational>>& steps, std::size_t k) {
   for (std::size_t i = k; i-- > 0 && steps[i].drive == steps[k].drive;) {
     if (steps[i].limiting == steps[k].limiting) return true;

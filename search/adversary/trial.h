@@ -73,16 +73,17 @@ using ExactTrial = Trial<Rational>;
 std::optional<double> DistanceToLoop(InexactTrial& trial);
 std::optional<double> DistanceToLoop(ExactTrial& trial);
 
-// The smallest pivot: of all steps the least acceleration of the driven variable per unit of its force, relative to
-// its diagonal entry. Empty for a run without a step.
+// The smallest pivot: of all steps the least acceleration of the driven variable per unit of its force,
+// relative to its diagonal entry. Empty for a run without a step.
 std::optional<double> SmallestPivot(InexactTrial& trial);
 std::optional<double> SmallestPivot(ExactTrial& trial);
 
-// How robust a loop is: the least relative gap of any decision of its first period. A step ends where the first of the
-// quantities fN, aN, aF, mu fN - fF, mu fN + fF of all contacts reaches zero; its gap is how much later the
-// next would, relative to the later. A scan between drives decides by the signs of the same quantities; the gap is
-// their size, relative to the largest force or acceleration. A step of length zero at which a variable wants back at
-// once is no decision; any other, and two contacts at once, are ties: a margin of zero. A lower bound: quantities that no condition reads are among them. Empty unless the run loops.
+// How robust a loop is: the least relative gap of any decision of its first period. A step ends where the first
+// of the quantities fN, aN, aF, mu fN - fF, mu fN + fF of all contacts reaches zero; its gap is how much later
+// the next would, relative to the later. A scan between drives decides by the signs of the same quantities; the
+// gap is their size, relative to the largest force or acceleration. A step of length zero at which a variable
+// wants back at once is no decision; any other, and two contacts at once, are ties: a margin of zero. A lower
+// bound: quantities that no condition reads are among them. Empty unless the run loops.
 std::optional<double> Margin(ExactTrial& trial);
 
 // Bits of the longest number in the forces and accelerations of a run.

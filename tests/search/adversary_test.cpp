@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optimized searches: every candidate is a problem, every value is exact, and nothing depends on threads or kills.
+// Optimized searches: every candidate is a problem, every value is exact, and nothing depends on threads or
+// kills.
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "corpus/json_text.h"
 #include "scene/polygon.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/adversary/trial.h"
 #include "search/search.h"
 #include "search/summary.h"
 #include "tests/scratch.h"
@@ -88,7 +90,8 @@ TEST_CASE("adversary: friction is lowered to the simplest coefficient of its ran
       CHECK(now <= old * (1 - part));
       CHECK(now >= old * (k == 1 ? Rational(1, 4) : Rational(1 - 2 * part)));
       for (int q = 1; q < lowered.denominator; ++q) {  // nothing simpler is in the range
-        const mpz_class p = mpz_class(Rational(old * (1 - part) * q).get_num() / Rational(old * (1 - part) * q).get_den());
+        const mpz_class p =
+            mpz_class(Rational(old * (1 - part) * q).get_num() / Rational(old * (1 - part) * q).get_den());
         const Rational simpler = Rational(p) / q;
         REQUIRE_FALSE((simpler >= old * (k == 1 ? Rational(1, 4) : Rational(1 - 2 * part)) && simpler > 0));
       }
@@ -161,7 +164,8 @@ TEST_CASE("adversary: a loop survives changes that are small beside its margin")
 
 // ---- Optimizers --------------------------------------------------------------------------------
 
-TEST_CASE("adversary: every optimizer repeats itself, keeps its budget, and its values are those of exact problems") {
+TEST_CASE(
+    "adversary: every optimizer repeats itself, keeps its budget, and its values are those of exact problems") {
   for (const OptimizerRow& optimizer : Optimizers()) {
     for (const char* objective : {"steps", "period", "friction", "bits", "margin"}) {
       CAPTURE(optimizer.name, objective);
@@ -227,7 +231,8 @@ TEST_CASE("adversary: elites keep one of every behaviour, the better one, and no
   CHECK(elites.Admit(make(2, 1)));
   CHECK(elites.all().size() == 2);
   CHECK(*elites.Best().worth.value == 5);
-  for (std::size_t k = 3; k < 200; ++k) elites.Admit(make(static_cast<std::int64_t>(k), static_cast<double>(k)));
+  for (std::size_t k = 3; k < 200; ++k)
+    elites.Admit(make(static_cast<std::int64_t>(k), static_cast<double>(k)));
   CHECK(elites.all().size() == Elites::kMost);
   CHECK(*elites.Best().worth.value == 199);
   CHECK_FALSE(elites.Admit(make(1000, 0)));  // new, but the worst
@@ -267,7 +272,8 @@ TEST_CASE("adversary: the same records on one thread and on three, at once and i
     CAPTURE(optimizer);
     const Campaign campaign = Adversarial("friction", optimizer);
     const std::string name(optimizer);
-    const auto alone = scratch / (name + "-1"), shared = scratch / (name + "-3"), pieces = scratch / (name + "-p");
+    const auto alone = scratch / (name + "-1"), shared = scratch / (name + "-3"),
+               pieces = scratch / (name + "-p");
     Run(campaign, alone, 1, 150 * 20);  // two epochs and a half
     Run(campaign, shared, 3, 150 * 20);
     RequireEqualStores(alone, shared);
@@ -295,7 +301,8 @@ TEST_CASE("adversary: parents are the best of earlier epochs, of the same task a
     elites.elites.push_back({{task.generator, task.contacts, {1, 1}, false, {unit}}, {value, 0}});
     return elites;
   };
-  for (std::int64_t unit = 0; unit < 200; ++unit) heritage.Add(unit, elite(unit, static_cast<double>(unit % 37)));
+  for (std::int64_t unit = 0; unit < 200; ++unit)
+    heritage.Add(unit, elite(unit, static_cast<double>(unit % 37)));
   CHECK(heritage.ParentsOf(1).empty());
   const std::int64_t later = 100;
   REQUIRE(shard.Owns(later));
@@ -324,7 +331,8 @@ TEST_CASE("adversary: a store says what was best, and no rate") {
   CHECK(text.find("in a million") == std::string::npos);
   const Json json = SummaryToJson(store);
   CHECK(json.at("candidates").get<std::int64_t>() >= 590);
-  if (best.front().worth.value) CHECK(json.at("best").at(0).at("value").get<double>() == *best.front().worth.value);
+  if (best.front().worth.value)
+    CHECK(json.at("best").at(0).at("value").get<double>() == *best.front().worth.value);
   for (const Finding& finding : store.Findings()) CHECK(finding.kind == "cycle");
 }
 
@@ -335,9 +343,13 @@ TEST_CASE("adversary: damaged elites are refused by their place") {
   REQUIRE(read.elites.size() == 1);
   CHECK(read.elites[0].candidate == elites.elites[0].candidate);
   CHECK(ToText(read) == text);
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"\"psd\"", "\"nothing\""}, {"[1,2]", "[1,true]"}, {"\"contacts\":2", "\"contacts\":99"},
-           {"\"value\":3.0", "\"value\":\"x\""}, {"\"denied\":1", "\"denied\":-1"}, {"\"1\"", "\"-1\""}}) {
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"\"psd\"", "\"nothing\""},
+                                                        {"[1,2]", "[1,true]"},
+                                                        {"\"contacts\":2", "\"contacts\":99"},
+                                                        {"\"value\":3.0", "\"value\":\"x\""},
+                                                        {"\"denied\":1", "\"denied\":-1"},
+                                                        {"\"1\"", "\"-1\""}}) {
     std::string damaged = text;
     REQUIRE(damaged.find(from) != std::string::npos);
     damaged.replace(damaged.find(from), from.size(), to);
@@ -355,7 +367,8 @@ TEST_CASE("adversary: campaigns that cannot be are refused by name") {
   campaign.palette = {{1, 1000}};
   RequireConsistent(campaign);
   campaign.generators = {GeneratorId::kNearDegenerate};
-  CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("near-degenerate") && Catch::Contains("1/1000"));
+  CHECK_THROWS_WITH(RequireConsistent(campaign),
+                    Catch::Contains("near-degenerate") && Catch::Contains("1/1000"));
   campaign = Adversarial("steps", "evolution");
   campaign.policies = PlanarGrid();
   CHECK_THROWS_WITH(RequireConsistent(campaign), Catch::Contains("policies"));
@@ -420,8 +433,10 @@ TEST_CASE("adversary: a corner of a uniform triangle folds at no mu up to 3/4, a
     }
   }
   // Height 10 along (1, 3), half a base of 1/10 across.
-  const Point apex = MakeVector2<Rational>(Rational(0), Rational(0)), up = MakeVector2<Rational>(Rational(0), Rational(1));
-  const Point left = MakeVector2<Rational>(Rational(97, 10), Rational(301, 10)), right = MakeVector2<Rational>(Rational(103, 10), Rational(299, 10));
+  const Point apex = MakeVector2<Rational>(Rational(0), Rational(0)),
+              up = MakeVector2<Rational>(Rational(0), Rational(1));
+  const Point left = MakeVector2<Rational>(Rational(97, 10), Rational(301, 10)),
+              right = MakeVector2<Rational>(Rational(103, 10), Rational(299, 10));
   const Rational thin = quotient(apex, right, left, up);
   CHECK(thin > Rational(3, 4));
   CHECK(thin < Rational(3001, 4000));

@@ -124,7 +124,8 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
       {With(R"("mu": [])"), "mu: found []", "expected a list that is not empty"},
       {With(R"("mu": [1])"), "mu[0]: found 1", "expected a friction coefficient as a string"},
       {With(R"("mu": ["-1"])"), "mu[0]: found \"-1\"", "0 <= p <= 1000000 and 1 <= q <= 1000000"},
-      {With(R"("mu": ["1", "1000001"])"), "mu[1]: found \"1000001\"", "0 <= p <= 1000000 and 1 <= q <= 1000000"},
+      {With(R"("mu": ["1", "1000001"])"), "mu[1]: found \"1000001\"",
+       "0 <= p <= 1000000 and 1 <= q <= 1000000"},
       {With(R"("mu": ["1/1000001"])"), "mu[0]: found \"1/1000001\"", "0 <= p <= 1000000 and 1 <= q <= 1000000"},
       {With(R"("mu": ["1/0"])"), "mu[0]: found \"1/0\"", "0 <= p <= 1000000 and 1 <= q <= 1000000"},
       {With(R"("mu": ["one"])"), "mu[0]: found \"one\"", "0 <= p <= 1000000 and 1 <= q <= 1000000"},
@@ -156,7 +157,8 @@ TEST_CASE("campaign: friction coefficients are small fractions, however they are
   CHECK(ParseMu("0") == MuChoice{0, 1});
   CHECK(ParseMu("64") == MuChoice{64, 1});
   CHECK(ParseMu("1/64") == MuChoice{1, 64});
-  for (const char* text : {"", " 1", "1 ", "+1", "-0.5", "1000001", "1/1000001", "0.1e-7", "1/0", "inf", "nan", "1,5"}) {
+  for (const char* text :
+       {"", " 1", "1 ", "+1", "-0.5", "1000001", "1/1000001", "0.1e-7", "1/0", "inf", "nan", "1,5"}) {
     CAPTURE(text);
     CHECK_THROWS_AS(ParseMu(text), InputError);
     CHECK_THROWS_WITH(ParseMu(text), Contains(fmt::format("found '{}', expected p/q", text)));

@@ -534,11 +534,11 @@ TEST_CASE("conditioned: eigenvalues fall geometrically from 1 to 100^-k, k = 0..
 TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed by hand") {
   constexpr std::array<MuChoice, 2> kPalette = {{{2, 1}, {10, 1}}};
   const ChoiceList choices = {1, 0,   1,              // mu = (2, 10)
-                          1, 1,                   // one body, applied force only
-                          0, 0,   3,  1,  3, 4,   // centre, mass 3, inertia 3/4
-                          1, -15, 18,             // F
-                          0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
-                          5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
+                              1, 1,                   // one body, applied force only
+                              0, 0,   3,  1,  3, 4,   // centre, mass 3, inertia 3/4
+                              1, -15, 18,             // F
+                              0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
+                              5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
   Record used;
   const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices, &used), kPalette);
   CHECK(ValuesOf(used) == choices);
@@ -569,11 +569,11 @@ TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed
 // world: the shared point pushes the bodies apart, so that body 2 feels contact 0 with the opposite sign.
 TEST_CASE("bodies: a contact between two bodies moves them in opposite directions") {
   const ChoiceList choices = {0, 0,                // one mu
-                          2, 0,                // two bodies, gravity only
-                          0, 10,  1, 1, 1, 1,  // first: centre (0, 1)
-                          0, -10, 1, 1, 1, 1,  // second: centre (0, -1)
-                          0, 0,   1, 0, 1,     // at (0, 0), normal (0, 1), with the other body
-                          0, -20, 1, 0, 0};    // at (0, -2), normal (0, 1), with the world
+                              2, 0,                // two bodies, gravity only
+                              0, 10,  1, 1, 1, 1,  // first: centre (0, 1)
+                              0, -10, 1, 1, 1, 1,  // second: centre (0, -1)
+                              0, 0,   1, 0, 1,     // at (0, 0), normal (0, 1), with the other body
+                              0, -20, 1, 0, 0};    // at (0, -2), normal (0, 1), with the world
   const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices));
   // Rows: J = [0 1 0 | 0 -1 0], [-1 0 -1 | 1 0 -1], [0 0 0 | 0 1 0], [0 0 0 | -1 0 -1].
   const std::array<std::array<int, 4>, 4> A = {{{2, 0, -1, 0}, {0, 4, 0, 0}, {-1, 0, 1, 0}, {0, 0, 0, 2}}};

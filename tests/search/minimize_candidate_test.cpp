@@ -10,6 +10,7 @@
 #include "scene/assemble.h"
 #include "search/adversary/optimizer.h"
 #include "search/adversary/record.h"
+#include "search/adversary/trial.h"
 #include "search/minimize.h"
 #include "tests/scratch.h"
 #include "tests/support.h"
@@ -142,9 +143,12 @@ TEST_CASE("record: every false one is caught") {
 TEST_CASE("record: broken files are refused by their place") {
   const testing::Scratch scratch;
   const std::string text = Print(SomeRecord("friction"));
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"\"stiction-record\"", "\"stiction-problem\""}, {"\"friction\"", "\"nothing\""},
-           {"\"best so far\"", "\"perhaps\""}, {"\"best so far\"", "\"proved\""}, {"\"evaluations\": 10", "\"evaluations\": -1"}}) {
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"\"stiction-record\"", "\"stiction-problem\""},
+                                                        {"\"friction\"", "\"nothing\""},
+                                                        {"\"best so far\"", "\"perhaps\""},
+                                                        {"\"best so far\"", "\"proved\""},
+                                                        {"\"evaluations\": 10", "\"evaluations\": -1"}}) {
     std::string damaged = text;
     REQUIRE(damaged.find(from) != std::string::npos);
     damaged.replace(damaged.find(from), from.size(), to);

@@ -167,7 +167,8 @@ TEST_CASE("scenes: under gravity alone no body is pushed, and the model of the s
       const std::uint64_t seed = ProblemSeed(5, 4, index);
       Choices for_scene(seed), for_problem(seed);
       const auto scene = GenerateScene(id, 4, quiet, for_scene).value();
-      for (const auto& body : scene.bodies) REQUIRE((body.force[0] == 0 && body.force[1] == 0 && body.torque == 0));
+      for (const auto& body : scene.bodies)
+        REQUIRE((body.force[0] == 0 && body.force[1] == 0 && body.torque == 0));
       ExactProblem problem;
       Generate(id, 4, quiet, for_problem, problem);
       const ExactProblem model = FullModel(scene);
