@@ -37,7 +37,8 @@ int Add(const RecordsVerb& o) {
   record.frontier = o.frontier;
   record.what = o.what;
   record.command = o.command;
-  record.build = BuildId();
+  const std::string build = BuildId();
+  record.build = build.substr(0, build.find(", -"));  // flags apart
   record.processor_seconds = *o.seconds;
   if (!o.random.empty()) {
     record.random_value = ParseRational(o.random);

@@ -45,8 +45,9 @@ SceneLine DrawCut(const SceneDesign& design, Choices& choices) {
     const int q = static_cast<int>(choices.Integer(-most, most));
     cut = WithNormal(p == 0 && q == 0 ? 1 : p, q);
   }
-  cut.x = static_cast<int>(choices.Integer(design.lines[1].x + 1, design.lines[2].x - 1));
-  cut.y = static_cast<int>(choices.Integer(1, design.lines[kCeiling].y - 1));
+  const int tenth = design.grain.unit / 10;
+  cut.x = static_cast<int>(choices.Integer(design.lines[1].x + tenth, design.lines[2].x - tenth));
+  cut.y = static_cast<int>(choices.Integer(tenth, design.lines[kCeiling].y - tenth));
   return cut;
 }
 
@@ -174,13 +175,14 @@ bool PlaceContacts(int contacts, SceneDesign& design, Choices& choices) {
 // Who has what at an interface. `below`: the lower body must cover, since it reaches beyond the interface.
 void DrawPlaces(int places, bool below, SceneInterface& interface, Choices& choices) {
   const bool two = interface.contacts == 2;
-  const int first = static_cast<int>(choices.Integer(two ? 1 : 2, places - 2));
-  const int last = two ? static_cast<int>(choices.Integer(first + 1, places - 1)) : first;
+  const int apart = places / 16;  // from each other and from the ends, at least
+  const int first = static_cast<int>(choices.Integer(two ? apart : 2 * apart, 14 * apart));
+  const int last = two ? static_cast<int>(choices.Integer(first + apart, 15 * apart)) : first;
   interface.at = {first, last};
   interface.of_lower = interface.of_upper = interface.at;
   if (interface.lower == kTheWorld) return;
-  const int from = static_cast<int>(choices.Integer(1, two ? first : first - 1));
-  const int to = static_cast<int>(choices.Integer(two ? last : last + 1, places - 1));
+  const int from = static_cast<int>(choices.Integer(apart, two ? first : first - apart));
+  const int to = static_cast<int>(choices.Integer(two ? last : last + apart, 15 * apart));
   const int kind = below ? 0 : static_cast<int>(choices.Integer(0, two ? 2 : 1));
   if (kind == 0) interface.of_lower = {from, to};
   if (kind == 1) interface.of_upper = {from, to};
@@ -222,7 +224,7 @@ void DrawBodies(bool gravity_only, SceneDesign& design, Choices& choices) {
   const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
   for (int c = 0; c < design.cells; ++c) {
     SceneCell& cell = design.cell[c];
-    cell.fill = static_cast<int>(choices.Integer(1, design.grain.fill - 1));
+    cell.fill = static_cast<int>(choices.Integer(design.grain.fill / 8, design.grain.fill * 7 / 8));
     cell.mass.numerator = static_cast<int>(choices.Integer(1, design.grain.mass));
     cell.mass.denominator = static_cast<int>(choices.Integer(1, design.grain.mass));
     for (int k = 0; applied && k < 3; ++k) cell.load[k] = static_cast<int>(choices.Integer(-20, 20));

@@ -29,10 +29,10 @@ std::optional<std::size_t> Elites::PlaceFor(const Assessed& assessed) const {
 
 bool Elites::Admit(Assessed assessed) {
   if (!PlaceFor(assessed)) return false;
-  assessor_.Confirm(assessed);
+  if (assessed.worth.value) assessor_.Confirm(assessed);
   const auto place = PlaceFor(assessed);
   if (!place) return false;
-  if (on_loop_ && IsLoop(static_cast<Outcome>(assessed.behaviour[0]))) on_loop_(assessed);
+  if (on_loop_ && assessed.confirmed && IsLoop(static_cast<Outcome>(assessed.behaviour[0]))) on_loop_(assessed);
   if (*place == all_.size())
     all_.push_back(std::move(assessed));
   else
@@ -48,7 +48,7 @@ const Assessed& Elites::Best() const {
 const Assessed& Elites::Draw(Choices& random) const {
   STICTION_CHECK(!all_.empty(), "there is somebody to draw");
   const auto last = static_cast<std::int64_t>(all_.size()) - 1;
-  const auto rounds = random.Integer(1, 4);
+  const auto rounds = random.Integer(0, 1) == 0 ? random.Integer(1, 4) : 16;
   const Assessed* drawn = nullptr;
   for (std::int64_t k = 0; k < rounds; ++k) {
     const Assessed& next = all_[static_cast<std::size_t>(random.Integer(0, last))];
