@@ -89,8 +89,10 @@ class Search {
       double searching = 0, finishing = 0;  // seconds of this thread
       while (!Stopped()) {
         const auto before = Clock::now();
-        // Half of the time goes to finishing, as long as there is something to finish.
-        if (finishing <= searching && FinishOne()) {
+        // Half of the time goes to finishing, as long as there is something to finish; little of it where what
+        // is sought is better candidates.
+        const int weight = campaign_.objective.empty() ? 1 : 16;
+        if (weight * finishing <= searching && FinishOne()) {
           finishing += duration<double>(Clock::now() - before).count();
         } else if (RunOneUnit(runner)) {
           searching += duration<double>(Clock::now() - before).count();

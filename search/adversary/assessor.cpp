@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 
 namespace stiction {
@@ -19,6 +20,9 @@ Behaviour BehaviourOf(Trial<Scalar>& trial) {
           loops ? verdict.start : s.give_ups, Coarse(s.zero_steps), s.steps / 4};
 }
 
+bool IsDefinite(const ContactProblem<double>& problem) { return Condition(problem).has_value(); }
+bool IsDefinite(const ExactProblem& problem) { return IsDefinite(Rounded<double>(problem)); }
+
 // The value of an objective, or what stands for it; no number is no value.
 template <class Scalar>
 Worth WorthOf(const Objective& objective, Trial<Scalar>& trial,
@@ -27,6 +31,7 @@ Worth WorthOf(const Objective& objective, Trial<Scalar>& trial,
   worth.value = value(trial);
   if (worth.value && !(*worth.value > -1e300 && *worth.value < 1e300)) worth.value.reset();
   if (!objective.of_loops) return worth;
+  if (objective.of_definite && !IsDefinite(trial.problem())) return worth;
   if (const auto distance = DistanceToLoop(trial)) worth.nearness = -*distance;
   return worth;
 }

@@ -36,6 +36,7 @@ constexpr Objective OfRuns(const Text& text, F) {
           text.sign,
           false,
           false,
+          false,
           [](InexactTrial& trial) -> Value { return F{}(trial); },
           [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
@@ -53,8 +54,9 @@ constexpr Objective OfLoops(const Text& text, F value) {
 // Of rationals alone.
 template <class F>
 constexpr Objective Exactly(const Text& text, F) {
-  return {text.name, text.help, text.unit, text.sign,
-          false,     false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
+  return {text.name, text.help, text.unit,
+          text.sign, false,     false,
+          false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
 
 // A counter of runs that end solved: what a loop counts is only when it was noticed.
@@ -152,13 +154,17 @@ std::span<const Objective> Objectives() {
              }),
       Exactly({"bits", "the longest number of an exact run", "bits"},
               [](ExactTrial& t) { return static_cast<double>(LongestNumber(t)); }),
-      OfLoops({"condition", "condition number of a definite A with a loop", "", -1},
-              [](auto& t) {
-                if constexpr (std::is_same_v<std::remove_reference_t<decltype(t)>, InexactTrial>)
-                  return NegativeCondition(t.problem());
-                else
-                  return NegativeCondition(Rounded<double>(t.problem()));
-              }),
+      [] {
+        Objective row =
+            OfLoops({"condition", "condition number of a definite A with a loop", "", -1}, [](auto& t) {
+              if constexpr (std::is_same_v<std::remove_reference_t<decltype(t)>, InexactTrial>)
+                return NegativeCondition(t.problem());
+              else
+                return NegativeCondition(Rounded<double>(t.problem()));
+            });
+        row.of_definite = true;
+        return row;
+      }(),
       [] {
         Objective row = OfLoops({"friction", "the friction coefficient of a loop", "mu", -1},
                                 [](auto& t) { return -AsDouble(LargestFriction(t)); });

@@ -27,6 +27,7 @@ struct Objective {
   // Shown is this times the value: -1 where less is worse for the solver.
   int sign = 1;
   bool of_loops = false;         // loops alone have a value; what is near to one leads there
+  bool of_definite = false;      // nothing else leads there
   bool lowers_friction = false;  // optimizers change mu too
   // Empty where the problem has no value. Null: there is no shortcut over doubles.
   std::optional<double> (*inexact)(InexactTrial&) = nullptr;
