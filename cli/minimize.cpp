@@ -25,7 +25,7 @@ struct MinimizeVerb {
   std::string keep;  // empty: the outcome under the policy
   std::string policy = "paper";
   bool keep_signature = false;
-  bool as_scene = false;
+  bool as_scene = false, further = false;
   bool json = false;
   Limits limits;
 };
@@ -89,6 +89,7 @@ int RunMinimize(const MinimizeVerb& o) {
   }
   if (o.keep_signature) options.signature = Signature(file.problem, run);
   options.limits = o.limits;
+  options.further = o.further;
   if (o.as_scene) return MinimizeAsScene(o, file, policy, options);
   const Simplicity before = SimplicityOf(file.problem);
   const Minimized minimized = Minimize(file.problem, options);
@@ -158,6 +159,7 @@ void AddMinimize(CommandLine& program) {
       .Details("With :* behind it under every policy of the planar grid")
       .Check(CheckKeep);
   verb.Flag("--keep-signature", o.keep_signature, "keep the sequence of pivots of the loop as well");
+  verb.Flag("--further", o.further, "also round by lot and change two entries at once; takes longer");
   verb.Flag("--as-scene", o.as_scene,
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);

@@ -117,7 +117,7 @@ class Minimizer {
       progress |= DivideCommonFactors();
       progress |= SimplifyEntries();
       progress |= SimplifyCoefficients();
-      if (!progress) progress = RoundAtRandom() || ChangePairs();
+      if (!progress && options_.further) progress = RoundAtRandom() || ChangePairs();
     }
     return std::move(result_);
   }

@@ -48,6 +48,8 @@ struct MinimizeOptions {
   std::vector<Policy> policies = {Policy{}};  // all must end in `keep`
   // If given, the signature under the first policy is kept too, so that the kind of loop stays.
   std::optional<std::string> signature;
+  // Further than one change at a time goes: seconds to minutes more, so not for every finding of a search.
+  bool further = false;
   Limits limits;
   std::function<bool()> cancelled = [] { return false; };
 };

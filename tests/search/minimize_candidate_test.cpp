@@ -69,6 +69,7 @@ TEST_CASE("minimize: a loop under the whole grid comes down to single digits, mo
     }
     MinimizeOptions options;
     options.policies = PlanarGrid();
+    options.further = true;
     options.limits = Campaign().limits;
     if (!AllEndIn(Outcome::kCycle, problem, PlanarGrid(), options.limits)) continue;
     ++tried;
