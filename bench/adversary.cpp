@@ -76,7 +76,8 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
   optimization.like = {*FindGenerator(trials.generator), trials.contacts, trials.mu, false, {}};
   optimization.palette = {trials.mu};
   optimization.limits = Campaign().limits;
-  optimization.evaluations = std::max<std::int64_t>(1, o.problems.value_or(trials.evaluations) / kUnits);
+  optimization.evaluations =
+      std::max<std::int64_t>(1, std::min(o.problems.value_or(trials.evaluations), trials.evaluations) / kUnits);
   Outcomes outcomes;
   std::vector<Assessed> best;  // of all units
   const double before = ProcessorSeconds();

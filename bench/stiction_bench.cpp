@@ -77,7 +77,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
       ->check(CLI::PositiveNumber);
   verb.add_option(
           "--problems", o->problems,
-          "adversary: candidates of a row (default 300 to 60000); search: problems per run at two contacts, a "
+          "adversary: candidates of a row, at most its own 300 to 60000; search: problems per run at two "
+          "contacts, a "
           "quarter for each contact more (default 200000); "
           "methods, peers, random: problems of each number of contacts (default 800, 400, 400); structure: at "
           "most "

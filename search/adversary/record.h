@@ -36,7 +36,7 @@ struct FrontierRecord {
   std::string status = "best so far";
   std::string proof;    // where; empty unless proved
   std::string command;  // that found it
-  std::string build;
+  std::string build;  // that made the record of the problem
   double processor_seconds = 0;
   std::optional<Rational> random_value;
   std::int64_t random_evaluations = 0;
