@@ -23,6 +23,14 @@ Found FindWrongSolution(const ExactProblem& problem, std::string_view method, co
 
 bool MustSolve(const MethodAnswer& answer) { return answer.method == "complete" || answer.method == "lemke"; }
 
+bool HasKind(const ExactProblem& problem, ContactKind kind) {
+  return std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                     [kind](const auto& contact) { return contact.kind == kind; });
+}
+
+// With sliding contacts there may be none.
+bool HasSolution(const ExactProblem& problem) { return !HasKind(problem, ContactKind::kSliding); }
+
 // Whether f is a solution of one of the words, and the only one of a word that has only one.
 bool IsListed(const ExactProblem& problem, const Enumeration& modes, const ExactVector& f) {
   const ExactVector a = Accelerations(problem, f);
@@ -33,7 +41,7 @@ bool IsListed(const ExactProblem& problem, const Enumeration& modes, const Exact
 
 Found CompareWithModes(const ExactProblem& problem, const Answers& answers) {
   const Enumeration& modes = *answers.modes;
-  if (modes.solutions.empty())
+  if (modes.solutions.empty() && HasSolution(problem))
     return Disagreement{"enumerate-none", fmt::format("all {} refuted prefixes say that no mode has a solution",
                                                       modes.refuted.size())};
   for (const MethodAnswer& answer : answers.methods) {
@@ -46,6 +54,7 @@ Found CompareWithModes(const ExactProblem& problem, const Answers& answers) {
 }
 
 Found CheckSigns(const ExactProblem& problem, const Enumeration& modes) {
+  if (!HasSolution(problem) || HasKind(problem, ContactKind::kBilateral)) return std::nullopt;
   const SolutionCount count = CountSolutions(problem, modes);
   if (!count.regular || count.signs == 1) return std::nullopt;
   ModeWord all_clamped;  // its reduced matrix is A
@@ -87,7 +96,7 @@ std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const 
     }
   }
   for (const MethodAnswer& answer : answers.methods) {
-    if (!MustSolve(answer) || answer.outcome == Outcome::kSolved) continue;
+    if (!MustSolve(answer) || answer.outcome == Outcome::kSolved || !HasSolution(problem)) continue;
     return Disagreement{fmt::format("{}-{}", answer.method, Name(answer.outcome)),
                         fmt::format("{} ended in {}, expected solved", answer.method, Name(answer.outcome))};
   }

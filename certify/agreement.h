@@ -13,6 +13,9 @@
 //   - under `apex=suspended` the published algorithm gives nothing up in a safe problem (safe.h), as long as no
 //     step has a tie.
 //
+// Where contacts slide, only the first holds, and that a solution which was found stands among the words that have
+// any; the signs are those of problems without bilateral contacts.
+//
 // Anything else refutes a program or a proof here.
 
 #ifndef STICTION_CERTIFY_AGREEMENT_H_

@@ -169,7 +169,10 @@ WeakSafety DecideWeakSafety(const ExactProblem& problem) {
 }
 
 std::optional<bool> IsSafeIfSmall(const ExactProblem& problem) {
-  if (problem.contacts.size() > kMostContactsOfSafety) return std::nullopt;
+  const bool other = std::any_of(problem.contacts.begin(), problem.contacts.end(), [](const auto& contact) {
+    return contact.kind == ContactKind::kBilateral || contact.kind == ContactKind::kSliding;
+  });
+  if (other || problem.contacts.size() > kMostContactsOfSafety) return std::nullopt;
   return !DecideSafety(problem).unsafe_word.has_value();
 }
 

@@ -10,6 +10,7 @@
 #include "certify/certificate.h"
 #include "certify/condition.h"
 #include "certify/existence.h"
+#include "certify/robust.h"
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
 #include "certify/space.h"
@@ -28,6 +29,7 @@ struct CertifyOptions {
   std::string policy = "paper";
   bool all = false;
   bool safe = false;
+  bool robust = false;
   bool json = false;
   Limits limits;
 };
@@ -198,11 +200,32 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   return decided ? kExitDone : kExitUndecided;
 }
 
+// ---- Robustness ----
+
+int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
+  Json rows = Json::array();
+  bool all = true;
+  for (const Policy& policy : PoliciesNamed(o.policy)) {
+    const auto radius = RadiusOfLoop(file.problem, {policy, {}, o.limits});
+    all = all && radius.has_value();
+    rows.push_back({{"policy", PolicyName(policy)}, {"radius", radius ? Json(ToString(*radius)) : Json()}});
+    if (o.json) continue;
+    if (radius)
+      fmt::print("{}: loops for all A, b, mu within {:.3g} of these, proved (A, b: of the largest entry)\n",
+                 PolicyName(policy), ToDouble(*radius));
+    else
+      fmt::print("{}: no loop that intervals prove\n", PolicyName(policy));
+  }
+  if (o.json) std::cout << JsonText(rows) << "\n";
+  return all ? kExitDone : kExitUndecided;
+}
+
 bool SpeaksOfRuns(std::string_view claim) { return claim == "cycle" || claim == "counterexample"; }
 
 // Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
 // Coulomb's law is that of problems in space.
 ProblemFile ReadFor(const CertifyOptions& o) {
+  if (o.robust) return ReadHandledProblem(o.file, "robustness");
   if (o.all || SpeaksOfRuns(o.claim)) return ReadPlanarProblem(o.file);
   if (o.claim == "coulomb-solution") {
     ProblemFile file = ReadProblem(o.file);
@@ -213,10 +236,12 @@ ProblemFile ReadFor(const CertifyOptions& o) {
 }
 
 int RunCertify(const CertifyOptions& o) {
-  if (o.output.empty() && !o.all && !o.safe) throw InputError("certify: expected -o CERT, --all or --safe");
+  if (o.output.empty() && !o.all && !o.safe && !o.robust)
+    throw InputError("certify: expected -o CERT, --all, --safe or --robust");
   const ProblemFile file = ReadFor(o);
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
+  if (o.robust) return ShowRadius(o, file);
   const Json certificate = Certify(o, file);
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
@@ -303,6 +328,7 @@ void AddCertify(CommandLine& program) {
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
+  verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

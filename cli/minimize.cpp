@@ -47,16 +47,7 @@ std::string CheckKeep(const std::string& text) {
 // them.
 int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy& policy,
                     const MinimizeOptions& options) {
-  const std::string place = o.file + ": origin";
-  if (!file.origin || !file.origin->contains("choices")) {
-    throw InputError(
-        fmt::format("{}: found none with choices, expected a problem of an optimized search, as `problem STORE "
-                    "--best` writes it",
-                    place));
-  }
-  Json origin = *file.origin;
-  origin.erase("objective");
-  const Candidate candidate = CandidateFromJson(JsonPlace(origin, place, ""));
+  const Candidate candidate = CandidateOf(file, o.file);
   const auto keep = [&](const ExactProblem& problem) {
     const bool kept = AllEndIn(options.keep, problem, options.policies, o.limits);
     return kept && (!options.signature ||

@@ -40,6 +40,7 @@ struct SearchVerb {
   std::string shard = "0/1";
   int threads = 0;
   std::string objective, optimizer;
+  std::vector<std::string> parents;  // files
   bool gravity_only = false;
   bool json = false;
 };
@@ -95,6 +96,8 @@ Campaign CampaignOf(const SearchVerb& o) {
   if (!o.optimizer.empty() && campaign.objective.empty())
     throw InputError(
         fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
+  for (const std::string& file : o.parents)
+    campaign.parents.push_back(CandidateOf(ReadProblem(file), file));
   RequireConsistent(campaign);
   return campaign;
 }
@@ -315,6 +318,7 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
       .OneOf(NamesOf(Objectives()))
       .Details("A unit starts from the best of earlier ones");
   verb.Option("--optimizer", o.optimizer, "how; by default evolution").OneOf(NamesOf(Optimizers()));
+  verb.Option("--from", o.parents, "problems to start from, as `problem STORE --best` writes them");
   verb.Option("--seed", o.seed, "the one source of randomness; by default 1");
 }
 

@@ -96,7 +96,7 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   root.RequireObject();
   root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
                   "audit_every", "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives",
-                  "max_pivots", "max_bits", "gravity_only", "objective", "optimizer"});
+                  "max_pivots", "max_bits", "gravity_only", "objective", "optimizer", "parents"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -147,10 +147,28 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
     campaign.optimizer = place->Text("the name of an optimizer");
     if (FindOptimizer(campaign.optimizer) == nullptr) place->Refuse("one of " + NamesOf(Optimizers()));
   }
+  if (const auto list = root.Optional("parents")) campaign.parents = ReadList(*list, CandidateFromJson);
   return campaign;
 }
 
 }  // namespace
+
+// A parent is of a task of the campaign.
+static void RequireParents(const Campaign& campaign) {
+  const auto has = [](const auto& list, const auto& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+  };
+  if (!campaign.parents.empty() && campaign.objective.empty())
+    throw InputError("parents: found some without an objective, expected --objective too");
+  for (const Candidate& parent : campaign.parents) {
+    if (has(campaign.generators, parent.generator) && has(campaign.contacts, parent.contacts) &&
+        parent.gravity_only == campaign.gravity_only)
+      continue;
+    throw InputError(fmt::format("parents: found {} of {} contacts{}, expected problems of the campaign's kind",
+                                 Row(parent.generator).name, parent.contacts,
+                                 parent.gravity_only ? " under gravity only" : ""));
+  }
+}
 
 void RequireConsistent(const Campaign& campaign) {
   for (const GeneratorId id : campaign.generators) {
@@ -163,6 +181,11 @@ void RequireConsistent(const Campaign& campaign) {
       throw InputError(fmt::format("friction coefficient: found {}/{} for {}, expected p/q of at most {}",
                                    mu.numerator, mu.denominator, Row(id).name, most));
     }
+  }
+  RequireParents(campaign);
+  for (const GeneratorId id : campaign.generators) {
+    if (!campaign.objective.empty() && Row(id).HasOtherKinds())
+      throw InputError(fmt::format("objective: found generator {}, expected one of static contacts", Row(id).name));
   }
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
     throw InputError(
@@ -207,6 +230,7 @@ Json DefinitionToJson(const Campaign& campaign) {
     definition["objective"] = campaign.objective;
     definition["optimizer"] = campaign.optimizer;
   }
+  for (const Candidate& parent : campaign.parents) definition["parents"].push_back(ToJson(parent));
   return definition;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corpus/store.h"
+#include "search/adversary/candidate.h"
 #include "search/generators.h"
 #include "solver/problem/options.h"
 
@@ -17,7 +18,7 @@ namespace stiction {
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
 // "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "lemke_every",
 // "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits", "gravity_only",
-// "objective", "optimizer".
+// "objective", "optimizer", "parents".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all ordinary ones (generators.h)
@@ -39,6 +40,7 @@ struct Campaign {
   // random problems.
   std::string objective;
   std::string optimizer = "evolution";
+  std::vector<Candidate> parents;  // that an optimizer starts from, besides random ones
 
   Campaign();
   bool operator==(const Campaign&) const = default;

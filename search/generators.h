@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generators: random planar problems of static contacts that satisfy the paper's hypotheses.
+// Generators: random planar problems that satisfy the paper's hypotheses, of static contacts but for two.
 //
 // Every generator makes a matrix J and sets A = J W J', symmetric and positive semidefinite, and b = J y,
 // or b = A x, in range(A): range(J W J') = range(J) for a diagonal W > 0. This is exact by construction,
@@ -7,8 +7,10 @@
 // rationals and the filter problem over doubles, to the bit on every machine, since only + - * / in a
 // fixed order are used (-ffp-contract=off).
 //
-// Shapes      rows = 2 contacts: the normal of a contact and then its friction. J: rows x columns.
-// Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed; a palette that is
+// Shapes      rows = 2 contacts: the normal of a contact and then its friction; of a bilateral contact its
+//             normal alone. J: rows x columns.
+// Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed, which is for static
+//             contacts only; a palette that is
 //             not empty, of coefficients with 0 <= numerator <= most and 1 <= denominator <= most, where most
 //             is LargestMuPart(id); gravity_only only where the generator has gravity.
 // Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
@@ -53,8 +55,10 @@ enum class GeneratorId : std::uint8_t {
   kScenes,
   kFineScenes,
   kOneBody,
+  kBilateral,
+  kSliding,
 };
-inline constexpr int kGeneratorCount = 11;
+inline constexpr int kGeneratorCount = 13;
 // Of these the first are part of a campaign that names none.
 inline constexpr int kOrdinaryGeneratorCount = 9;
 
@@ -66,6 +70,10 @@ struct GeneratorRow {
   // double problem is a filter: what it shows must be seen again over rationals.
   bool exact_in_double;
   bool has_gravity = false;  // bodies, which `gravity_only` leaves without applied forces
+  // Of some contacts; with sliding ones there may be no solution.
+  ContactKind other_kind = ContactKind::kStatic;
+
+  bool HasOtherKinds() const { return other_kind != ContactKind::kStatic; }
 };
 
 // The table itself (generators.cpp), in the order of GeneratorId.

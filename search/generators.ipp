@@ -145,6 +145,28 @@ void Integers(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   SetFromIntegers(J, columns, choices, problem);
 }
 
+// Of which one contact at least, and each other with probability 1/2, is of another kind.
+template <class Scalar, int Rows>
+void WithOtherKinds(ContactKind kind, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  if constexpr (Rows == Eigen::Dynamic) {
+    const auto contacts = static_cast<std::int64_t>(problem.contacts.size());
+    const std::int64_t certain = choices.Integer(0, contacts - 1);
+    for (std::int64_t i = 0; i < contacts; ++i) {
+      if (i != certain && choices.Integer(0, 1) == 0) continue;
+      Contact<Scalar>& contact = problem.contacts[static_cast<std::size_t>(i)];
+      contact.kind = kind;
+      if (kind == ContactKind::kBilateral) contact.mu = Scalar(0);
+      if (kind == ContactKind::kSliding) contact.slip[0] = Scalar(choices.Integer(0, 1) == 0 ? 1 : -1);
+    }
+    const int rows = RowCount(problem.contacts, 2);
+    problem.A.resize(rows, rows);
+    problem.b.resize(rows);
+    Integers(choices, problem);
+  } else {
+    STICTION_CHECK(false, "fixed sizes hold static contacts only");
+  }
+}
+
 // Contact `to` becomes contact `from`, its tangent reversed if sign = -1.
 template <class Scalar, int Rows>
 void CopyContact(int from, int to, int sign, int columns, Jacobian<Scalar, Rows>& J) {
@@ -634,6 +656,9 @@ void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Ch
       return generators::OneBody(surroundings.gravity_only, choices, problem);
     case GeneratorId::kFineScenes:
       return generators::Scenes(kFineScenes, surroundings.gravity_only, choices, problem);
+    case GeneratorId::kBilateral:
+    case GeneratorId::kSliding:
+      return generators::WithOtherKinds(Row(id).other_kind, choices, problem);
   }
 }
 

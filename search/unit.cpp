@@ -15,6 +15,7 @@
 #include "search/generators.ipp"
 #include "search/scenes.h"
 #include "search/signature.h"
+#include "solver/problem/reduction.h"
 #include "solver/problem/residual.h"
 #include "solver/published/published.ipp"
 
@@ -73,7 +74,7 @@ class Collector {
     }
     const Place place = {index, policy, inexact};
     Compare(place, run, problem, /*with_lemke=*/!suspected);
-    if (!suspected) CheckSafety(place, run, problem);
+    if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
     const bool same_problem = Row(task_.generator).exact_in_double;
     if (exact != Outcome::kSolved) {
       const bool safe_cycle = exact == Outcome::kCycle && methods_.is_safe(problem) == true;
@@ -98,7 +99,7 @@ class Collector {
   };
 
   // Holds the methods against each other. All generators promise A positive semidefinite and b in range(A), as
-  // FindDisagreement requires. Lemke's method where asked for, otherwise by lot.
+  // FindDisagreement requires; that there is a solution is counted where none slides. Lemke's method where asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
     const CompleteRun complete = methods_.complete(problem, campaign_.limits);
     Answers answers{{{"complete", complete.verdict.outcome, complete.f},
@@ -118,7 +119,8 @@ class Collector {
       CountModes(tally, problem, *answers.modes);
     }
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
-    CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
+    if (Row(task_.generator).other_kind != ContactKind::kSliding)
+      CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
     if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
   }
 
@@ -211,6 +213,8 @@ class SizedKernel {
   virtual void Run(std::int64_t unit, const Task& task, Collector& collector) = 0;
 };
 
+// Rows: two for each contact, or dynamic, where bilateral and sliding contacts leave the problem before a run
+// (solver/problem/reduction.h).
 template <int Rows>
 class Kernel final : public SizedKernel {
  public:
@@ -228,14 +232,33 @@ class Kernel final : public SizedKernel {
       Choices choices(
           ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
       Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      bool reduced = true;
+      if constexpr (Rows == Eigen::Dynamic) {
+        const Reduction<double> reduction(problem_);
+        reduced = reduction.end() == ReductionEnd::kReduced;
+        if (reduced) problem_ = reduction.problem();
+      }
       const bool audit = --until_audit == 0;
       if (audit) until_audit = campaign_.audit_every;
-      for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) Try(index, policy, audit, collector);
+      for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) {
+        if (reduced)
+          Try(index, policy, audit, collector);
+        else
+          Refuse(index, policy, collector);
+      }
     }
   }
 
  private:
   using Vector = typename ContactProblem<double, Rows>::Vector;
+
+  // A problem that bilateral and sliding contacts cannot leave over doubles: exact arithmetic decides.
+  void Refuse(std::int64_t index, std::size_t policy, Collector& collector) {
+    Verdict verdict;
+    verdict.outcome = Outcome::kSingular;
+    collector.tally(policy).Count(verdict);
+    collector.RunExactly(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
+  }
 
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
     Verdict verdict = algorithms_[policy].Run(problem_);
@@ -243,7 +266,7 @@ class Kernel final : public SizedKernel {
     Vector distorted;
     if (solvers_.distort) {
       distorted = *f;
-      solvers_.distort(verdict, {distorted.data(), Rows});
+      solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
       f = &distorted;
     }
     Tally& tally = collector.tally(policy);
@@ -257,10 +280,11 @@ class Kernel final : public SizedKernel {
 
   // Of f alone: the accelerations are computed anew.
   double Residual(const Vector& f) const {
-    Vector a;
-    for (int i = 0; i < Rows; ++i) {
+    Vector a = problem_.b;
+    const int rows = problem_.rows();
+    for (int i = 0; i < rows; ++i) {
       double sum = problem_.b[i];
-      for (int j = 0; j < Rows; ++j) sum += problem_.A(i, j) * f[j];
+      for (int j = 0; j < rows; ++j) sum += problem_.A(i, j) * f[j];
       a[i] = sum;
     }
     return NaturalResidual(problem_, f, a);
@@ -272,8 +296,9 @@ class Kernel final : public SizedKernel {
   ContactProblem<double, Rows> problem_;
 };
 
-std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, int contacts) {
-  switch (contacts) {
+std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, const Task& task) {
+  if (Row(task.generator).HasOtherKinds()) return std::make_unique<Kernel<Eigen::Dynamic>>(campaign, solvers);
+  switch (task.contacts) {
     case 1:
       return std::make_unique<Kernel<2>>(campaign, solvers);
     case 2:
@@ -291,7 +316,7 @@ std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolv
     case 8:
       return std::make_unique<Kernel<16>>(campaign, solvers);
     default:
-      throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", contacts, kMaxContacts));
+      throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
   }
 }
 
@@ -303,7 +328,7 @@ struct UnitRunner::Implementation {
   Campaign campaign;
   UnitSolvers solvers;
   std::vector<Task> schedule;
-  std::map<int, std::unique_ptr<SizedKernel>> kernels;  // by contacts
+  std::map<std::pair<int, bool>, std::unique_ptr<SizedKernel>> kernels;  // by contacts, whether all are static
 };
 
 UnitRunner::UnitRunner(const Campaign& campaign, const UnitSolvers& solvers)
@@ -313,8 +338,8 @@ UnitRunner::~UnitRunner() = default;
 UnitResult UnitRunner::Run(std::int64_t unit) {
   Implementation& self = *implementation_;
   const Task task = TaskOf(self.schedule, unit);
-  std::unique_ptr<SizedKernel>& kernel = self.kernels[task.contacts];
-  if (kernel == nullptr) kernel = MakeKernel(self.campaign, self.solvers, task.contacts);
+  std::unique_ptr<SizedKernel>& kernel = self.kernels[{task.contacts, !Row(task.generator).HasOtherKinds()}];
+  if (kernel == nullptr) kernel = MakeKernel(self.campaign, self.solvers, task);
   Collector collector(self.campaign, self.solvers.exact, task, unit);
   kernel->Run(unit, task, collector);
   return collector.Take();

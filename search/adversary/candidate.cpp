@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/adversary/candidate.h"
 
+#include <fmt/format.h>
+
 #include <span>
 
 #include "corpus/scene_file.h"
@@ -98,6 +100,18 @@ Candidate CandidateFromJson(const JsonPlace& place) {
         choices[i].Integer(-(std::int64_t{1} << 62), std::int64_t{1} << 62, "an integer of at most 62 bits"));
   }
   return candidate;
+}
+
+Candidate CandidateOf(const ProblemFile& file, const std::string& source) {
+  if (!file.origin || !file.origin->contains("choices")) {
+    throw InputError(
+        fmt::format("{}: origin: found none with choices, expected a problem of an optimized search, as `problem "
+                    "STORE --best` writes it",
+                    source));
+  }
+  Json origin = *file.origin;
+  origin.erase("objective");
+  return CandidateFromJson(JsonPlace(origin, source + ": origin", ""));
 }
 
 MuChoice Lowered(const MuChoice& mu, int k, int most_part) {

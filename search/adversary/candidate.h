@@ -36,6 +36,8 @@ ProblemFile FileOf(const Candidate& candidate, const std::string& name);
 
 Json ToJson(const Candidate& candidate);
 Candidate CandidateFromJson(const JsonPlace& place);  // InputError
+// What the origin of a problem file says. InputError if it holds no choices.
+Candidate CandidateOf(const ProblemFile& file, const std::string& source);
 
 // The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter
 // of mu. Zero stays, and what has no room for its parts: numerator and denominator are at most `most_part`.

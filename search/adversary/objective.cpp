@@ -10,6 +10,7 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/feasibility_nlp.h"
+#include "certify/robust.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 
@@ -110,6 +111,12 @@ Value NumberOfSolutions(ExactTrial& trial) {
   return static_cast<double>(EnumerateModes(trial.problem()).distinct_witnesses);
 }
 
+Value Radius(ExactTrial& trial) {
+  if (!trial.Loops()) return std::nullopt;
+  const auto radius = RadiusOfLoop(trial.problem(), {trial.policy(), {}, trial.limits()});
+  return radius ? Value(ToDouble(*radius)) : Value();
+}
+
 // One more than all of them if none led to a solution.
 double StartsOfIpopt(ExactTrial& trial) {
   thread_local IpoptProposer proposer;
@@ -192,6 +199,13 @@ std::span<const Objective> Objectives() {
         Objective row =
             Exactly({"margin", "least relative gap of any decision of a loop: how robust it is", ""},
                     [](ExactTrial& t) { return Margin(t); });
+        row.of_loops = true;
+        return row;
+      }(),
+      [] {
+        Objective row = Exactly(
+            {"radius", "how far all numbers of a loop may move at once while it stays, proved by intervals", ""},
+            [](ExactTrial& t) { return Radius(t); });
         row.of_loops = true;
         return row;
       }(),

@@ -117,6 +117,11 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.like = {task.generator, task.contacts, campaign.palette.front(), campaign.gravity_only, {}};
   optimization.palette = campaign.palette;
   optimization.parents = parents;
+  for (const Candidate& parent : campaign.parents) {
+    const bool known = std::find(parents.begin(), parents.end(), parent) != parents.end();
+    if (!known && parent.generator == task.generator && parent.contacts == task.contacts)
+      optimization.parents.push_back(parent);
+  }
   optimization.seed = ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), 0);
   optimization.evaluations = UnitProblems(campaign, task);
   optimization.policy = campaign.policies.front();

@@ -2,14 +2,12 @@
 // Records: the worst problems that are known, one per frontier, as corpus/records keeps them.
 //
 // {"format": "stiction-record", "version": 1, "frontier", "what", "objective", "value", "status", "command",
-// "build",
-//  "processor_seconds", "random", "problem", "certificate"}: all of it is read, and all that is claimed can be
-//  checked:
-// the value is computed anew from the exact problem, the certificate is accepted and speaks of that problem.
+// "build", "processor_seconds", "random", "problem", "certificate"}: all of it is read, and all that is
+// claimed can be checked: the value is computed anew from the exact problem, the certificate is accepted and
+// speaks of that problem.
 //
-//   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all eigenvalues
-//   of A are
-//            in [l, u].
+//   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all
+//            eigenvalues of A are in [l, u].
 //   status   "best so far" or "proved", with "proof" naming where
 //   random   what random problems reach at equal cost: {"value" (null: nothing), "evaluations"}
 
