@@ -43,6 +43,7 @@ constexpr std::array kSuites = {
           BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
     Suite{"sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts, BenchSliding},
+    Suite{"smallest", "all problems of two contacts with small integers", kMaxContacts, BenchSmallest},
     Suite{"scenes",
           "frames a second of the scenes of a folder, minimal and full models, or one thread and more",
           kMaxContacts, BenchScenes},
@@ -104,6 +105,9 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
   verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
+  verb.add_option("--entries", o->entries, "smallest: the largest integer of A and b")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 9));
   verb.add_flag("--json", o->json, "machine output");
 }
 

@@ -23,6 +23,7 @@ struct BenchOptions {
   std::string scenes = "corpus/scenes";  // folder
   std::vector<std::string> families;     // of problems with structure; empty: all
   int threads = 1;                       // of a simulation
+  int entries = 2;                       // the largest integer of `smallest`
   bool json = false;
 };
 
@@ -31,6 +32,9 @@ int BenchAdversary(const BenchOptions& options);
 
 // Ways to change the published algorithm, and how often each still fails (patches.cpp).
 int BenchPatches(const BenchOptions& options);
+
+// All problems of two contacts with small integers (smallest.cpp).
+int BenchSmallest(const BenchOptions& options);
 
 // Problems a second of the search's hot path, one thread (search_rate.cpp).
 int BenchSearch(const BenchOptions& options);

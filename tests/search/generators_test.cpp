@@ -241,13 +241,14 @@ TEST_CASE("generators: A is symmetric and semidefinite, b in its range, and ever
     for (int index = 0; index < SeedCount(contacts); ++index) {
       CAPTURE(index);
       const auto problem = Make<ExactProblem>(id, contacts, index);
-      REQUIRE(problem.rows() == 2 * contacts);
+      REQUIRE(problem.rows() == RowCount(problem.contacts, 2));
       REQUIRE(IsSymmetric(problem));
       const Properties properties = Eliminate(problem);
       REQUIRE(properties.semidefinite);
       REQUIRE(properties.in_range);
       ranks.insert(properties.rank);
     }
+    if (Row(id).HasOtherKinds()) return;  // rows, and so ranks, differ
     if (Row(id).has_gravity) {  // of bodies: normal and friction of a contact are never dependent
       CHECK(*ranks.begin() >= 2);
       CHECK(*ranks.rbegin() == std::min(2 * contacts, id == GeneratorId::kOneBody ? 3 : 9));
@@ -338,6 +339,7 @@ void CheckFixedSize(GeneratorId id) {
 
 TEST_CASE("generators: a seed makes the same problem on a fixed and on a dynamic number of rows") {
   for (const GeneratorRow& row : Generators()) {
+    if (row.HasOtherKinds()) continue;
     CAPTURE(row.name);
     [&]<int... kContacts>(std::integer_sequence<int, kContacts...>) {
       (CheckFixedSize<2 * (kContacts + 1)>(row.id), ...);
@@ -415,6 +417,30 @@ TEST_CASE("generators: friction coefficients come from the palette, in half of t
   CHECK(std::abs(uniform - kProblems / 2) < 80);
 }
 
+TEST_CASE("generators: of other kinds is one contact at least, and static ones occur beside it") {
+  for (const GeneratorId id : {GeneratorId::kBilateral, GeneratorId::kSliding}) {
+    std::set<int> others;
+    std::set<Rational> slips;
+    for (int index = 0; index < 300; ++index) {
+      const auto problem = Make<ExactProblem>(id, 3, index);
+      int other = 0;
+      for (const auto& contact : problem.contacts) {
+        REQUIRE((contact.kind == ContactKind::kStatic || contact.kind == Row(id).other_kind));
+        if (contact.kind == ContactKind::kStatic) continue;
+        ++other;
+        slips.insert(contact.slip[0]);
+        CHECK((contact.mu == 0) == (id == GeneratorId::kBilateral));
+      }
+      others.insert(other);
+    }
+    CHECK(others == std::set<int>{1, 2, 3});
+    if (id == GeneratorId::kSliding) CHECK(slips == std::set<Rational>{-1, 1});
+  }
+  ContactProblem<double, 4> fixed;
+  Choices choices(1);
+  CHECK_THROWS(Generate<double>(GeneratorId::kSliding, 2, kDefaultPalette, choices, fixed));
+}
+
 TEST_CASE("generators: outside 1 to 8 contacts, or without a palette, is an internal error") {
   DoubleProblem problem;
   Choices choices(1);
@@ -431,7 +457,7 @@ TEST_CASE("generators: the bits of the double problems are the same on every mac
   const std::array<std::uint64_t, kGeneratorCount> expected = {
       0xe9843a6c5c02462a, 0x9b7decbea7385274, 0x1f58d55260819c5d, 0x61552515ac86d439, 0x0087249eeaa2bc61,
       0xa9098b9430b81db6, 0x47c17bf2f082462f, 0x0bc20b168cbd5e1a, 0x5c5b6d4ae415d167,
-      0xc24e4d6827d7e2b7, 0x4b1653797c74102c,
+      0xc24e4d6827d7e2b7, 0x4b1653797c74102c, 0, 0,
   };
   for (const GeneratorRow& row : Generators()) {
     std::uint64_t hash = 0;

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suite `smallest`: all problems of two static contacts with small integers, one after the other: which is the
+// smallest loop?
+//
+// Every positive definite A and every b with integers of at most K, mu = 1, but for tangents reversed: A_N1F1 and
+// A_N2F2 are not negative. Problems without a negative bN are solved by f = 0 and left out. Runs are over doubles,
+// where what does not end solved is run exactly: all integers are small, so that a double run that ends
+// solved has a small residual or is run exactly too.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "bench/suite.h"
+#include "bench/table.h"
+#include "certify/exact.h"
+#include "corpus/exit_code.h"
+#include "corpus/problem_file.h"
+#include "corpus/rounded.h"
+#include "solver/problem/residual.h"
+#include "solver/published/published.ipp"
+
+namespace stiction {
+namespace {
+
+constexpr int kRows = 4;
+using Matrix = std::array<std::array<std::int64_t, kRows>, kRows>;
+
+// Leading minors by elimination without fractions (Bareiss): exact, and a sign of every leading minor.
+bool IsDefinite(Matrix m) {
+  std::int64_t before = 1;
+  for (int k = 0; k < kRows; ++k) {
+    if (m[k][k] <= 0) return false;
+    for (int i = k + 1; i < kRows; ++i) {
+      for (int j = k + 1; j < kRows; ++j) m[i][j] = (m[i][j] * m[k][k] - m[i][k] * m[k][j]) / before;
+    }
+    before = m[k][k];
+  }
+  return true;
+}
+
+// All vectors of integers from `low` to `high`, entry by entry.
+template <std::size_t Size, class Visit>
+void ForEachVector(const std::array<int, Size>& low, const std::array<int, Size>& high, Visit visit) {
+  std::array<int, Size> x = low;
+  while (true) {
+    visit(x);
+    std::size_t k = 0;
+    while (k < Size && x[k] == high[k]) x[k] = low[k], ++k;
+    if (k == Size) return;
+    ++x[k];
+  }
+}
+
+struct Size {
+  int largest = 0, nonzeros = 0, sum = 0;
+  auto operator<=>(const Size&) const = default;
+};
+
+class Smallest {
+ public:
+  explicit Smallest(int largest) : largest_(largest) {
+    for (auto& contact : problem_.contacts) {
+      contact.kind = ContactKind::kStatic;
+      contact.mu = 1;
+    }
+    problem_.dimension = 2;
+  }
+
+  void Run() {
+    const int k = largest_;
+    ForEachVector<4>({1, 1, 1, 1}, {k, k, k, k}, [this, k](const auto& diagonal) {
+      ForEachVector<6>({0, 0, -k, -k, -k, -k}, {k, k, k, k, k, k},
+                       [this, &diagonal](const auto& beside) { TryMatrix(diagonal, beside); });
+    });
+  }
+
+  std::int64_t matrices = 0, problems = 0, loops = 0, whole = 0;
+  std::optional<std::pair<Size, ExactProblem>> smallest, smallest_whole;
+
+ private:
+  void TryMatrix(const std::array<int, 4>& diagonal, const std::array<int, 6>& beside) {
+    const auto [n1f1, n2f2, n1n2, n1f2, f1n2, f1f2] = beside;
+    const Matrix m = {{{diagonal[0], n1f1, n1n2, n1f2},
+                       {n1f1, diagonal[1], f1n2, f1f2},
+                       {n1n2, f1n2, diagonal[2], n2f2},
+                       {n1f2, f1f2, n2f2, diagonal[3]}}};
+    if (!IsDefinite(m)) return;
+    ++matrices;
+    for (int i = 0; i < kRows; ++i) {
+      for (int j = 0; j < kRows; ++j) problem_.A(i, j) = static_cast<double>(m[i][j]);
+    }
+    const int k = largest_;
+    ForEachVector<4>({-k, -k, -k, -k}, {k, k, k, k}, [this](const auto& b) {
+      if (b[0] >= 0 && b[2] >= 0) return;
+      for (int i = 0; i < kRows; ++i) problem_.b[i] = b[i];
+      TryProblem();
+    });
+  }
+
+  void TryProblem() {
+    ++problems;
+    if (algorithm_.Run(problem_).outcome == Outcome::kSolved) {
+      const auto& f = algorithm_.state().f;
+      const Eigen::Vector4d a = problem_.A * f + problem_.b;
+      if (NaturalResidual(problem_, f, a) <= kClear) return;
+    }
+    const ExactProblem exact = Exact();
+    if (RunExact(exact, {{}, {}, kLimits}).verdict.outcome != Outcome::kCycle) return;
+    ++loops;
+    const Size size = SizeOf(exact);
+    Keep(smallest, size, exact);
+    const bool worth_the_grid = !smallest_whole || size < smallest_whole->first;
+    if (worth_the_grid && AllEndIn(Outcome::kCycle, exact, PlanarGrid(), kLimits)) {
+      ++whole;
+      Keep(smallest_whole, size, exact);
+    }
+  }
+
+  static void Keep(std::optional<std::pair<Size, ExactProblem>>& best, const Size& size,
+                   const ExactProblem& problem) {
+    if (!best || size < best->first) best = {size, problem};
+  }
+
+  ExactProblem Exact() const {
+    ExactProblem exact;
+    exact.dimension = 2;
+    exact.contacts.resize(2);
+    for (auto& contact : exact.contacts) contact.mu = 1;
+    exact.A = problem_.A.unaryExpr([](double x) { return Rational(x); });
+    exact.b = problem_.b.unaryExpr([](double x) { return Rational(x); });
+    return exact;
+  }
+
+  static Size SizeOf(const ExactProblem& problem) {
+    Size size;
+    const auto add = [&size](const Rational& x) {
+      const int entry = static_cast<int>(ToDouble(abs(x)));
+      size.largest = std::max(size.largest, entry);
+      size.nonzeros += entry != 0;
+      size.sum += entry;
+    };
+    for (const Rational& x : problem.A.reshaped()) add(x);
+    for (const Rational& x : problem.b) add(x);
+    return size;
+  }
+
+  static constexpr double kClear = 1e-6;
+  static constexpr Limits kLimits = {1000, 10000, 100000};
+  int largest_;
+  ContactProblem<double, kRows> problem_;
+  PublishedAlgorithm<double, kRows> algorithm_{PublishedOptions{{}, {}, kLimits}};
+};
+
+Json FileOf(const std::optional<std::pair<Size, ExactProblem>>& best, const char* name) {
+  if (!best) return nullptr;
+  ProblemFile file;
+  file.name = name;
+  file.problem = best->second;
+  return ToJson(file);
+}
+
+}  // namespace
+
+int BenchSmallest(const BenchOptions& options) {
+  BenchTable table{"smallest", "loops of two contacts, mu = 1, A definite, among all with integers of at most K"};
+  Json problems = Json::array();
+  for (int largest = 1; largest <= options.entries; ++largest) {
+    Smallest all(largest);
+    all.Run();
+    table.rows.push_back({{"K", largest},
+                          {"matrices", all.matrices},
+                          {"problems", all.problems},
+                          {"loops of paper", all.loops},
+                          {"smallest of them", all.smallest ? Json(all.smallest->first.nonzeros) : Json("-")},
+                          {"under every policy", all.smallest_whole ? Json(all.smallest_whole->first.nonzeros) : Json("-")}});
+    problems.push_back({{"K", largest},
+                        {"smallest", FileOf(all.smallest, "smallest-loop")},
+                        {"under every policy", FileOf(all.smallest_whole, "smallest-loop-every-policy")}});
+  }
+  if (options.json)
+    std::cout << JsonText({{"suite", "smallest"}, {"rows", table.rows}, {"problems", problems}}) << "\n";
+  else
+    Print(table);
+  return kExitDone;
+}
+
+}  // namespace stiction
