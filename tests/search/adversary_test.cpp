@@ -7,8 +7,11 @@
 #include <set>
 
 #include "certify/condition.h"
+#include "certify/exact.h"
 #include "certify/properties.h"
+#include "certify/robust.h"
 #include "corpus/json_text.h"
+#include "corpus/rounded.h"
 #include "scene/polygon.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/adversary/trial.h"
@@ -189,6 +192,77 @@ TEST_CASE(
         REQUIRE(RunExact(ExactOf(loop.candidate), {o.policy, {}, o.limits}).verdict.outcome == Outcome::kCycle);
     }
   }
+}
+
+// ---- Frontiers (search/adversary/frontiers.md) ---------------------------------------------------
+
+// The family of part 4, where friction forces are given in units of mu.
+ExactProblem NearTheBound(const Rational& mu, const Rational& eta) {
+  const Rational h = 2 + mu * mu, k = 2 * (1 + mu * mu) * eta, s = (1 + eta) / mu;
+  ExactProblem problem;
+  problem.contacts.resize(2);
+  for (auto& contact : problem.contacts) contact.mu = mu;
+  problem.A.resize(4, 4);
+  problem.b.resize(4);
+  const Rational f = h / (mu * mu), c = k / mu;
+  problem.A << 1, s, 0, c, s, f, -c, 0, 0, -c, 1, s, c, 0, s, f;
+  problem.b << eta, 1 / mu, -eta, 1 / mu;
+  return problem;
+}
+
+TEST_CASE("adversary: loops come as near to the bound of the condition number as one likes") {
+  for (const Rational& mu : {Rational(1, 10), Rational(1, 2), Rational(1), Rational(3)}) {
+    const double m = ToDouble(mu), root = (1 + std::sqrt(1 + m * m)) / m;
+    double before = 1e300;
+    for (int k = 12; k <= 60; k += 8) {
+      CAPTURE(ToString(mu), k);
+      const ExactProblem problem = NearTheBound(mu, Rational(1) / Rational(mpz_class(1) << k));
+      const ExactRun run = RunExact(problem, {{}, {}, Campaign().limits});
+      REQUIRE(run.verdict.outcome == Outcome::kCycle);
+      CHECK(run.verdict.start == 3);
+      CHECK(run.verdict.period == 4);
+      CHECK(run.verdict.statistics.give_ups >= 2);
+      if (k > 30) continue;
+      const auto condition = Condition(Rounded<double>(problem));
+      REQUIRE(condition.has_value());
+      const double excess = *condition / (root * root) - 1;
+      CHECK(excess > 0);
+      CHECK(excess < before / 64);  // eta falls by 2^8
+      before = excess;
+    }
+  }
+  CHECK(AllEndIn(Outcome::kCycle, NearTheBound(1, Rational(1, 10000)), PlanarGrid(), Campaign().limits));
+}
+
+// The body of part 3 with this friction and radius of inertia, in units in which mu is 1.
+ExactProblem OneBody(const Rational& mu) {
+  ExactMatrix J(4, 3);
+  J << Rational(-24, 25), Rational(7, 25), 6, mu * Rational(-7, 25), mu * Rational(-24, 25), -6,  //
+      Rational(-4, 5), Rational(3, 5), 1, mu * Rational(-3, 5), mu * Rational(-4, 5), -5;
+  ExactVector y(3);
+  y << 4, 0, 1;
+  ExactProblem problem;
+  problem.contacts.resize(2);
+  for (auto& contact : problem.contacts) contact.mu = 1;
+  problem.A = J * J.transpose();
+  problem.b = J * y;
+  return problem;
+}
+
+TEST_CASE("adversary: one body loops at any low friction") {
+  const PublishedOptions options{{}, {}, Campaign().limits};
+  const ExactProblem limit = OneBody(0);
+  const auto radius = RadiusOfLoop(limit, options);
+  REQUIRE(radius.has_value());
+  // All mu up to `most`: entries of A move by at most mu + mu^2, those of b by at most 4 mu.
+  const Rational largest_A = 37, largest_b = 6, most(1, 1000);
+  CHECK(limit.A.unaryExpr([](const Rational& x) { return Rational(abs(x)); }).maxCoeff() == largest_A);
+  CHECK(limit.b.unaryExpr([](const Rational& x) { return Rational(abs(x)); }).maxCoeff() == largest_b);
+  CHECK(most * (1 + most) <= *radius * largest_A);
+  CHECK(4 * most <= *radius * largest_b);
+  const ExactRun run = RunExact(OneBody(most), options);
+  CHECK(run.verdict.start == 2);
+  CHECK(run.verdict.period == 5);
 }
 
 TEST_CASE("adversary: what is learned beats what is drawn at random") {
