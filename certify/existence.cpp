@@ -5,10 +5,40 @@
 #include "certify/exact.h"
 #include "certify/no_solution.h"
 #include "certify/solve.h"
+#include "certify/verify_solution.h"
 
 namespace stiction {
 
+namespace {
+
+// A run of a method that takes frictionless and static contacts only, on what bilateral and sliding ones leave;
+// forces and accelerations are those of the whole problem, all else is of what remains.
+template <class Run>
+Run OnRemainder(const ExactProblem& problem, Run (*run)(const ExactProblem&, const Limits&),
+                const Limits& limits) {
+  const Reduction<Rational> reduction(problem);
+  Run result;
+  if (reduction.end() != ReductionEnd::kReduced) {
+    result.verdict.outcome = Outcome::kSingular;
+    result.verdict.reason = Reason(reduction.end());
+    return result;
+  }
+  result = run(reduction.problem(), limits);
+  if (result.verdict.outcome == Outcome::kSolved) {
+    result.f = reduction.Forces(result.f);
+    result.a = Accelerations(problem, result.f);
+  }
+  if (result.ray.size() > 0) result.ray = reduction.Direction(result.ray);
+  return result;
+}
+
+}  // namespace
+
 CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep) {
+  if (Reduction<Rational>::Concerns(problem)) {
+    return OnRemainder<CompleteRun>(
+        problem, [](const ExactProblem& rest, const Limits& of) { return RunComplete(rest, of); }, limits);
+  }
   CompleteOptions options;
   options.limits = limits;
   CompleteDriving<Rational> driving(options);
@@ -24,6 +54,7 @@ CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepP
 }
 
 LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
+  if (Reduction<Rational>::Concerns(problem)) return OnRemainder<LemkeRun>(problem, &RunLemke, limits);
   LemkeOptions options;
   options.limits = limits;
   LemkeAlgorithm<Rational> lemke(options);

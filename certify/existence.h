@@ -20,6 +20,8 @@
 
 namespace stiction {
 
+// Of any planar problem: forces and accelerations are those of all rows. So is a ray; the word is that
+// of what bilateral and sliding contacts leave, and a path is kept where nothing had to leave.
 struct CompleteRun {
   CompleteVerdict verdict;
   std::vector<Pivot<Rational>> path;  // only where asked for

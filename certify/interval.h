@@ -9,6 +9,7 @@
 
 #include <CGAL/Interval_nt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -36,6 +37,19 @@ inline constexpr bool kEncloses<Interval> = true;
 template <>
 struct Approximation<Interval> {
   static double Of(const Interval& x) { return (x.inf() + x.sup()) / 2; }
+};
+
+template <>
+struct UncertainRate<Interval> {
+  static bool Is(const Interval& rate) { return rate.inf() <= 0 && rate.sup() > 0; }
+  static Interval Reach(const Interval& gap, const Interval& rate) {
+    const Interval earliest = Interval(std::max(gap.inf(), 0.0)) / Interval(rate.sup());
+    return {std::max(earliest.inf(), 0.0), std::numeric_limits<double>::infinity()};
+  }
+  static bool IsReach(const Interval& s) { return std::isinf(s.sup()); }
+  [[noreturn]] static void Refuse() {
+    throw CGAL::Uncertain_conversion_exception("a limit that may or may not be the nearest");
+  }
 };
 
 // The double nearest to x, or the two on either side of it.

@@ -25,8 +25,9 @@
 
 namespace stiction {
 
-// The largest radius that is proved, of m 2^-k with 8 <= m < 16 and radius >= 2^-40; zero where only the problem
-// itself is. Empty unless the run loops in the outer loop and intervals prove that.
+// The largest radius that is proved, of m 2^-k with 8 <= m < 16 and radius >= 2^-40; zero where only the
+// problem itself is. A lower bound of what the loop survives: intervals grow from step to step, and a tie is
+// one word of several. Empty unless the run loops in the outer loop and intervals prove that.
 std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const PublishedOptions& options);
 
 // Whether the theorem holds for this radius >= 0.

@@ -72,13 +72,15 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "the points beside its radius of inertia. Not part of a campaign that names no generators.",
        false, true},
       {kBilateral, "bilateral",
-       "As integers, but one contact for certain, and each other with probability 1/2, is a bilateral constraint "
+       "As integers, but one contact for certain, and each other with probability 1/2, is a bilateral "
+       "constraint "
        "(4.5), of one row. Not part of a campaign that names no generators.",
-       true, false, ContactKind::kBilateral},
+       false, false, ContactKind::kBilateral},
       {kSliding, "sliding",
-       "As integers, but one contact for certain, and each other with probability 1/2, slides (section 6), to either "
+       "As integers, but one contact for certain, and each other with probability 1/2, slides (section 6), to "
+       "either "
        "side: there may be no solution. Not part of a campaign that names no generators.",
-       true, false, ContactKind::kSliding},
+       false, false, ContactKind::kSliding},
   }};
   return kRows;
 }

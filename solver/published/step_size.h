@@ -14,7 +14,8 @@
 // Ties        the driven variable first, then by Ties. Over inexact scalars steps within the force
 //             tolerance tie, and rates within the pivot tolerance are zero.
 // Exactness   only + - * / and sign tests. Over enclosures a friction that has left its limit for CF is at the
-//             limit by what happened, not by its numbers: MeetBound tells so, until a step moves the forces.
+//             limit by what happened, not by its numbers: MeetBound tells so, until a step moves the forces. A
+//             limit whose rate has an unsure sign is left out if it would surely come later than another.
 
 #ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
 #define STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
@@ -68,6 +69,7 @@ class StepSize {
                    const Scale<Scalar>& scale);
   void LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
                        const DirectionSystem<Scalar, Rows>& direction, int row, const Scale<Scalar>& scale);
+  void LeaveOutUncertain(int nearest);
   Scalar GapToBound(const Scalar& bound, const Scalar& f, int row, int sign) const;
   int FirstOf(const State& state, int driven, Ties ties, int nearest, const Scalar& reach) const;
 

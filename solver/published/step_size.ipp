@@ -17,8 +17,9 @@ void StepSize<Scalar, Rows>::Resize(int rows) {
 template <class Scalar, int Rows>
 void StepSize<Scalar, Rows>::Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
                                    const Scalar& tolerance) {
-  if (Sign(rate, tolerance) <= 0) return;
-  Scalar s = gap / rate;
+  const bool uncertain = kEncloses<Scalar> && UncertainRate<Scalar>::Is(rate);
+  if (!uncertain && Sign(rate, tolerance) <= 0) return;
+  Scalar s = uncertain ? UncertainRate<Scalar>::Reach(gap, rate) : Scalar(gap / rate);
   if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
   if (limit.exists && !(s < limit.s)) return;
   limit.s = std::move(s);
@@ -105,6 +106,16 @@ int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, i
   return first;
 }
 
+// Limits that may not exist: they do not matter if they are surely beyond the nearest.
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::LeaveOutUncertain(int nearest) {
+  for (Limit& limit : limits_) {
+    if (!limit.exists || !UncertainRate<Scalar>::IsReach(limit.s)) continue;
+    if (nearest < 0 || !(limit.s > limits_[nearest].s)) UncertainRate<Scalar>::Refuse();
+    limit.exists = false;
+  }
+}
+
 template <class Scalar, int Rows>
 Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayout<Rows>& layout,
                                           const State& state, const DirectionSystem<Scalar, Rows>& direction,
@@ -118,8 +129,10 @@ Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayou
     } else {
       LimitMaintained(problem, layout, state, direction, row, scale);
     }
-    if (limits_[row].exists && (nearest < 0 || limits_[row].s < limits_[nearest].s)) nearest = row;
+    if (!limits_[row].exists || (kEncloses<Scalar> && UncertainRate<Scalar>::IsReach(limits_[row].s))) continue;
+    if (nearest < 0 || limits_[row].s < limits_[nearest].s) nearest = row;
   }
+  if constexpr (kEncloses<Scalar>) LeaveOutUncertain(nearest);
   if (nearest < 0) return {};
   const Scalar reach = limits_[nearest].s + scale.force;
   const int limiting = FirstOf(state, driven, ties, nearest, reach);

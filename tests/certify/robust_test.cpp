@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robust loops: the radius is that of a box in which every problem loops alike, and is not claimed where some do not.
+// Robust loops: the radius is that of a box in which every problem loops alike, and is not claimed where some
+// do not.
+
+#include "certify/robust.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/robust.h"
 #include "search/choices.h"
 #include "tests/support.h"
 
 namespace stiction {
 namespace {
 
+using testing::MakeProblem;
 using testing::ReferenceProblem;
 
 const Limits kLimits = {1000, 10000, 100000};
+
+// corpus/two-contact-cycle-every-policy-period-4.json: no ties.
+ExactProblem Loop() {
+  return MakeProblem({2, 2}, {{3, 2, 0, 3}, {2, 5, -3, 0}, {0, -3, 3, 2}, {3, 0, 2, 6}}, {1, 4, -2, 1});
+}
 
 // A problem on or in the box, not symmetric in general.
 ExactProblem Moved(const ExactProblem& problem, const Rational& radius, Choices& random) {
@@ -28,11 +36,11 @@ ExactProblem Moved(const ExactProblem& problem, const Rational& radius, Choices&
 }
 
 TEST_CASE("robust: every problem of the box loops with the same start and period") {
-  const ExactProblem problem = ReferenceProblem();
+  const ExactProblem problem = Loop();
   const PublishedOptions options{{}, {}, kLimits};
   const auto radius = RadiusOfLoop(problem, options);
   REQUIRE(radius.has_value());
-  CHECK(*radius > Rational(1, 10000));
+  CHECK(*radius > Rational(1, 100000));
   const ExactRun run = RunExact(problem, options);
   Choices random(5);
   for (int k = 0; k < 200; ++k) {
@@ -45,7 +53,7 @@ TEST_CASE("robust: every problem of the box loops with the same start and period
 }
 
 TEST_CASE("robust: a box that holds a problem without the loop is not proved") {
-  const ExactProblem problem = ReferenceProblem();
+  const ExactProblem problem = Loop();
   const PublishedOptions options{{}, {}, kLimits};
   const ExactRun run = RunExact(problem, options);
   Choices random(6);
@@ -73,8 +81,14 @@ TEST_CASE("robust: no radius for a run that solves") {
   CHECK_FALSE(RadiusOfLoop(problem, options).has_value());
 }
 
+TEST_CASE("robust: no radius where two limits are met at once") {
+  const PublishedOptions options{{}, {}, kLimits};
+  REQUIRE(RunExact(ReferenceProblem(), options).verdict.outcome == Outcome::kCycle);
+  CHECK_FALSE(RadiusOfLoop(ReferenceProblem(), options).has_value());
+}
+
 TEST_CASE("robust: a loop beside another keeps its radius or a part of it") {
-  const ExactProblem one = ReferenceProblem();
+  const ExactProblem one = Loop();
   const auto rows = one.A.rows();
   ExactProblem two;
   two.dimension = 2;
