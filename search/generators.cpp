@@ -75,12 +75,12 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "As integers, but one contact for certain, and each other with probability 1/2, is a bilateral "
        "constraint "
        "(4.5), of one row. Not part of a campaign that names no generators.",
-       false, false, ContactKind::kBilateral},
+       true, false, ContactKind::kBilateral},
       {kSliding, "sliding",
        "As integers, but one contact for certain, and each other with probability 1/2, slides (section 6), to "
        "either "
        "side: there may be no solution. Not part of a campaign that names no generators.",
-       false, false, ContactKind::kSliding},
+       true, false, ContactKind::kSliding},
   }};
   return kRows;
 }

@@ -75,7 +75,8 @@ class Collector {
     const Place place = {index, policy, inexact};
     Compare(place, run, problem, /*with_lemke=*/!suspected);
     if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
-    const bool same_problem = Row(task_.generator).exact_in_double;
+    // What leaves before a run leaves it over doubles.
+    const bool same_problem = Row(task_.generator).exact_in_double && !Row(task_.generator).HasOtherKinds();
     if (exact != Outcome::kSolved) {
       const bool safe_cycle = exact == Outcome::kCycle && methods_.is_safe(problem) == true;
       Find(place, run, safe_cycle ? kSafeCycle : Name(exact),

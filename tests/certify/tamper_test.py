@@ -21,6 +21,7 @@ from fractions import Fraction
 from pathlib import Path
 
 BATCH = 500  # files in one call of the program
+SHARE = 4 if os.environ.get("STICTION_TESTS") == "short" else 1  # one in so many is shown
 POLICIES = ["paper", "ties=contacts", "resume=round", "file=yes"]
 
 
@@ -352,6 +353,7 @@ def judge(stiction, script, folder, original, failures):
     refused = accepted = 0
     altered = [("nothing", False, original)]
     altered += [case for case in alterations(original) if json.dumps(case[2]) != json.dumps(original)]
+    altered = altered[::SHARE]
     for first in range(0, len(altered), BATCH):
         batch = altered[first:first + BATCH]
         files = [folder / f"{i}.json" for i in range(len(batch))]
@@ -390,7 +392,7 @@ def main(stiction, sources):
             if not script.reader.check(original, script.CLAIMS) or not is_true(original, original):
                 failures.append(f"{claim}: the certificate itself is not true")
             refused, accepted = judge(stiction, script, folder, original, failures)
-            if refused < 100:
+            if refused < 100 // SHARE:
                 failures.append(f"{claim}: only {refused} altered certificates refused")
             print(f"{claim}: {refused} refused, {accepted} accepted that are true")
         judge_texts(stiction, script, folder, original, failures)

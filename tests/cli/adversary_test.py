@@ -4,6 +4,7 @@
 import json
 import subprocess
 import sys
+import unittest
 
 import cli
 
@@ -37,6 +38,7 @@ class Adversary(cli.TestCase):
         again = json.loads(assembled.read_text())
         self.assertEqual((again["A"], again["b"]), (simpler["A"], simpler["b"]))
 
+    @unittest.skipIf(cli.SHORT, "long")
     def test_threads_and_pieces_leave_the_same_store(self):
         options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt"]
         one, two = self.folder / "one", self.folder / "two"

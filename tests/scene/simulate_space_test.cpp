@@ -260,6 +260,7 @@ TEST_CASE("simulate in space: a wall pushed at the top, its A sparse, moves as w
   CHECK(stands.statistics().sparse == stands.statistics().problems);
   for (const auto& body : stands.scene().bodies) CHECK(body.velocity.norm() < 1e-6);
 
+  if (testing::Short()) return;  // a thousand rows, dense
   scene.bodies.back().force = {6, 1, 0};  // mu m g = 5 N
   AssembleOptions<double> options;
   options.step = 1.0 / 60;
