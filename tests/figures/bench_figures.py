@@ -417,3 +417,13 @@ def peers_in_short(program):
                              f"{wrong} of {count(tried)}: {share(wrong, tried)}"))
     return table(["problems", "contacts", "", "time / LU, from fewest to most", "the most", "wrong, 95 %"], rows) + (
         "\n\n" + prose("Measured" + machine()))
+
+
+def patches(program):
+    """Failures in a million problems of each way to change the published algorithm, all sizes together and apart."""
+    result = program.bench("patches", "--problems", program.size(5_000_000))
+    ways = ("first", "previous", "second", "fold", "lemke", "complete")
+    rows = [(f"`{row['generator']}`", row["contacts"], count(row["problems"]), row["gives up"],
+             *(row[way] for way in ways)) for row in result["rows"]]
+    return table(["generator", "contacts", "problems", "give up", "`give-up=first`", "`previous`", "`second`",
+                  "fold", "Lemke at a give-up", "`complete`"], rows)

@@ -5,6 +5,7 @@ import collections
 import json
 import subprocess
 import sys
+from fractions import Fraction
 
 from markdown import count, prose, table, three
 from program import ROOT
@@ -180,3 +181,16 @@ def certificates(program):
             ("minimized loops that replay to their certified period", replayed),
             ("of these endless under every policy", whole_grid)]
     return table(["a search of fixed size", ""], rows)
+
+
+def shown(value):
+    """A fraction of few digits as it is, another as a decimal number."""
+    number = Fraction(value)
+    return value if max(abs(number.numerator), number.denominator) < 10 ** 4 else f"{float(number):.6g}"
+
+
+def records(program):
+    rows = [(record["what"], shown(record["value"]),
+             f"{shown(record['random']) if record['random'] else 'no loop'}", count(record["random_evaluations"]))
+            for record in program.json("records")]
+    return table(["the worst that is known", "value", "best of random problems", "of so many"], rows)

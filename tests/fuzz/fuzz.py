@@ -2,16 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the fuzz targets (targets.h) with clang, libFuzzer and the sanitizers in build/fuzz, and runs them.
 
-    tests/fuzz/fuzz.py [--seconds N] [--target NAME ...]
+    tests/fuzz/fuzz.py [--seconds N] [--target NAME ...] [--jobs N]
 
 A target starts from its seeds (targets.json), from inputs that once failed (findings/NAME), and from what
 earlier runs found worth keeping (build/fuzz/corpus/NAME). An input that fails, takes too long or too much
-memory is written to build/fuzz/found/NAME, and the target goes on. Prints a line per target.
+memory is written to build/fuzz/found/NAME, and the target goes on.
+
+Seconds are processor time of one and the same binary, over as many calls as it takes: what was spent is kept in
+build/fuzz/spent.json beside the binary's hash, call by call, so that a run that was cut goes on, and a tree that
+builds other code starts anew. With --seconds 0 nothing runs, and the table says what the binaries of this tree have
+behind them. Prints a line per target.
 Exit: 0 if nothing was found, 1 if something was.
 """
 
 import argparse
 import collections
+import concurrent.futures
 import hashlib
 import json
 import os
@@ -19,7 +25,7 @@ import re
 import shutil
 import subprocess
 import sys
-import time
+import threading
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -29,6 +35,7 @@ TABLE = json.loads((ROOT / "tests/fuzz/targets.json").read_text())
 SECONDS_PER_INPUT = 20
 MEGABYTES = 2560
 MOST_FINDINGS = 5  # of a target, then it has to be mended first
+SECONDS_PER_CALL = 300  # of libFuzzer: no more is lost if all is killed
 WORDS_IN_DICTIONARY = 500
 
 
@@ -72,20 +79,50 @@ def write_dictionary(name):
     return file
 
 
+# ---- What was spent ----------------------------------------------------------------------------
+
+class Ledger:
+    """build/fuzz/spent.json: seconds and inputs by target and binary. Shared by the threads of a run."""
+
+    FILE = BUILD / "spent.json"
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.rows = json.loads(self.FILE.read_text()) if self.FILE.exists() else {}
+
+    def row(self, name):
+        """Of the binary that is there now; another one has spent nothing."""
+        binary = hashlib.sha256(program(name).read_bytes()).hexdigest()
+        with self.lock:
+            if self.rows.get(name, {}).get("binary") != binary:
+                self.rows[name] = {"binary": binary, "seconds": 0.0, "inputs": 0, "edges": 0, "findings": 0}
+            return self.rows[name]
+
+    def write(self):
+        with self.lock:
+            new = self.FILE.with_suffix(".new")
+            new.write_text(json.dumps(self.rows, indent=1) + "\n")
+            new.replace(self.FILE)
+
+
 # ---- Runs --------------------------------------------------------------------------------------
+
+def program(name):
+    return BUILD / "tests/fuzz" / f"fuzz_{name}"
+
 
 class Run:
     """What one target did."""
 
-    def __init__(self, name):
+    def __init__(self, name, ledger):
         self.name = name
+        self.ledger = ledger
+        self.spent = ledger.row(name)
         self.found = BUILD / "found" / name
         self.corpus = BUILD / "corpus" / name
         for folder in (self.found, self.corpus):
             folder.mkdir(parents=True, exist_ok=True)
         self.before = set(self.found.iterdir())
-        self.inputs = self.edges = 0
-        self.processor = 0.0
         self.broken = False  # ended by itself without a file that says why
 
     def findings(self):
@@ -96,7 +133,7 @@ class Run:
         folders = [self.corpus, write_seeds(self.name), ROOT / "tests/fuzz/findings" / self.name]
         dictionary = write_dictionary(self.name)
         words = [f"-dict={dictionary}"] if dictionary.stat().st_size else []
-        return [BUILD / "tests/fuzz" / f"fuzz_{self.name}", *(f for f in folders if f.is_dir()), *words,
+        return [program(self.name), *(f for f in folders if f.is_dir()), *words,
                 f"-max_total_time={seconds}", f"-max_len={TABLE[self.name]['bytes']}",
                 f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEGABYTES}",
                 f"-artifact_prefix={self.found}/", "-print_final_stats=1", "-report_slow_units=5"]
@@ -105,53 +142,55 @@ class Run:
         """libFuzzer until it has spent its time, or has found something."""
         log = BUILD / "log" / f"{self.name}.txt"
         log.parent.mkdir(exist_ok=True)
+        known = len(self.findings())
         with log.open("ab") as output:
             start = output.tell()
             process = subprocess.Popen([str(word) for word in self.command(seconds)], stdin=subprocess.DEVNULL,
                                        stdout=output, stderr=output)
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
-        self.processor += usage.ru_utime + usage.ru_stime
         text = log.read_bytes()[start:].decode(errors="replace")
         executed = re.findall(r"stat::number_of_executed_units: (\d+)", text)
-        self.inputs += int(executed[-1]) if executed else 0
-        self.edges = max([self.edges, *map(int, re.findall(r"\bcov: (\d+)", text))])
+        self.spent["seconds"] += usage.ru_utime + usage.ru_stime
+        self.spent["inputs"] += int(executed[-1]) if executed else 0
+        self.spent["edges"] = max([self.spent["edges"], *map(int, re.findall(r"\bcov: (\d+)", text))])
+        self.spent["findings"] += len(self.findings()) - known
+        self.ledger.write()
         return process.returncode == 0
 
     def go(self, seconds):
-        end = time.monotonic() + seconds
-        while (left := round(end - time.monotonic())) > 0 and len(self.findings()) < MOST_FINDINGS:
+        while (left := round(seconds - self.spent["seconds"])) > 0 and len(self.findings()) < MOST_FINDINGS:
             before = len(self.findings())
-            if not self.once(left) and len(self.findings()) == before:
+            if not self.once(min(left, SECONDS_PER_CALL)) and len(self.findings()) == before:
                 self.broken = True
                 break
+        print(self.line(), flush=True)
+        return self
 
     def line(self):
-        return (f"{self.name:12} {self.inputs:>11} {self.processor:>9.0f} {self.edges:>9} "
-                f"{len(list(self.corpus.iterdir())):>8} {len(self.findings()):>9}")
+        line = (f"{self.name:12} {self.spent['inputs']:>11} {self.spent['seconds']:>9.0f} {self.spent['edges']:>9} "
+                f"{len(list(self.corpus.iterdir())):>8} {self.spent['findings']:>9}")
+        for file in self.findings():
+            line += f"\n  {file}: run {program(self.name)} {file}"
+        if self.broken:
+            line += f"\n  ended by itself: {BUILD}/log/{self.name}.txt"
+        return line
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=int, default=60, help="of every target (default 60)")
+    parser.add_argument("--seconds", type=int, default=60, help="of processor time of every target (default 60)")
     parser.add_argument("--target", nargs="+", choices=list(TABLE), metavar="NAME",
                         default=[name for name, row in TABLE.items() if not row.get("only_if_named")],
                         help=f"of {', '.join(TABLE)}")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build, and targets at a time")
     o = parser.parse_args()
     build(o.target, o.jobs)
+    ledger = Ledger()
     print(f"{'target':12} {'inputs':>11} {'seconds':>9} {'edges':>9} {'corpus':>8} {'findings':>9}", flush=True)
-    bad = False
-    for name in o.target:
-        run = Run(name)
-        run.go(o.seconds)
-        print(run.line(), flush=True)
-        for file in run.findings():
-            print(f"  {file}: run {BUILD}/tests/fuzz/fuzz_{name} {file}")
-        if run.broken:
-            print(f"  ended by itself: {BUILD}/log/{name}.txt")
-        bad = bad or run.broken or bool(run.findings())
-    return 1 if bad else 0
+    with concurrent.futures.ThreadPoolExecutor(max_workers=o.jobs) as pool:
+        runs = list(pool.map(lambda name: Run(name, ledger).go(o.seconds), o.target))
+    return 1 if any(run.broken or run.spent["findings"] for run in runs) else 0
 
 
 if __name__ == "__main__":

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Looks for worse problems than the records have: one optimized search for each generator, one at random of the same
+size, and the best of them as a record if it beats the one that stands.
+
+    tests/setup/records.py build/release/stiction steps-4 --objective steps --contacts 4 \\
+        --what "steps of a run that solves, 4 contacts" --generator psd integers exponential --problems 300000
+
+Prints a line per search. Exit: 0 whether or not a record was set.
+"""
+
+import argparse
+import json
+import resource
+import shlex
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "corpus/records"
+
+
+def children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Search:
+    """One search, and its best problem as a record in `folder`, if it has one."""
+
+    def __init__(self, program, o, generator, optimizer, folder, problems):
+        self.store = Path(folder) / f"{optimizer}-{generator}.store"
+        self.words = ["search", "--objective", o.objective, "--optimizer", optimizer, "--generator", generator,
+                      "--contacts", str(o.contacts), "--mu", *o.mu, *(["--gravity-only"] if o.gravity_only else []),
+                      "--seed", str(o.seed), "--problems", str(problems)]
+        before = children()
+        subprocess.run([program, *self.words, "--threads", str(o.threads), "--store", self.store], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.seconds = children() - before
+        self.problem = self.store.with_suffix(".json")
+        best = subprocess.run([program, "problem", self.store, "--best", "-o", self.problem], capture_output=True)
+        self.value = self.record_value(program, o, folder) if best.returncode == 0 else None
+        print(f"{optimizer:12} {generator:16} {self.value or 'nothing'} in {self.seconds:.0f} s", flush=True)
+
+    def command(self):
+        return f"./run {shlex.join(self.words)} --store S && ./run problem S --best"
+
+    def record_value(self, program, o, folder):
+        done = self.add(program, o, Path(folder), "trial", [])
+        return Fraction(json.loads((Path(folder) / "trial.json").read_text())["value"]) if done else None
+
+    def add(self, program, o, folder, name, more):
+        words = [program, "records", "--folder", folder, "--add", self.problem, "--frontier", name, "--what", o.what,
+                 "--objective", o.objective, "--command", self.command(), "--seconds", f"{self.seconds:.1f}", *more]
+        return subprocess.run(words, capture_output=True).returncode == 0
+
+
+def standing(name):
+    file = FOLDER / f"{name}.json"
+    return Fraction(json.loads(file.read_text())["value"]) if file.exists() else None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("frontier", help="name of the record")
+    parser.add_argument("--objective", required=True)
+    parser.add_argument("--contacts", type=int, required=True)
+    parser.add_argument("--what", required=True, help="what the record is one of, in words")
+    parser.add_argument("--generator", nargs="+", required=True)
+    parser.add_argument("--optimizer", nargs="+", default=["evolution"])
+    parser.add_argument("--mu", nargs="+", default=["1"])
+    parser.add_argument("--gravity-only", action="store_true")
+    parser.add_argument("--less", action="store_true", help="lower values are the better records")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--problems", type=int, default=300_000)
+    parser.add_argument("--threads", type=int, default=1)
+    o = parser.parse_args()
+    better = min if o.less else max
+    with tempfile.TemporaryDirectory() as folder:
+        found = [Search(o.program, o, generator, optimizer, folder, o.problems)
+                 for generator in o.generator for optimizer in o.optimizer]
+        found = [search for search in found if search.value is not None]
+        if not found:
+            print(f"{o.frontier}: nothing")
+            return 0
+        best = better(found, key=lambda search: search.value)
+        old = standing(o.frontier)
+        if old is not None and better(old, best.value) == old:
+            print(f"{o.frontier}: {old} stands")
+            return 0
+        equal = o.problems * len(o.optimizer)
+        random = [Search(o.program, o, generator, "random", folder, equal) for generator in o.generator]
+        values = [search.value for search in random if search.value is not None]
+        more = ["--random-evaluations", str(equal * len(o.generator))]
+        if values:
+            more += ["--random", str(better(values))]
+        if not best.add(o.program, o, FOLDER, o.frontier, more):
+            sys.exit(f"{o.frontier}: could not be recorded")
+        print(f"{o.frontier}: {best.value}, before {old}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
