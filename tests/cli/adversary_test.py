@@ -5,6 +5,7 @@ import json
 import subprocess
 import sys
 import unittest
+from fractions import Fraction
 
 import cli
 
@@ -46,6 +47,28 @@ class Adversary(cli.TestCase):
         for problems in (30000, 60000, 90000):
             self.search(two, *options, "--problems", problems, "--threads", 3)
         self.assertSameContent(one, two)
+
+    def test_a_search_goes_on_from_the_problem_of_another(self):
+        first, best, second = (self.folder / name for name in ("one", "best.json", "two"))
+        options = ["--objective", "pivot", "--generator", "psd", "--contacts", 2, "--mu", 1, "--problems", 10000]
+        value = self.search(first, *options).json()["best"][0]["value"]
+        self.succeeds("problem", first, "--best", "-o", best)
+        later = self.search(second, *options, "--seed", 2, "--from", best).json()["best"][0]["value"]
+        self.assertGreaterEqual(later, value)
+        self.refuses("search", "--objective", "pivot", "--generator", "integers", "--from", best, "--store",
+                     self.folder / "s", says=["parents", "psd"])
+        self.refuses("search", "--generator", "psd", "--from", best, "--store", self.folder / "s",
+                     says=["parents", "--objective"])
+        self.refuses("search", *options, "--from", self.file("p.json", cli.REFERENCE), "--store", self.folder / "s",
+                     says=["origin", "choices"])
+
+    def test_how_far_a_loop_may_move(self):
+        loop = cli.ROOT / "corpus/two-contact-cycle-every-policy-period-4.json"
+        rows = self.succeeds("certify", loop, "--robust", "--json").json()
+        self.assertEqual([row["policy"] for row in rows], ["paper"])
+        self.assertGreater(Fraction(rows[0]["radius"]), Fraction(1, 100000))
+        tied = self.file("p.json", cli.REFERENCE)
+        self.assertIsNone(self.succeeds("certify", tied, "--robust", "--json", code=3).json()[0]["radius"])
 
     def test_what_cannot_be_is_refused(self):
         store = self.folder / "s"

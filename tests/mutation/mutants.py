@@ -456,7 +456,8 @@ bug("give-ups-not-read", "if (run.verdict.statistics.give_ups == 0) return;", ""
 bug("disagreements-not-counted", "++result_.record.agreement[task_.contacts].disagreements;", "",
     "disagreements are not counted")
 bug("signs-of-irregular", "count.regular && count.signs != 1", "count.signs != 1", "signs are counted of all problems")
-bug("safety-of-suspicions", "if (!suspected) CheckSafety(place, run, problem);", "CheckSafety(place, run, problem);",
+bug("safety-of-suspicions", "if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);",
+    "if (!Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);",
     "safety is checked of suspicions, too")
 bug("audit-once", "if (audit) until_audit = campaign_.audit_every;", "until_audit = campaign_.audit_every;",
     "only the first problem is audited")
