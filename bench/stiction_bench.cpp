@@ -43,7 +43,7 @@ constexpr std::array kSuites = {
           BenchLinearAlgebra},
     Suite{"space", "readings of section 5.6 in space: counts and outcomes", 12, BenchSpace},
     Suite{"sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts, BenchSliding},
-    Suite{"smallest", "all problems of two contacts with small integers", kMaxContacts, BenchSmallest},
+    Suite{"smallest", "loops of two contacts with small integers, A definite, mu = 1", kMaxContacts, BenchSmallest},
     Suite{"scenes",
           "frames a second of the scenes of a folder, minimal and full models, or one thread and more",
           kMaxContacts, BenchScenes},
@@ -57,6 +57,10 @@ int RunBench(const BenchOptions& o) {
       throw InputError(fmt::format("--contacts: found {}, expected 1 to {} for suite {}{}", contacts, most,
                                    o.suite, o.generator ? " with a generator" : ""));
     }
+  }
+  if (o.generator && Row(*o.generator).HasOtherKinds() && suite->name != "search") {
+    throw InputError(fmt::format("--generator: found {}, expected one of static contacts for suite {}",
+                                 Row(*o.generator).name, o.suite));
   }
   return suite->run(o);
 }

@@ -33,7 +33,7 @@ int BenchAdversary(const BenchOptions& options);
 // Ways to change the published algorithm, and how often each still fails (patches.cpp).
 int BenchPatches(const BenchOptions& options);
 
-// All problems of two contacts with small integers (smallest.cpp).
+// The problems of two contacts with small integers, A definite, mu = 1 (smallest.cpp).
 int BenchSmallest(const BenchOptions& options);
 
 // Problems a second of the search's hot path, one thread (search_rate.cpp).

@@ -54,7 +54,7 @@ Found CompareWithModes(const ExactProblem& problem, const Answers& answers) {
 }
 
 Found CheckSigns(const ExactProblem& problem, const Enumeration& modes) {
-  if (!HasSolution(problem) || HasKind(problem, ContactKind::kBilateral)) return std::nullopt;
+  if (!HasSolution(problem)) return std::nullopt;
   const SolutionCount count = CountSolutions(problem, modes);
   if (!count.regular || count.signs == 1) return std::nullopt;
   ModeWord all_clamped;  // its reduced matrix is A

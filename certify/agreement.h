@@ -14,7 +14,7 @@
 //     step has a tie.
 //
 // Where contacts slide, only the first holds, and that a solution which was found stands among the words that have
-// any; the signs are those of problems without bilateral contacts.
+// any.
 //
 // Anything else refutes a program or a proof here.
 

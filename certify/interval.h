@@ -42,6 +42,7 @@ struct Approximation<Interval> {
 template <>
 struct UncertainRate<Interval> {
   static bool Is(const Interval& rate) { return rate.inf() <= 0 && rate.sup() > 0; }
+  static bool IsNone(const Interval& rate) { return rate.sup() <= 0; }
   static Interval Reach(const Interval& gap, const Interval& rate) {
     const Interval earliest = Interval(std::max(gap.inf(), 0.0)) / Interval(rate.sup());
     return {std::max(earliest.inf(), 0.0), std::numeric_limits<double>::infinity()};

@@ -6,13 +6,16 @@
 //
 // Theorem. Let the run of the problem itself come to the state with sets S after `start` drives, and again
 // `period` drives later. If the run over intervals that enclose the box
-//   - proves every decision of these drives, each being that of the problem itself,
+//   - proves every decision of these drives, each being that of the problem itself, and that no earlier state
+//     stood before,
 //   - knows the forces of all variables outside C, CF, NC- and NC+ to be zero, at both times, and
 //   - finds the equations of C and CF in S regular,
 // then every problem of the box loops, with this start and period.
 // Proof. All runs take the same steps, so all have the sets S at both times; under `resume=round` the contact
 // driven last is the same too. The forces at each time are zero outside S, follow friction at a limit, and
 // otherwise solve the equations, which have one solution: the state is the same. QED
+//
+// The box reaches beyond what the paper assumes: its A need not be symmetric, nor semidefinite.
 //
 // Units    r is a number without one. Requires static and frictionless contacts of the plane.
 

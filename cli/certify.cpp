@@ -211,8 +211,8 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
     rows.push_back({{"policy", PolicyName(policy)}, {"radius", radius ? Json(ToString(*radius)) : Json()}});
     if (o.json) continue;
     if (radius)
-      fmt::print("{}: loops for all A, b, mu within {:.3g} of these, proved (A, b: of the largest entry)\n",
-                 PolicyName(policy), ToDouble(*radius));
+      fmt::print("{}: loops for all A, b, mu within {} of these, proved (A, b: of the largest entry)\n",
+                 PolicyName(policy), ToString(*radius));
     else
       fmt::print("{}: no loop that intervals prove\n", PolicyName(policy));
   }

@@ -162,8 +162,13 @@ static void RequireParents(const Campaign& campaign) {
     throw InputError("parents: found some without an objective, expected --objective too");
   for (const Candidate& parent : campaign.parents) {
     if (has(campaign.generators, parent.generator) && has(campaign.contacts, parent.contacts) &&
-        parent.gravity_only == campaign.gravity_only)
-      continue;
+        parent.gravity_only == campaign.gravity_only) {
+      const int most = LargestMuPart(parent.generator);
+      const bool fits = parent.mu.numerator <= most && parent.mu.denominator <= most;
+      if (fits && (FindObjective(campaign.objective)->lowers_friction || has(campaign.palette, parent.mu))) continue;
+      throw InputError(fmt::format("parents: found friction coefficient {}/{}, expected one of the campaign's",
+                                   parent.mu.numerator, parent.mu.denominator));
+    }
     throw InputError(fmt::format("parents: found {} of {} contacts{}, expected problems of the campaign's kind",
                                  Row(parent.generator).name, parent.contacts,
                                  parent.gravity_only ? " under gravity only" : ""));

@@ -107,21 +107,21 @@ class Collector {
                      {"baraff", published.verdict.outcome, published.state.f}},
                     {}};
     AgreementTally& tally = result_.record.agreement[task_.contacts];
+    const bool promised = Row(task_.generator).other_kind != ContactKind::kSliding;  // a solution
     const std::uint64_t draw = Mix(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_),
                                                static_cast<std::uint64_t>(place.index)));
     if (with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0) {
       const LemkeRun lemke = methods_.lemke(problem, campaign_.limits);
       answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
-      ++tally.compared;
+      tally.compared += promised;
     }
     if (task_.contacts <= kMostContactsEnumerated &&
         draw % static_cast<std::uint64_t>(campaign_.enumerate_every) == 0) {
       answers.modes = methods_.modes(problem);
-      CountModes(tally, problem, *answers.modes);
+      if (promised) CountModes(tally, problem, *answers.modes);
     }
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
-    if (Row(task_.generator).other_kind != ContactKind::kSliding)
-      CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
+    if (promised) CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
     if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
   }
 

@@ -26,11 +26,12 @@ struct Approximation {
 template <class Scalar>
 inline constexpr bool kMeetsLimits = !kIsExact<Scalar> || kEncloses<Scalar>;
 
-// A rate whose ends have both signs. What shrinks at it reaches zero at Reach(gap, rate), from the earliest to
+// The one exception from "throws": a rate whose ends have both signs. What shrinks at it reaches zero at Reach(gap, rate), from the earliest to
 // never; Refuse() throws, as comparisons do. Specialised beside the scalar.
 template <class Scalar>
 struct UncertainRate {
   static bool Is(const Scalar&) { return false; }
+  static bool IsNone(const Scalar&) { return false; }  // surely not positive
   static Scalar Reach(const Scalar& gap, const Scalar&) { return gap; }
   static bool IsReach(const Scalar&) { return false; }
   static void Refuse() {}

@@ -196,7 +196,8 @@ int PublishedAlgorithm<Scalar, Rows>::ScanForViolated() {
   ++verdict_.statistics.outer_scans;
   const Policy& policy = options_.policy;
   const int picked = Pick(policy.scan, policy.resume);
-  if (trace_ == nullptr || picked < 0) return picked;
+  // Over enclosures no more is asked than the policy asks.
+  if (trace_ == nullptr || picked < 0 || kEncloses<Scalar>) return picked;
   bool any = false, by_scan = false, by_resume = false;  // whether some reading picks another variable
   for (int scan = 0; scan < 4; ++scan) {
     for (int resume = 0; resume < 2; ++resume) {

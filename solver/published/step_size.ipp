@@ -17,6 +17,7 @@ void StepSize<Scalar, Rows>::Resize(int rows) {
 template <class Scalar, int Rows>
 void StepSize<Scalar, Rows>::Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
                                    const Scalar& tolerance) {
+  if (kEncloses<Scalar> && UncertainRate<Scalar>::IsNone(rate)) return;
   const bool uncertain = kEncloses<Scalar> && UncertainRate<Scalar>::Is(rate);
   if (!uncertain && Sign(rate, tolerance) <= 0) return;
   Scalar s = uncertain ? UncertainRate<Scalar>::Reach(gap, rate) : Scalar(gap / rate);
