@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suite `smallest`: the problems of two static contacts with small integers, one after the other: which loop has
-// the smallest? Policy `paper`, mu = 1.
+// Suite `smallest`: the problems of two static contacts with small integers, one after the other: which loop
+// has the smallest? Policy `paper`, mu = 1.
 //
-// Every positive definite A and every b with integers of at most K, but for tangents reversed: A_N1F1 and A_N2F2
-// are not negative. Problems without a negative bN are solved by f = 0 and left out. Smallest is the loop with the
-// smallest largest entry, of these the one with the fewest nonzeros, of these that with the least sum. Runs are
-// over doubles; what does not end solved there is run exactly. A loop that doubles take for a solution, since
-// they break a tie otherwise, is not seen: counts are lower bounds.
+// Every positive definite A and every b with integers of at most K, but for tangents reversed: A_N1F1 and
+// A_N2F2 are not negative. Problems without a negative bN are solved by f = 0 and left out. Smallest is the
+// loop with the smallest largest entry, of these the one with the fewest nonzeros, of these that with the least
+// sum. Runs are over doubles; what does not end solved there is run exactly. A loop that doubles take for a
+// solution, since they break a tie otherwise, is not seen: counts are lower bounds.
 
 #include <fmt/format.h>
 
@@ -161,13 +161,15 @@ Json FileOf(const std::optional<std::pair<Size, ExactProblem>>& best, const char
 
 Json Shown(const std::optional<std::pair<Size, ExactProblem>>& best) {
   if (!best) return "-";
-  return fmt::format("{} nonzeros, largest {}, sum {}", best->first.nonzeros, best->first.largest, best->first.sum);
+  return fmt::format("{} nonzeros, largest {}, sum {}", best->first.nonzeros, best->first.largest,
+                     best->first.sum);
 }
 
 }  // namespace
 
 int BenchSmallest(const BenchOptions& options) {
-  BenchTable table{"smallest", "loops of two contacts, mu = 1, A definite, among all with integers of at most K"};
+  BenchTable table{"smallest",
+                   "loops of two contacts, mu = 1, A definite, among all with integers of at most K"};
   Json problems = Json::array();
   for (int largest = 1; largest <= options.entries; ++largest) {
     Smallest all(largest);

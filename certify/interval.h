@@ -44,8 +44,9 @@ struct UncertainRate<Interval> {
   static bool Is(const Interval& rate) { return rate.inf() <= 0 && rate.sup() > 0; }
   static bool IsNone(const Interval& rate) { return rate.sup() <= 0; }
   static Interval Reach(const Interval& gap, const Interval& rate) {
-    const Interval earliest = Interval(std::max(gap.inf(), 0.0)) / Interval(rate.sup());
-    return {std::max(earliest.inf(), 0.0), std::numeric_limits<double>::infinity()};
+    const bool tells = gap.inf() > 0 && std::isfinite(gap.inf()) && std::isfinite(rate.sup());
+    const double earliest = tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
+    return {earliest, std::numeric_limits<double>::infinity()};
   }
   static bool IsReach(const Interval& s) { return std::isinf(s.sup()); }
   [[noreturn]] static void Refuse() {

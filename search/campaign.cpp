@@ -165,7 +165,8 @@ static void RequireParents(const Campaign& campaign) {
         parent.gravity_only == campaign.gravity_only) {
       const int most = LargestMuPart(parent.generator);
       const bool fits = parent.mu.numerator <= most && parent.mu.denominator <= most;
-      if (fits && (FindObjective(campaign.objective)->lowers_friction || has(campaign.palette, parent.mu))) continue;
+      if (fits && (FindObjective(campaign.objective)->lowers_friction || has(campaign.palette, parent.mu)))
+        continue;
       throw InputError(fmt::format("parents: found friction coefficient {}/{}, expected one of the campaign's",
                                    parent.mu.numerator, parent.mu.denominator));
     }
@@ -190,7 +191,8 @@ void RequireConsistent(const Campaign& campaign) {
   RequireParents(campaign);
   for (const GeneratorId id : campaign.generators) {
     if (!campaign.objective.empty() && Row(id).HasOtherKinds())
-      throw InputError(fmt::format("objective: found generator {}, expected one of static contacts", Row(id).name));
+      throw InputError(
+          fmt::format("objective: found generator {}, expected one of static contacts", Row(id).name));
   }
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
     throw InputError(

@@ -100,7 +100,8 @@ class Collector {
   };
 
   // Holds the methods against each other. All generators promise A positive semidefinite and b in range(A), as
-  // FindDisagreement requires; that there is a solution is counted where none slides. Lemke's method where asked for, otherwise by lot.
+  // FindDisagreement requires; that there is a solution is counted where none slides. Lemke's method where
+  // asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
     const CompleteRun complete = methods_.complete(problem, campaign_.limits);
     Answers answers{{{"complete", complete.verdict.outcome, complete.f},
@@ -297,7 +298,8 @@ class Kernel final : public SizedKernel {
   ContactProblem<double, Rows> problem_;
 };
 
-std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, const Task& task) {
+std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers,
+                                        const Task& task) {
   if (Row(task.generator).HasOtherKinds()) return std::make_unique<Kernel<Eigen::Dynamic>>(campaign, solvers);
   switch (task.contacts) {
     case 1:
@@ -317,7 +319,8 @@ std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolv
     case 8:
       return std::make_unique<Kernel<16>>(campaign, solvers);
     default:
-      throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
+      throw InputError(
+          fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
   }
 }
 

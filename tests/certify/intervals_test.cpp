@@ -108,6 +108,21 @@ TEST_CASE("intervals: of 300 generic problems Lemke's method is decided on 297 o
   CHECK(decided >= 297);
 }
 
+TEST_CASE("intervals: a problem beyond the doubles is undecided or refused, nothing worse") {
+  const Rational huge = Number("1e309");
+  for (int entry = 0; entry < 4; ++entry) {
+    ExactProblem problem = MakeProblem({1}, {{2, 0}, {0, 3}}, {-1, 1});
+    if (entry == 0) problem.A(0, 0) = huge;
+    if (entry == 1) problem.A(1, 1) = huge;
+    if (entry == 2) problem.b[0] = -huge;
+    if (entry == 3) problem.contacts[0].mu = huge;
+    CAPTURE(entry);
+    const IntervalRun run = RunPublishedOverIntervals(problem, {});
+    if (run.verdict.outcome == Outcome::kSolved)
+      CHECK(RunExact(problem, {}).verdict.outcome == Outcome::kSolved);
+  }
+}
+
 TEST_CASE("intervals: with ties, cycles and rays no verdict is wrong") {
   int decided = 0, all = 0;
   for (const GeneratorRow& generator : Generators()) {
