@@ -18,6 +18,7 @@ Exit: 0 if nothing was found, 1 if something was.
 import argparse
 import collections
 import concurrent.futures
+import fcntl
 import hashlib
 import json
 import os
@@ -95,7 +96,8 @@ class Ledger:
         binary = hashlib.sha256(program(name).read_bytes()).hexdigest()
         with self.lock:
             if self.rows.get(name, {}).get("binary") != binary:
-                self.rows[name] = {"binary": binary, "seconds": 0.0, "inputs": 0, "edges": 0, "findings": 0}
+                self.rows[name] = {"binary": binary, "seconds": 0.0, "inputs": 0, "edges": 0, "findings": [],
+                                   "broken": False}
             return self.rows[name]
 
     def write(self):
@@ -122,10 +124,10 @@ class Run:
         self.corpus = BUILD / "corpus" / name
         for folder in (self.found, self.corpus):
             folder.mkdir(parents=True, exist_ok=True)
-        self.before = set(self.found.iterdir())
-        self.broken = False  # ended by itself without a file that says why
+        self.before = {file for file in self.found.iterdir() if file.name not in self.spent["findings"]}
 
     def findings(self):
+        """Of this binary."""
         new = set(self.found.iterdir()) - self.before
         return sorted(file for file in new if not file.name.startswith("slow-unit"))
 
@@ -142,7 +144,6 @@ class Run:
         """libFuzzer until it has spent its time, or has found something."""
         log = BUILD / "log" / f"{self.name}.txt"
         log.parent.mkdir(exist_ok=True)
-        known = len(self.findings())
         with log.open("ab") as output:
             start = output.tell()
             process = subprocess.Popen([str(word) for word in self.command(seconds)], stdin=subprocess.DEVNULL,
@@ -154,7 +155,7 @@ class Run:
         self.spent["seconds"] += usage.ru_utime + usage.ru_stime
         self.spent["inputs"] += int(executed[-1]) if executed else 0
         self.spent["edges"] = max([self.spent["edges"], *map(int, re.findall(r"\bcov: (\d+)", text))])
-        self.spent["findings"] += len(self.findings()) - known
+        self.spent["findings"] = [file.name for file in self.findings()]
         self.ledger.write()
         return process.returncode == 0
 
@@ -162,17 +163,18 @@ class Run:
         while (left := round(seconds - self.spent["seconds"])) > 0 and len(self.findings()) < MOST_FINDINGS:
             before = len(self.findings())
             if not self.once(min(left, SECONDS_PER_CALL)) and len(self.findings()) == before:
-                self.broken = True
+                self.spent["broken"] = True  # ended by itself without a file that says why
+                self.ledger.write()
                 break
         print(self.line(), flush=True)
         return self
 
     def line(self):
         line = (f"{self.name:12} {self.spent['inputs']:>11} {self.spent['seconds']:>9.0f} {self.spent['edges']:>9} "
-                f"{len(list(self.corpus.iterdir())):>8} {self.spent['findings']:>9}")
+                f"{len(list(self.corpus.iterdir())):>8} {len(self.spent['findings']):>9}")
         for file in self.findings():
             line += f"\n  {file}: run {program(self.name)} {file}"
-        if self.broken:
+        if self.spent["broken"]:
             line += f"\n  ended by itself: {BUILD}/log/{self.name}.txt"
         return line
 
@@ -185,12 +187,18 @@ def main():
                         help=f"of {', '.join(TABLE)}")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build, and targets at a time")
     o = parser.parse_args()
+    BUILD.mkdir(parents=True, exist_ok=True)
+    lock = (BUILD / "lock").open("w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit(f"{BUILD}: another run of targets is under way")
     build(o.target, o.jobs)
     ledger = Ledger()
     print(f"{'target':12} {'inputs':>11} {'seconds':>9} {'edges':>9} {'corpus':>8} {'findings':>9}", flush=True)
     with concurrent.futures.ThreadPoolExecutor(max_workers=o.jobs) as pool:
         runs = list(pool.map(lambda name: Run(name, ledger).go(o.seconds), o.target))
-    return 1 if any(run.broken or run.spent["findings"] for run in runs) else 0
+    return 1 if any(run.spent["broken"] or run.spent["findings"] for run in runs) else 0
 
 
 if __name__ == "__main__":
