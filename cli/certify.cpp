@@ -238,6 +238,9 @@ ProblemFile ReadFor(const CertifyOptions& o) {
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all && !o.safe && !o.robust)
     throw InputError("certify: expected -o CERT, --all, --safe or --robust");
+  if (o.robust && (o.all || o.safe || !o.output.empty()))
+    throw InputError(
+        "certify: found --robust with --all, --safe or -o, expected it alone: it writes no certificate");
   const ProblemFile file = ReadFor(o);
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
@@ -328,7 +331,8 @@ void AddCertify(CommandLine& program) {
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
-  verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one");
+  verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one")
+      .Details("A lower bound, proved over intervals; writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

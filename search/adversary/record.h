@@ -9,7 +9,7 @@
 //   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all
 //            eigenvalues of A are in [l, u].
 //   status   "best so far" or "proved", with "proof" naming where
-//   random   what random problems reach at equal cost: {"value" (null: nothing), "evaluations"}
+//   random   the best of random problems, and of how many: {"value" (null: nothing), "evaluations"}
 
 #ifndef STICTION_SEARCH_ADVERSARY_RECORD_H_
 #define STICTION_SEARCH_ADVERSARY_RECORD_H_

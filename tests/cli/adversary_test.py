@@ -55,6 +55,9 @@ class Adversary(cli.TestCase):
         self.succeeds("problem", first, "--best", "-o", best)
         later = self.search(second, *options, "--seed", 2, "--from", best).json()["best"][0]["value"]
         self.assertGreaterEqual(later, value)
+        again = self.search(second, *options, "--seed", 2, "--from", best).json()  # goes on where it stopped: at its end
+        self.assertEqual((again["best"][0]["value"], again["candidates"]), (later, 10000))
+        self.refuses("search", *options, "--seed", 2, "--store", second, says=["parents"])
         self.refuses("search", "--objective", "pivot", "--generator", "integers", "--from", best, "--store",
                      self.folder / "s", says=["parents", "psd"])
         self.refuses("search", "--generator", "psd", "--from", best, "--store", self.folder / "s",
@@ -69,6 +72,10 @@ class Adversary(cli.TestCase):
         self.assertGreater(Fraction(rows[0]["radius"]), Fraction(1, 100000))
         tied = self.file("p.json", cli.REFERENCE)
         self.assertIsNone(self.succeeds("certify", tied, "--robust", "--json", code=3).json()[0]["radius"])
+        for other in (["--all"], ["--safe"], ["-o", self.folder / "c.json"]):
+            self.refuses("certify", loop, "--robust", *other, says=["--robust", "alone"])
+        sliding = cli.ROOT / "corpus/sliding/cycle-of-sliding-contacts.json"
+        self.refuses("certify", sliding, "--robust", says=["kind", "robustness"])
 
     def test_what_cannot_be_is_refused(self):
         store = self.folder / "s"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction bench: what its tables say is consistent, and but for times the same again. Never how fast."""
 
+import itertools
 import os
 import unittest.mock
 
@@ -287,8 +288,34 @@ class Peers(cli.TestCase):
         self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])
         self.refuses("bench", "--suite", "methods", "--generator", "psd", "--contacts", 9,
                      says=["found 9", "1 to 8", "generator"])
+        for suite in ("sliding", "patches", "methods"):
+            self.refuses("bench", "--suite", suite, "--generator", "bilateral", says=["bilateral", "static", suite])
+        self.refuses("bench", "--suite", "smallest", "--entries", 0, says=["--entries"])
         self.refuses("bench", "--suite", "space", "--contacts", 13, says=["found 13", "1 to 12"])
         self.refuses("bench", "--suite", "growth", "--contacts", 0, says=["--contacts"])
+
+
+class Smallest(cli.TestCase):
+    def test_all_of_them_are_tried(self):
+        """Counted again: definite by leading minors, up to tangents reversed; b with a negative normal."""
+        def determinant(M):
+            if not M:
+                return 1
+            return sum((-1) ** j * M[0][j] * determinant([row[:j] + row[j + 1:] for row in M[1:]])
+                       for j in range(len(M)) if M[0][j])
+
+        def definite(d, n1f1, n2f2, n1n2, n1f2, f1n2, f1f2):
+            A = [[d[0], n1f1, n1n2, n1f2], [n1f1, d[1], f1n2, f1f2], [n1n2, f1n2, d[2], n2f2], [n1f2, f1f2, n2f2, d[3]]]
+            return all(determinant([row[:k] for row in A[:k]]) > 0 for k in range(1, 5))
+
+        rows = self.succeeds("bench", "--suite", "smallest", "--entries", 2, "--json").json()["rows"]
+        self.assertEqual([row["K"] for row in rows], [1, 2])
+        for K, row in enumerate(rows, 1):
+            some, all_ = range(K + 1), range(-K, K + 1)
+            matrices = sum(definite(d, *rest) for d in itertools.product(range(1, K + 1), repeat=4)
+                           for rest in itertools.product(some, some, all_, all_, all_, all_))
+            self.assertEqual(row["matrices"], matrices)
+            self.assertEqual(row["problems"], matrices * (len(all_) ** 4 - (K + 1) ** 2 * len(all_) ** 2))
 
 
 class Sliding(cli.TestCase):
