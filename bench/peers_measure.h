@@ -2,16 +2,14 @@
 // Contenders on the same problems, by turns: times, and what their answers are worth.
 //
 // time      the less of wall-clock time and of the processor time of all threads; groups of consecutive
-// problems
-//           where one is too short for the clock. No problem is solved twice in a row, which would teach the
-//           processor its branches.
+//           problems where one is too short for the clock. No problem is solved twice in a row, which would
+//           teach the processor its branches.
 // ratio     of the times of the same group, to the first row
 // answers   solved: a residual of at most kWrong, whatever is claimed; wrong: anything else; silent: wrong and
 //           called a success; refused: called a failure, right or wrong. The residual is the natural one in the
 //           plane, that of Coulomb's law in space (solver/problem/residual.h).
 // capped    a contender that needs more than a bound for the first problem, or dies on it: tried in a process
-// of
-//           its own
+//           of its own
 
 #ifndef STICTION_BENCH_PEERS_MEASURE_H_
 #define STICTION_BENCH_PEERS_MEASURE_H_

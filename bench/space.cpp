@@ -8,13 +8,11 @@
 // contacts. All numbers are exact doubles.
 //
 // Suspicions  doubles suspect a cycle where a rounded state stands again. It is run again over long double,
-// rounded
-//             a million times finer: there it `recurs` (same start, same period), or the run only `approaches`
-//             a loop (a later start, or another period), or it is `refuted`.
+//             rounded a million times finer: there it `recurs` (same start, same period), or the run only
+//             `approaches` a loop (a later start, or another period), or it is `refuted`.
 // Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an
-// edge`
-//             counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which the
-//             paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
+//             edge` counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which
+//             the paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
 //             polygons may need more corners (`refined`).
 
 #include "certify/space.h"

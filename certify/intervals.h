@@ -7,8 +7,7 @@
 // (solver/problem/ enclosure.h) end `undecided`, where rationals go on.
 //
 // Kinds    bilateral and sliding contacts leave the problem exactly, before it is enclosed (reduction.h); a run
-// is
-//          told in the terms of the whole problem, as those of exact.h.
+//          is told in the terms of the whole problem, as those of exact.h.
 
 #ifndef STICTION_CERTIFY_INTERVALS_H_
 #define STICTION_CERTIFY_INTERVALS_H_

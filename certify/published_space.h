@@ -6,9 +6,8 @@
 //             proved: forces are irrational, and a state that stands again as far as rounding shows ends
 //             `undecided`.
 // Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
-// numbers
-//             are rounded or enclosed. Runs are told in the terms of the whole problem, as those of exact.h:
-//             bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
+//             numbers are rounded or enclosed. Runs are told in the terms of the whole problem, as those of
+//             exact.h: bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
 
 #ifndef STICTION_CERTIFY_PUBLISHED_SPACE_H_
 #define STICTION_CERTIFY_PUBLISHED_SPACE_H_

@@ -11,8 +11,7 @@
 // b)
 //            = v'b < 0 for every f.
 // Exact      A and b are scaled to integers each, f back; CGAL's QP_solver (linear_system.h). Whatever it says
-// is
-//            checked against the problem before it is returned.
+//            is checked against the problem before it is returned.
 
 #ifndef STICTION_CERTIFY_QP_H_
 #define STICTION_CERTIFY_QP_H_

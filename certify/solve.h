@@ -5,10 +5,9 @@
 // CGAL or Ipopt's process, and by intervals. AllMethods() is what programs show and choose from.
 //
 //   inexact   the problem is rounded, and it is the rounded problem that is solved. Where a path method does
-//   not
-//             solve it, that is a suspicion: the same rounded problem is run again, exactly, or in space, where
-//             the published algorithm takes roots, over long double with finer tolerances. The answer is then
-//             that of the second run, forces and all; `suspected` says what the first one said.
+//             not solve it, that is a suspicion: the same rounded problem is run again, exactly, or in space,
+//             where the published algorithm takes roots, over long double with finer tolerances. The answer is
+//             then that of the second run, forces and all; `suspected` says what the first one said.
 //   exact     what is called solved was verified by verify_solution.h.
 
 #ifndef STICTION_CERTIFY_SOLVE_H_

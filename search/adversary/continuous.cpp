@@ -8,9 +8,8 @@
 // another candidate.
 //
 // What NLopt is told    the value, or where there is none a penalty of 1e15 and 1e9 times the distance to a
-// loop. Never
-//                       a NaN, which it would take. Exceptions are kept and thrown again outside: it loses
-//                       their text.
+//                       loop. Never a NaN, which it would take. Exceptions are kept and thrown again outside:
+//                       it loses their text.
 // Random numbers        nlopt::srand, of this thread, before every start.
 
 #include <algorithm>

@@ -18,12 +18,10 @@
 // the path keeps z'w = 0 until z0 is zero again: a solution; or until nothing limits it: a ray.
 //
 // The law      sum of beta_k (d_k.aF + l) = 0 and l >= -d_k.aF: where l > 0, sum of beta_k = mu fN and fF is
-// where
-//              fF.aF is least in mu fN times the polygon; where l = 0, aF = 0, since the polygon contains 0
-//              inside, and fF is any of its points.
+//              where fF.aF is least in mu fN times the polygon; where l = 0, aF = 0, since the polygon contains
+//              0 inside, and fF is any of its points.
 // Copositive   z'Mz = f'Af + sum of mu_i l_i fN_i >= 0 for z >= 0 and A positive semidefinite: the beta_k
-// gather
-//              f'Af, and l sum of beta_k stands in the corner rows and, with the other sign, in the
+//              gather f'Af, and l sum of beta_k stands in the corner rows and, with the other sign, in the
 //              multiplier's. So it is in the plane and in space. It is used at a ray, a direction (v, v0) at a
 //              point (z, z0) of the path with z0 > 0 and z'(Mv + e v0) = 0, v'w = 0, v'(Mv + e v0) = 0:
 //              - v'Mv and v0 e'v are both >= 0 with sum 0, so v0 = 0, v'Mv = 0, Mv >= 0; v /= 0, since the

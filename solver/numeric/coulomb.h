@@ -25,8 +25,7 @@
 // Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
 // Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
 // Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep. With a sparse A a sparse
-// LU
-//         factorization, and the entries of A.
+//         LU factorization, and the entries of A.
 
 #ifndef STICTION_SOLVER_NUMERIC_COULOMB_H_
 #define STICTION_SOLVER_NUMERIC_COULOMB_H_
