@@ -4,8 +4,7 @@
 //
 //   published     give-up=first, previous, second: what is given up differs, nothing else (readings.md)
 //   fold          where the determinant turns, the driven force goes back; where it is zero again the run
-//   fails: complete
-//                 driving without its descents
+//                 fails: complete driving without its descents
 //   lemke         at the first give-up the problem is handed to Lemke's method
 //   complete      complete driving
 //
