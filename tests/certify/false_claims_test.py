@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""False claims, well written: one for every clause of a claim, and every checker must refuse each.
+"""False claims, well written, for the clauses of every claim, and every checker must refuse each.
 
   false_claims_test.py STICTION SOURCES                   `stiction check`, and every certify/check_*.py
   false_claims_test.py STICTION SOURCES CHECKER...        these programs instead, as `CHECKER FILE...`
@@ -270,8 +270,8 @@ false_solution("in space, the second contact breaks the law",
                [1, 0, 0, 0])
 
 
-def coulomb(kind, what, of, f, bound):
-    solution(kind, what, of, f, claim="coulomb-solution", bound=str(bound))
+def coulomb(kind, what, of, f, bound, a=None):
+    solution(kind, what, of, f, a, claim="coulomb-solution", bound=str(bound))
 
 
 AGAINST = [1, Fraction(-3, 5), Fraction(-4, 5)]
@@ -287,6 +287,11 @@ coulomb(false, "slipping within the limit", pushed(3, 4), [1, Fraction(-3, 10), 
 coulomb(false, "more friction than the limit", pushed(6, 8), [1, Fraction(-6, 5), Fraction(-8, 5)], 1)
 coulomb(false, "fN > 0 and aN > 0", pushed(0, 0), [2, 0, 0], 1)
 coulomb(false, "aN < 0", pushed(0, 0), [0, 0, 0], 1)
+coulomb(false, "fN < 0", problem([1], UNIT, [1, 0, 0], 3), [-1, 0, 0], 1)
+coulomb(false, "a is not A f + b, and would do", pushed(3, 4), [1, 0, 0], 1, [0, 0, 0])
+coulomb(true, "bilateral, pulling", problem(["hold"], [[1]], [1], 3), [-1], 1)
+coulomb(false, "bilateral, aN > 0", problem(["hold"], [[1]], [1], 3), [0], 1)
+coulomb(false, "bilateral, aN < 0", problem(["hold"], [[1]], [-1], 3), [0], 1)
 coulomb(false, "in the plane", problem([1], IDENTITY, [-1, 2]), [1, -1], 1)
 coulomb(false, "sliding against nothing", SLIDES, [1, 0, 0], 1)
 
@@ -461,12 +466,22 @@ false("cycle", "other sets", CYCLING,
 false("cycle", "a state with a contact that is not remembered", CYCLING,
       runs=[run(["paper"], state={**STATE, "contact": 1})])
 
+OTHER = {"drive": 6, "driven": "F1", "goal": "establish", "step": "1/5", "limiting": "N2", "from": "NC", "to": "C"}
+for key, value in OTHER.items():  # of the step that ends 5 F2 zero 3/62 F2 none none
+    told = run(["paper"])
+    told["pivots"][8][key] = value
+    false("cycle", f"a step with another {key}", CYCLING, runs=[told])
+
+# A third contact, without friction, that nothing moves and nothing pushes.
+BESIDE = problem([1, 1, None], [[*row, 0] for row in CYCLING["A"]] + [[0] * 5], [*CYCLING["b"], 0])
+IDLE = {"sets": {**STATE["sets"], "N3": "none"}, "f": [*STATE["f"], "0"]}
+true("cycle", "beside a contact at rest", BESIDE, runs=[run(["paper"], state=IDLE)])
+
 # --- counterexample ------------------------------------------------------------------
 
 
-
 def factors(A):
-    """L and D of A = L diag(D) L', of a definite A."""
+    """L and D of A = L diag(D) L', of an A whose leading minors are positive, but for the last."""
     n, D = len(A), []
     S, L = [[Fraction(x) for x in row] for row in A], [[Fraction(i == j) for j in range(n)] for i in range(n)]
     for k in range(n):
@@ -491,6 +506,10 @@ counterexample(false, "the factors are those of another matrix", CYCLING, [run([
 counterexample(false, "a policy that solves the problem", CYCLING, [run(["file=yes,drop=variable"])])
 counterexample(false, "a run that has not come back yet", CYCLING, [run(["paper"], start=3, period=3, count=11)])
 counterexample(false, "no runs", CYCLING, [])
+counterexample(false, "a is not A f + b, and would do", CYCLING, [run(["paper"])],
+               f=(Fraction(10, 7), 0, 2, Fraction(-8, 7)), a=[0, 0, 0, 0])
+counterexample(false, "A is semidefinite", BESIDE, [run(["paper"], state=IDLE)],
+               f=(1, Fraction(-6, 7), Fraction(25, 14), Fraction(-25, 14), 0))
 
 # --- The form of certificates ------------------------------------------------------
 
