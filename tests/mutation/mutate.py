@@ -25,6 +25,7 @@ import threading
 import time
 from collections import namedtuple
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # beside the sources
@@ -33,7 +34,7 @@ from mutants import LABELS, MUTANTS, PROGRAMS  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
-TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
+TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 FLAGS = "-O1 -fno-ivopts -DNDEBUG"  # built in half of the time; ivopts of gcc 12 at -O1 miscompiles a generator
 LEAST_SHARE = 0.95
@@ -160,6 +161,14 @@ def limit_memory():
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
+@contextmanager
+def scratch_folder():
+    """Of a short name, since some commands name many files; others may look into it, as tests do that drop their rights."""
+    with tempfile.TemporaryDirectory(prefix="m") as folder:
+        os.chmod(folder, 0o755)
+        yield folder
+
+
 def run_test(test, number, seconds, scratch):
     """One test in a process group of its own, with the bug of this number, 0 for none."""
     environment = {**os.environ, "STICTION_MUTANT": str(number), "TMPDIR": str(scratch)}
@@ -183,7 +192,7 @@ def run_test(test, number, seconds, scratch):
 def run_baseline(tests, jobs):
     """Seconds by name, of those that are not skipped. Ends the program if a test does not pass without a bug."""
     def run(test):
-        with tempfile.TemporaryDirectory(prefix="m") as scratch:  # a short name: some commands name many files
+        with scratch_folder() as scratch:
             return run_test(test, 0, 900, scratch)
 
     with ThreadPoolExecutor(jobs) as pool:
@@ -207,7 +216,7 @@ def judge(number, mutant, tests, seconds):
     others = [] if mutant.equivalent else [test for test in tests if test not in likely]
     quickest = sorted(likely, key=lambda test: seconds[test.name]) + sorted(others, key=lambda test: seconds[test.name])
     before = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="m") as scratch:
+    with scratch_folder() as scratch:
         for count, test in enumerate(quickest, 1):
             result = run_test(test, number, 20 + 10 * seconds[test.name], scratch)
             if result.how != "passed":
