@@ -163,9 +163,9 @@ def limit_memory():
 
 @contextmanager
 def scratch_folder():
-    """Of a short name, since some commands name many files; others may look into it, as tests do that drop their rights."""
+    """Of a short name, since some commands name many files; as open as /tmp, for tests that drop their rights."""
     with tempfile.TemporaryDirectory(prefix="m") as folder:
-        os.chmod(folder, 0o755)
+        os.chmod(folder, 0o1777)
         yield folder
 
 
