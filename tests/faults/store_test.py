@@ -76,7 +76,7 @@ class Stores(cli.TestCase):
         store = self.folder / "s.store"
         self.start(store, "--shard", "0/2")
         before = self.units(store)
-        self.succeeds("search", *CAMPAIGN, "--store", store, "--shard", "1/2", "--problems", 4000)
+        self.succeeds("search", *CAMPAIGN, "--store", store, "--shard", "1/2", "--problems", 200000)
         self.assertGreater(self.units(store), before)
 
     # ---- Signals ----
