@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The families of search/adversary/frontiers.md, 3 and 4: the published algorithm loops for every small parameter.
+"""The families of search/adversary/frontiers.md, 3 and 4: the published algorithm loops for every small parameter;
+and 5: it runs for ever and never repeats a state.
 
 The independent runner (certify/check_runs.py) runs them over the field of rational functions of the parameter e,
 ordered by their signs for all small e > 0. A decision there is the decision for all e in some interval (0, e0), and so
@@ -9,6 +10,7 @@ are finitely many of them: a loop over the field is one for every such e.
     families_test.py PROGRAM ROOT
 """
 
+import json
 import sys
 import unittest
 from fractions import Fraction
@@ -16,7 +18,8 @@ from functools import total_ordering
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(sys.argv[2]) / "certify"))
+ROOT = Path(sys.argv[2])
+sys.path.insert(0, str(ROOT / "certify"))
 
 import check_runs  # noqa: E402
 
@@ -141,6 +144,10 @@ def run(A, b, mu, policy="paper"):
     return check_runs.run(Rows(A, b, mu), policy, bounded)
 
 
+def word_of(steps):
+    return [(step["driven"], step["goal"], step["limiting"], step["from"], step["to"]) for step in steps]
+
+
 def word(found):
     return [(step["drive"], step["driven"], step["limiting"], step["from"], step["to"]) for step in found.pivots]
 
@@ -193,6 +200,95 @@ class Families(unittest.TestCase):
         A, b, mu = near_the_bound(Fraction(1), E)
         weaker = [[x / 2 if i // 2 != j // 2 else x for j, x in enumerate(row)] for i, row in enumerate(A)]
         self.assertEqual(run(weaker, b, mu).outcome, "solved")
+
+
+class State:
+    """Of the outer loop: sets, forces, and what the scan remembers."""
+
+    def __init__(self, run):
+        self.sets, self.f, self.last, self.steps = list(run.sets), list(run.f), run.last, len(run.steps)
+        self.seen = (tuple(run.sets), run.remembered())
+
+
+class Outer:
+    """Runs of one problem under one policy, an outer scan at a time."""
+
+    def __init__(self, A, b, mu, policy):
+        self.A, self.b, self.mu, self.policy = A, b, mu, check_runs.read_policy(policy)
+
+    def begin(self, of=Fraction):
+        rows = Rows([[of(x) for x in row] for row in self.A], [of(x) for x in self.b], self.mu)
+        return check_runs.Published(rows, self.policy, lambda made: None)
+
+    def begin_at(self, state, f):
+        run = self.begin(Function.of)
+        run.sets, run.last, run.f = list(state.sets), state.last, list(f)
+        run.a = [sum((Function.of(x) * y for x, y in zip(row, f)), Function.of(b)) for row, b in zip(self.A, self.b)]
+        return run
+
+    @staticmethod
+    def go_on(run, scans):
+        for _ in range(scans):
+            run.sweep()
+            violated = run.scan()
+            assert violated is not None, "it is solved"
+            run.establish(violated)
+        return run
+
+
+def line(f, direction, t):
+    return [Function.of(x) + t * y for x, y in zip(f, direction)]
+
+
+class Endless(unittest.TestCase):
+    """Part 5."""
+
+    BEFORE, PERIOD = 5, 8  # outer scans
+
+    def setUp(self):
+        problem = json.loads((ROOT / "corpus/endless/without-repetition.json").read_text())
+        numbers = lambda values: [Fraction(x) for x in values]
+        self.outer = Outer([numbers(row) for row in problem["A"]], numbers(problem["b"]), Fraction(1), "resume=round")
+        run = self.outer.go_on(self.outer.begin(), self.BEFORE)
+        self.states = [State(run)]
+        for _ in range(3):
+            self.states.append(State(self.outer.go_on(run, self.PERIOD)))
+        self.words = [word_of(run.steps[x.steps:y.steps]) for x, y in zip(self.states, self.states[1:])]
+        first, second, third = (state.f for state in self.states[:3])
+        self.direction = [y - x for x, y in zip(first, second)]
+        ratios = {(z - y) / (y - x) for x, y, z in zip(first, second, third) if x != y}
+        self.assertEqual(len(ratios), 1)
+        self.ratio = ratios.pop()
+        self.assertEqual(self.ratio, Fraction(1549, 8932))
+        self.limit = 1 / (1 - self.ratio)
+
+    def test_each_round_takes_the_same_steps_to_the_same_sets_nearer_to_a_limit(self):
+        self.assertTrue(0 < self.ratio < 1)
+        self.assertEqual(len({state.seen for state in self.states}), 1)
+        self.assertTrue(self.words[0] == self.words[1] == self.words[2])
+        for k, state in enumerate(self.states):
+            t = (1 - self.ratio ** k) * self.limit
+            self.assertEqual(state.f, [x + t * y for x, y in zip(self.states[0].f, self.direction)])
+
+    def test_so_does_a_round_that_starts_infinitely_near_to_the_limit(self):
+        start = self.states[0]
+        run = self.outer.go_on(self.outer.begin_at(start, line(start.f, self.direction, self.limit - E)), self.PERIOD)
+        self.assertEqual(word_of(run.steps), self.words[0])
+        self.assertEqual(run.f, line(start.f, self.direction, self.limit - E * self.ratio))
+        self.assertEqual((tuple(run.sets), run.remembered()), start.seen)
+
+    def test_at_the_limit_itself_it_would_stand_still(self):
+        start = self.states[0]
+        run = self.outer.go_on(self.outer.begin_at(start, line(start.f, self.direction, self.limit)), self.PERIOD)
+        self.assertEqual(run.f, line(start.f, self.direction, self.limit))
+
+    def test_states_of_300_drives_are_all_different(self):
+        run, seen = self.outer.begin(), set()
+        while run.drives < 300:
+            state = State(run)
+            self.assertNotIn((state.seen, *state.f), seen)
+            seen.add((state.seen, *state.f))
+            self.outer.go_on(run, 1)
 
 
 if __name__ == "__main__":

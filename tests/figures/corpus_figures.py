@@ -54,6 +54,23 @@ def readings(program):
             + table(["`file`", "`drop`", "policies", "cycle", "solved"], rows))
 
 
+def endless(program):
+    """Policies that have neither ended nor repeated a state, by the switches that say where a scan begins."""
+    file = "corpus/endless/without-repetition.json"
+    runs = program.json("replay", file, "--all-policies", "--max-drives", 300, codes=(0, 1))["policies"]
+    counted = collections.Counter()
+    for name, run in runs.items():
+        switches = name.split(",")
+        scan = next((x for x in switches if x.startswith("scan=")), "scan=lowest")
+        counted[scan, "resume=round" in switches, run["outcome"]] += 1
+    rows = []
+    for scan, resume in sorted({key[:2] for key in counted}):
+        ends_of = [counted[scan, resume, outcome] for outcome in ("solved", "cycle", "limit")]
+        rows.append((f"`{scan}`", "`resume=round`" if resume else "`resume=restart`", *ends_of))
+    return prose(f"Of {len(runs)} policies: {ends(runs)}.") + "\n\n" + table(
+        ["scan", "it begins", "solved", "cycle", "neither, 300 drives"], rows)
+
+
 def corpus_table(program, folder):
     """How every case of a folder ends under all policies."""
     rows, solved = [], 0

@@ -37,6 +37,7 @@ FIGURES = [
     Figure("search-speed", "README.md", "minutes", bench.search_speed, ("algorithm", "bench/search_rate.cpp")),
     Figure("peers-in-short", "README.md", "long", bench.peers_in_short, PEERS),
     Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
+    Figure("endless", "search/adversary/frontiers.md", "cheap", corpus.endless),
     Figure("sliding-corpus", "corpus/README.md", "cheap", corpus.sliding_corpus),
     Figure("wrong-in-doubles", "corpus/README.md", "cheap", corpus.wrong_in_doubles),
     Figure("published-problems", "corpus/formats/README.md", "minutes", scene.published_problems,
