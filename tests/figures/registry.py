@@ -76,12 +76,14 @@ FIGURES = [
 
 # Where every measured number stands in a block.
 DOCUMENTS = sorted({
-    str(file.relative_to(ROOT)) for pattern in ("*.md", "*/*.md", "solver/**/*.md", "corpus/*/*.md", "certify/**/*.md")
+    str(file.relative_to(ROOT)) for pattern in ("*.md", "*/*.md", "solver/**/*.md", "corpus/*/*.md", "certify/**/*.md",
+                                                 "search/**/*.md", "tests/fuzz/*.md")
     for file in ROOT.glob(pattern) if "build" not in file.parts})
 
 # Phrases with a number that is no figure: a definition, a theorem, a size that a test or a command names.
 DEFINITIONS = {
     "certify/README.md": ("64 MB", "2,000 contacts", "20,000 characters"),
     "reports/README.md": ("at 95 %",),
+    "tests/fuzz/README.md": ("no hang (20 s)", "no flood (2.5 GB)"),
     "corpus/scenes/README.md": ("4 of 6 contacts", "the first 600 frames"),
 }
