@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 
 import cli
@@ -291,6 +292,22 @@ class Scenes(cli.TestCase):
             done = cli.run(verb, file, "-o", self.folder / "out")
             self.assertEqual((done.code, done.out), (2, ""))
             self.assertIn('bodies[1].mass: found "-1", expected a number > 0', done.err)
+
+    def test_a_weight_on_two_pegs_loops_also_where_every_dimension_is_off(self):
+        script = cli.ROOT / "tests/setup/tolerance.py"
+        draw = lambda scene, *options: subprocess.run(
+            [sys.executable, script, cli.program, FOLDER / f"{scene}.json", *map(str, options)],
+            capture_output=True, text=True)
+        done = draw("weight-on-two-pegs", "--percent", 1, 30, "--draws", 12)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines()[0], "1 %: of 12: 12 cycle")
+        self.assertIn("solved", done.stdout.splitlines()[1])  # off by so much few loop
+        self.assertIn("found no loop", draw("ladder-stands").stderr)
+        self.assertIn("no inertia", draw("block-in-a-valley").stderr)
+        record = json.loads((cli.ROOT / "corpus/records/friction-gravity-3-contacts.json").read_text())
+        (self.folder / "found.json").write_text(json.dumps(record["problem"]))  # contacts that no file gives
+        found = draw(self.folder / "found", "--percent", 0, "--draws", 1)
+        self.assertEqual(found.stdout, "0 %: of 1: 1 cycle\n", found.stderr)
 
     def test_the_benchmark_shows_both_models(self):
         folder = self.folder / "scenes"

@@ -45,6 +45,7 @@ FIGURES = [
     Figure("scene-speed", "corpus/scenes/README.md", "minutes", bench.scene_speed, ("algorithm", "bench/scenes.cpp")),
     Figure("scene-threads", "corpus/scenes/README.md", "minutes", bench.scene_threads,
            ("algorithm", "bench/scenes.cpp")),
+    Figure("tolerance", "corpus/scenes/README.md", "minutes", scene.tolerance, ("algorithm", "tests/setup/tolerance.py")),
     Figure("safe-by-condition", "certify/condition_number.md", "cheap", corpus.safe_by_condition),
     Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
            ("algorithm", "bench/linear_algebra.cpp")),

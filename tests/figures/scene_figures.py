@@ -5,7 +5,7 @@ import csv
 import os
 import re
 
-from markdown import count, prose, table, three
+from markdown import count, prose, share, table, three
 from program import ROOT
 
 
@@ -112,3 +112,14 @@ def published_problems(program):
                      solvers(entry["runs"])))
     return table(["file", "contacts", "A - A'", "A psd", "b in range(A)", "rough", "the paper's assumptions",
                   "solved by"], sorted(rows))
+
+
+def tolerance(program):
+    """Scenes with every dimension a little off: how many of them still loop."""
+    draws, rows = program.size(1000), []
+    for percent in (1, 5, 10):
+        said = program.script("tests/setup/tolerance.py", "corpus/scenes/weight-on-two-pegs.json", "--percent", percent,
+                              "--draws", draws)
+        loops = int(dict(end.split()[::-1] for end in said.strip().split(": ")[2].split(", ")).get("cycle", 0))
+        rows.append((f"{percent} %", count(draws), count(loops), share(loops, draws)))
+    return table(["off by up to", "scenes", "loop", "share, 95 %"], rows)

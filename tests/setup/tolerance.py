@@ -7,8 +7,10 @@ often the published algorithm still loops, exactly. A sample, and no proof: `cer
 
 Off by up to so many percent, each by itself and independent: masses, moments of inertia, friction coefficients; both
 coordinates of every centre of mass and of every contact point, in percent of the largest distance between a contact and
-the centre of a body that it touches; every normal and the direction of gravity, in hundredths of a radian times the percents.
-SCENE: a scene of the plane, or a problem with one, of polygons that touch without friction joints.
+the centre of a body that it touches; every normal and the direction of gravity, a percent being a hundredth of a radian.
+Bodies are as they are drawn: whether they still touch where their contacts are is not asked.
+SCENE: a scene of the plane, or a problem with one: contacts that are given, with points and normals, or bodies of polygons
+that touch; no joints.
 """
 
 import argparse
@@ -31,6 +33,14 @@ def shown(x):
     return str(Fraction(x).limit_denominator(10**9))
 
 
+def corners_of(shape):
+    """In the coordinates of the body; of a disc none."""
+    if "box" in shape:
+        (w, h), (u, v) = map(number, shape["box"]), map(number, shape.get("center", ["0", "0"]))
+        return [(u + i * w / 2, v + j * h / 2) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    return [(number(u), number(v)) for u, v in shape.get("polygon", [])]
+
+
 class Scene:
     """Bodies as points with mass and inertia, contacts as points with normals."""
 
@@ -42,23 +52,30 @@ class Scene:
         self.bodies = {body["name"]: body for body in scene["bodies"]}
         self.mu = {frozenset(pair["bodies"]): number(pair["mu"]) for pair in scene.get("pairs", []) if "mu" in pair}
         self.usual_mu = number(scene.get("mu", "0"))
-        with tempfile.TemporaryDirectory() as folder:
-            told = subprocess.run([program, "assemble", file, "--full", "--explain", "-o", Path(folder) / "p.json"],
-                                  capture_output=True, text=True, check=True).stdout
-        found = re.findall(r"contact \d+ \((.*?) on (.*?), at \(([^,]*), ([^)]*)\)\)", told)
-        self.contacts = [(a, b, (float(x), float(y)), self.normal(a, b, (float(x), float(y)))) for a, b, x, y in found]
+        self.contacts = [(*contact["bodies"], [number(x) for x in contact["at"]], [number(x) for x in contact["normal"]])
+                         for contact in scene.get("contacts", [])] or self.found(file)
+        for name, body in self.bodies.items():
+            if not body.get("fixed") and not {"mass", "inertia"} <= set(body):
+                sys.exit(f"{file}: {name}: found no mass or no inertia, expected both as numbers")
         self.size = max(math.dist(point, self.place(name)) for a, b, point, _ in self.contacts
                         for name in (a, b) if not self.bodies[name].get("fixed"))
 
+    def found(self, file):
+        """Contacts of a scene that gives none."""
+        with tempfile.TemporaryDirectory() as folder:
+            told = subprocess.run([self.program, "assemble", file, "--full", "--explain", "-o", Path(folder) / "p.json"],
+                                  capture_output=True, text=True, check=True).stdout
+        found = re.findall(r"contact \d+ \((.*?) on (.*?), at \(([^,]*), ([^)]*)\)\)", told)
+        return [(a, b, (float(x), float(y)), self.normal(a, b, (float(x), float(y)))) for a, b, x, y in found]
+
     def place(self, name):
-        return [number(x) for x in self.bodies[name]["position"]]
+        return [number(x) for x in self.bodies[name].get("position", ["0", "0"])]
 
     def edges(self, name):
         body = self.bodies[name]
-        (x, y), (c, s) = self.place(name), [number(v) for v in body["rotation"]]
+        (x, y), (c, s) = self.place(name), [number(v) for v in body.get("rotation", ["1", "0"])]
         for shape in body["shapes"]:
-            corners = [(x + c * u - s * v, y + s * u + c * v)
-                       for u, v in ((number(u), number(v)) for u, v in shape["polygon"])]
+            corners = [(x + c * u - s * v, y + s * u + c * v) for u, v in corners_of(shape)]
             yield from zip(corners, corners[1:] + corners[:1])
 
     def normal(self, a, b, point):
@@ -86,7 +103,7 @@ class Scene:
         moved = lambda p: [shown(x + self.size * off()) for x in p]
         bodies = []
         for name, body in self.bodies.items():
-            one = {"name": name, "position": body["position"]}
+            one = {"name": name, "position": [shown(x) for x in self.place(name)]}
             if body.get("fixed"):
                 one["fixed"] = True
             else:
