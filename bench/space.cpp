@@ -72,18 +72,19 @@ ExactProblem MakeProblem(int columns, int contacts, std::uint64_t seed, std::int
 
 struct Count {
   std::int64_t problems = 0, solved = 0, wrong = 0, ray = 0, limit = 0, undecided = 0, singular = 0;
-  std::int64_t recurs = 0, approaches = 0, refuted = 0;                    // suspected cycles
-  std::int64_t breaks = 0, redirects = 0, give_ups = 0;                    // runs in which there was one
-  std::vector<std::int64_t> steps;                                         // of solved runs
-  std::int64_t proved_solved = 0, proved_ray = 0, unsure = 0, differ = 0;  // over intervals, or exactly
-  std::int64_t on_edge = 0, refined = 0;                                   // slip=polygon
+  std::int64_t recurs = 0, approaches = 0, refuted = 0;  // suspected cycles
+  std::int64_t breaks = 0, redirects = 0, give_ups = 0;  // runs in which there was one
+  std::vector<std::int64_t> steps;                       // of solved runs
+  std::int64_t proved_solved = 0, proved_ray = 0, proved_loop = 0, unsure = 0,
+               differ = 0;                // by intervals, or exactly
+  std::int64_t on_edge = 0, refined = 0;  // slip=polygon
 };
 
 constexpr std::array kCounters = {
-    &Count::problems,  &Count::solved,    &Count::wrong,    &Count::ray,           &Count::limit,
-    &Count::undecided, &Count::singular,  &Count::recurs,   &Count::approaches,    &Count::refuted,
-    &Count::breaks,    &Count::redirects, &Count::give_ups, &Count::proved_solved, &Count::proved_ray,
-    &Count::unsure,    &Count::differ,    &Count::on_edge,  &Count::refined};
+    &Count::problems,    &Count::solved,    &Count::wrong,    &Count::ray,           &Count::limit,
+    &Count::undecided,   &Count::singular,  &Count::recurs,   &Count::approaches,    &Count::refuted,
+    &Count::breaks,      &Count::redirects, &Count::give_ups, &Count::proved_solved, &Count::proved_ray,
+    &Count::proved_loop, &Count::unsure,    &Count::differ,   &Count::on_edge,       &Count::refined};
 
 void Add(const Count& count, Count& sum) {
   for (const auto counter : kCounters) sum.*counter += count.*counter;
@@ -141,9 +142,13 @@ void CountIntervals(const PublishedSpaceVerdict& proved, const Suspicion& rounde
   const bool decided = proved.outcome != Outcome::kUndecided && proved.outcome != Outcome::kLimit;
   count.proved_solved += proved.outcome == Outcome::kSolved;
   count.proved_ray += proved.outcome == Outcome::kRay;
+  count.proved_loop += proved.outcome == Outcome::kCycle;
   count.unsure += !decided;
-  count.differ += decided && (proved.outcome != rounded.outcome ||
-                              !StartsWith(rounded.counters, CountersOf(proved.statistics)));
+  // A loop is proved at its first state without memory that stands again, later than doubles suspect it.
+  const bool alike = proved.outcome == Outcome::kCycle
+                         ? proved.period == rounded.period
+                         : StartsWith(rounded.counters, CountersOf(proved.statistics));
+  count.differ += decided && (proved.outcome != rounded.outcome || !alike);
 }
 
 // Static contacts alone.
@@ -213,6 +218,7 @@ Json RowOf(Json row, const Count& count) {
               {"most", steps.most},
               {"proved solved", count.proved_solved},
               {"proved ray", count.proved_ray},
+              {"proved loop", count.proved_loop},
               {"unsure", count.unsure},
               {"differ", count.differ},
               {"on an edge", count.on_edge},

@@ -27,8 +27,8 @@ void AddVectors(const TracedAnswer<Scalar>& answer, Json& json) {
 template <class Scalar>
 Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
   Json json = EndToJson(answer);
-  const bool is_proof = kIsExact<Scalar> || dimension == 2;
-  if (answer.outcome == Outcome::kCycle && !is_proof) json["evidence"] = kNoProof;
+  if (answer.outcome == Outcome::kCycle && dimension == 3)
+    json["evidence"] = answer.arithmetic == Arithmetic::kInterval ? kProofOfSets : kNoProof;
   json["method"] = answer.method;
   json["arithmetic"] = Name(answer.arithmetic);
   if (dimension == 3) json["law"] = Name(answer.law);

@@ -18,7 +18,7 @@ namespace {
 struct RecordsVerb {
   std::string folder = "corpus/records";
   std::string add, frontier, what, objective, command;
-  std::string random;
+  std::string random, random_command;
   std::optional<double> seconds;
   std::int64_t random_evaluations = 0;
   bool check = false, json = false;
@@ -31,8 +31,10 @@ std::string Shown(const Rational& value) {
 }
 
 int Add(const RecordsVerb& o) {
-  if (o.frontier.empty() || o.what.empty() || o.objective.empty() || o.command.empty() || !o.seconds)
-    throw InputError("records: --add asks for --frontier, --what, --objective, --command and --seconds");
+  if (o.frontier.empty() || o.what.empty() || o.objective.empty() || o.command.empty() || !o.seconds ||
+      o.random_command.empty())
+    throw InputError(
+        "records: --add asks for --frontier, --what, --objective, --command, --seconds and --random-command");
   FrontierRecord record = MakeRecord(*FindObjective(o.objective), ReadPlanarProblem(o.add), o.limits);
   record.frontier = o.frontier;
   record.what = o.what;
@@ -46,6 +48,7 @@ int Add(const RecordsVerb& o) {
       throw InputError(fmt::format("--random: found '{}', expected a number p/q", o.random));
   }
   record.random_evaluations = o.random_evaluations;
+  record.random_command = o.random_command;
   const std::string file = o.folder + "/" + o.frontier + ".json";
   WriteText(file, Print(record));
   fmt::print("{}: {}\n", file, Shown(record.value));
@@ -67,7 +70,8 @@ int RunRecords(const RecordsVerb& o) {
                 {"command", record.command},
                 {"processor_seconds", record.processor_seconds},
                 {"random", record.random_value ? Json(ToString(*record.random_value)) : Json()},
-                {"random_evaluations", record.random_evaluations}};
+                {"random_evaluations", record.random_evaluations},
+                {"random_command", record.random_command}};
     if (o.check) row["fault"] = fault.empty() ? Json() : Json(fault);
     rows.push_back(std::move(row));
     if (o.json) continue;
@@ -101,6 +105,7 @@ void AddRecords(CommandLine& program) {
   verb.Option("--seconds", o.seconds, "processor time of that");
   verb.Option("--random", o.random, "the best of random problems at equal cost; without it nothing was found");
   verb.Option("--random-evaluations", o.random_evaluations, "how many of them").AtLeast(0);
+  verb.Option("--random-command", o.random_command, "what drew them");
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }

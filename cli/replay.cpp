@@ -100,7 +100,7 @@ std::string EndText(const End& end, bool proved) {
 
 template <class Scalar>
 void PrintEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
-  const bool proved = kIsExact<Scalar>;
+  const bool proved = kIsExact<Scalar> || answer.arithmetic == Arithmetic::kInterval;
   if (solution.suspected)
     fmt::print("{}\nrun again{}: ", EndText(*solution.suspected, false),
                proved ? ", exactly" : " in long double, with finer tolerances");

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -60,6 +61,9 @@ int main(int argc, char** argv) {
     return status;
   } catch (const stiction::InputError& error) {
     std::cerr << "stiction: " << error.what() << "\n";
+    return stiction::kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // of a path that was given, and cannot be looked at
+    std::cerr << "stiction: " << error.path1().string() << ": " << error.code().message() << "\n";
     return stiction::kExitBadInput;
   } catch (const stiction::OutputError& error) {
     std::cerr << "stiction: " << error.what() << "\n";

@@ -145,6 +145,8 @@ std::span<const Objective> Objectives() {
              [](auto& t) { return OfSolved<&Statistics::give_ups>(t); }),
       OfRuns({"scans", "scans for a violated condition, of a run that solves", "scans"},
              [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); }),
+      OfRuns({"memory", "the longest chain of forces given up, each while the one before rested", "forces"},
+             [](auto& t) { return static_cast<double>(LongestMemory(t)); }),
       OfLoops({"period", "drives of a loop's period", "drives"},
               [](auto& t) { return static_cast<double>(t.Published().verdict.period); }),
       OfLoops({"start", "drives before a loop begins", "drives"},

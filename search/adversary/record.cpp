@@ -117,9 +117,8 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
   return error.what();
 }
 
-FrontierRecord ReadRecord(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  const Json json = ParseJson(ReadText(file), source);
+FrontierRecord ParseRecord(std::string_view json_text, const std::string& source) {
+  const Json json = ParseJson(json_text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"format", "version", "frontier", "what", "objective", "value", "bounds", "status", "proof",
@@ -149,14 +148,19 @@ FrontierRecord ReadRecord(const std::filesystem::path& file) {
   record.processor_seconds = ReadSeconds(root.Required("processor_seconds", "seconds"));
   const JsonPlace random = root.Required("random", "an object");
   random.RequireObject();
-  random.AllowKeys({"value", "evaluations"});
+  random.AllowKeys({"value", "evaluations", "command"});
   const JsonPlace value = random.Required("value", "a number p/q as a string, or null");
   if (!value.json().is_null()) record.random_value = ReadNumber(value);
   record.random_evaluations =
       random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
+  record.random_command = random.Required("command", "a text").Text("a text");
   record.problem = ParseProblem(root.Required("problem", "a problem").json().dump(), source + ": problem");
   record.certificate = root.Required("certificate", "a certificate").json();
   return record;
+}
+
+FrontierRecord ReadRecord(const std::filesystem::path& file) {
+  return ParseRecord(ReadText(file), file.string());
 }
 
 std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder) {
@@ -191,7 +195,8 @@ std::string Print(const FrontierRecord& record) {
                {"processor_seconds", record.processor_seconds},
                {"random",
                 {{"value", record.random_value ? Json(ToString(*record.random_value)) : Json()},
-                 {"evaluations", record.random_evaluations}}},
+                 {"evaluations", record.random_evaluations},
+                 {"command", record.random_command}}},
                {"problem", ToJson(record.problem)},
                {"certificate", record.certificate}};
   if (record.bounds) json["bounds"] = {ToString(record.bounds->first), ToString(record.bounds->second)};

@@ -9,7 +9,8 @@
 //   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all
 //            eigenvalues of A are in [l, u].
 //   status   "best so far" or "proved", with "proof" naming where
-//   random   the best of random problems, and of how many: {"value" (null: nothing), "evaluations"}
+//   random   the best of random problems, of how many, and what drew them: {"value" (null: nothing),
+//            "evaluations", "command"}
 
 #ifndef STICTION_SEARCH_ADVERSARY_RECORD_H_
 #define STICTION_SEARCH_ADVERSARY_RECORD_H_
@@ -34,15 +35,17 @@ struct FrontierRecord {
   std::string status = "best so far";
   std::string proof;    // where; empty unless proved
   std::string command;  // that found it
-  std::string build;  // that made the record of the problem
+  std::string build;    // that made the record of the problem
   double processor_seconds = 0;
   std::optional<Rational> random_value;
   std::int64_t random_evaluations = 0;
+  std::string random_command;
   ProblemFile problem;
   Json certificate;
 };
 
-FrontierRecord ReadRecord(const std::filesystem::path& file);  // InputError
+FrontierRecord ParseRecord(std::string_view text, const std::string& source);  // InputError
+FrontierRecord ReadRecord(const std::filesystem::path& file);                  // InputError
 // Of a folder, in the order of their names. InputError if there is none.
 std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder);
 std::string Print(const FrontierRecord& record);

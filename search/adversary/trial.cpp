@@ -71,6 +71,25 @@ std::optional<double> LeastPivot(Trial<Scalar>& trial) {
   return least;
 }
 
+template <class Scalar>
+std::int64_t Memory(Trial<Scalar>& trial) {
+  // By row: how long a chain the force ends that rests there.
+  std::vector<std::int64_t> chain(static_cast<std::size_t>(trial.problem().rows()), 0);
+  std::int64_t longest = 0;
+  for (const Pivot<Scalar>& pivot : trial.Steps()) {
+    for (std::size_t row = 0; row < chain.size(); ++row) {
+      const bool rests = pivot.sets[row] == IndexSet::kNone && pivot.f[static_cast<Eigen::Index>(row)] != 0;
+      if (!rests || static_cast<int>(row) == pivot.driven) chain[row] = 0;
+    }
+    if (!pivot.gave_up || pivot.f[pivot.limiting] == 0) continue;
+    std::int64_t& ended = chain[static_cast<std::size_t>(pivot.limiting)];
+    ended = 0;
+    ended = 1 + *std::max_element(chain.begin(), chain.end());
+    longest = std::max(longest, ended);
+  }
+  return longest;
+}
+
 // A quantity whose sign a condition asks for, where a step begins, and how it changes per unit step.
 struct Quantity {
   Rational value, rate;
@@ -137,6 +156,9 @@ std::optional<double> DistanceToLoop(InexactTrial& trial) { return Distance(tria
 std::optional<double> DistanceToLoop(ExactTrial& trial) { return Distance(trial); }
 std::optional<double> SmallestPivot(InexactTrial& trial) { return LeastPivot(trial); }
 std::optional<double> SmallestPivot(ExactTrial& trial) { return LeastPivot(trial); }
+
+std::int64_t LongestMemory(InexactTrial& trial) { return Memory(trial); }
+std::int64_t LongestMemory(ExactTrial& trial) { return Memory(trial); }
 
 std::optional<double> Margin(ExactTrial& trial) {
   if (!trial.Loops()) return std::nullopt;

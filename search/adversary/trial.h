@@ -86,6 +86,13 @@ std::optional<double> SmallestPivot(ExactTrial& trial);
 // bound: quantities that no condition reads are among them. Empty unless the run loops.
 std::optional<double> Margin(ExactTrial& trial);
 
+// The longest chain of friction forces that a run gave up, each while the one before it rested, given up, and
+// was not driven. What a force that rests is depends on those that rested when it was given up and on nothing
+// else of the past: without such a force the sets alone decide all forces. So a run that never ends and whose
+// chains have a bound comes to finitely many states, and loops.
+std::int64_t LongestMemory(InexactTrial& trial);
+std::int64_t LongestMemory(ExactTrial& trial);
+
 // Bits of the longest number in the forces and accelerations of a run.
 std::int64_t LongestNumber(ExactTrial& trial);
 

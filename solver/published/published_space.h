@@ -13,9 +13,11 @@
 //             the circle (23), met by a quadratic step, and the direction.
 // Shared      scan order and give-up rule (scan.h), force direction, scales. The loop and the step are this
 //             class's own: a contact's friction has two components, and square roots leave no exact scalar.
-// Loops       Forces are irrational, so a repetition is never proved: over floating-point scalars `cycle` says
-//             that a state stands again after rounding; over intervals that ends the run `undecided`. A stall
-//             cannot happen (readings.md, 8); a drive that does not end would spend its budget.
+// Loops       Over floating-point scalars `cycle` says that a state stands again after rounding. Forces are
+//             irrational, but there are states whose sets alone decide them (`Memoryless`): over intervals
+//             `cycle` says that the sets of such a state stand again, a proof; rounded states that stand again
+//             twice end the run `undecided`. A stall cannot happen (readings.md, 8); a drive that does not end
+//             would spend its budget.
 // Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C
 //             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
 
@@ -92,6 +94,11 @@ class PublishedInSpace {
   struct OuterState {
     std::int64_t drives;
     std::uint64_t rounded;
+    // Over intervals:
+    IndexSets<Eigen::Dynamic> sets;
+    int contact;           // driven last, where it matters
+    bool memoryless;       // see Memoryless
+    bool regular = false;  // the matrix of C and CF is, as the drive from here has shown
   };
 
   void Start(const Problem& problem, SpaceTrace<Scalar>* trace);
@@ -109,6 +116,8 @@ class PublishedInSpace {
   void Establish(int row);
   void EstablishFriction(int row);
   bool OuterStateRecurs();
+  bool EndCycle(const OuterState& earlier);
+  bool Memoryless() const;
   std::uint64_t RoundedHash() const;
 
   // One drive (4.1-4.3, 5.2-5.6). `sign`: df of the driven row.

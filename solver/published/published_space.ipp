@@ -221,6 +221,10 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     const auto status = direction_.Solve(turned_, layout_, state_.sets, driven, sign, scale_);
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
+    if constexpr (kIsExact<Scalar>) {
+      OuterState& from = outer_states_.back();
+      from.regular |= status == System::Status::kRegular && from.sets == state_.sets;
+    }
     const Step<Scalar> step = FindStep(driven, goal);
     if (step.limiting < 0) return End(Outcome::kRay);
     const bool zero = Sign(step.s, scale_.force) == 0;
@@ -596,21 +600,58 @@ std::uint64_t PublishedInSpace<Scalar>::RoundedHash() const {
   return hash;
 }
 
+// Whether the sets decide all forces, if the matrix of C and CF is regular: then a_C = 0 and a_CF = 0 are
+// equations for the forces of these, and all others are zero. And nothing else is remembered: no direction, no
+// mark.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::Memoryless() const {
+  for (const char turning : given_up_by_turning_) {
+    if (turning) return false;
+  }
+  for (int row = 0; row < problem_->rows(); ++row) {
+    const IndexSet set = state_.sets[row];
+    const bool solved_for = set == IndexSet::kClamped || set == IndexSet::kSticking;
+    if (!solved_for && !IsSurelyZero(state_.f[row])) return false;
+    if (set == IndexSet::kAtUpper) return false;
+  }
+  return true;
+}
+
+template <class Scalar>
+bool PublishedInSpace<Scalar>::EndCycle(const OuterState& earlier) {
+  verdict_.start = earlier.drives;
+  verdict_.period = verdict_.statistics.drives - earlier.drives;
+  End(Outcome::kCycle);
+  return true;
+}
+
 template <class Scalar>
 bool PublishedInSpace<Scalar>::OuterStateRecurs() {
-  const std::uint64_t rounded = RoundedHash();
+  OuterState now = {verdict_.statistics.drives, RoundedHash(), {}, -1, false};
+  if constexpr (kIsExact<Scalar>) {
+    now.sets = state_.sets;
+    if (options_.policy.resume == Resume::kRound) now.contact = last_driven_contact_;
+    now.memoryless = Memoryless();
+  }
+  int alike = 0;
   for (const OuterState& earlier : outer_states_) {
-    if (earlier.rounded != rounded) continue;
-    verdict_.start = earlier.drives;
-    verdict_.period = verdict_.statistics.drives - earlier.drives;
     if constexpr (kIsExact<Scalar>) {
-      End(Outcome::kUndecided, "a state stands again as far as rounding shows");
-    } else {
-      End(Outcome::kCycle);
+      if (now.memoryless && earlier.memoryless && earlier.regular && earlier.sets == now.sets &&
+          earlier.contact == now.contact)
+        return EndCycle(earlier);
     }
+    if (earlier.rounded != now.rounded) continue;
+    if constexpr (!kIsExact<Scalar>) return EndCycle(earlier);
+    verdict_.start = earlier.drives;
+    verdict_.period = now.drives - earlier.drives;
+    ++alike;
+  }
+  if (alike == 2) {  // a period without a state that proves it has passed
+    End(Outcome::kUndecided, "a state stands again as far as rounding shows");
     return true;
   }
-  outer_states_.push_back({verdict_.statistics.drives, rounded});
+  verdict_.start = verdict_.period = 0;
+  outer_states_.push_back(std::move(now));
   return false;
 }
 

@@ -51,11 +51,14 @@ class Solve(cli.TestCase):
                     result = self.solve(file, "--policy", policy, "--arithmetic", "double", code=code)
                     self.assertEqual((result["outcome"], result["policy"]), (outcome, policy))
 
-    def test_an_unlimited_step_is_proved_and_a_cycle_is_not(self):
+    def test_an_unlimited_step_is_proved_and_a_cycle_where_a_state_remembers_nothing(self):
         self.assertEqual(self.solve(RAY, code=1)["outcome"], "ray")
-        proved = self.solve(CYCLE, code=3)
-        self.assertEqual(proved["outcome"], "undecided")
-        self.assertIn("stands again", proved["reason"])
+        proved = self.solve(CYCLE, code=1)
+        self.assertEqual((proved["outcome"], proved["start"], proved["period"]), ("cycle", 7, 6))
+        self.assertIn("proved", proved["evidence"])
+        open_still = self.solve(CYCLE, "--policy", "slip=redirect", code=3)
+        self.assertEqual(open_still["outcome"], "undecided")
+        self.assertIn("stands again", open_still["reason"])
         suspected = self.solve(CYCLE, "--arithmetic", "double", code=1)
         self.assertEqual((suspected["start"], suspected["period"]), (7, 6))
         self.assertIn("no proof", suspected["evidence"])
@@ -104,6 +107,7 @@ class Bench(cli.TestCase):
             self.assertEqual(sum(row[end] for end in ends), row["problems"])
             self.assertEqual((row["wrong"], row["differ"]), (0, 0))
             self.assertLessEqual(row["proved solved"], row["solved"])
+            self.assertLessEqual(row["proved loop"], row["recurs"] + row["approaches"])
             self.assertEqual(row["breaks (21)" if row["policy"] != "paper" else "redirects"], 0)
             if row["policy"] == "slip=polygon":
                 self.assertEqual((row["solved"], row["proved solved"]), (row["problems"], row["problems"]))

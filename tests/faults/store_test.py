@@ -173,6 +173,11 @@ class Stores(cli.TestCase):
             self.skipTest("the program cannot be run by nobody")
         there = self.run_there(options, "status", store)
         self.assertEqual((there.code, there.out), (0, expected), there.err)
+        if os.geteuid() == 0:
+            folder.chmod(0o700)
+            closed = self.run_there(options, "status", store)
+            self.assertEqual(closed.code, 2, closed.err)
+            self.assertIn(f"{store}: Permission denied", closed.err)
 
     def test_files_that_are_no_stores_are_refused_by_name_and_left_alone(self):
         for content in (b"", b"x", b"{}" * 5000):

@@ -138,7 +138,7 @@ def space_row(first, row):
     loops = row["recurs"] + row["approaches"]
     slip = SLIPS[row["policy"]]
     return (first, slip, count(row["solved"]), f"{row['recurs']} + {row['approaches']}",
-            share(loops, row["problems"]), row["refuted"], row["ray"], row["proved ray"],
+            share(loops, row["problems"]), row["proved loop"], row["refuted"], row["ray"], row["proved ray"],
             count(row["breaks (21)"]) if slip == "literal" else "",
             count(row["redirects"]) if slip == "redirect" else "",
             f"{three(row['steps, mean'])} ({row['most']})", count(row["unsure"]),
@@ -147,7 +147,7 @@ def space_row(first, row):
 
 def space(program):
     result = program.bench("space", "--problems", program.size(20_000))
-    head = ["`slip`", "solved", "loops", "share, 95 %", "left again", "ray", "proved", "breaks", "redirects",
+    head = ["`slip`", "solved", "loops", "share, 95 %", "proved", "left again", "ray", "proved", "breaks", "redirects",
             "steps, mean (most)", "unsure", "edges (corners)"]
     sizes = [space_row(f"{row['family']}, {row['contacts']}", row) for row in result["sizes"]]
     friction = [space_row(f"mu = {row['mu']}", row) for row in result["friction"] if row["policy"] in SLIPS]

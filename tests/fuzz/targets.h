@@ -7,11 +7,11 @@
 //
 //   problem       a problem file: what is read is written and read back to the same
 //   certificate   a certificate: a claim that the checker accepts is true, as the makers of certificates decide
-//   it rational      a number as text: its value, its nearest double, as a JSON number; against GMP and strtod
-//   campaign      a campaign file, a list of policies, a policy or a friction coefficient
-//   scene         a scene file: read back to the same; its contacts and problems, if it is small
-//   siconos       a .dat file, read as both kinds; read back from every storage
-//   fclib         JSON that says what an HDF5 file holds (fclib.cpp): such a file, likewise
+//   it record        a record: what is read is written and read back to the same rational      a number as
+//   text: its value, its nearest double, as a JSON number; against GMP and strtod campaign      a campaign
+//   file, a list of policies, a policy or a friction coefficient scene         a scene file: read back to the
+//   same; its contacts and problems, if it is small siconos       a .dat file, read as both kinds; read back
+//   from every storage fclib         JSON that says what an HDF5 file holds (fclib.cpp): such a file, likewise
 //   hdf5          an HDF5 file as it is. What is damaged in it is first of all HDF5's affair
 //   store         JSON that says what stands in the columns of a store (store.cpp): statistics, report, merge
 //   certify       the same problems: every certificate that is made of one is accepted
@@ -30,6 +30,7 @@ namespace stiction::fuzz {
 
 bool FuzzProblem(std::string_view bytes);
 bool FuzzCertificate(std::string_view bytes);
+bool FuzzRecord(std::string_view bytes);
 bool FuzzRational(std::string_view bytes);
 bool FuzzCampaign(std::string_view bytes);
 bool FuzzScene(std::string_view bytes);

@@ -100,6 +100,7 @@ FrontierRecord SomeRecord(const char* objective) {
   record.build = "test";
   record.processor_seconds = 1;
   record.random_evaluations = 10;
+  record.random_command = "none";
   return record;
 }
 

@@ -193,7 +193,7 @@ InexactAnswer SolveInDoubles(const ExactProblem& problem, const PublishedOptions
   return std::get<InexactAnswer>(SolveIn(problem, request).answer);
 }
 
-TEST_CASE("space: both readings loop on a definite problem, a loop is a suspicion, over intervals undecided") {
+TEST_CASE("space: both readings loop on a definite problem: a suspicion, over intervals proved of one") {
   const ExactProblem problem = InSpace({3, 3},
                                        {{3, 0, 0, 0, 0, 1},
                                         {0, 3, 1, 0, 1, -1},
@@ -210,7 +210,9 @@ TEST_CASE("space: both readings loop on a definite problem, a loop is a suspicio
     CHECK(again.outcome == Outcome::kCycle);
     CHECK(again.start == verdict.start);
     CHECK(again.period == verdict.period);
-    CHECK(RunIntervalsInSpace(problem, Reading(slip)).verdict.outcome == Outcome::kUndecided);
+    const PublishedSpaceVerdict proved = RunIntervalsInSpace(problem, Reading(slip)).verdict;
+    CHECK(proved.outcome == (slip == Slip::kLiteral ? Outcome::kCycle : Outcome::kUndecided));
+    CHECK(proved.period == verdict.period);
   }
 }
 
@@ -326,6 +328,21 @@ TEST_CASE("space: what loops in the plane loops in space") {
     for (const CyclingSeed& seed : CyclingSeeds()) CheckAsInThePlane(Cycling(seed), policy);
   }
   for (const CyclingSeed& seed : CyclingSeeds()) CheckAsInThePlane(Cycling(seed), RandomReading(choices));
+}
+
+TEST_CASE("space: loops of the plane are proved there, where a state remembers nothing") {
+  int proved = 0;
+  for (const CyclingSeed& seed : CyclingSeeds()) {
+    const ExactProblem planar = Cycling(seed);
+    const ExactRun plane = RunExact(planar, {});
+    const PublishedSpaceVerdict verdict = RunIntervalsInSpace(Embedded(planar), {}).verdict;
+    if (verdict.outcome == Outcome::kUndecided) continue;
+    ++proved;
+    CHECK(verdict.outcome == Outcome::kCycle);
+    CHECK(verdict.period == plane.verdict.period);
+    CHECK(verdict.start >= plane.verdict.start);
+  }
+  CHECK(proved > 0);
 }
 
 // ---- Random problems -----------------------------------------------------------------------------
@@ -515,6 +532,28 @@ TEST_CASE("space: the recorded direction is that of the friction force in NCF") 
     }
   }
   CHECK(recorded > 0);
+}
+
+TEST_CASE("space: what is proved to loop is what doubles suspect") {
+  int suspected = 0, proved = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const ExactProblem problem = RandomInSpace(2 + k % 2, 5 * (k / 2) + 2 + k % 3);  // mu 1, 2, 5
+    for (const Slip slip : kSlips) {
+      const Ended ended = Run(problem, Reading(slip));
+      if (ended.verdict.outcome != Outcome::kCycle) continue;
+      ++suspected;
+      const PublishedSpaceVerdict verdict = RunIntervalsInSpace(problem, Reading(slip)).verdict;
+      CAPTURE(k, static_cast<int>(slip));
+      CHECK((verdict.outcome == Outcome::kCycle || verdict.outcome == Outcome::kUndecided));
+      if (verdict.outcome != Outcome::kCycle) continue;
+      ++proved;
+      CHECK(verdict.period == ended.verdict.period);
+      CHECK(verdict.start >= ended.verdict.start);
+    }
+  }
+  CHECK(suspected >= 30);
+  CHECK(proved >= 5);
+  CHECK(proved < suspected);
 }
 
 TEST_CASE("space: a sliding contact has friction against its slip, and can have an infinite step") {
