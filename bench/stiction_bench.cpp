@@ -59,9 +59,10 @@ int RunBench(const BenchOptions& o) {
                                    o.suite, o.generator ? " with a generator" : ""));
     }
   }
-  if (o.generator && Row(*o.generator).HasOtherKinds() && suite->name != "search") {
-    throw InputError(fmt::format("--generator: found {}, expected one of static contacts for suite {}",
-                                 Row(*o.generator).name, o.suite));
+  if (o.generator && !Row(*o.generator).IsPlain() && suite->name != "search") {
+    throw InputError(
+        fmt::format("--generator: found {}, expected one of static contacts of the plane for suite {}",
+                    Row(*o.generator).name, o.suite));
   }
   return suite->run(o);
 }

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "certify/exact.h"
+#include "certify/published_space.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
@@ -64,11 +65,27 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
   return kExitDone;
 }
 
+// In space the published algorithm is run over intervals, under what is built of it there.
+void RequireForSpace(const MinimizeVerb& o, const Policy& policy) {
+  const auto refuse = [&o](const char* option, const std::string& found) {
+    throw InputError(o.file, "dimension", "3", fmt::format("2 with {}{}", option, found));
+  };
+  if (!PublishedReadsInSpace(policy)) refuse("--policy ", o.policy);
+  if (o.keep.ends_with(":*")) refuse("--keep ", o.keep);
+  if (o.keep_signature) refuse("--keep-signature", "");
+  if (o.as_scene) refuse("--as-scene", "");
+}
+
 int RunMinimize(const MinimizeVerb& o) {
-  ProblemFile file = ReadPlanarProblem(o.file);
+  ProblemFile file = ReadProblem(o.file);
   const Policy policy = ParsePolicy(o.policy);
-  const ExactRun run = RunExact(file.problem, {policy, {}, o.limits});
-  const std::string keep = o.keep.empty() ? std::string(Name(run.verdict.outcome)) : o.keep;
+  const PublishedOptions published{policy, {}, o.limits};
+  const bool in_space = file.problem.dimension == 3;
+  if (in_space) RequireForSpace(o, policy);
+  const ExactRun run = in_space ? ExactRun() : RunExact(file.problem, published);
+  const Outcome outcome =
+      in_space ? RunIntervalsInSpace(file.problem, published).verdict.outcome : run.verdict.outcome;
+  const std::string keep = o.keep.empty() ? std::string(Name(outcome)) : o.keep;
   const bool whole_grid = keep.ends_with(":*");
   MinimizeOptions options;
   options.keep = *FindOutcome(whole_grid ? keep.substr(0, keep.size() - 2) : keep);
@@ -78,6 +95,8 @@ int RunMinimize(const MinimizeVerb& o) {
     std::iter_swap(options.policies.begin(),
                    std::find(options.policies.begin(), options.policies.end(), policy));
   }
+  if (in_space && options.keep == Outcome::kUndecided)
+    throw InputError(o.file, "outcome under " + o.policy, "undecided", "one that intervals prove");
   if (o.keep_signature) options.signature = Signature(file.problem, run);
   options.limits = o.limits;
   options.further = o.further;

@@ -8,6 +8,7 @@
 
 #include "corpus/json_text.h"
 #include "search/adversary/optimizer.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
@@ -190,9 +191,16 @@ void RequireConsistent(const Campaign& campaign) {
   }
   RequireParents(campaign);
   for (const GeneratorId id : campaign.generators) {
-    if (!campaign.objective.empty() && Row(id).HasOtherKinds())
+    if (!campaign.objective.empty() && !Row(id).IsPlain())
+      throw InputError(fmt::format(
+          "objective: found generator {}, expected one of static contacts of the plane", Row(id).name));
+    for (const Policy& policy : campaign.policies) {
+      if (!Row(id).InSpace() || PublishedReadsInSpace(policy)) continue;
       throw InputError(
-          fmt::format("objective: found generator {}, expected one of static contacts", Row(id).name));
+          fmt::format("policies: found {} for generator {}, expected file=no, apex=kept, and slip=literal or "
+                      "slip=redirect, as the published algorithm is built in space",
+                      PolicyName(policy), Row(id).name));
+    }
   }
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
     throw InputError(

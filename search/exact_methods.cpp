@@ -4,7 +4,9 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/published_space.h"
 #include "certify/safe.h"
+#include "certify/space.h"
 
 namespace stiction {
 
@@ -13,6 +15,10 @@ ExactMethods::ExactMethods()
       complete([](const ExactProblem& problem, const Limits& limits) { return RunComplete(problem, limits); }),
       lemke(RunLemke),
       modes([](const ExactProblem& problem) { return EnumerateModes(problem); }),
-      is_safe(IsSafeIfSmall) {}
+      is_safe(IsSafeIfSmall),
+      published_in_space(RunIntervalsInSpace),
+      complete_in_space([](const ExactProblem& problem, const Limits& limits) {
+        return SolveInSpace(problem, {.limits = limits});
+      }) {}
 
 }  // namespace stiction

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a search asks of exact arithmetic. Tests put wrong answers in the place of these, to see that every
-// alarm of a search rings.
+// What a search asks of exact arithmetic, in space of intervals. Tests put wrong answers in the place of these,
+// to see that every alarm of a search rings.
 
 #ifndef STICTION_SEARCH_EXACT_METHODS_H_
 #define STICTION_SEARCH_EXACT_METHODS_H_
@@ -12,12 +12,14 @@
 
 namespace stiction {
 
-struct CompleteRun;  // certify/existence.h
-struct Enumeration;  // certify/enumerate.h
-struct ExactRun;     // certify/exact.h
-struct LemkeRun;     // certify/existence.h
+struct CompleteRun;       // certify/existence.h
+struct Enumeration;       // certify/enumerate.h
+struct ExactRun;          // certify/exact.h
+struct IntervalSpaceRun;  // certify/published_space.h
+struct LemkeRun;          // certify/existence.h
 struct Limits;
 struct PublishedOptions;
+struct SpaceSolution;  // certify/space.h
 
 struct ExactMethods {
   ExactMethods();  // those of certify
@@ -27,6 +29,9 @@ struct ExactMethods {
   std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke;
   std::function<Enumeration(const ExactProblem&)> modes;
   std::function<std::optional<bool>(const ExactProblem&)> is_safe;
+  // In space: the published algorithm over intervals, complete driving on polygons until (21), (22) hold.
+  std::function<IntervalSpaceRun(const ExactProblem&, const PublishedOptions&)> published_in_space;
+  std::function<SpaceSolution(const ExactProblem&, const Limits&)> complete_in_space;
 };
 
 }  // namespace stiction

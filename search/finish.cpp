@@ -10,6 +10,7 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/published_space.h"
 #include "certify/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
@@ -37,6 +38,17 @@ Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid,
           {"start", run.verdict.start},          {"period", run.verdict.period},
           {"steps", run.trace.pivots.size()},    {"grid", grid},
           {"safe", safe ? Json(*safe) : Json()}};
+}
+
+// In space: of a run over intervals; no grid.
+Json FactsInSpace(const ExactProblem& problem, const Verdict& verdict, const std::string& existence) {
+  return {{"contacts", problem.contacts.size()},
+          {"outcome", Name(verdict.outcome)},
+          {"start", verdict.start},
+          {"period", verdict.period},
+          {"steps", verdict.statistics.steps},
+          {"grid", Json::object()},
+          {"existence", {{"claim", existence.empty() ? Json() : Json("solution-exists")}}}};
 }
 
 // A minimized problem as a file: what it shows, where it comes from, what every policy makes of it.
@@ -169,8 +181,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   finding.minimized = ToJson(Describe(small, finding, policy, whole, found.has_scene)).dump();
   if (outcome == Outcome::kCycle) {
     const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
-    finding.minimized_certificate =
-        Checked(CycleCertificate(small, certified, limits), finding.signature);
+    finding.minimized_certificate = Checked(CycleCertificate(small, certified, limits), finding.signature);
   }
   Decided existence = DecideExistenceOf(small, finding.signature, limits, cancelled);
   finding.minimized_existence = std::move(existence.certificate);
@@ -179,11 +190,46 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;
 }
 
+std::string ExistenceInSpace(const ExactProblem& problem, const std::string& source, const Limits& limits) {
+  const Existence existence = DecideExistence(problem, limits, {});
+  return existence.certificate.is_null() ? std::string() : Checked(existence.certificate, source);
+}
+
+// A finding of space: what intervals prove, minimized as far as they prove it still; the solution that is
+// missed.
+std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem& problem, const Limits& limits,
+                                     const std::function<bool()>& cancelled, const ExactMethods& methods) {
+  Finding finished = finding;
+  finished.done = true;
+  const PublishedOptions options{ParsePolicy(finding.policy), {}, limits};
+  const Verdict verdict = methods.published_in_space(problem, options).verdict;
+  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
+  finished.existence = ExistenceInSpace(problem, finding.signature, limits);
+  facts["found"] = FactsInSpace(problem, verdict, finished.existence);
+  const bool minimize = verdict.outcome != Outcome::kSolved && verdict.outcome != Outcome::kUndecided &&
+                        finding.kind != kDisagreementOfMethods;
+  if (minimize) {
+    MinimizeOptions what;
+    what.keep = verdict.outcome;
+    what.policies = {options.policy};
+    what.limits = limits;
+    what.cancelled = cancelled;
+    const ExactProblem small = Minimize(problem, what).problem;
+    finished.minimized = ToJson(Describe(small, finding, options.policy, false, false)).dump();
+    finished.minimized_existence = ExistenceInSpace(small, finding.signature, limits);
+    facts["minimized"] =
+        FactsInSpace(small, methods.published_in_space(small, options).verdict, finished.minimized_existence);
+  }
+  finished.facts = facts.dump();
+  return cancelled() ? std::nullopt : std::optional(finished);
+}
+
 }  // namespace
 
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
                                      const std::function<bool()>& cancelled, const ExactMethods& methods) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
+  if (file.problem.dimension == 3) return FinishInSpace(finding, file.problem, limits, cancelled, methods);
   Unfinished found{file.problem, methods.published(file.problem, {ParsePolicy(finding.policy), {}, limits}),
                    Json::object(), file.scene.has_value(), methods};
   Finding finished = finding;

@@ -81,6 +81,14 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
        "either "
        "side: there may be no solution. Not part of a campaign that names no generators.",
        true, false, ContactKind::kSliding},
+      {kSpace, "space",
+       "Contacts of space, with two rows of friction: J of integers in [-5, 5], its number of columns uniform "
+       "in 1..3n; A "
+       "= J J', and b = J y or b = A x with integers in [-5, 5]. Run over doubles, what they suspect over "
+       "intervals, and "
+       "existence by complete driving on polygons, over rationals. Not part of a campaign that names no "
+       "generators.",
+       true, false, ContactKind::kStatic, 3},
   }};
   return kRows;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generators: random planar problems that satisfy the paper's hypotheses, of static contacts but for two.
+// Generators: random problems that satisfy the paper's hypotheses, planar but for one, of static contacts but
+// for two.
 //
 // Every generator makes a matrix J and sets A = J W J', symmetric and positive semidefinite, and b = J y,
 // or b = A x, in range(A): range(J W J') = range(J) for a diagonal W > 0. This is exact by construction,
@@ -8,9 +9,9 @@
 // fixed order are used (-ffp-contract=off).
 //
 // Shapes      rows = 2 contacts: the normal of a contact and then its friction; of a bilateral contact its
-//             normal alone. J: rows x columns.
+//             normal alone; in space the normal and two rows of friction. J: rows x columns.
 // Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed, which is for static
-//             contacts only; a palette that is
+//             contacts of the plane only; a palette that is
 //             not empty, of coefficients with 0 <= numerator <= most and 1 <= denominator <= most, where most
 //             is LargestMuPart(id); gravity_only only where the generator has gravity.
 // Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
@@ -57,8 +58,9 @@ enum class GeneratorId : std::uint8_t {
   kOneBody,
   kBilateral,
   kSliding,
+  kSpace,
 };
-inline constexpr int kGeneratorCount = 13;
+inline constexpr int kGeneratorCount = 14;
 // Of these the first are part of a campaign that names none.
 inline constexpr int kOrdinaryGeneratorCount = 9;
 
@@ -73,7 +75,12 @@ struct GeneratorRow {
   // Of some contacts; with sliding ones there may be no solution.
   ContactKind other_kind = ContactKind::kStatic;
 
+  int dimension = 2;
+
   bool HasOtherKinds() const { return other_kind != ContactKind::kStatic; }
+  bool InSpace() const { return dimension == 3; }
+  // What most of this suite asks for: static contacts of the plane.
+  bool IsPlain() const { return !HasOtherKinds() && !InSpace(); }
 };
 
 // The table itself (generators.cpp), in the order of GeneratorId.

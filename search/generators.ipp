@@ -5,7 +5,7 @@
 // exactly what doubles do. For the exact generators a bound on every integer that can arise is stated: all
 // partial sums are integers (times one power of two) of at most 53 bits, hence exact in any order.
 //
-//   r <= 16 rows, c <= 16 columns; abs(J) <= p, abs(x) <= q, abs(y) <= q:
+//   r <= 24 rows, c <= 24 columns (the plane: 16); abs(J) <= p, abs(x) <= q, abs(y) <= q:
 //   abs(A) <= c p^2,  abs(J y) <= c p q,  abs(A x) <= r c p^2 q
 
 #ifndef STICTION_SEARCH_GENERATORS_IPP_
@@ -22,7 +22,7 @@
 namespace stiction {
 namespace generators {
 
-inline constexpr int kMaxRows = 2 * kMaxContacts;
+inline constexpr int kMaxRows = 2 * kMaxContacts;  // of the plane
 inline constexpr int kMaxBodies = kMostSceneBodies;
 
 // On the stack for fixed Rows. Only the leading columns in use are ever set or read.
@@ -37,12 +37,12 @@ Jacobian<Scalar, Rows> MakeJacobian(int rows, int columns) {
 }
 
 template <class Scalar, int Rows>
-void Resize(int contacts, ContactProblem<Scalar, Rows>& problem) {
-  problem.dimension = 2;
+void Resize(int contacts, int dimension, ContactProblem<Scalar, Rows>& problem) {
+  problem.dimension = dimension;
   if constexpr (Rows == Eigen::Dynamic) {
     problem.contacts.resize(contacts);
-    problem.A.resize(2 * contacts, 2 * contacts);
-    problem.b.resize(2 * contacts);
+    problem.A.resize(dimension * contacts, dimension * contacts);
+    problem.b.resize(dimension * contacts);
   }
 }
 
@@ -54,7 +54,7 @@ std::array<MuChoice, kMaxContacts> DrawFriction(std::span<const MuChoice> palett
   const int last = static_cast<int>(palette.size()) - 1;
   const bool single = choices.Integer(0, 1) == 0;
   std::size_t pick = 0;
-  for (int i = 0; i < problem.rows() / 2; ++i) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     if (i == 0 || !single) pick = choices.Integer(0, last);
     chosen[i] = palette[pick];
     Contact<Scalar>& contact = problem.contacts[i];
@@ -118,15 +118,15 @@ void SetImage(const Factor& M, int columns, Coefficient y, ContactProblem<Scalar
 // b = M x with uniform integers x.
 template <class Scalar, int Rows, int kLow, int kHigh, class Factor>
 void DrawImage(const Factor& M, int columns, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-  std::array<int, kMaxRows> x;
+  std::array<int, 3 * kMaxContacts> x;
   choices.ForEach<kLow, kHigh>(columns, [&x](int i, int value) { x[i] = value; });
   SetImage(
       M, columns, [&x](int k) { return Scalar(x[k]); }, problem);
 }
 
-// ---- integers, duplicates ---------------------------------------------------------------------
+// ---- integers, space, duplicates ---------------------------------------------------------------------
 
-// A = J J', and b = J y or b = A x. Bound: 16 * 16 * 5^2 * 5 < 2^15.
+// A = J J', and b = J y or b = A x. Bound: 24 * 24 * 5^2 * 5 < 2^17.
 template <class Scalar, int Rows>
 void SetFromIntegers(const Jacobian<Scalar, Rows>& J, int columns, Choices& choices,
                      ContactProblem<Scalar, Rows>& problem) {
@@ -628,13 +628,15 @@ template <class Scalar, int Rows>
 void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
               ContactProblem<Scalar, Rows>& problem) {
   STICTION_CHECK(contacts >= 1 && contacts <= kMaxContacts, "generators make 1 to 8 contacts");
-  STICTION_CHECK(Rows == Eigen::Dynamic || Rows == 2 * contacts, "two rows per contact");
+  STICTION_CHECK(Rows == Eigen::Dynamic || (Rows == 2 * contacts && !Row(id).InSpace()),
+                 "two rows per contact");
   STICTION_CHECK(!surroundings.palette.empty(), "a palette has at least one friction coefficient");
   STICTION_CHECK(!surroundings.gravity_only || Row(id).has_gravity, "gravity is for bodies");
-  generators::Resize(contacts, problem);
+  generators::Resize(contacts, Row(id).dimension, problem);
   const auto mu = generators::DrawFriction(surroundings.palette, choices, problem);
   switch (id) {
     case GeneratorId::kIntegers:
+    case GeneratorId::kSpace:
       return generators::Integers(choices, problem);
     case GeneratorId::kPsd:
       return generators::Psd(choices, problem);

@@ -9,6 +9,7 @@
 
 #include "certify/exact.h"
 #include "certify/properties.h"
+#include "certify/published_space.h"
 #include "search/choices.h"
 #include "search/rounding.h"
 #include "search/signature.h"
@@ -47,7 +48,7 @@ ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
   std::vector<int> rows;
   int row = 0;
   for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
-    const int size = problem.contacts[contact].HasFrictionRows() ? 2 : 1;
+    const int size = problem.contacts[contact].HasFrictionRows() ? problem.dimension : 1;
     if (contact != dropped) {
       contacts.push_back(problem.contacts[contact]);
       for (int k = 0; k < size; ++k) rows.push_back(row + k);
@@ -82,8 +83,9 @@ std::optional<ExactProblem> WithoutFriction(const ExactProblem& problem, int con
   for (int k = 0; k < static_cast<int>(problem.contacts.size()); ++k) {
     rows.push_back(row++);
     if (!problem.contacts[k].HasFrictionRows()) continue;
-    if (k != contact) rows.push_back(row);
-    ++row;
+    for (int t = 1; t < problem.dimension; ++t, ++row) {
+      if (k != contact) rows.push_back(row);
+    }
   }
   return Restrict(problem, std::move(contacts), rows);
 }
@@ -129,10 +131,10 @@ class Minimizer {
     if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";
     if (!IsInRange(candidate)) return "b is not in range(A)";
     const Policy& first = options_.policies.front();
+    if (candidate.dimension == 3) return LacksInSpace(candidate);
     const ExactRun run = RunExact(candidate, {first, {}, options_.limits});
     if (run.verdict.outcome != options_.keep) {
-      return fmt::format("under {} it ends in {}, not in {}", PolicyName(first), Name(run.verdict.outcome),
-                         Name(options_.keep));
+      return EndsElsewhere(first, run.verdict.outcome);
     }
     if (options_.signature && Signature(candidate, run) != *options_.signature)
       return "it has another signature";
@@ -141,6 +143,19 @@ class Minimizer {
       return fmt::format("not every policy asked for ends in {}", Name(options_.keep));
     }
     return std::nullopt;
+  }
+
+  std::optional<std::string> LacksInSpace(const ExactProblem& candidate) const {
+    for (const Policy& policy : options_.policies) {
+      const Outcome outcome = RunIntervalsInSpace(candidate, {policy, {}, options_.limits}).verdict.outcome;
+      if (outcome != options_.keep) return EndsElsewhere(policy, outcome);
+    }
+    return std::nullopt;
+  }
+
+  std::string EndsElsewhere(const Policy& policy, Outcome outcome) const {
+    return fmt::format("under {} it ends in {}, not in {}", PolicyName(policy), Name(outcome),
+                       Name(options_.keep));
   }
 
   bool Cancelled() {

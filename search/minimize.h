@@ -2,8 +2,8 @@
 // Minimizing: a simpler problem with the same certified finding.
 //
 // A candidate is kept if it is simpler and still interesting: A symmetric, positive semidefinite, b in
-// range(A), all exactly, and every policy asked for ends in the same outcome on it, exactly. Simpler, in
-// this order (SimplicityOf):
+// range(A), all exactly, and every policy asked for ends in the same outcome on it, exactly; in space, as
+// intervals prove (certify/published_space.h). Simpler, in this order (SimplicityOf):
 //   fewer contacts; fewer rows; fewer entries of A and b that are not zero; fewer bits in A (each entry
 //   once), b and mu; smaller sum of absolute numerators and denominators.
 // Passes run until none makes progress, so minimizing a minimized problem changes nothing:
@@ -46,7 +46,7 @@ Simplicity SimplicityOf(const ExactProblem& problem);
 struct MinimizeOptions {
   Outcome keep = Outcome::kCycle;
   std::vector<Policy> policies = {Policy{}};  // all must end in `keep`
-  // If given, the signature under the first policy is kept too, so that the kind of loop stays.
+  // If given, the signature under the first policy is kept too, so that the kind of loop stays. In the plane.
   std::optional<std::string> signature;
   // Further than one change at a time goes: seconds to minutes more, so not for every finding of a search.
   bool further = false;
@@ -61,7 +61,8 @@ struct Minimized {
   bool cancelled = false;
 };
 
-// Requires: the problem is interesting itself; otherwise InputError that says what it lacks.
+// Requires: the problem is interesting itself; otherwise InputError that says what it lacks. In space policies
+// that the published algorithm reads there (PublishedReadsInSpace).
 Minimized Minimize(const ExactProblem& problem, const MinimizeOptions& options);
 
 }  // namespace stiction

@@ -17,7 +17,7 @@ ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& 
     for (int j = 0; j < problem.rows(); ++j) rescaled.A(i, j) *= s[i] * s[j];
   }
   RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
+  layout.Assign(problem.contacts, problem.dimension);
   for (int contact = 0; contact < layout.ContactCount(); ++contact) {
     const int row = layout.NormalRowOf(contact);
     if (layout.HasFriction(row)) rescaled.contacts[contact].mu *= s[row] / s[row + 1];
@@ -29,12 +29,13 @@ ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& 
 
 ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
   RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
+  layout.Assign(problem.contacts, problem.dimension);
   std::vector<Rational> s(problem.rows(), Rational(1));
   for (int contact = 0; contact < layout.ContactCount(); ++contact) {
     const int row = layout.NormalRowOf(contact);
     const Rational& mu = problem.contacts[contact].mu;
-    if (layout.HasFriction(row) && mu > 0 && (only_contact < 0 || only_contact == contact)) s[row + 1] = mu;
+    if (!layout.HasFriction(row) || mu <= 0 || (only_contact >= 0 && only_contact != contact)) continue;
+    for (int t = 1; t < problem.dimension; ++t) s[row + t] = mu;
   }
   return Rescaled(problem, s);
 }
@@ -54,7 +55,7 @@ Rational InverseRoot(const Rational& x) {
 
 ExactProblem Equilibrated(const ExactProblem& problem) {
   RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
+  layout.Assign(problem.contacts, problem.dimension);
   std::vector<Rational> s(problem.rows());
   for (int row = 0; row < problem.rows(); ++row) {
     s[row] = layout.IsNormal(row) ? InverseRoot(problem.A(row, row)) : s[row - 1];

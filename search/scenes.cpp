@@ -331,7 +331,7 @@ std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, const
                                              Choices& choices) {
   if (id != GeneratorId::kScenes && id != GeneratorId::kFineScenes) return std::nullopt;
   ContactProblem<Rational> problem;
-  generators::Resize(contacts, problem);
+  generators::Resize(contacts, 2, problem);
   generators::DrawFriction(surroundings.palette, choices, problem);
   std::vector<Rational> mu;
   for (const auto& contact : problem.contacts) mu.push_back(contact.mu);

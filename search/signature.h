@@ -19,10 +19,12 @@ namespace stiction {
 std::string LoopWord(const ExactProblem& problem, const ExactRun& run);
 
 // "cycle-2c-4d-10s-1f0c...": outcome, contacts in the period, its drives and steps, and the hash of the word if
-// the period has at most two contacts. Of these a search meets the same words again and again; with more contacts almost
-// every loop has a word of its own, and the counts alone make the groups. Of another outcome than a loop only
-// its name and the number of contacts remain: "singular-3c".
+// the period has at most two contacts. Of these a search meets the same words again and again; with more
+// contacts almost every loop has a word of its own, and the counts alone make the groups. Of another outcome
+// than a loop only its name and the number of contacts remain: "singular-3c". In space the counts alone, of all
+// contacts.
 std::string Signature(const ExactProblem& problem, const ExactRun& run);
+std::string SpaceSignature(std::size_t contacts, const Verdict& verdict);
 
 }  // namespace stiction
 

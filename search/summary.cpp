@@ -115,8 +115,9 @@ std::string FindingLine(const Finding& finding) {
   for (const auto& [outcome, count] : facts.at("grid").items()) {
     grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", outcome, count.dump());
   }
-  return fmt::format("  {:40} {} contacts, start {}, period {}; policies: {}\n", finding.signature,
-                     facts.at("contacts").dump(), facts.at("start").dump(), facts.at("period").dump(), grid);
+  return fmt::format("  {:40} {} contacts, start {}, period {}; {}\n", finding.signature,
+                     facts.at("contacts").dump(), facts.at("start").dump(), facts.at("period").dump(),
+                     grid.empty() ? "in space, over intervals" : "policies: " + grid);
 }
 
 // What the frequencies are worth: how much was audited, and what came of it.
@@ -131,6 +132,25 @@ std::string AuditText(const Digest& d) {
       "are\n"
       "  not counted. Of {} runs without a suspicion {} were audited{}\n",
       Grouped(d.runs - d.suspicions), Grouped(d.audited), misjudged);
+}
+
+// What other exact methods made of the problems; of problems of space they are not counted.
+std::string ExistenceText(const Digest& digest) {
+  if (digest.existence.problems == 0 && digest.agreement.compared == 0) return "";
+  std::string text = fmt::format(
+      "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
+      Grouped(digest.existence.solved), Grouped(digest.existence.problems),
+      Grouped(digest.existence.with_folds));
+  text += fmt::format(
+      "  agreement: {} disagreements of complete driving, Lemke's method and the published algorithm on {} "
+      "problems, "
+      "all modes tried of {}\n",
+      Grouped(digest.agreement.disagreements), Grouped(digest.agreement.compared),
+      Grouped(digest.agreement.enumerated));
+  text += fmt::format("  safe: {} of {} audited problems; {} gave up something under apex=suspended\n",
+                      Grouped(digest.agreement.safe), Grouped(digest.agreement.safety_decided),
+                      Grouped(digest.agreement.safe_gave_up));
+  return text;
 }
 
 Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
@@ -291,19 +311,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
       Grouped(digest.confirmed), Grouped(digest.suspicions), Grouped(digest.misjudged), Grouped(digest.audited),
       Grouped(digest.wrong));
   text += AuditText(digest);
-  text += fmt::format(
-      "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
-      Grouped(digest.existence.solved), Grouped(digest.existence.problems),
-      Grouped(digest.existence.with_folds));
-  text += fmt::format(
-      "  agreement: {} disagreements of complete driving, Lemke's method and the published algorithm on {} "
-      "problems, "
-      "all modes tried of {}\n",
-      Grouped(digest.agreement.disagreements), Grouped(digest.agreement.compared),
-      Grouped(digest.agreement.enumerated));
-  text += fmt::format("  safe: {} of {} audited problems; {} gave up something under apex=suspended\n",
-                      Grouped(digest.agreement.safe), Grouped(digest.agreement.safety_decided),
-                      Grouped(digest.agreement.safe_gave_up));
+  text += ExistenceText(digest);
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Grouped(digest.finished), Grouped(digest.pending), Grouped(digest.whole_grid));
   if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";

@@ -10,14 +10,19 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/published_space.h"
+#include "certify/space.h"
+#include "certify/verify_solution.h"
 #include "corpus/kinds.h"
 #include "corpus/scene_file.h"
 #include "search/generators.ipp"
 #include "search/scenes.h"
 #include "search/signature.h"
+#include "solver/problem/gate.h"
 #include "solver/problem/reduction.h"
 #include "solver/problem/residual.h"
 #include "solver/published/published.ipp"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
@@ -65,27 +70,44 @@ class Collector {
     const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
     const ExactRun run = methods_.published(problem, {campaign_.policies[policy], {}, campaign_.limits});
     const Outcome exact = run.verdict.outcome;
-    Tally& tally = *tallies_[policy];
-    if (suspected) {
-      ++tally.verdicts[static_cast<int>(inexact)][static_cast<int>(exact)];
-    } else {
-      ++tally.audited;
-      tally.misjudged += exact != inexact;
-    }
+    CountVerdict(*tallies_[policy], inexact, exact, suspected);
     const Place place = {index, policy, inexact};
     Compare(place, run, problem, /*with_lemke=*/!suspected);
     if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
-    // What leaves before a run leaves it over doubles.
-    const bool same_problem = Row(task_.generator).exact_in_double && !Row(task_.generator).HasOtherKinds();
     if (exact != Outcome::kSolved) {
       const bool safe_cycle = exact == Outcome::kCycle && methods_.is_safe(problem) == true;
-      Find(place, run, safe_cycle ? kSafeCycle : Name(exact),
+      Find(place, exact, safe_cycle ? kSafeCycle : Name(exact),
            (safe_cycle ? "safe-" : "") + Signature(problem, run), problem);
-    } else if (wrong && same_problem) {
-      Find(place, run, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts), problem);
-    } else if (inexact != exact && same_problem) {
-      Find(place, run, "disagreement",
-           fmt::format("disagreement-{}-{}-{}c", Name(inexact), Name(exact), task_.contacts), problem);
+    } else {
+      FindOfDoubles(place, wrong, problem);
+    }
+  }
+
+  // The same in space, over intervals: `undecided` is a verdict, which makes no finding unless doubles suspect
+  // a loop.
+  void RunOverIntervals(std::int64_t index, std::size_t policy, const Verdict& inexact, bool wrong,
+                        bool suspected) {
+    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
+    const Verdict verdict =
+        methods_.published_in_space(problem, {campaign_.policies[policy], {}, campaign_.limits}).verdict;
+    const Outcome proved = verdict.outcome;
+    const Place place = {index, policy, inexact.outcome};
+    CountVerdict(*tallies_[policy], inexact.outcome, proved, suspected);
+    const SpaceSolution complete = methods_.complete_in_space(problem, campaign_.limits);
+    if (complete.outcome != Outcome::kSolved || FindWeakViolation(problem, complete.f)) {
+      FindDisagreementOfMethods(
+          place, proved,
+          {"complete-in-space",
+           fmt::format("complete driving on polygons ended in {}, without forces that meet (21) and (22)",
+                       Name(complete.outcome))},
+          problem, {{{"complete", complete.outcome, complete.f}}, {}});
+    }
+    if (proved == Outcome::kSolved) {
+      FindOfDoubles(place, wrong, problem);
+    } else if (proved != Outcome::kUndecided) {
+      Find(place, proved, Name(proved), SpaceSignature(task_.contacts, verdict), problem);
+    } else if (inexact.outcome == Outcome::kCycle) {
+      Find(place, proved, Name(proved), "undecided-" + SpaceSignature(task_.contacts, inexact), problem);
     }
   }
 
@@ -98,6 +120,28 @@ class Collector {
     std::size_t policy;
     Outcome inexact;
   };
+
+  static void CountVerdict(Tally& tally, Outcome inexact, Outcome exact, bool suspected) {
+    if (suspected) {
+      ++tally.verdicts[static_cast<int>(inexact)][static_cast<int>(exact)];
+    } else {
+      ++tally.audited;
+      const bool decided = exact != Outcome::kUndecided;
+      tally.misjudged += decided && exact != inexact;
+    }
+  }
+
+  // Of a problem that is solved exactly.
+  void FindOfDoubles(const Place& place, bool wrong, const ExactProblem& problem) {
+    // What leaves before a run leaves it over doubles.
+    if (!Row(task_.generator).exact_in_double || Row(task_.generator).HasOtherKinds()) return;
+    if (wrong) {
+      Find(place, Outcome::kSolved, "wrong-answer", fmt::format("wrong-answer-{}c", task_.contacts), problem);
+    } else if (place.inexact != Outcome::kSolved) {
+      Find(place, Outcome::kSolved, "disagreement",
+           fmt::format("disagreement-{}-solved-{}c", Name(place.inexact), task_.contacts), problem);
+    }
+  }
 
   // Holds the methods against each other. All generators promise A positive semidefinite and b in range(A), as
   // FindDisagreement requires; that there is a solution is counted where none slides. Lemke's method where
@@ -123,12 +167,12 @@ class Collector {
     }
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
     if (promised) CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
-    if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
+    if (disagreement)
+      FindDisagreementOfMethods(place, published.verdict.outcome, *disagreement, problem, answers);
   }
 
-  void FindDisagreementOfMethods(const Place& place, const ExactRun& published,
-                                 const Disagreement& disagreement, const ExactProblem& problem,
-                                 const Answers& answers) {
+  void FindDisagreementOfMethods(const Place& place, Outcome published, const Disagreement& disagreement,
+                                 const ExactProblem& problem, const Answers& answers) {
     ++result_.record.agreement[task_.contacts].disagreements;
     Find(place, published, kDisagreementOfMethods,
          fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem,
@@ -172,15 +216,16 @@ class Collector {
     if (HasTies(problem, run)) return;
     ++tally.safe_gave_up_no_ties;
     FindDisagreementOfMethods(
-        place, published,
+        place, published.verdict.outcome,
         {"safe-give-up", fmt::format("the problem is safe and the run without ties, yet {} gives up {} times",
                                      PolicyName(policy), run.verdict.statistics.give_ups)},
         problem, {{{"baraff", run.verdict.outcome, run.state.f}}, {}});
   }
 
-  void Find(const Place& place, const ExactRun& run, std::string_view kind, std::string signature,
+  void Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
             const ExactProblem& problem, const Json& facts = nullptr) {
-    if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
+    const Policy& policy = campaign_.policies[place.policy];
+    if (!(policy == Policy{})) signature += "@" + PolicyName(policy);
     if (++result_.record.signatures[signature] > 1) return;
     const bool full =
         static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
@@ -192,9 +237,9 @@ class Collector {
     finding.index = place.index;
     finding.generator = Row(task_.generator).name;
     finding.contacts = task_.contacts;
-    finding.policy = PolicyName(campaign_.policies[place.policy]);
+    finding.policy = PolicyName(policy);
     finding.inexact_outcome = Name(place.inexact);
-    finding.exact_outcome = Name(run.verdict.outcome);
+    finding.exact_outcome = Name(exact);
     finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
     if (!facts.is_null()) finding.facts = facts.dump();
     result_.candidates.push_back(std::move(finding));
@@ -207,6 +252,36 @@ class Collector {
   UnitResult result_;
   std::vector<Tally*> tallies_;
 };
+
+// draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
+template <class Draw, class Attempt>
+void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, Draw draw, Attempt attempt) {
+  const std::int64_t problems = UnitProblems(campaign, task);
+  std::int64_t until_audit = 1;  // the first problem is audited
+  for (std::int64_t index = 0; index < problems; ++index) {
+    Choices choices(
+        ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+    draw(choices);
+    const bool audit = --until_audit == 0;
+    if (audit) until_audit = campaign.audit_every;
+    for (std::size_t policy = 0; policy < campaign.policies.size(); ++policy) attempt(index, policy, audit);
+  }
+}
+
+struct Judgement {
+  bool wrong = false;      // called solved, with forces that are no solution
+  bool suspected = false;  // not a verified solution
+};
+
+// Counts a run over doubles. residual() is that of its forces.
+template <class Residual>
+Judgement Judge(const Verdict& verdict, Tally& tally, Residual residual) {
+  tally.Count(verdict);
+  const bool solved = verdict.outcome == Outcome::kSolved;
+  const bool wrong = solved && !(residual() <= kWrongAnswer);
+  tally.wrong += wrong;
+  return {wrong, !solved || wrong};
+}
 
 // Problems of a fixed number of contacts.
 class SizedKernel {
@@ -227,28 +302,22 @@ class Kernel final : public SizedKernel {
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
-    const std::int64_t problems = UnitProblems(campaign_, task);
     const Surroundings surroundings = SurroundingsOf(campaign_);
-    std::int64_t until_audit = 1;  // the first problem is audited
-    for (std::int64_t index = 0; index < problems; ++index) {
-      Choices choices(
-          ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+    bool reduced = true;
+    const auto draw = [&](Choices& choices) {
       Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
-      bool reduced = true;
       if constexpr (Rows == Eigen::Dynamic) {
         const Reduction<double> reduction(problem_);
         reduced = reduction.end() == ReductionEnd::kReduced;
         if (reduced) problem_ = reduction.problem();
       }
-      const bool audit = --until_audit == 0;
-      if (audit) until_audit = campaign_.audit_every;
-      for (std::size_t policy = 0; policy < algorithms_.size(); ++policy) {
-        if (reduced)
-          Try(index, policy, audit, collector);
-        else
-          Refuse(index, policy, collector);
-      }
-    }
+    };
+    TryAll(campaign_, unit, task, draw, [&](std::int64_t index, std::size_t policy, bool audit) {
+      if (reduced)
+        Try(index, policy, audit, collector);
+      else
+        Refuse(index, policy, collector);
+    });
   }
 
  private:
@@ -271,12 +340,7 @@ class Kernel final : public SizedKernel {
       solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
       f = &distorted;
     }
-    Tally& tally = collector.tally(policy);
-    tally.Count(verdict);
-    const bool solved = verdict.outcome == Outcome::kSolved;
-    const bool wrong = solved && !(Residual(*f) <= kWrongAnswer);
-    tally.wrong += wrong;
-    const bool suspected = !solved || wrong;
+    const auto [wrong, suspected] = Judge(verdict, collector.tally(policy), [&] { return Residual(*f); });
     if (suspected || audit) collector.RunExactly(index, policy, verdict.outcome, wrong, suspected);
   }
 
@@ -298,8 +362,40 @@ class Kernel final : public SizedKernel {
   ContactProblem<double, Rows> problem_;
 };
 
+// Problems of space.
+class SpaceKernel final : public SizedKernel {
+ public:
+  SpaceKernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {}
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector) override {
+    const auto draw = [&](Choices& choices) {
+      Generate(task.generator, task.contacts, SurroundingsOf(campaign_), choices, problem_);
+    };
+    TryAll(campaign_, unit, task, draw,
+           [&](std::int64_t index, std::size_t policy, bool audit) { Try(index, policy, audit, collector); });
+  }
+
+ private:
+  void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
+    algorithm_.options() = {campaign_.policies[policy], {}, campaign_.limits};
+    Verdict verdict = algorithm_.Run(problem_);
+    ContactProblem<double>::Vector f = algorithm_.f();
+    if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
+    const auto [wrong, suspected] = Judge(verdict, collector.tally(policy), [&] {
+      return ResidualBound(problem_, FrictionLaw::kBaraff, f.cast<long double>());
+    });
+    if (suspected || audit) collector.RunOverIntervals(index, policy, verdict, wrong, suspected);
+  }
+
+  const Campaign& campaign_;
+  const UnitSolvers& solvers_;
+  PublishedInSpace<double> algorithm_;
+  ContactProblem<double> problem_;
+};
+
 std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers,
                                         const Task& task) {
+  if (Row(task.generator).InSpace()) return std::make_unique<SpaceKernel>(campaign, solvers);
   if (Row(task.generator).HasOtherKinds()) return std::make_unique<Kernel<Eigen::Dynamic>>(campaign, solvers);
   switch (task.contacts) {
     case 1:
@@ -332,7 +428,8 @@ struct UnitRunner::Implementation {
   Campaign campaign;
   UnitSolvers solvers;
   std::vector<Task> schedule;
-  std::map<std::pair<int, bool>, std::unique_ptr<SizedKernel>> kernels;  // by contacts, whether all are static
+  std::map<std::tuple<int, int, bool>, std::unique_ptr<SizedKernel>>
+      kernels;  // contacts, dimension, other kinds
 };
 
 UnitRunner::UnitRunner(const Campaign& campaign, const UnitSolvers& solvers)
@@ -342,7 +439,8 @@ UnitRunner::~UnitRunner() = default;
 UnitResult UnitRunner::Run(std::int64_t unit) {
   Implementation& self = *implementation_;
   const Task task = TaskOf(self.schedule, unit);
-  std::unique_ptr<SizedKernel>& kernel = self.kernels[{task.contacts, !Row(task.generator).HasOtherKinds()}];
+  const GeneratorRow& row = Row(task.generator);
+  std::unique_ptr<SizedKernel>& kernel = self.kernels[{task.contacts, row.dimension, row.HasOtherKinds()}];
   if (kernel == nullptr) kernel = MakeKernel(self.campaign, self.solvers, task);
   Collector collector(self.campaign, self.solvers.exact, task, unit);
   kernel->Run(unit, task, collector);

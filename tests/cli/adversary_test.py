@@ -116,7 +116,7 @@ class Records(cli.TestCase):
         folder = self.folder / "records"
         folder.mkdir()
         self.succeeds("records", "--folder", folder, "--add", problem, "--frontier", "period", "--what", "a test",
-                      "--objective", "period", "--command", "none", "--seconds", 1)
+                      "--objective", "period", "--command", "none", "--seconds", 1, "--random-command", "nothing drawn")
         self.succeeds("records", "--folder", folder, "--check")
         record = json.loads((folder / "period.json").read_text())
         record["value"] = "99"

@@ -72,6 +72,37 @@ class Solve(cli.TestCase):
             complete = self.succeeds("solve", file, "--method", "complete", "--json").json()
             self.assertEqual(read["f"], complete["f"])
 
+    def test_a_loop_of_space_is_minimized_as_far_as_intervals_prove_it(self):
+        small = self.folder / "small.json"
+        done = self.succeeds("minimize", CYCLE, "-o", small, "--json").json()
+        self.assertEqual((done["keep"], done["after"]["contacts"]), ("cycle", 2))
+        self.assertLess(done["after"]["bits"], done["before"]["bits"])
+        self.assertEqual(self.solve(small, code=1)["outcome"], "cycle")
+        self.assertEqual(json.loads(small.read_text())["expect"], {"paper": "cycle"})
+        for option in [["--keep-signature"], ["--as-scene"], ["--keep", "cycle:*"], ["--policy", "file=yes"],
+                       ["--policy", "slip=polygon"]]:
+            with self.subTest(option=option):
+                self.refuses("minimize", CYCLE, "-o", small, *option, says=["dimension: found 3", " ".join(option)])
+        self.refuses("minimize", CYCLE, "-o", small, "--policy", "slip=redirect", says=["undecided", "intervals prove"])
+
+    def test_a_search_of_space(self):
+        store = self.folder / "space.store"
+        out = self.succeeds("search", "--generator", "space", "--contacts", "2", "--problems", "30000", "--threads", "2",
+                            "--store", store).out
+        self.assertIn("cycle ", out)
+        self.assertRegex(out, r"cycle-2c-\d+d .*in space, over intervals")
+        self.assertNotIn("existence:", out)
+        self.assertNotIn("disagreement", out)
+        self.succeeds("report", store, "-o", self.folder / "report")
+        found = sorted((self.folder / "report/findings").glob("cycle-*d.json"))
+        self.assertTrue(found)
+        for file in found:
+            self.assertEqual(self.solve(file, code=1)["outcome"], "cycle")
+            self.succeeds("check", file.with_suffix(".existence.certificate.json"))
+        self.refuses("search", "--generator", "space", "--policy", "*", "--store", self.folder / "no", says=["policies", "slip=redirect"])
+        self.refuses("search", "--generator", "space", "--objective", "steps", "--store", self.folder / "no",
+                     says=["objective", "space", "static contacts of the plane"])
+
     def test_what_is_not_built_is_refused(self):
         file = self.file("p.json", CIRCLE)
         self.refuses("solve", file, "--method", "baraff", "--arithmetic", "exact", says=["exact", "interval"])

@@ -437,8 +437,8 @@ bug("range-obstacle", "M(i, size) != 0", "M(i, size) > 0", "an obstacle of one s
 # ---- search --------------------------------------------------------------------------
 
 bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
-bug("wrong-answer-threshold", "!(Residual(*f) <= kWrongAnswer)", "!(Residual(*f) <= 1)", "wrong is above 1, not 1e-6")
-bug("misjudged-not-counted", "tally.misjudged += exact != inexact;", "", "misjudged runs are not counted")
+bug("wrong-answer-threshold", "!(residual() <= kWrongAnswer)", "!(residual() <= 1)", "wrong is above 1, not 1e-6")
+bug("misjudged-not-counted", "tally.misjudged += decided && exact != inexact;", "", "misjudged runs are not counted")
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
 bug("wrong-solution-counted", "verdict.outcome == Outcome::kSolved && !wrong", "verdict.outcome == Outcome::kSolved",
     "wrong solutions are counted as solved")
@@ -446,9 +446,14 @@ bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check o
 bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
 bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
 bug("wrong-not-counted", "tally.wrong += wrong;", "", "wrong answers are not counted")
-bug("wrong-of-rounded", "wrong && same_problem", "wrong", "a rounded problem's answer is a finding")
-bug("disagreement-of-rounded", "inexact != exact && same_problem", "inexact != exact",
-    "a rounded problem's outcome is a finding")
+bug("of-rounded", "if (!Row(task_.generator).exact_in_double || Row(task_.generator).HasOtherKinds()) return;", "",
+    "a rounded problem's answer or outcome is a finding")
+bug("undecided-misjudged", "const bool decided = exact != Outcome::kUndecided;", "const bool decided = true;",
+    "what intervals cannot decide counts against doubles")
+bug("space-existence-unasked", "complete.outcome != Outcome::kSolved || FindWeakViolation(problem, complete.f)", "false",
+    "no solution in space is no finding")
+bug("space-undecided-dropped", "} else if (inexact.outcome == Outcome::kCycle) {", "} else if (false) {",
+    "loops that intervals do not prove are no findings")
 bug("safe-cycle-missed", "exact == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
     "cycles of safe problems are cycles like others")
 bug("ties-not-excused", "if (HasTies(problem, run)) return;", "", "safe problems with ties are findings")
@@ -459,7 +464,7 @@ bug("signs-of-irregular", "count.regular && count.signs != 1", "count.signs != 1
 bug("safety-of-suspicions", "if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);",
     "if (!Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);",
     "safety is checked of suspicions, too")
-bug("audit-once", "if (audit) until_audit = campaign_.audit_every;", "until_audit = campaign_.audit_every;",
+bug("audit-once", "if (audit) until_audit = campaign.audit_every;", "until_audit = campaign.audit_every;",
     "only the first problem is audited")
 bug("one-too-many", "static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit",
     "static_cast<std::int64_t>(result_.candidates.size()) > campaign_.representatives_per_unit",
@@ -468,7 +473,7 @@ bug("lemke-on-audits-only", "with_lemke || draw % static_cast<std::uint64_t>(cam
     "suspicions are never run by Lemke's method")
 bug("safety-of-fewer", "if (task_.contacts > kMostContactsEnumerated) return;",
     "if (task_.contacts >= kMostContactsEnumerated) return;", "the largest problems are not checked")
-bug("policy-not-named", 'if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);', "",
+bug("policy-not-named", 'if (!(policy == Policy{})) signature += "@" + PolicyName(policy);', "",
     "findings of all policies share a signature")
 
 bug = in_file("search/finish.cpp", "^search: finish")

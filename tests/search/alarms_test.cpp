@@ -15,6 +15,8 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/published_space.h"
+#include "certify/space.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
 #include "search/unit.h"
@@ -286,6 +288,55 @@ TEST_CASE("alarms: a method that contradicts the others, or a proof, is a grave 
     CHECK(result.record.existence.at(2).problems == kTried);
     CHECK(result.record.existence.at(2).solved == (of_complete ? kTried - rung : kTried));
   }
+}
+
+TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are noticed") {
+  const Campaign campaign = Audited(GeneratorId::kSpace);
+  {
+    const UnitResult right = RunWith(campaign, {});
+    CHECK(OnlyTally(right).misjudged == 0);
+    CHECK(OnlyTally(right).wrong == 0);
+    CHECK(OnlyTally(right).audited + Suspicions(OnlyTally(right)) == kTried);
+    for (const Finding& finding : right.candidates) CHECK_FALSE(IsGrave(finding.kind));
+  }
+  UnitSolvers missing, wrong, loop, shifted;
+  missing.exact.complete_in_space = [](const ExactProblem& problem, const Limits& limits) {
+    SpaceSolution solution = SolveInSpace(problem, {.limits = limits});
+    solution.outcome = Outcome::kRay;
+    return solution;
+  };
+  wrong.exact.complete_in_space = [](const ExactProblem& problem, const Limits& limits) {
+    SpaceSolution solution = SolveInSpace(problem, {.limits = limits});
+    solution.f[0] = -1;
+    return solution;
+  };
+  for (const UnitSolvers& solvers : {missing, wrong}) {
+    const UnitResult result = RunWith(campaign, solvers);
+    CHECK(MetOf(result, "disagreement-of-methods-complete-in-space-2c") == kTried);
+    CHECK(KindsKept(result).contains(std::string(kDisagreementOfMethods)));
+  }
+  loop.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
+    IntervalSpaceRun run = RunIntervalsInSpace(problem, options);
+    run.verdict.outcome = Outcome::kCycle;
+    return run;
+  };
+  const UnitResult looping = RunWith(campaign, loop);
+  CHECK(OnlyTally(looping).misjudged == OnlyTally(looping).audited);
+  CHECK(Met(looping, "cycle") == kTried);
+  UnitSolvers nothing;
+  nothing.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
+    IntervalSpaceRun run = RunIntervalsInSpace(problem, options);
+    run.verdict.outcome = Outcome::kUndecided;
+    return run;
+  };
+  CHECK(OnlyTally(RunWith(campaign, nothing)).misjudged == 0);
+  CHECK(Met(RunWith(campaign, nothing), "undecided") == 0);
+  nothing.distort = [](Verdict& verdict, std::span<double>) { verdict.outcome = Outcome::kCycle; };
+  CHECK(Met(RunWith(campaign, nothing), "undecided") == kTried);
+  shifted.distort = [](Verdict&, std::span<double> f) { f[0] += 1000; };
+  const UnitResult wrongs = RunWith(campaign, shifted);
+  CHECK(OnlyTally(wrongs).wrong > 20);
+  CHECK(Met(wrongs, "wrong-answer") > 10);
 }
 
 TEST_CASE("alarms: signs that do not sum to one are counted") {

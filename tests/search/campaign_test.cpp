@@ -218,6 +218,29 @@ TEST_CASE("campaign: the same policy twice is refused") {
 
 // ---- Schedule --------------------------------------------------------------------------------
 
+TEST_CASE("campaign: in space policies that are built there, and no objective") {
+  const auto refused = [](const std::string& more) {
+    const CampaignFile file(With(R"("generators": ["psd", "space"], )" + more));
+    try {
+      RequireConsistent(ReadCampaign(file.path()));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refused(R"("contacts": [2])").empty());
+  CHECK(refused(R"("policies": ["paper", "scan=highest,slip=redirect"])").empty());
+  for (const std::string policy : {"file=yes", "apex=suspended", "slip=polygon"}) {
+    CHECK(refused(R"("policies": ["paper", ")" + policy + "\"]") ==
+          "policies: found " + policy +
+              " for generator space, expected file=no, apex=kept, and slip=literal or slip=redirect, as the "
+              "published "
+              "algorithm is built in space");
+  }
+  CHECK(refused(R"("objective": "steps")") ==
+        "objective: found generator space, expected one of static contacts of the plane");
+}
+
 TEST_CASE("campaign: the schedule has every generator at every size, small sizes more often") {
   const Campaign campaign;
   std::map<std::pair<GeneratorId, int>, int> times;

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "certify/properties.h"
+#include "certify/published_space.h"
 #include "search/signature.h"
 #include "tests/support.h"
 
@@ -174,6 +175,36 @@ TEST_CASE("minimize: bilateral contacts are taken out, a sliding one with no par
   CHECK(small.contacts.size() == 2);
   CHECK(RunExact(small, {}).verdict.outcome == Outcome::kCycle);
   CHECK(Signature(small, RunExact(small, {})) == *options.signature);
+}
+
+TEST_CASE("minimize: in space what intervals prove is kept, and contacts go with all their rows") {
+  ExactProblem loop;  // corpus/space/cycle-under-both-slips.json
+  loop.dimension = 3;
+  loop.contacts.assign(2, {ContactKind::kStatic, 3, {}});
+  loop.A.resize(6, 6);
+  loop.A << 3, 0, 0, 0, 0, 1, 0, 3, 1, 0, 1, -1, 0, 1, 3, -1, 1, 0, 0, 0, -1, 2, 0, 0, 0, 1, 1, 0, 3, 0, 1, -1,
+      0, 0, 0, 3;
+  loop.b.resize(6);
+  loop.b << -1, 2, 0, -1, -2, 1;
+  const int rows = loop.rows();
+  ExactProblem larger = loop;
+  larger.contacts.insert(larger.contacts.begin(), {ContactKind::kFrictionless, 0, {}});
+  larger.contacts.push_back({ContactKind::kStatic, Rational(1, 3), {}});
+  const int more = rows + 4;
+  larger.A = 5 * ExactMatrix::Identity(more, more);
+  larger.A.block(1, 1, rows, rows) = 3 * loop.A;
+  larger.b = ExactVector::Constant(more, Rational(7, 3));
+  larger.b.segment(1, rows) = 3 * loop.b;
+  MinimizeOptions options;
+  REQUIRE(RunIntervalsInSpace(larger, {}).verdict.outcome == Outcome::kCycle);
+  const ExactProblem small = Minimize(larger, options).problem;
+  CHECK(small.dimension == 3);
+  CHECK(small.contacts.size() == 2);
+  CHECK(MeetsAssumptions(small));
+  CHECK(RunIntervalsInSpace(small, {}).verdict.outcome == Outcome::kCycle);
+  CHECK(SimplicityOf(small) < SimplicityOf(larger));
+  options.keep = Outcome::kRay;
+  CHECK(Lack(larger, options) == "minimize: under paper it ends in cycle, not in ray");
 }
 
 }  // namespace

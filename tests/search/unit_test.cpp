@@ -13,10 +13,13 @@
 #include <vector>
 
 #include "certify/agreement.h"
+#include "certify/certificate.h"
 #include "certify/exact.h"
+#include "certify/published_space.h"
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "search/finish.h"
+#include "search/minimize.h"
 #include "search/signature.h"
 
 // ---- Counting allocations --------------------------------------------------------------------
@@ -272,6 +275,44 @@ TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certifi
   }
 }
 
+TEST_CASE(
+    "unit: in space loops are proved over intervals, minimized as such, and have the solution they miss") {
+  Campaign campaign = Small(GeneratorId::kSpace, 2, 12000);
+  campaign.policies = {Policy{}, ParsePolicy("slip=redirect")};
+  campaign.audit_every = 1000;
+  const UnitResult result = UnitRunner(campaign).Run(0);
+  REQUIRE(result.record.tallies.size() == 2);
+  constexpr auto kLoop = static_cast<std::size_t>(Outcome::kCycle);
+  for (const auto& [key, tally] : result.record.tallies) {
+    CAPTURE(key.policy);
+    CHECK(Sum(tally.outcomes) == 12000);
+    CHECK(tally.audited == 12);
+    CHECK(tally.misjudged == 0);
+    CHECK(tally.wrong == 0);
+    CHECK(tally.verdicts[kLoop][kLoop] > 0);
+    // Intervals deny no loop of doubles, and prove none that doubles do not see.
+    CHECK(tally.verdicts[kLoop][static_cast<std::size_t>(Outcome::kSolved)] == 0);
+    CHECK(tally.verdicts[static_cast<std::size_t>(Outcome::kSolved)][kLoop] == 0);
+  }
+  for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
+  const auto loop = std::find_if(result.candidates.begin(), result.candidates.end(),
+                                 [](const Finding& finding) { return finding.kind == "cycle"; });
+  REQUIRE(loop != result.candidates.end());
+  const auto finished = FinishFinding(*loop, campaign.limits, [] { return false; });
+  REQUIRE(finished.has_value());
+  const ExactProblem small = ParseProblem(finished->minimized, "minimized").problem;
+  CHECK(small.dimension == 3);
+  CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(loop->problem, "found").problem));
+  const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished->policy), {}, campaign.limits});
+  CHECK(run.verdict.outcome == Outcome::kCycle);
+  for (const std::string& solution : {finished->existence, finished->minimized_existence}) {
+    const CheckReport report = CheckCertificate(Json::parse(solution), "certificate");
+    CHECK(report.accepted);
+    CHECK(report.claim == "solution-exists");
+  }
+  CHECK(Json::parse(finished->facts).at("minimized").at("outcome") == "cycle");
+}
+
 // ---- Methods held against each other ---------------------------------------------------------
 
 TEST_CASE("unit: methods are compared, and all modes tried, as often as the campaign says") {
@@ -376,7 +417,7 @@ TEST_CASE("unit: the path of a problem without suspicion allocates nothing") {
   REQUIRE(counted == 1);  // otherwise the rest says nothing
   int compared = 0;
   for (const GeneratorRow& row : Generators()) {
-    if (row.HasOtherKinds()) continue;  // reductions do
+    if (!row.IsPlain()) continue;  // reductions do, and runs in space
     for (const int contacts : {1, 2, 3, 8}) {
       if (contacts == 8 && !row.exact_in_double) continue;  // exact runs of their suspicions take seconds
       for (std::int64_t unit = 0; unit < 3; ++unit) {
