@@ -111,6 +111,7 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
   verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
+  verb.add_flag("--exact", o->exact, "smallest: every run over rationals, which makes the search exhaustive");
   verb.add_option("--entries", o->entries, "smallest: the largest integer of A and b")
       ->capture_default_str()
       ->check(CLI::Range(1, 9));

@@ -24,6 +24,7 @@ struct BenchOptions {
   std::vector<std::string> families;     // of problems with structure; empty: all
   int threads = 1;                       // of a simulation
   int entries = 2;                       // the largest integer of `smallest`
+  bool exact = false;                    // `smallest`: every run over rationals
   bool json = false;
 };
 
