@@ -427,3 +427,10 @@ def patches(program):
              *(row[way] for way in ways)) for row in result["rows"]]
     return table(["generator", "contacts", "problems", "give up", "`give-up=first`", "`previous`", "`second`",
                   "fold", "Lemke at a give-up", "`complete`"], rows)
+
+
+def smallest(program):
+    result = program.bench("smallest", "--entries", 3, "--exact")
+    return table(["entries at most", "matrices", "problems", "loops of `paper`", "the smallest", "the smallest under every policy"],
+                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), row["smallest"],
+                   row["under every policy"]) for row in result["rows"]])

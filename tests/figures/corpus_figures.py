@@ -209,5 +209,23 @@ def shown(value):
 def records(program):
     rows = [(record["what"], shown(record["value"]),
              f"{shown(record['random']) if record['random'] else 'no loop'}", count(record["random_evaluations"]))
-            for record in program.json("records")]
+            for record in program.json("records") if record["objective"] in ("condition", "friction")]
     return table(["the worst that is known", "value", "best of random problems", "of so many"], rows)
+
+
+LONGEST = {"steps": "steps of a run that solves", "give-ups": "its give-ups", "zero-run": "steps of length zero in a row",
+           "period": "drives of a period", "pieces": "pieces of `complete`", "descents": "its descents"}
+CONTACTS = range(2, 9)
+
+
+def longest_runs(program):
+    """The records of runs that are long, by number of contacts."""
+    by_name = {record["frontier"]: record for record in program.json("records")}
+
+    def cell(objective, contacts):
+        record = by_name.get(f"{objective}-{contacts}-contacts")
+        return "" if record is None else f"{shown(record['value'])} ({shown(record['random']) if record['random'] else '-'})"
+
+    rows = [(what, *(cell(objective, n) for n in CONTACTS)) for objective, what in LONGEST.items()]
+    rows += [("2^n - 1", *(count(2 ** n - 1) for n in CONTACTS)), ("4^n - 1", *(count(4 ** n - 1) for n in CONTACTS))]
+    return table(["contacts", *CONTACTS], rows)

@@ -38,6 +38,8 @@ FIGURES = [
     Figure("peers-in-short", "README.md", "long", bench.peers_in_short, PEERS),
     Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
     Figure("endless", "search/adversary/frontiers.md", "cheap", corpus.endless),
+    Figure("smallest", "search/adversary/frontiers.md", "minutes", bench.smallest, ("algorithm", "bench/smallest.cpp")),
+    Figure("longest-runs", "search/adversary/frontiers.md", "cheap", corpus.longest_runs),
     Figure("sliding-corpus", "corpus/README.md", "cheap", corpus.sliding_corpus),
     Figure("wrong-in-doubles", "corpus/README.md", "cheap", corpus.wrong_in_doubles),
     Figure("published-problems", "corpus/formats/README.md", "minutes", scene.published_problems,
