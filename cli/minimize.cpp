@@ -95,8 +95,10 @@ int RunMinimize(const MinimizeVerb& o) {
     std::iter_swap(options.policies.begin(),
                    std::find(options.policies.begin(), options.policies.end(), policy));
   }
-  if (in_space && options.keep == Outcome::kUndecided)
-    throw InputError(o.file, "outcome under " + o.policy, "undecided", "one that intervals prove");
+  if (in_space && options.keep == Outcome::kUndecided) {
+    const std::string place = o.keep.empty() ? "outcome under " + o.policy : "--keep";
+    throw InputError(o.file, place, "undecided", "an outcome that intervals prove");
+  }
   if (o.keep_signature) options.signature = Signature(file.problem, run);
   options.limits = o.limits;
   options.further = o.further;
@@ -163,7 +165,9 @@ int ListPolicies(const PoliciesVerb& o) {
 
 void AddMinimize(CommandLine& program) {
   auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
-  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Positional("FILE", o.file,
+                  "stiction-problem file. In space what intervals prove is kept, under one policy")
+      .Required();
   verb.Option("-o,--output", o.output, "problem to write; - is standard output").Required();
   verb.Option("--keep", o.keep, "outcome to keep, e.g. cycle; by default the outcome under the policy")
       .Details("With :* behind it under every policy of the planar grid")

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <iostream>
+#include <optional>
 
 #include "certify/exact.h"
+#include "certify/published_space.h"
 #include "certify/solve.h"
 #include "cli/answer_text.h"
 #include "cli/narrate.h"
@@ -100,7 +102,7 @@ std::string EndText(const End& end, bool proved) {
 
 template <class Scalar>
 void PrintEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
-  const bool proved = kIsExact<Scalar> || answer.arithmetic == Arithmetic::kInterval;
+  const bool proved = kIsExact<Scalar>;
   if (solution.suspected)
     fmt::print("{}\nrun again{}: ", EndText(*solution.suspected, false),
                proved ? ", exactly" : " in long double, with finer tolerances");
@@ -136,6 +138,14 @@ Json ReplayToJson(const ReplayOptions& o, const ProblemFile& file, const Solutio
   return json;
 }
 
+// What intervals say of a run in space that does not end solved over floating-point numbers.
+std::optional<Verdict> OverIntervals(const ReplayOptions& o, const ProblemFile& file, const Policy& policy,
+                                     Outcome outcome) {
+  const bool in_space = file.problem.dimension == 3 && o.method == "baraff" && PublishedReadsInSpace(policy);
+  if (!in_space || outcome == Outcome::kSolved) return std::nullopt;
+  return RunIntervalsInSpace(file.problem, {policy, {}, o.limits}).verdict;
+}
+
 int ExitOf(Outcome outcome, const std::string& expected) {
   if (Name(outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
     return kExitDone;
@@ -148,12 +158,18 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
   const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
   const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
   Narration narration = Narrate(o, file, solution);
+  const auto proved = OverIntervals(o, file, policy, solution.outcome());
   if (o.json) {
     Json json = ReplayToJson(o, file, solution, std::move(narration));
+    if (proved) json["over_intervals"] = EndToJson(*proved);
     json["expected"] = expected;
     std::cout << JsonText(json) << "\n";
   } else {
     PrintForPeople(o, file, solution, narration);
+    if (proved) {
+      const bool open = proved->outcome == Outcome::kUndecided || proved->outcome == Outcome::kLimit;
+      fmt::print("over intervals, {}: {}\n", open ? "which do not decide it" : "proved", Describe(*proved));
+    }
     if (!expected.empty() && expected != Name(solution.outcome())) fmt::print("expected: {}\n", expected);
   }
   return ExitOf(solution.outcome(), expected);

@@ -3,7 +3,8 @@
 //
 //   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized
 //   disagreement-of-methods  exact methods contradict each other or what is proved (certify/agreement.h)
-//   cycle, stall, ...        an exact outcome other than solved
+//   cycle, stall, ...        an exact outcome other than solved, in space one that intervals prove
+//   undecided                in space: a loop over doubles that intervals neither prove nor deny
 //   wrong-answer             doubles said solved, with a natural residual above 1e-6
 //   disagreement             doubles ended in another outcome than exact numbers, of the same problem
 

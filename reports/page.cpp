@@ -205,8 +205,11 @@ Html Introduction() {
              "A search of random friction problems for inputs on which the pivoting algorithm of D. "
              "Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies (SIGGRAPH 1994), run "
              "as published, repeats a state and so never ends. Every finding was run again in exact "
-             "rational arithmetic; a finished loop comes with a certificate that an independent checker "
-             "verifies, and with a problem made as small as it gets.") +
+             "rational arithmetic, in space over intervals, which prove what they decide; a finished loop "
+             "comes with "
+             "a problem made as small as it gets and, in the plane, with a certificate that an independent "
+             "checker "
+             "verifies.") +
          Html("\n");
 }
 

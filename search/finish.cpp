@@ -212,6 +212,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     MinimizeOptions what;
     what.keep = verdict.outcome;
     what.policies = {options.policy};
+    what.period = verdict.period;
     what.limits = limits;
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;

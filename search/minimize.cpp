@@ -147,8 +147,9 @@ class Minimizer {
 
   std::optional<std::string> LacksInSpace(const ExactProblem& candidate) const {
     for (const Policy& policy : options_.policies) {
-      const Outcome outcome = RunIntervalsInSpace(candidate, {policy, {}, options_.limits}).verdict.outcome;
-      if (outcome != options_.keep) return EndsElsewhere(policy, outcome);
+      const Verdict verdict = RunIntervalsInSpace(candidate, {policy, {}, options_.limits}).verdict;
+      if (verdict.outcome != options_.keep) return EndsElsewhere(policy, verdict.outcome);
+      if (options_.period && verdict.period != *options_.period) return "it has another period";
     }
     return std::nullopt;
   }

@@ -46,8 +46,10 @@ Simplicity SimplicityOf(const ExactProblem& problem);
 struct MinimizeOptions {
   Outcome keep = Outcome::kCycle;
   std::vector<Policy> policies = {Policy{}};  // all must end in `keep`
-  // If given, the signature under the first policy is kept too, so that the kind of loop stays. In the plane.
+  // If given, the signature under the first policy is kept too, so that the kind of loop stays; in space the
+  // period.
   std::optional<std::string> signature;
+  std::optional<std::int64_t> period;
   // Further than one change at a time goes: seconds to minutes more, so not for every finding of a search.
   bool further = false;
   Limits limits;

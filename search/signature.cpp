@@ -93,14 +93,14 @@ std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
   return smallest;
 }
 
-std::string SpaceSignature(std::size_t contacts, const Verdict& verdict) {
+std::string CountsSignature(std::size_t contacts, const Verdict& verdict) {
   if (!IsLoop(verdict.outcome)) return fmt::format("{}-{}c", Name(verdict.outcome), contacts);
   return fmt::format("{}-{}c-{}d", Name(verdict.outcome), contacts, verdict.period);
 }
 
 std::string Signature(const ExactProblem& problem, const ExactRun& run) {
   const Verdict& verdict = run.verdict;
-  if (!IsLoop(verdict.outcome)) return SpaceSignature(problem.contacts.size(), verdict);
+  if (!IsLoop(verdict.outcome)) return CountsSignature(problem.contacts.size(), verdict);
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   const Steps period = Period(run);

@@ -24,7 +24,8 @@ std::string LoopWord(const ExactProblem& problem, const ExactRun& run);
 // than a loop only its name and the number of contacts remain: "singular-3c". In space the counts alone, of all
 // contacts.
 std::string Signature(const ExactProblem& problem, const ExactRun& run);
-std::string SpaceSignature(std::size_t contacts, const Verdict& verdict);
+// "cycle-2c-4d", "ray-2c": by counts that a verdict alone gives.
+std::string CountsSignature(std::size_t contacts, const Verdict& verdict);
 
 }  // namespace stiction
 

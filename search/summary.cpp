@@ -70,7 +70,8 @@ Digest DigestOf(const Store& store) {
     for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
       for (int exact = 0; exact < kOutcomeCount; ++exact) {
         digest.suspicions += tally.verdicts[inexact][exact];
-        if (exact == inexact) digest.confirmed += tally.verdicts[inexact][exact];
+        const bool undecided = exact == static_cast<int>(Outcome::kUndecided);
+        if (exact == inexact && !undecided) digest.confirmed += tally.verdicts[inexact][exact];
       }
     }
     digest.audited += tally.audited;
@@ -136,7 +137,6 @@ std::string AuditText(const Digest& d) {
 
 // What other exact methods made of the problems; of problems of space they are not counted.
 std::string ExistenceText(const Digest& digest) {
-  if (digest.existence.problems == 0 && digest.agreement.compared == 0) return "";
   std::string text = fmt::format(
       "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
       Grouped(digest.existence.solved), Grouped(digest.existence.problems),
@@ -314,7 +314,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
   text += ExistenceText(digest);
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Grouped(digest.finished), Grouped(digest.pending), Grouped(digest.whole_grid));
-  if (!digest.simplest.empty()) text += "Simplest, certified and minimized:\n";
+  if (!digest.simplest.empty()) text += "Simplest, proved and minimized:\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(kShown, digest.simplest.size()); ++i) {
     text += FindingLine(digest.simplest[i]);
   }

@@ -93,21 +93,13 @@ class Collector {
     const Outcome proved = verdict.outcome;
     const Place place = {index, policy, inexact.outcome};
     CountVerdict(*tallies_[policy], inexact.outcome, proved, suspected);
-    const SpaceSolution complete = methods_.complete_in_space(problem, campaign_.limits);
-    if (complete.outcome != Outcome::kSolved || FindWeakViolation(problem, complete.f)) {
-      FindDisagreementOfMethods(
-          place, proved,
-          {"complete-in-space",
-           fmt::format("complete driving on polygons ended in {}, without forces that meet (21) and (22)",
-                       Name(complete.outcome))},
-          problem, {{{"complete", complete.outcome, complete.f}}, {}});
-    }
+    CompareInSpace(place, proved, problem);
     if (proved == Outcome::kSolved) {
       FindOfDoubles(place, wrong, problem);
     } else if (proved != Outcome::kUndecided) {
-      Find(place, proved, Name(proved), SpaceSignature(task_.contacts, verdict), problem);
+      Find(place, proved, Name(proved), CountsSignature(task_.contacts, verdict), problem);
     } else if (inexact.outcome == Outcome::kCycle) {
-      Find(place, proved, Name(proved), "undecided-" + SpaceSignature(task_.contacts, inexact), problem);
+      Find(place, proved, Name(proved), "undecided-" + CountsSignature(task_.contacts, inexact), problem);
     }
   }
 
@@ -121,13 +113,28 @@ class Collector {
     Outcome inexact;
   };
 
+  // Complete driving on polygons ends in a solution of its own law, which is proved; that more corners lead to
+  // one of (21), (22) is not.
+  void CompareInSpace(const Place& place, Outcome published, const ExactProblem& problem) {
+    const SpaceSolution complete = methods_.complete_in_space(problem, campaign_.limits);
+    const bool solved = complete.outcome == Outcome::kSolved;
+    const bool wrong = solved && FindWeakViolation(problem, complete.f);
+    CountExistence(complete.outcome, complete.statistics, wrong);
+    if (!wrong && complete.outcome != Outcome::kRay) return;
+    const std::string what = wrong ? "complete-wrong" : fmt::format("complete-{}", Name(complete.outcome));
+    FindDisagreementOfMethods(
+        place, published, {what, "complete driving on polygons ended without forces that meet (21) and (22)"},
+        problem, {{{"complete", complete.outcome, complete.f}}, {}});
+  }
+
   static void CountVerdict(Tally& tally, Outcome inexact, Outcome exact, bool suspected) {
     if (suspected) {
       ++tally.verdicts[static_cast<int>(inexact)][static_cast<int>(exact)];
     } else {
-      ++tally.audited;
       const bool decided = exact != Outcome::kUndecided;
-      tally.misjudged += decided && exact != inexact;
+      if (!decided) return;
+      ++tally.audited;
+      tally.misjudged += exact != inexact;
     }
   }
 
@@ -166,7 +173,9 @@ class Collector {
       if (promised) CountModes(tally, problem, *answers.modes);
     }
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
-    if (promised) CountExistence(complete.verdict, disagreement && disagreement->what == "complete-wrong");
+    if (promised)
+      CountExistence(complete.verdict.outcome, complete.verdict.statistics,
+                     disagreement && disagreement->what == "complete-wrong");
     if (disagreement)
       FindDisagreementOfMethods(place, published.verdict.outcome, *disagreement, problem, answers);
   }
@@ -179,11 +188,10 @@ class Collector {
          Json{{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}});
   }
 
-  void CountExistence(const CompleteVerdict& verdict, bool wrong) {
-    const CompleteStatistics& s = verdict.statistics;
+  void CountExistence(Outcome outcome, const CompleteStatistics& s, bool wrong) {
     ExistenceTally& tally = result_.record.existence[task_.contacts];
     ++tally.problems;
-    tally.solved += verdict.outcome == Outcome::kSolved && !wrong;
+    tally.solved += outcome == Outcome::kSolved && !wrong;
     tally.pieces += s.pieces;
     tally.with_folds += s.folds > 0;
     tally.with_descents += s.descents > 0;

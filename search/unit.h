@@ -6,8 +6,8 @@
 // exactly, and both verdicts are counted. The exact verdict alone makes a finding. What is run exactly is also
 // run by other methods, whose answers must agree (certify/agreement.h). In space, where the published algorithm
 // takes square roots, intervals stand for exact numbers: what they prove is exact, otherwise they say
-// `undecided`. Nothing but (campaign, unit number) decides what comes out. The path of a problem that raises no
-// suspicion allocates nothing.
+// `undecided`. Nothing but (campaign, unit number) decides what comes out. In the plane the path of a problem
+// that raises no suspicion allocates nothing.
 
 #ifndef STICTION_SEARCH_UNIT_H_
 #define STICTION_SEARCH_UNIT_H_

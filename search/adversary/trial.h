@@ -88,8 +88,9 @@ std::optional<double> Margin(ExactTrial& trial);
 
 // The longest chain of friction forces that a run gave up, each while the one before it rested, given up, and
 // was not driven. What a force that rests is depends on those that rested when it was given up and on nothing
-// else of the past: without such a force the sets alone decide all forces. So a run that never ends and whose
-// chains have a bound comes to finitely many states, and loops.
+// else of the past: where the matrices are regular, the sets alone
+// decide all other forces. So there a run that never ends and whose chains have a bound comes to finitely many
+// states, and loops.
 std::int64_t LongestMemory(InexactTrial& trial);
 std::int64_t LongestMemory(ExactTrial& trial);
 

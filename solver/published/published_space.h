@@ -96,9 +96,10 @@ class PublishedInSpace {
     std::uint64_t rounded;
     // Over intervals:
     IndexSets<Eigen::Dynamic> sets;
-    int contact;           // driven last, where it matters
-    bool memoryless;       // see Memoryless
-    bool regular = false;  // the matrix of C and CF is, as the drive from here has shown
+    int contact;                           // driven last, where it matters
+    bool memoryless;                       // see Memoryless
+    bool regular = false;                  // the matrix of C and CF is, as the drive from here has shown
+    std::int64_t singular_directions = 0;  // met before
   };
 
   void Start(const Problem& problem, SpaceTrace<Scalar>* trace);

@@ -632,11 +632,14 @@ bool PublishedInSpace<Scalar>::OuterStateRecurs() {
     now.sets = state_.sets;
     if (options_.policy.resume == Resume::kRound) now.contact = last_driven_contact_;
     now.memoryless = Memoryless();
+    now.singular_directions = verdict_.statistics.singular_directions;
   }
   int alike = 0;
   for (const OuterState& earlier : outer_states_) {
     if constexpr (kIsExact<Scalar>) {
-      if (now.memoryless && earlier.memoryless && earlier.regular && earlier.sets == now.sets &&
+      // A solution of a singular system is taken by the order of its rows, in axes that are remembered.
+      const bool regular = earlier.regular && earlier.singular_directions == now.singular_directions;
+      if (now.memoryless && earlier.memoryless && regular && earlier.sets == now.sets &&
           earlier.contact == now.contact)
         return EndCycle(earlier);
     }

@@ -152,6 +152,18 @@ def word(found):
     return [(step["drive"], step["driven"], step["limiting"], step["from"], step["to"]) for step in found.pivots]
 
 
+def crosses(found):
+    """Whether friction goes from one limit through CF to the other within a drive: the one thing that differs in space."""
+    left = {}
+    for step in found.pivots:
+        place = step["drive"], step["limiting"]
+        if step["from"] in ("NC-", "NC+"):
+            left[place] = step["from"]
+        if step["to"] in ("NC-", "NC+") and left.get(place, step["to"]) != step["to"]:
+            return True
+    return False
+
+
 def near_the_bound(mu, e):
     """Part 4, friction forces in units of mu."""
     h, k, one, zero = 2 + mu * mu, 2 * (1 + mu * mu), 1 + e, 0 * e
@@ -173,6 +185,7 @@ class Families(unittest.TestCase):
     def loops(self, problem, start, period):
         symbolic = run(*problem(E))
         self.assertEqual((symbolic.outcome, symbolic.start, symbolic.period), ("cycle", start, period))
+        self.assertFalse(crosses(symbolic))
         for k in (8, 12, 40):  # and at numbers
             e = Fraction(1, 10 ** k)
             A, b, mu = problem(E)

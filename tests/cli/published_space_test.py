@@ -72,6 +72,15 @@ class Solve(cli.TestCase):
             complete = self.succeeds("solve", file, "--method", "complete", "--json").json()
             self.assertEqual(read["f"], complete["f"])
 
+    def test_a_replay_says_what_intervals_prove(self):
+        out = self.succeeds("replay", CYCLE).out.splitlines()
+        self.assertEqual(out[-1], "over intervals, proved: cycle: the state after 7 drives stands again 6 drives later, for ever")
+        out = self.succeeds("replay", CYCLE, "--policy", "slip=redirect").out.splitlines()
+        self.assertTrue(out[-1].startswith("over intervals, which do not decide it: undecided"), out[-1])
+        told = self.succeeds("replay", RAY, "--json").json()
+        self.assertEqual((told["outcome"], told["over_intervals"]["outcome"]), ("ray", "ray"))
+        self.assertNotIn("over_intervals", self.succeeds("replay", self.file("p.json", CIRCLE), "--json").json())
+
     def test_a_loop_of_space_is_minimized_as_far_as_intervals_prove_it(self):
         small = self.folder / "small.json"
         done = self.succeeds("minimize", CYCLE, "-o", small, "--json").json()
@@ -89,10 +98,10 @@ class Solve(cli.TestCase):
         store = self.folder / "space.store"
         out = self.succeeds("search", "--generator", "space", "--contacts", "2", "--problems", "30000", "--threads", "2",
                             "--store", store).out
-        self.assertIn("cycle ", out)
+        self.assertRegex(out, r"(?m)^  cycle  ")
+        self.assertRegex(out, r"existence: (\d+) of \1 problems")
         self.assertRegex(out, r"cycle-2c-\d+d .*in space, over intervals")
-        self.assertNotIn("existence:", out)
-        self.assertNotIn("disagreement", out)
+        self.assertNotIn("disagreement-of-methods", out)
         self.succeeds("report", store, "-o", self.folder / "report")
         found = sorted((self.folder / "report/findings").glob("cycle-*d.json"))
         self.assertTrue(found)

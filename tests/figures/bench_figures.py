@@ -147,7 +147,7 @@ def space_row(first, row):
 
 def space(program):
     result = program.bench("space", "--problems", program.size(20_000))
-    head = ["`slip`", "solved", "loops", "share, 95 %", "proved", "left again", "ray", "proved", "breaks", "redirects",
+    head = ["`slip`", "solved", "loops", "share, 95 %", "loops proved", "left again", "rays", "rays proved", "breaks", "redirects",
             "steps, mean (most)", "unsure", "edges (corners)"]
     sizes = [space_row(f"{row['family']}, {row['contacts']}", row) for row in result["sizes"]]
     friction = [space_row(f"mu = {row['mu']}", row) for row in result["friction"] if row["policy"] in SLIPS]
@@ -431,6 +431,6 @@ def patches(program):
 
 def smallest(program):
     result = program.bench("smallest", "--entries", 3, "--exact")
-    return table(["entries at most", "matrices", "problems", "loops of `paper`", "the smallest", "the smallest under every policy"],
-                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), row["smallest"],
+    return table(["entries at most", "matrices", "problems", "loops of `paper`", "neither loop nor solved", "the smallest", "the smallest under every policy"],
+                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), count(row["neither"]), row["smallest"],
                    row["under every policy"]) for row in result["rows"]])

@@ -17,6 +17,10 @@ bool FuzzRecord(std::string_view bytes) {
   const auto record = Unrefused([bytes] { return ParseRecord(bytes, "input"); });
   if (!record) return false;
   if (record->problem.problem.rows() > kMostRowsPrinted) return true;
+  const Json json = Json::parse(bytes);
+  STICTION_CHECK(json["frontier"] == record->frontier && json["what"] == record->what &&
+                     json["command"] == record->command && json["random"]["command"] == record->random_command,
+                 "a text that is not read");
   const std::string text = Print(*record);
   const FrontierRecord again = ParseRecord(text, "what was written");
   STICTION_CHECK(IsSame(again.problem.problem, record->problem.problem), "a record of another problem");

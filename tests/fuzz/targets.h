@@ -5,17 +5,20 @@
 // none. Whatever else is thrown is a fault: that of the program, or a broken property, which is an
 // InternalError.
 //
+// clang-format off
 //   problem       a problem file: what is read is written and read back to the same
-//   certificate   a certificate: a claim that the checker accepts is true, as the makers of certificates decide
-//   it record        a record: what is read is written and read back to the same rational      a number as
-//   text: its value, its nearest double, as a JSON number; against GMP and strtod campaign      a campaign
-//   file, a list of policies, a policy or a friction coefficient scene         a scene file: read back to the
-//   same; its contacts and problems, if it is small siconos       a .dat file, read as both kinds; read back
-//   from every storage fclib         JSON that says what an HDF5 file holds (fclib.cpp): such a file, likewise
+//   certificate   a certificate: a claim that the checker accepts is true, as the makers of certificates decide it
+//   record        a record: what is read is written and read back to the same; small ones hold or do not
+//   rational      a number as text: its value, its nearest double, as a JSON number; against GMP and strtod
+//   campaign      a campaign file, a list of policies, a policy or a friction coefficient
+//   scene         a scene file: read back to the same; its contacts and problems, if it is small
+//   siconos       a .dat file, read as both kinds; read back from every storage
+//   fclib         JSON that says what an HDF5 file holds (fclib.cpp): such a file, likewise
 //   hdf5          an HDF5 file as it is. What is damaged in it is first of all HDF5's affair
 //   store         JSON that says what stands in the columns of a store (store.cpp): statistics, report, merge
 //   certify       the same problems: every certificate that is made of one is accepted
 //   solve         choices (bytes.h) that make a problem (extreme.h) and choose a method and an arithmetic
+// clang-format on
 
 #ifndef STICTION_TESTS_FUZZ_TARGETS_H_
 #define STICTION_TESTS_FUZZ_TARGETS_H_

@@ -438,9 +438,9 @@ bug("range-obstacle", "M(i, size) != 0", "M(i, size) > 0", "an obstacle of one s
 
 bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
 bug("wrong-answer-threshold", "!(residual() <= kWrongAnswer)", "!(residual() <= 1)", "wrong is above 1, not 1e-6")
-bug("misjudged-not-counted", "tally.misjudged += decided && exact != inexact;", "", "misjudged runs are not counted")
+bug("misjudged-not-counted", "tally.misjudged += exact != inexact;", "", "misjudged runs are not counted")
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
-bug("wrong-solution-counted", "verdict.outcome == Outcome::kSolved && !wrong", "verdict.outcome == Outcome::kSolved",
+bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
     "wrong solutions are counted as solved")
 bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check of safe problems lacks its switch")
 bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
@@ -450,7 +450,7 @@ bug("of-rounded", "if (!Row(task_.generator).exact_in_double || Row(task_.genera
     "a rounded problem's answer or outcome is a finding")
 bug("undecided-misjudged", "const bool decided = exact != Outcome::kUndecided;", "const bool decided = true;",
     "what intervals cannot decide counts against doubles")
-bug("space-existence-unasked", "complete.outcome != Outcome::kSolved || FindWeakViolation(problem, complete.f)", "false",
+bug("space-existence-unasked", "if (!wrong && complete.outcome != Outcome::kRay) return;", "return;",
     "no solution in space is no finding")
 bug("space-undecided-dropped", "} else if (inexact.outcome == Outcome::kCycle) {", "} else if (false) {",
     "loops that intervals do not prove are no findings")
@@ -512,7 +512,7 @@ bug("no-word-of-two", "contacts.size() > kMostContactsWithWord", "contacts.size(
 bug("all-steps-zero", "step.s == 0", "step.s >= 0", "words do not tell zero steps from others")
 
 bug = in_file("search/summary.cpp", "^search: summary")
-bug("all-confirmed", "if (exact == inexact) digest.confirmed += tally.verdicts[inexact][exact];",
+bug("all-confirmed", "if (exact == inexact && !undecided) digest.confirmed += tally.verdicts[inexact][exact];",
     "digest.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
 bug("grave-not-named", "if (IsGrave(finding.kind)) digest.grave.push_back(finding);", "", "grave findings are not named")
 bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",

@@ -296,7 +296,8 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
     const UnitResult right = RunWith(campaign, {});
     CHECK(OnlyTally(right).misjudged == 0);
     CHECK(OnlyTally(right).wrong == 0);
-    CHECK(OnlyTally(right).audited + Suspicions(OnlyTally(right)) == kTried);
+    CHECK(OnlyTally(right).audited + Suspicions(OnlyTally(right)) > kTried / 2);
+    CHECK(right.record.existence.at(2).solved == kTried);
     for (const Finding& finding : right.candidates) CHECK_FALSE(IsGrave(finding.kind));
   }
   UnitSolvers missing, wrong, loop, shifted;
@@ -310,11 +311,17 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
     solution.f[0] = -1;
     return solution;
   };
-  for (const UnitSolvers& solvers : {missing, wrong}) {
+  for (const auto& [solvers, alarm] : {std::pair{missing, "complete-ray"}, {wrong, "complete-wrong"}}) {
     const UnitResult result = RunWith(campaign, solvers);
-    CHECK(MetOf(result, "disagreement-of-methods-complete-in-space-2c") == kTried);
+    CHECK(MetOf(result, "disagreement-of-methods-" + std::string(alarm) + "-2c") == kTried);
     CHECK(KindsKept(result).contains(std::string(kDisagreementOfMethods)));
+    CHECK(result.record.existence.at(2).solved == 0);
   }
+  missing.exact.complete_in_space = [](const ExactProblem&, const Limits&) { return SpaceSolution(); };
+  const UnitResult open = RunWith(campaign, missing);  // undecided: that enough corners are added is not proved
+  CHECK(Met(open, kDisagreementOfMethods) == 0);
+  CHECK(open.record.existence.at(2).problems == kTried);
+  CHECK(open.record.existence.at(2).solved == 0);
   loop.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
     IntervalSpaceRun run = RunIntervalsInSpace(problem, options);
     run.verdict.outcome = Outcome::kCycle;
@@ -330,6 +337,7 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
     return run;
   };
   CHECK(OnlyTally(RunWith(campaign, nothing)).misjudged == 0);
+  CHECK(OnlyTally(RunWith(campaign, nothing)).audited == 0);
   CHECK(Met(RunWith(campaign, nothing), "undecided") == 0);
   nothing.distort = [](Verdict& verdict, std::span<double>) { verdict.outcome = Outcome::kCycle; };
   CHECK(Met(RunWith(campaign, nothing), "undecided") == kTried);

@@ -3,6 +3,8 @@
 
 #include "search/unit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -242,7 +244,7 @@ TEST_CASE("unit: every policy runs on the same problems as if it were alone") {
 // A problem of known outcome: index 0 of every unit is audited, so one problem is run both ways.
 TEST_CASE("unit: the double problem is the exact problem, so an audit agrees with it") {
   for (const GeneratorRow& row : Generators()) {
-    if (!row.exact_in_double) continue;
+    if (!row.exact_in_double || row.InSpace()) continue;  // intervals leave some open
     Campaign campaign = Small(row.id, 2, 60);
     campaign.audit_every = 1;
     const UnitResult result = UnitRunner(campaign).Run(3);
@@ -286,13 +288,13 @@ TEST_CASE(
   for (const auto& [key, tally] : result.record.tallies) {
     CAPTURE(key.policy);
     CHECK(Sum(tally.outcomes) == 12000);
-    CHECK(tally.audited == 12);
+    CHECK(tally.audited > 4);  // that intervals decide
+    CHECK(tally.audited <= 12);
     CHECK(tally.misjudged == 0);
     CHECK(tally.wrong == 0);
     CHECK(tally.verdicts[kLoop][kLoop] > 0);
-    // Intervals deny no loop of doubles, and prove none that doubles do not see.
+    // Intervals deny no loop of doubles.
     CHECK(tally.verdicts[kLoop][static_cast<std::size_t>(Outcome::kSolved)] == 0);
-    CHECK(tally.verdicts[static_cast<std::size_t>(Outcome::kSolved)][kLoop] == 0);
   }
   for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
   const auto loop = std::find_if(result.candidates.begin(), result.candidates.end(),
@@ -305,6 +307,7 @@ TEST_CASE(
   CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(loop->problem, "found").problem));
   const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished->policy), {}, campaign.limits});
   CHECK(run.verdict.outcome == Outcome::kCycle);
+  CHECK(loop->signature.ends_with(fmt::format("-{}d", run.verdict.period)));
   for (const std::string& solution : {finished->existence, finished->minimized_existence}) {
     const CheckReport report = CheckCertificate(Json::parse(solution), "certificate");
     CHECK(report.accepted);
