@@ -6,9 +6,9 @@
 // A_N2F2 are not negative. Problems without a negative bN are solved by f = 0 and left out. Smallest is the
 // loop with the smallest largest entry, of these the one with the fewest nonzeros, of these that with the least
 // sum. Runs are over doubles; what does not end solved there is run exactly. A loop that doubles take for a
-// solution, since they break a tie otherwise, is not seen: counts are lower bounds. With --exact every run is
-// over rationals, which takes much longer, and the search is exhaustive if no run ends otherwise than solved or
-// in a loop.
+// solution, since they break a tie otherwise, is not seen: counts are lower bounds. With --exact
+// every run is over rationals, which takes much longer, and the search is exhaustive if none ends otherwise
+// than solved, in a loop, or without a force direction (`singular`).
 
 #include <fmt/format.h>
 
@@ -78,7 +78,7 @@ class Smallest {
     });
   }
 
-  std::int64_t matrices = 0, problems = 0, loops = 0, others = 0;
+  std::int64_t matrices = 0, problems = 0, loops = 0, singular = 0, open = 0;
   std::optional<std::pair<Size, ExactProblem>> smallest, smallest_whole;
 
  private:
@@ -106,7 +106,8 @@ class Smallest {
     if (!exactly_ && DoublesSolve()) return;
     const ExactProblem exact = Exact();
     const Outcome outcome = exact_algorithm_.Run(exact).outcome;
-    others += outcome != Outcome::kSolved && outcome != Outcome::kCycle;
+    singular += outcome == Outcome::kSingular;
+    open += outcome != Outcome::kSolved && outcome != Outcome::kCycle && outcome != Outcome::kSingular;
     if (outcome != Outcome::kCycle) return;
     ++loops;
     const Size size = SizeOf(exact);
@@ -187,7 +188,8 @@ int BenchSmallest(const BenchOptions& options) {
                           {"matrices", all.matrices},
                           {"problems", all.problems},
                           {"loops of paper", all.loops},
-                          {"neither", all.others},
+                          {"singular", all.singular},
+                          {"neither", all.open},
                           {"smallest", Shown(all.smallest)},
                           {"under every policy", Shown(all.smallest_whole)}});
     problems.push_back({{"K", largest},

@@ -431,6 +431,6 @@ def patches(program):
 
 def smallest(program):
     result = program.bench("smallest", "--entries", 3, "--exact")
-    return table(["entries at most", "matrices", "problems", "loops of `paper`", "neither loop nor solved", "the smallest", "the smallest under every policy"],
-                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), count(row["neither"]), row["smallest"],
+    return table(["entries at most", "matrices", "problems", "loops of `paper`", "no force direction", "none of these, nor solved", "the smallest loop", "the smallest under every policy"],
+                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), count(row["singular"]), count(row["neither"]), row["smallest"],
                    row["under every policy"]) for row in result["rows"]])
