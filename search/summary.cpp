@@ -135,7 +135,7 @@ std::string AuditText(const Digest& d) {
       Grouped(d.runs - d.suspicions), Grouped(d.audited), misjudged);
 }
 
-// What other exact methods made of the problems; of problems of space they are not counted.
+// What other exact methods made of the problems; of those of space existence alone is counted.
 std::string ExistenceText(const Digest& digest) {
   std::string text = fmt::format(
       "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",

@@ -257,6 +257,17 @@ TEST_CASE("unit: the double problem is the exact problem, so an audit agrees wit
   }
 }
 
+// The first loop that a unit found, finished; no finding is grave.
+Finding FinishedLoop(const UnitResult& result, const Campaign& campaign) {
+  for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
+  const auto loop = std::find_if(result.candidates.begin(), result.candidates.end(),
+                                 [](const Finding& finding) { return finding.kind == "cycle"; });
+  REQUIRE(loop != result.candidates.end());
+  const auto finished = FinishFinding(*loop, campaign.limits, [] { return false; });
+  REQUIRE(finished.has_value());
+  return *finished;
+}
+
 TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certified, and nothing disagrees") {
   for (const GeneratorId id : {GeneratorId::kBilateral, GeneratorId::kSliding}) {
     Campaign campaign = Small(id, 3, 20000);
@@ -266,14 +277,9 @@ TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certifi
     CHECK(Sum(tally.outcomes) == 20000);
     CHECK(tally.misjudged == 0);
     CHECK(tally.wrong == 0);
-    for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
-    const auto loop = std::find_if(result.candidates.begin(), result.candidates.end(),
-                                   [](const Finding& finding) { return finding.kind == "cycle"; });
-    REQUIRE(loop != result.candidates.end());
-    const auto finished = FinishFinding(*loop, campaign.limits, [] { return false; });
-    REQUIRE(finished.has_value());
-    CHECK(finished->kind == "cycle");
-    CHECK_FALSE(finished->certificate.empty());
+    const Finding finished = FinishedLoop(result, campaign);
+    CHECK(finished.kind == "cycle");
+    CHECK_FALSE(finished.certificate.empty());
   }
 }
 
@@ -296,24 +302,19 @@ TEST_CASE(
     // Intervals deny no loop of doubles.
     CHECK(tally.verdicts[kLoop][static_cast<std::size_t>(Outcome::kSolved)] == 0);
   }
-  for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
-  const auto loop = std::find_if(result.candidates.begin(), result.candidates.end(),
-                                 [](const Finding& finding) { return finding.kind == "cycle"; });
-  REQUIRE(loop != result.candidates.end());
-  const auto finished = FinishFinding(*loop, campaign.limits, [] { return false; });
-  REQUIRE(finished.has_value());
-  const ExactProblem small = ParseProblem(finished->minimized, "minimized").problem;
+  const Finding finished = FinishedLoop(result, campaign);
+  const ExactProblem small = ParseProblem(finished.minimized, "minimized").problem;
   CHECK(small.dimension == 3);
-  CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(loop->problem, "found").problem));
-  const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished->policy), {}, campaign.limits});
+  CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(finished.problem, "found").problem));
+  const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished.policy), {}, campaign.limits});
   CHECK(run.verdict.outcome == Outcome::kCycle);
-  CHECK(loop->signature.ends_with(fmt::format("-{}d", run.verdict.period)));
-  for (const std::string& solution : {finished->existence, finished->minimized_existence}) {
+  CHECK(finished.signature.ends_with(fmt::format("-{}d", run.verdict.period)));
+  for (const std::string& solution : {finished.existence, finished.minimized_existence}) {
     const CheckReport report = CheckCertificate(Json::parse(solution), "certificate");
     CHECK(report.accepted);
     CHECK(report.claim == "solution-exists");
   }
-  CHECK(Json::parse(finished->facts).at("minimized").at("outcome") == "cycle");
+  CHECK(Json::parse(finished.facts).at("minimized").at("outcome") == "cycle");
 }
 
 // ---- Methods held against each other ---------------------------------------------------------
