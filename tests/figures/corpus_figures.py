@@ -120,7 +120,7 @@ def safe_by_condition(program):
     if threshold["low"] != threshold["high"]:
         raise ValueError("a threshold that is no single number")
     numerator, denominator = map(int, condition.split("/"))
-    rows = [("its condition number alone", f"{condition} = {numerator / denominator:.4f}"),
+    rows = [("the condition number of a scaled A alone", f"{condition} = {numerator / denominator:.4f}"),
             ("its determinants", threshold["high"])]
     return table(["says that A of `safe-by-condition.json` is safe", "for mu up to"], rows)
 
