@@ -241,6 +241,8 @@ def scene_speed_rows(result, first, second):
     rows = []
     for row in result:
         one, other = row[first], row[second]
+        if "failure" in one or "failure" in other:  # has no forces, as its description says
+            continue
         ways = [(median_of(way["frames_a_second"]), f"{way['rows']:.1f}", f"{way['problems']:.2f}")
                 for way in (one, other)]
         rows.append((f"`{row['scene']}`", *ways[0], *ways[1], median_of(row["ratio"])))

@@ -55,7 +55,7 @@ def unsolved_in_scenes(program):
     said = program.script("tests/setup/scene_statistics.py")
     lines = [line for line in said.splitlines() if line.startswith("|")]
     rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines[2:]]
-    total = [row for row in rows if row[0] == "`all`"]
+    total = [row for row in rows if row[0] == "all"]
     failing = [row for row in rows if row not in total and row[3] != "-"]
     smooth = [row for row in rows if row not in total and row[3] == "-"]
     solved = sum(int(row[1].replace(",", "")) for row in smooth)
