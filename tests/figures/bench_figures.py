@@ -421,12 +421,18 @@ def peers_in_short(program):
         "\n\n" + prose("Measured" + machine()))
 
 
+PATCHED = (("psd", 6_200_000), ("integers", 6_200_000), ("bodies", 6_200_000), ("scenes", 6_200_000),
+           ("conditioned", 200_000))  # 10^8 of four sizes; runs over rationals take their time with the last
+
+
 def patches(program):
-    """Failures in a million problems of each way to change the published algorithm, all sizes together and apart."""
-    result = program.bench("patches", "--problems", program.size(5_000_000))
+    """Failures in a million problems of each way to change the published algorithm, by generator and size."""
     ways = ("first", "previous", "second", "fold", "lemke", "complete")
-    rows = [(f"`{row['generator']}`", row["contacts"], count(row["problems"]), row["gives up"],
-             *(row[way] for way in ways)) for row in result["rows"]]
+    rows = []
+    for generator, problems in PATCHED:
+        result = program.bench("patches", "--generator", generator, "--problems", program.size(problems))
+        rows += [(f"`{row['generator']}`", row["contacts"], count(row["problems"]), row["gives up"],
+                  *(row[way] for way in ways)) for row in result["rows"]]
     return table(["generator", "contacts", "problems", "give up", "`give-up=first`", "`previous`", "`second`",
                   "fold", "Lemke at a give-up", "`complete`"], rows)
 
@@ -436,3 +442,33 @@ def smallest(program):
     return table(["entries at most", "matrices", "problems", "loops of `paper`", "no force direction", "none of these, nor solved", "the smallest loop", "the smallest under every policy"],
                  [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), count(row["singular"]), count(row["neither"]), row["smallest"],
                    row["under every policy"]) for row in result["rows"]])
+
+
+OPTIMIZERS = ("evolution", "nlopt", "continuation")
+SEEDS = (201, 202, 203)
+
+
+def gain(cell):
+    return float("inf") if cell == "inf" else 0 if cell == "-" else cell
+
+
+def gain_text(cell):
+    return cell if isinstance(cell, str) else f"{cell:.3g}"
+
+
+def adversary(program):
+    """The optimizers beside random problems, with seeds that nothing was tuned on."""
+    results = [{row["objective"]: row for row in program.bench("adversary", "--seed", seed)} for seed in SEEDS]
+    rows = [(name, row["problems"], count(row["evaluations"]),
+             *(", ".join(gain_text(result[name][f"{optimizer} gain"]) for result in results) for optimizer in OPTIMIZERS))
+            for name, row in results[0].items()]
+
+    def doubled(optimizers):
+        return ", ".join(str(sum(max(gain(row[f"{one} gain"]) for one in optimizers) >= 2 for row in result.values()))
+                         for result in results)
+
+    return "\n\n".join((
+        table(["objective", "problems", "evaluations", *(f"gain of {optimizer}" for optimizer in OPTIMIZERS)], rows),
+        prose(f"Of {len(rows)} objectives, by seed, at least twice as bad as random problems: {doubled(OPTIMIZERS[:1])} by "
+              f"evolution, {doubled(OPTIMIZERS[1:2])} by NLopt, {doubled(OPTIMIZERS[2:])} by continuation, "
+              f"{doubled(OPTIMIZERS[:2])} by evolution or NLopt, {doubled(OPTIMIZERS)} by any.")))

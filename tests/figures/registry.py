@@ -52,6 +52,7 @@ FIGURES = [
     Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
            ("algorithm", "bench/linear_algebra.cpp")),
     Figure("scenes-by-mu", "search/README.md", "long", search.scenes_by_mu, SEARCH),
+    Figure("adversary", "search/README.md", "minutes", bench.adversary, ("algorithm", "bench/adversary.cpp", "search/adversary")),
     Figure("generators-by-mu", "search/README.md", "minutes", search.generators_by_mu, SEARCH),
     Figure("missed-by-doubles", "search/README.md", "long", search.missed_by_doubles, SEARCH),
     Figure("existence", "search/README.md", "minutes", search.existence, SEARCH),
