@@ -448,11 +448,11 @@ bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
 bug("wrong-not-counted", "tally.wrong += wrong;", "", "wrong answers are not counted")
 bug("of-rounded", "if (!Row(task_.generator).exact_in_double || Row(task_.generator).HasOtherKinds()) return;", "",
     "a rounded problem's answer or outcome is a finding")
-bug("undecided-misjudged", "const bool decided = exact != Outcome::kUndecided;", "const bool decided = true;",
+bug("undecided-misjudged", "exact != Outcome::kUndecided", "true",
     "what intervals cannot decide counts against doubles")
 bug("space-existence-unasked", "if (!wrong && complete.outcome != Outcome::kRay) return;", "return;",
     "no solution in space is no finding")
-bug("space-undecided-dropped", "} else if (inexact.outcome == Outcome::kCycle) {", "} else if (false) {",
+bug("space-undecided-dropped", "inexact.outcome == Outcome::kCycle", "false",
     "loops that intervals do not prove are no findings")
 bug("safe-cycle-missed", "exact == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
     "cycles of safe problems are cycles like others")

@@ -57,6 +57,20 @@ def place(mutant, text):
     return begin, begin + len(mutant.original)
 
 
+def check_form(mutant):
+    """Only an expression, or statements that declare nothing, can be chosen between."""
+    for code in (mutant.original, mutant.mutated):
+        depth = 0
+        for letter in re.sub(r"'.'", "", code):
+            depth += (letter in "({[") - (letter in ")}]")
+            if depth < 0:
+                break
+        if depth != 0:
+            raise Refused(f"{mutant.id}: found a bracket without its partner in {code!r}")
+        if code.endswith(";") and re.match(r"(const|auto|bool|int)\b", code):
+            raise Refused(f"{mutant.id}: found a declaration, expected its value alone: {code!r}")
+
+
 def numbered():
     """(number, mutant), from 1."""
     return list(enumerate(MUTANTS, 1))
@@ -99,6 +113,8 @@ def check_table():
     for name in ids:
         if ids.count(name) > 1:
             raise Refused(f"{name}: an id that stands twice")
+    for mutant in MUTANTS:
+        check_form(mutant)
     return len(mutated_files())
 
 
