@@ -23,6 +23,7 @@ import hashlib
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -113,6 +114,15 @@ def program(name):
     return BUILD / "tests/fuzz" / f"fuzz_{name}"
 
 
+def ends_in_time(command):
+    """Whether a command ends well within the processor time of an input."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS_PER_INPUT, SECONDS_PER_INPUT))
+
+    return subprocess.run([str(word) for word in command], preexec_fn=limit, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+
+
 class Run:
     """What one target did."""
 
@@ -155,9 +165,16 @@ class Run:
         self.spent["seconds"] += usage.ru_utime + usage.ru_stime
         self.spent["inputs"] += int(executed[-1]) if executed else 0
         self.spent["edges"] = max([self.spent["edges"], *map(int, re.findall(r"\bcov: (\d+)", text))])
+        self.judge_timeouts()
         self.spent["findings"] = [file.name for file in self.findings()]
         self.ledger.write()
         return process.returncode == 0
+
+    def judge_timeouts(self):
+        """libFuzzer's clock goes on while the machine does something else: alone, by processor time, it is judged."""
+        for file in self.findings():
+            if file.name.startswith("timeout-") and ends_in_time([program(self.name), file]):
+                file.rename(file.with_name(f"slow-unit-{file.name}"))
 
     def go(self, seconds):
         while (left := round(seconds - self.spent["seconds"])) > 0 and len(self.findings()) < MOST_FINDINGS:
