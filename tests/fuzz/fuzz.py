@@ -6,7 +6,8 @@
 
 A target starts from its seeds (targets.json), from inputs that once failed (findings/NAME), and from what
 earlier runs found worth keeping (build/fuzz/corpus/NAME). An input that fails, takes too long or too much
-memory is written to build/fuzz/found/NAME, and the target goes on.
+memory is written to build/fuzz/found/NAME, and the target goes on. What took too long beside other work is run again
+alone, and stays a finding if it does not end within as much processor time.
 
 Seconds are processor time of one and the same binary, over as many calls as it takes: what was spent is kept in
 build/fuzz/spent.json beside the binary's hash, call by call, so that a run that was cut goes on, and a tree that
@@ -119,8 +120,12 @@ def ends_in_time(command):
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS_PER_INPUT, SECONDS_PER_INPUT))
 
-    return subprocess.run([str(word) for word in command], preexec_fn=limit, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+    try:
+        return subprocess.run([str(word) for word in command], preexec_fn=limit, timeout=10 * SECONDS_PER_INPUT,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL).returncode == 0
+    except subprocess.TimeoutExpired:  # it waits for something
+        return False
 
 
 class Run:
