@@ -137,6 +137,7 @@ FrontierRecord ParseRecord(std::string_view json_text, const std::string& source
   if (const auto bounds = root.Optional("bounds")) {
     if (bounds->Size("two numbers") != 2) bounds->Refuse("two numbers");
     record.bounds = {ReadNumber((*bounds)[0]), ReadNumber((*bounds)[1])};
+    if (record.bounds->first <= 0) (*bounds)[0].Refuse("a number above zero");
   }
   const JsonPlace status = root.Required("status", "\"best so far\" or \"proved\"");
   record.status = status.Text("\"best so far\" or \"proved\"");

@@ -170,18 +170,23 @@ class Run:
         self.spent["seconds"] += usage.ru_utime + usage.ru_stime
         self.spent["inputs"] += int(executed[-1]) if executed else 0
         self.spent["edges"] = max([self.spent["edges"], *map(int, re.findall(r"\bcov: (\d+)", text))])
-        self.judge_timeouts()
+        excused = self.judge_timeouts()
         self.spent["findings"] = [file.name for file in self.findings()]
         self.ledger.write()
-        return process.returncode == 0
+        return process.returncode == 0 or excused
 
     def judge_timeouts(self):
-        """libFuzzer's clock goes on while the machine does something else: alone, by processor time, it is judged."""
+        """libFuzzer's clock goes on while the machine does something else: alone, by processor time, it is judged.
+        Whether one was none."""
+        excused = False
         for file in self.findings():
             if file.name.startswith("timeout-") and ends_in_time([program(self.name), file]):
                 file.rename(file.with_name(f"slow-unit-{file.name}"))
+                excused = True
+        return excused
 
     def go(self, seconds):
+        self.spent["broken"] = False
         while (left := round(seconds - self.spent["seconds"])) > 0 and len(self.findings()) < MOST_FINDINGS:
             before = len(self.findings())
             if not self.once(min(left, SECONDS_PER_CALL)) and len(self.findings()) == before:

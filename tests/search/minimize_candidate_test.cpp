@@ -159,6 +159,13 @@ TEST_CASE("record: broken files are refused by their place") {
     CAPTURE(from, to);
     CHECK_THROWS_AS(ReadRecord(scratch / "some.json"), InputError);
   }
+  FrontierRecord condition = SomeRecord("condition");
+  for (const Rational& least : {Rational(0), Rational(-1)}) {
+    condition.bounds->first = least;
+    std::ofstream(scratch / "some.json") << Print(condition);
+    CHECK_THROWS_WITH(ReadRecord(scratch / "some.json"),
+                      Catch::Contains("bounds") && Catch::Contains("above zero"));
+  }
   std::ofstream(scratch / "other.json") << text;
   std::filesystem::remove(scratch / "some.json");
   CHECK_THROWS_WITH(ReadRecords(scratch / "."), Catch::Contains("the name of the file"));
