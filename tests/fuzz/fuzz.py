@@ -186,9 +186,9 @@ class Run:
         return excused
 
     def go(self, seconds):
-        self.spent["broken"] = False
         while (left := round(seconds - self.spent["seconds"])) > 0 and len(self.findings()) < MOST_FINDINGS:
             before = len(self.findings())
+            self.spent["broken"] = False  # of a call before: it is tried again
             if not self.once(min(left, SECONDS_PER_CALL)) and len(self.findings()) == before:
                 self.spent["broken"] = True  # ended by itself without a file that says why
                 self.ledger.write()
