@@ -6,7 +6,7 @@
 // claimed can be checked: the value is computed anew from the exact problem, the certificate is accepted and
 // speaks of that problem.
 //
-//   value    p/q. Of `condition` an upper bound with "bounds": [l, u]: u / l is the value, and all
+//   value    p/q. Of `condition` an upper bound with "bounds": [l, u], l > 0: u / l is the value, and all
 //            eigenvalues of A are in [l, u].
 //   status   "best so far" or "proved", with "proof" naming where
 //   random   the best of random problems, of how many, and what drew them: {"value" (null: nothing),
