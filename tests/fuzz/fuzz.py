@@ -180,7 +180,9 @@ class Run:
         Whether one was none."""
         excused = False
         for file in self.findings():
-            if file.name.startswith("timeout-") and ends_in_time([program(self.name), file]):
+            if file.name in self.spent["findings"] or not file.name.startswith("timeout-"):
+                continue  # judged before, or another kind
+            if ends_in_time([program(self.name), file]):
                 file.rename(file.with_name(f"slow-unit-{file.name}"))
                 excused = True
         return excused
