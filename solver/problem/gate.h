@@ -9,7 +9,9 @@
 // and added to the residual (residual.h, weak_residual.h) times its slope: the residuals move by at most r = 1
 // / max A_ii times the change of a; in space, where a normal's shift has mu abs(aF) in it, by at most 3 (1 +
 // mu) r times the largest change of an entry. N. J. Higham, Accuracy and Stability of Numerical Algorithms,
-// 2002, section 3.1.
+// 2002, section 3.1. The measures themselves round by a few u of the largest force, which is nothing beside it;
+// but Coulomb's residual in space is relative to b, beside which forces may be huge, and there 64 u of all that
+// takes part, abs(f) + r (1 + mu) abs(a), is added.
 
 #ifndef STICTION_SOLVER_PROBLEM_GATE_H_
 #define STICTION_SOLVER_PROBLEM_GATE_H_
@@ -67,7 +69,12 @@ long double ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law
                                    : round                ? MeasureCoulomb(problem, f, checked.a)
                                                           : MeasureWeak(problem, f, checked.a);
   if (!residual.is_finite) return std::numeric_limits<long double>::infinity();
-  residual.worst += 3 * residual.r * checked.error * (1 + MostFriction(problem));
+  const long double slope = residual.r * (1 + MostFriction(problem));
+  residual.worst += 3 * slope * checked.error;
+  if (round && problem.rows() > 0) {
+    const long double parts = residual.scale + slope * checked.a.cwiseAbs().maxCoeff();
+    residual.worst += 32 * std::numeric_limits<long double>::epsilon() * parts;
+  }
   return round ? residual.RelativeToB() : residual.Relative();
 }
 
