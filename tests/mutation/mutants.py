@@ -222,8 +222,10 @@ bug("weak-power", "if (force > 0) worst = std::max(worst, r * (f[row + 1] * a[ro
     "", "(21) without fF.aF <= 0")
 
 bug = in_file("solver/problem/gate.h", "^solver: gate|^certify: solve")
-bug("rounding-not-bounded", "residual.worst += 3 * residual.r * checked.error * (1 + MostFriction(problem));", "",
+bug("rounding-not-bounded", "residual.worst += 3 * slope * checked.error;", "",
     "the residual is not an upper bound")
+bug("measure-not-bounded", "residual.worst += 32 * std::numeric_limits<long double>::epsilon() * parts;", "",
+    "the rounding of the measure itself is not counted")
 
 bug = in_file("solver/problem/state.h", "^solver: (step size|run|published|complete)")
 bug("force-tolerance-unit", "scale.force = std::max(Scalar(tolerances.force), least) * f;",
