@@ -14,7 +14,8 @@
 namespace stiction::fuzz {
 namespace {
 
-constexpr Limits kRunLimits = {.drives = 60, .pivots = 200, .bits = 20000};
+// Lemke's method on polygons of a problem of long numbers multiplies all of these.
+constexpr Limits kRunLimits = {.drives = 60, .pivots = 200, .bits = 4000};
 constexpr std::int64_t kMostPrograms = 500;
 
 void RequireAccepted(const Json& certificate) {
