@@ -32,6 +32,14 @@ constexpr std::array kSuites = {
     Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts,
           BenchPatches},
     Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
+    Suite{"trade", "speed against accuracy: every method over every arithmetic, on the generators", kMaxContacts,
+          BenchTrade},
+    Suite{"extremes", "the same along dials: masses, levers, units, conditioning, friction, ...", kMaxContacts,
+          BenchExtremes},
+    Suite{"silent", "wrong answers that say nothing of it, counted over generators and dials", kMaxContacts,
+          BenchSilent},
+    Suite{"ratios", "certified outcomes beside doubles, staged searches beside exact ones", kMaxContacts,
+          BenchRatios},
     Suite{"methods", "the methods side by side: counts, outcomes, times", kMostOfMethods, BenchMethods},
     Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts", 2000,
           BenchFrictionless},
@@ -90,7 +98,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
           "methods, peers, random: problems of each number of contacts (default 800, 400, 400); structure: at "
           "most "
           "so many of a family; frictionless: at most so many of each number (default 48); linear-algebra: "
-          "systems of a row (default 200); space: problems of each family and number of contacts "
+          "systems of a row (default 200); trade, extremes: problems of a row (default 60, 25); silent: all "
+          "(default 20000); ratios: of a family and size (default 200); space: problems of each family and number of contacts "
           "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
@@ -107,7 +116,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
           "search, sliding: this one alone; methods: instead of the positive definite family")
       ->check(CLI::IsMember(generators));
   verb.add_option("--scenes", o->scenes, "scenes, structure: the folder")->capture_default_str();
-  verb.add_option("--families", o->families, "structure: these alone");
+  verb.add_option("--families", o->families, "structure, extremes, silent: these alone");
+  verb.add_option("--csv", o->csv, "trade, extremes: a file for the lines, with intervals");
   verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));

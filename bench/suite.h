@@ -25,6 +25,7 @@ struct BenchOptions {
   int threads = 1;                       // of a simulation
   int entries = 2;                       // the largest integer of `smallest`
   bool exact = false;                    // `smallest`: every run over rationals
+  std::string csv;                       // a file for the lines of trade and extremes
   bool json = false;
 };
 
@@ -36,6 +37,14 @@ int BenchPatches(const BenchOptions& options);
 
 // The problems of two contacts with small integers, A definite, mu = 1 (smallest.cpp).
 int BenchSmallest(const BenchOptions& options);
+
+// Every method over every arithmetic: on generators; along dials; counting silent wrong answers alone (ladder.cpp).
+// Exit 1 where one is silently wrong.
+int BenchTrade(const BenchOptions& options);
+int BenchExtremes(const BenchOptions& options);
+int BenchSilent(const BenchOptions& options);
+// What certified outcomes cost beside doubles, and searches with staged suspicions beside those without (ratios.cpp).
+int BenchRatios(const BenchOptions& options);
 
 // Problems a second of the search's hot path, one thread (search_rate.cpp).
 int BenchSearch(const BenchOptions& options);

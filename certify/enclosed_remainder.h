@@ -7,6 +7,7 @@
 
 #include "corpus/rounded.h"
 #include "solver/problem/reduction.h"
+#include "solver/problem/remainder.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -18,9 +19,11 @@ class EnclosedRemainder {
   using Problem = ContactProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
+  // Keeps a reference: `problem` must outlive it.
   template <class Convert>
   EnclosedRemainder(const ExactProblem& problem, Convert convert)
-      : reduction_(problem),
+      : whole_(problem),
+        reduction_(problem),
         reduced_(Converted<Scalar>(reduction_.problem(), convert)),
         E_(reduction_.E().unaryExpr(convert)),
         AE_(ExactProblem::Matrix(problem.A * reduction_.E()).unaryExpr(convert)),
@@ -29,6 +32,7 @@ class EnclosedRemainder {
 
   ReductionEnd end() const { return reduction_.end(); }
   const Problem& problem() const { return reduced_; }
+  const ExactProblem& exact() const { return reduction_.problem(); }
   Vector Forces(const Vector& x) const { return Direction(x) + e_; }
   Vector Direction(const Vector& dx) const { return Product(E_, dx); }
   // Accelerations, their change with a direction of df, in the rows that remain as given.
@@ -39,6 +43,10 @@ class EnclosedRemainder {
     return WithGiven(Product(AE_, dx), given);
   }
 
+  std::string Word(const std::string& word) const {
+    return Reduction<Rational>::Concerns(whole_) ? WholeWord(whole_.contacts, word) : word;
+  }
+
   // A pivot in the plane, in the rows of the whole problem.
   Pivot<Scalar> Restored(Pivot<Scalar> pivot) const {
     pivot.driven = RowOf(pivot.driven);
@@ -47,6 +55,7 @@ class EnclosedRemainder {
     pivot.df = Direction(pivot.df);
     pivot.a = Accelerations(pivot.f, pivot.a);
     pivot.f = Forces(pivot.f);
+    pivot.word = Word(pivot.word);
     if (!pivot.sets.empty()) pivot.sets = reduction_.Spread(pivot.sets, IndexSet::kClamped, IndexSet::kNone);
     return pivot;
   }
@@ -70,6 +79,7 @@ class EnclosedRemainder {
     return values;
   }
 
+  const ExactProblem& whole_;
   Reduction<Rational> reduction_;
   Problem reduced_;
   typename Problem::Matrix E_, AE_;

@@ -3,6 +3,7 @@
 
 #include "certify/certificate.h"
 #include "certify/exact.h"
+#include "certify/filtered.h"
 #include "certify/no_solution.h"
 #include "certify/solve.h"
 #include "certify/verify_solution.h"
@@ -10,6 +11,9 @@
 namespace stiction {
 
 namespace {
+
+// From here on the path itself costs more, even with certified signs, than the equations of its end.
+constexpr int kFewRows = 24;
 
 // A run of a method that takes frictionless and static contacts only, on what bilateral and sliding ones leave;
 // forces and accelerations are those of the whole problem, all else is of what remains.
@@ -71,8 +75,17 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
 
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
                           const EnumerationOptions& options) {
+  const bool in_plane = problem.dimension == 2;
+  if (in_plane && problem.rows() <= kFewRows) {
+    const CompleteRun complete = RunCompleteFiltered(problem, limits).run;
+    if (complete.verdict.outcome == Outcome::kSolved) return {SolutionCertificate(problem, complete.f), "complete"};
+  } else if (in_plane) {
+    const Answer<Rational> answer = Solve(problem, "fast", {.limits = limits});
+    if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};
+  }
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.automatic || !method.has_path || !method.IsBuilt(problem.dimension)) continue;
+    if (in_plane && method.name == "complete") continue;  // the last resort of both
     const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits});
     if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};
   }

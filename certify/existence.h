@@ -2,7 +2,9 @@
 // Existence: a solution with its certificate, a proof that there is none, or neither.
 //
 // The cheapest method first: complete driving, which ends in a solution whenever A is symmetric positive
-// semidefinite and b in range(A) (solver/complete/complete_driving.md); then Lemke's method, whose path is
+// semidefinite and b in range(A) (solver/complete/complete_driving.md), by certified signs where they suffice
+// (filtered.h: the end is solved for and verified over rationals, not the way), with many rows the cells in which a run
+// over doubles ends, solved likewise; then Lemke's method, whose path is
 // another; both after bilateral constraints and sliding contacts have left the problem
 // (solver/problem/reduction.h); then all contact modes, which decide every planar problem that is small enough.
 // In space complete driving on polygons alone (space.h): it finds solutions of (21), (22), and proves nothing
@@ -41,7 +43,7 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits);
 struct Existence {
   // `solution-exists` or `no-solution`; null if undecided.
   Json certificate;
-  std::string_view method;  // that decided: complete, lemke, enumerate; or "none"
+  std::string_view method;  // that decided: complete, fast, lemke, enumerate; or "none"
 };
 
 // Any valid problem.

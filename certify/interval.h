@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include "certify/solve.h"
@@ -22,9 +21,6 @@
 namespace stiction {
 
 using Interval = CGAL::Interval_nt<>;
-
-// The reason of an undecided run.
-inline constexpr std::string_view kUnsureSign = "a sign is unsure";
 
 template <>
 inline bool IsSurelyZero(const Interval& x) {
@@ -40,15 +36,13 @@ struct Approximation<Interval> {
 };
 
 template <>
-struct UncertainRate<Interval> {
-  static bool Is(const Interval& rate) { return rate.inf() <= 0 && rate.sup() > 0; }
-  static bool IsNone(const Interval& rate) { return rate.sup() <= 0; }
-  static Interval Reach(const Interval& gap, const Interval& rate) {
+struct Unsure<Interval> {
+  static bool TellsSign(const Interval& x) { return x.inf() > 0 || x.sup() < 0 || IsSurelyZero(x); }
+  static bool MayBePositive(const Interval& x) { return x.sup() > 0; }
+  static Interval Earliest(const Interval& gap, const Interval& rate) {
     const bool tells = gap.inf() > 0 && std::isfinite(gap.inf()) && std::isfinite(rate.sup());
-    const double earliest = tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
-    return {earliest, std::numeric_limits<double>::infinity()};
+    return tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
   }
-  static bool IsReach(const Interval& s) { return std::isinf(s.sup()); }
   [[noreturn]] static void Refuse() {
     throw CGAL::Uncertain_conversion_exception("a limit that may or may not be the nearest");
   }

@@ -9,6 +9,7 @@
 #include "certify/nearby_words.h"
 #include "certify/qp.h"
 #include "certify/qp_ipopt.h"
+#include "certify/quad.h"
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "corpus/rounded.h"
@@ -92,12 +93,13 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, Exac
 NearbySolution SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
   std::vector<double> point;
-  const ScaledProblem scaled = MakeScaled(problem);
+  ScaledProblem scaled;
   try {
+    scaled = MakeScaled(problem);
     const double unit = ToDouble(scaled.force);
     for (const double x : Solve(Rounded<double>(problem), "fast", {.limits = limits}).f)
       point.push_back(x / unit);
-  } catch (const RangeError&) {
+  } catch (const InputError&) {
     return {};
   }
   std::set<ModeWord> tried;
@@ -243,14 +245,16 @@ class FactsList {
   // What is decided exactly can be told in floating-point numbers, too.
   void AddToldExactly() {
     for (MethodFacts& facts : rows_) {
-      for (const Arithmetic told : {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble})
+      for (const Arithmetic told : {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble,
+                                    Arithmetic::kQuad})
         Mark(facts, 2, told, facts.IsBuilt(2, Arithmetic::kExact));
     }
   }
 
-  void AddIntervals(const IntervalMethod& method) {
+  void AddEnclosed(const EnclosedMethod& method) {
     const auto row = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
     Mark(*row, method.dimension, Arithmetic::kInterval, true);
+    Mark(*row, method.dimension, Arithmetic::kFiltered, method.has_rungs);
   }
 
   static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
@@ -278,8 +282,9 @@ std::vector<MethodFacts> MakeFacts() {
   list.Add(Methods<float>());
   list.Add(Methods<double>());
   list.Add(Methods<long double>());
+  list.Add(Methods<Quad>());
   list.Add(MethodsByProcess());
-  for (const IntervalMethod& method : IntervalMethods()) list.AddIntervals(method);
+  for (const EnclosedMethod& method : EnclosedMethods()) list.AddEnclosed(method);
   return list.Take();
 }
 

@@ -49,52 +49,16 @@ bool SameDecision(const Pivot<Interval>& one, const Pivot<Rational>& other) {
          one.sets == other.sets;
 }
 
-// Whether all forces are zero that the sets do not determine.
-bool RestsOutside(const std::vector<IndexSet>& sets, const IntervalProblem::Vector& f) {
-  for (std::size_t row = 0; row < sets.size(); ++row) {
-    const bool determined = IsUnknown(sets[row]) || LimitSign(sets[row]) != 0;
-    if (!determined && !IsSurelyZero(f[static_cast<Eigen::Index>(row)])) return false;
-  }
-  return true;
-}
-
-bool AreRegular(const IntervalProblem& box, const std::vector<IndexSet>& sets) {
-  using System = DirectionSystem<Interval, Eigen::Dynamic>;
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(box.contacts);
-  System system;
-  system.Start(box);
-  const IndexSets<Eigen::Dynamic> given(sets.begin(), sets.end());
-  return system.SolveForces(box, SetUnknowns<Interval, Eigen::Dynamic>{box, layout, given},
-                            MakeScale(box, Tolerances{})) == System::Status::kRegular;
-}
-
-// The forces after so many drives; zero before the first.
-IntervalProblem::Vector ForcesAfter(std::int64_t drives, const std::vector<Pivot<Interval>>& steps, int rows) {
-  IntervalProblem::Vector f = IntervalProblem::Vector::Constant(rows, Interval(0));
-  for (const Pivot<Interval>& step : steps) {
-    if (step.drive <= drives) f = step.f;
-  }
-  return f;
-}
-
 bool ProvedOver(const IntervalProblem& box, const ExactRun& run, PublishedOptions options) {
-  const std::int64_t start = run.verdict.start, end = start + run.verdict.period;
-  options.limits.drives = end;
+  options.limits.drives = run.verdict.start + run.verdict.period;
   PublishedAlgorithm<Interval> algorithm(options);
   Trace<Interval> trace;
-  try {
-    algorithm.Run(box, &trace);
-  } catch (const CGAL::Uncertain_conversion_exception&) {  // here, or where the state stands again
-  }
+  const Verdict verdict = algorithm.Run(box, &trace);
   const Steps& steps = run.trace.pivots;
-  if (trace.pivots.size() < steps.size()) return false;
-  if (!std::equal(steps.begin(), steps.end(), trace.pivots.begin(),
-                  [](const auto& exact, const auto& wide) { return SameDecision(wide, exact); }))
-    return false;
-  return RestsOutside(run.state.sets, ForcesAfter(start, trace.pivots, box.rows())) &&
-         RestsOutside(run.state.sets, ForcesAfter(end, trace.pivots, box.rows())) &&
-         AreRegular(box, run.state.sets);
+  return verdict.outcome == Outcome::kCycle && verdict.start == run.verdict.start &&
+         verdict.period == run.verdict.period &&
+         std::equal(steps.begin(), steps.end(), trace.pivots.begin(), trace.pivots.end(),
+                    [](const auto& exact, const auto& wide) { return SameDecision(wide, exact); });
 }
 
 }  // namespace

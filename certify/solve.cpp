@@ -5,8 +5,9 @@
 
 #include <algorithm>
 
-#include "certify/intervals.h"
+#include "certify/filtered.h"
 #include "certify/published_space.h"
+#include "certify/quad.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -18,7 +19,7 @@ constexpr int kExactRows = 60;  // from which on `auto` solves over doubles
 
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
-         arithmetic == Arithmetic::kLongDouble;
+         arithmetic == Arithmetic::kLongDouble || arithmetic == Arithmetic::kQuad;
 }
 
 template <class Scalar>
@@ -96,6 +97,8 @@ InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem
     const auto doubles = Converted<double>(problem, [](const Scalar& x) { return static_cast<double>(x); });
     JudgeAnswer(doubles, bound, result);
   }
+  if (result.Solved() && problem.dimension == 2)
+    result.backward = FindBackwardError(InLongDouble(problem), result.f.template cast<long double>());
   return result;
 }
 
@@ -175,7 +178,7 @@ Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) 
   return solution;
 }
 
-// ---- Intervals -----------------------------------------------------------------------------------
+// ---- Enclosures ----------------------------------------------------------------------------------
 
 double Middle(const Enclosure& x) { return x.low + (x.high - x.low) / 2; }
 
@@ -185,46 +188,72 @@ Eigen::VectorXd MiddleOf(const std::vector<Enclosure>& values) {
   return middles;
 }
 
-IntervalRun RunBaraffInSpace(const ExactProblem& problem, const SolveOptions& options, KeepTrace) {
-  const IntervalSpaceRun run =
-      RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
-  return {run.verdict, run.f, run.a,
-          run.ray,     {},    {{"redirects", run.verdict.redirects}, {"breaks", run.verdict.breaks}}};
-}
-
-IntervalRun RunBaraff(const ExactProblem& problem, const SolveOptions& options, KeepTrace keep) {
-  return RunPublishedOverIntervals(problem, {options.policy, options.tolerances, options.limits}, keep);
-}
-
-IntervalRun RunLemke(const ExactProblem& problem, const SolveOptions& options, KeepTrace keep) {
-  return RunLemkeOverIntervals(problem, options.limits, keep);
-}
-
-// What intervals prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
-Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  const auto methods = IntervalMethods();
-  const auto method = std::find_if(methods.begin(), methods.end(), [&](auto& m) {
-    return m.name == request.method && m.dimension == problem.dimension;
-  });
-  IntervalRun run = method->run(problem, request.options, request.trace);
+InexactAnswer RunEnclosedInSpace(const ExactProblem& problem, const SolveOptions& options) {
+  IntervalSpaceRun run = RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
   InexactAnswer answer;
   answer.outcome = run.verdict.outcome;
   answer.reason = run.verdict.reason;
   answer.start = run.verdict.start;
   answer.period = run.verdict.period;
-  answer.method = method->name;
-  answer.arithmetic = Arithmetic::kInterval;
-  answer.f = MiddleOf(run.f);
-  answer.ray = MiddleOf(run.ray);
-  answer.first_f = Eigen::VectorXd::Zero(problem.rows());
+  answer.method = "baraff";
   answer.counters = CountersOf(run.verdict.statistics);
-  answer.counters.insert(answer.counters.end(), run.more.begin(), run.more.end());
-  if (answer.Solved()) JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
+  answer.counters.push_back({"redirects", run.verdict.redirects});
+  answer.counters.push_back({"breaks", run.verdict.breaks});
+  answer.first_f = Eigen::VectorXd::Zero(problem.rows());
+  answer.f = MiddleOf(run.f);
   answer.a = MiddleOf(run.a);
-  answer.pivots = std::move(run.pivots);
+  answer.ray = MiddleOf(run.ray);
   answer.f_enclosed = std::move(run.f);
   answer.a_enclosed = std::move(run.a);
-  return {std::move(answer), std::nullopt};
+  return answer;
+}
+
+// What enclosures prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
+void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, InexactAnswer& answer) {
+  if (!answer.Solved()) return;
+  const Eigen::VectorXd a = answer.a;
+  JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
+  answer.a = a;
+}
+
+Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
+  InexactAnswer answer =
+      problem.dimension == 2
+          ? RunEnclosed(request.method, problem, request.options, Rung::kDouble, request.trace)
+          : RunEnclosedInSpace(problem, request.options);
+  answer.arithmetic = Arithmetic::kInterval;
+  JudgeMiddles(problem, request, answer);
+  return {.answer = std::move(answer)};
+}
+
+// Empty where the rung leaves a sign open, or knows forces too badly to call them a solution.
+std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const SolveRequest& request, Rung rung) {
+  InexactAnswer answer = RunEnclosed(request.method, problem, request.options, rung, request.trace);
+  try {
+    JudgeMiddles(problem, request, answer);
+  } catch (const RangeError&) {
+    return std::nullopt;
+  }
+  answer.arithmetic = Arithmetic::kFiltered;
+  const bool open = answer.outcome == Outcome::kUndecided && !request.options.limits.Stopped();
+  return open ? std::nullopt : std::optional(std::move(answer));
+}
+
+// `auto` is complete driving, and what rationals try besides where that solves nothing.
+Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request) {
+  if (request.method == kAutomatic) {
+    SolveRequest complete = request;
+    complete.method = "complete";
+    Solution solution = SolveFiltered(problem, complete);
+    if (solution.outcome() == Outcome::kSolved || solution.rung == Rung::kExact) return solution;
+    return {.answer = SolveExactly(problem, request), .rung = Rung::kExact};
+  }
+  for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
+    if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer), .rung = rung};
+  }
+  ExactAnswer answer = SolveExactly(problem, request);
+  answer.arithmetic = Arithmetic::kFiltered;
+  return {.answer = std::move(answer), .rung = Rung::kExact};
 }
 
 void RequireReading(const ExactProblem& problem, const SolveRequest& request) {
@@ -259,10 +288,9 @@ Suspicion SuspicionOf(const InexactAnswer& answer) {
           answer.arithmetic, answer.residual, answer.counters};
 }
 
-std::span<const IntervalMethod> IntervalMethods() {
-  static constexpr std::array rows = {IntervalMethod{"baraff", 2, &RunBaraff},
-                                      IntervalMethod{"lemke", 2, &RunLemke},
-                                      IntervalMethod{"baraff", 3, &RunBaraffInSpace}};
+std::span<const EnclosedMethod> EnclosedMethods() {
+  static constexpr std::array rows = {EnclosedMethod{"baraff", 2, true}, EnclosedMethod{"complete", 2, true},
+                                      EnclosedMethod{"lemke", 2, true}, EnclosedMethod{"baraff", 3, false}};
   return rows;
 }
 
@@ -273,7 +301,9 @@ std::optional<Arithmetic> FindArithmetic(std::string_view name) {
 }
 
 std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic) {
-  const bool any = method == kAutomatic && (IsFloating(arithmetic) || arithmetic == Arithmetic::kExact);
+  const bool filtered = arithmetic == Arithmetic::kFiltered && dimension == 2;
+  const bool any =
+      method == kAutomatic && (IsFloating(arithmetic) || arithmetic == Arithmetic::kExact || filtered);
   const MethodFacts* facts = FindMethodFacts(method);
   if (any || (facts != nullptr && facts->IsBuilt(dimension, arithmetic))) return "";
   const char* where = dimension == 2 ? "the plane" : "space";
@@ -286,16 +316,18 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
   if (!methods.empty())
     return text +
            fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic), fmt::join(methods, ", "));
-  return text + "; expected one of float, double, long-double, exact";
+  return text + "; expected one of float, double, long-double, quad, filtered, exact";
 }
 
-Arithmetic UsualArithmetic(std::string_view method, const ExactProblem& problem) {
-  const bool large = method == kAutomatic && problem.rows() > kExactRows;
-  if (large || method == "fast") return Arithmetic::kDouble;
-  for (const Arithmetic arithmetic : {Arithmetic::kExact, Arithmetic::kInterval}) {
-    if (Refusal(method, problem.dimension, arithmetic).empty()) return arithmetic;
-  }
-  return Arithmetic::kDouble;
+ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem) {
+  using enum Arithmetic;
+  if (method == kAutomatic && problem.rows() > kExactRows)
+    return {kDouble, fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), kExactRows)};
+  if (method == "fast") return {kDouble, "the method is made for doubles"};
+  if (Refusal(method, problem.dimension, kExact).empty()) return {kExact, "nothing is lost, and there are few rows"};
+  if (Refusal(method, problem.dimension, kInterval).empty())
+    return {kInterval, "the method takes roots: intervals prove what they decide"};
+  return {kDouble, "the method is built for nothing better"};
 }
 
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {
@@ -307,10 +339,14 @@ Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {
       return SolveRounded<double>(problem, request);
     case Arithmetic::kLongDouble:
       return SolveRounded<long double>(problem, request);
+    case Arithmetic::kQuad:
+      return SolveRounded<Quad>(problem, request);
     case Arithmetic::kInterval:
       return SolveOverIntervals(problem, request);
+    case Arithmetic::kFiltered:
+      return SolveFiltered(problem, request);
     default:
-      return {SolveExactly(problem, request), std::nullopt};
+      return {.answer = SolveExactly(problem, request)};
   }
 }
 

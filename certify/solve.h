@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
+#include "solver/problem/backward_error.h"
 #include "solver/solve.h"
 
 namespace stiction {
@@ -52,10 +53,17 @@ std::optional<Arithmetic> FindArithmetic(std::string_view name);
 std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic);
 
 // Where nobody asks for an arithmetic: exact, unless the method is not built so, or problem and method are of
-// the kind that doubles are for; then double or interval.
-Arithmetic UsualArithmetic(std::string_view method, const ExactProblem& problem);
+// the kind that doubles are for; then double or interval. And why, in words.
+struct ArithmeticChoice {
+  Arithmetic arithmetic = Arithmetic::kExact;
+  std::string why;
+};
+ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem);
 
 enum class KeepTrace { kNo, kYes };
+
+// The reason of an undecided run over enclosures.
+inline constexpr std::string_view kUnsureSign = "a sign is unsure";
 
 struct SolveRequest {
   std::string method{kAutomatic};
@@ -74,7 +82,8 @@ struct Enclosure {
 template <class Scalar>
 struct TracedAnswer : Answer<Scalar> {
   std::vector<Pivot<Scalar>> pivots;              // where asked for
-  std::vector<Enclosure> f_enclosed, a_enclosed;  // over intervals
+  std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
+  std::optional<BackwardError> backward;          // of floating-point forces called solved, in the plane
 };
 using ExactAnswer = TracedAnswer<Rational>;
 using InexactAnswer = TracedAnswer<double>;
@@ -90,19 +99,18 @@ struct Suspicion {
 };
 Suspicion SuspicionOf(const InexactAnswer& answer);
 
-struct IntervalRun;
-
-// A method over intervals, in one dimension.
-struct IntervalMethod {
+// A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.
+struct EnclosedMethod {
   std::string_view name;
   int dimension;
-  IntervalRun (*run)(const ExactProblem&, const SolveOptions&, KeepTrace);
+  bool has_rungs;
 };
-std::span<const IntervalMethod> IntervalMethods();
+std::span<const EnclosedMethod> EnclosedMethods();
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;
-  std::optional<Suspicion> suspected;
+  std::optional<Suspicion> suspected = {};
+  std::optional<Rung> rung = {};  // of a filtered run
 
   Outcome outcome() const {
     return std::visit([](const auto& answer) { return answer.outcome; }, answer);

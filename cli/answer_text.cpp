@@ -36,6 +36,10 @@ Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
   if (!answer.word.empty()) json["word"] = answer.word;
   AddVectors(answer, json);
   if (!kIsExact<Scalar> && answer.residual >= 0) json["residual"] = NumberToJson(answer.residual);
+  if (answer.backward)
+    json["backward_error"] = {{"data", NumberToJson(answer.backward->of_data)},
+                              {"b", NumberToJson(answer.backward->of_b)},
+                              {"mu", NumberToJson(answer.backward->of_mu)}};
   json["statistics"] = CountersToJson(answer.counters);
   return json;
 }
@@ -58,6 +62,7 @@ Json CountersToJson(const std::vector<Counter>& counters) {
 Json SolutionToJson(const Solution& solution, int dimension) {
   Json json =
       std::visit([dimension](const auto& answer) { return AnswerToJson(answer, dimension); }, solution.answer);
+  if (solution.rung) json["rung"] = Name(*solution.rung);
   if (solution.suspected) json["suspected"] = SuspicionToJson(*solution.suspected);
   return json;
 }

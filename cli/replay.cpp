@@ -296,7 +296,7 @@ void AddReplay(CommandLine& program) {
       .Needs("--all-policies");
   verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
   verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
-      .OneOf({"exact", "float", "double", "long-double"});
+      .OneOf({"exact", "float", "double", "long-double", "quad", "filtered"});
   verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4").Check(CheckSides);
   verb.Flag("--step", o.step, "directions, forces and sets at every step");
   verb.Flag("--json", o.json, "machine output");

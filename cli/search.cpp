@@ -37,6 +37,7 @@ struct SearchVerb {
   std::optional<std::uint64_t> seed;
   std::optional<double> minutes;
   std::optional<std::int64_t> problems, audit_every, enumerate_every;
+  std::string arithmetic;  // empty: the campaign's
   std::string shard = "0/1";
   int threads = 0;
   std::string objective, optimizer;
@@ -67,6 +68,7 @@ Campaign CampaignOf(const SearchVerb& o) {
   Campaign campaign = o.campaign.empty() ? Campaign{} : ReadCampaign(o.campaign);
   if (o.seed) campaign.seed = *o.seed;
   if (o.audit_every) campaign.audit_every = *o.audit_every;
+  if (!o.arithmetic.empty()) campaign.arithmetic = ParseSearchArithmetic(o.arithmetic);
   if (o.enumerate_every) campaign.enumerate_every = *o.enumerate_every;
   if (!o.contacts.empty()) campaign.contacts = o.contacts;
   if (!o.generators.empty()) {
@@ -265,11 +267,13 @@ int RunMerge(const MergeVerb& o) {
 
 struct ReportVerb {
   std::string store, folder;
+  std::vector<std::string> benches;
   bool replace = false;
 };
 
 int RunReport(const ReportVerb& o) {
-  TellAside(WriteReport(Store::OpenToRead(o.store), o.folder, OccupiedIf(o.replace)));
+  TellAside(WriteReport(Store::OpenToRead(o.store), o.folder, OccupiedIf(o.replace),
+                        {o.benches.begin(), o.benches.end()}));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
 }
@@ -307,6 +311,10 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   verb.Option("--policy", o.policies, "readings to run, as 'stiction policies' lists them; by default paper")
       .Details("'*' is the planar grid")
       .Check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
+  verb.Option("--arithmetic", o.arithmetic, "what every problem is decided with")
+      .Choices({{"double", "rounded numbers; what they do not solve is decided again, filtered"},
+                {"filtered", "certified signs at once, rationals where nothing less tells them"},
+                {"exact", "rationals"}});
   verb.Option("--audit-every", o.audit_every, "run one problem in so many exactly though nothing is suspected")
       .AtLeast(1)
       .Details("Existence included; 1 audits all");
@@ -372,6 +380,7 @@ void AddReport(CommandLine& program) {
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced").Required();
+  verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
   AddReplace(verb, o.replace);
 }
 

@@ -56,8 +56,8 @@ SolveRequest RequestOf(const SolveVerb& o, const ExactProblem& problem) {
     throw InputError(fmt::format("--policy {}: expected --method baraff, of which it is a reading", o.policy));
   const bool polygon = o.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
   if (dimension == 3 && polygon) request.method = "complete";  // which that reading is
-  request.arithmetic =
-      o.arithmetic.empty() ? UsualArithmetic(request.method, problem) : *FindArithmetic(o.arithmetic);
+  request.arithmetic = o.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic
+                                            : *FindArithmetic(o.arithmetic);
   const std::string refusal = Refusal(request.method, dimension, request.arithmetic);
   if (!refusal.empty()) throw InputError(o.file + ": " + refusal);
   return request;
@@ -73,11 +73,29 @@ Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest
   }
 }
 
+// A backward error in words: of the scene, where the problem has one.
+std::string Meaning(const BackwardError& error, const ProblemFile& file) {
+  if (!file.scene)
+    return fmt::format(
+        "the forces are exact for a problem nearby: every entry of A and b moved by at most {:.2g} of itself, every "
+        "mu by at most {:.2g}",
+        error.of_data, error.of_mu);
+  double most = 0;
+  for (const Rational& b : file.problem.b.reshaped()) most = std::max(most, std::abs(ToDouble(b)));
+  return fmt::format(
+      "the forces are exact for a scene nearby: the same masses and positions, loads that accelerate no contact by "
+      "more than {:.2g} m/s^2 besides, and coefficients of friction moved by at most {:.2g} of themselves",
+      error.of_b * most, error.of_mu);
+}
+
 int RunSolve(const SolveVerb& o) {
   const ProblemFile file = ReadProblem(o.file);
   SolveRequest request = RequestOf(o, file.problem);
   const Solution solution = SolveFile(o, file.problem, request);
   Json result = SolutionToJson(solution, file.problem.dimension);
+  const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);
+  if (inexact != nullptr && inexact->backward) result["backward_error"]["meaning"] = Meaning(*inexact->backward, file);
+  if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
   result["assumptions"] = FailedAssumptions(file.problem);
   if (o.json) {

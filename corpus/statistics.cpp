@@ -62,6 +62,7 @@ void Tally::Merge(const Tally& other) {
   for (std::size_t i = 0; i < verdicts.size(); ++i) AddTo(verdicts[i], other.verdicts[i]);
   audited += other.audited;
   misjudged += other.misjudged;
+  for (std::size_t i = 0; i < rungs.size(); ++i) rungs[i] += other.rungs[i];
   wrong += other.wrong;
   with_zero_steps += other.with_zero_steps;
   with_give_ups += other.with_give_ups;
@@ -72,17 +73,20 @@ void Tally::Merge(const Tally& other) {
 Json ToJson(const Tally& tally) {
   Json verdicts = Json::array();
   for (const auto& row : tally.verdicts) verdicts.push_back(Trimmed(row));
-  return {{"problems", tally.problems},
-          {"outcomes", Trimmed(tally.outcomes)},
-          {"verdicts", verdicts},
-          {"audited", tally.audited},
-          {"misjudged", tally.misjudged},
-          {"wrong", tally.wrong},
-          {"with_zero_steps", tally.with_zero_steps},
-          {"with_give_ups", tally.with_give_ups},
-          {"sums", ToJson(tally.sums)},
-          {"maxima", ToJson(tally.maxima)},
-          {"steps", Trimmed(tally.steps)}};
+  Json json = {{"problems", tally.problems},
+               {"outcomes", Trimmed(tally.outcomes)},
+               {"verdicts", verdicts},
+               {"audited", tally.audited},
+               {"misjudged", tally.misjudged},
+               {"wrong", tally.wrong},
+               {"with_zero_steps", tally.with_zero_steps},
+               {"with_give_ups", tally.with_give_ups},
+               {"sums", ToJson(tally.sums)},
+               {"maxima", ToJson(tally.maxima)},
+               {"steps", Trimmed(tally.steps)}};
+  // Not in records from before there were filtered runs.
+  if (const Json rungs = Trimmed(tally.rungs); !rungs.empty()) json["rungs"] = rungs;
+  return json;
 }
 
 void Record::Merge(const Record& other) {
@@ -191,6 +195,7 @@ Tally ReadTally(const JsonPlace& place) {
   tally.sums = ReadStatistics(place.Required("sums", "counters"));
   tally.maxima = ReadStatistics(place.Required("maxima", "counters"));
   ReadCounts(place.Required("steps", "counts"), tally.steps);
+  if (const auto rungs = place.Optional("rungs")) ReadCounts(*rungs, tally.rungs);
   return tally;
 }
 

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "corpus/problem_file.h"
+#include "solver/problem/answer.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -49,6 +50,7 @@ struct Tally {
   std::array<Outcomes, kOutcomeCount> verdicts = {};  // [inexact][exact] of the problems run again exactly
   std::int64_t audited = 0;                           // run again exactly without a suspicion, as a sample
   std::int64_t misjudged = 0;                         // of these, with another exact outcome
+  std::array<std::int64_t, kRungCount> rungs = {};  // that decided, of the filtered runs
   std::int64_t wrong = 0;  // called solved with a natural residual above 1e-6, or not a number
   std::int64_t with_zero_steps = 0;
   std::int64_t with_give_ups = 0;

@@ -254,10 +254,11 @@ Html FilesSection() {
 
 Html Sections(const ReportContent& content) {
   Html sections = FoundSection(content) + CampaignSection(content);
-  if (content.units == 0) return sections + FilesSection();
+  const Html rungs = content.rungs.empty() ? Html() : RungsSection(content.rungs);
+  if (content.units == 0) return sections + rungs + FilesSection();
   return sections + OutcomesSection(content.total) + FrequenciesSection(content.total) +
          DoublesSection(content.total) + PivotsSection(content.total) + StepsSection(content.total) +
-         ExistenceSection(content.total) + FindingsSection(content.discoveries) + FilesSection();
+         ExistenceSection(content.total) + FindingsSection(content.discoveries) + rungs + FilesSection();
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "corpus/store.h"
 #include "reports/discovery.h"
 #include "reports/html.h"
+#include "reports/rungs.h"
 
 namespace stiction {
 
@@ -25,6 +26,7 @@ struct ReportContent {
   std::int64_t blocks = 0;
   Record total;
   std::vector<Discovery> discoveries;
+  std::vector<RungLine> rungs;  // of a benchmark; empty: no such section
 };
 
 std::string Page(const ReportContent& content);

@@ -36,10 +36,13 @@ void WriteFinding(const Discovery& discovery, const WholeFolder& folder) {
 }  // namespace
 
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
-                                  Occupied occupied) {
+                                  Occupied occupied, const std::vector<std::filesystem::path>& benches) {
+  ReportContent content;
+  for (const auto& file : benches) {
+    for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));
+  }
   WholeFolder folder(directory, "report", occupied);
   const std::vector<Finding> findings = store.Findings();
-  ReportContent content;
   content.identity = store.identity();
   content.units = store.Units().Count();
   content.blocks = static_cast<std::int64_t>(store.Blocks().size());

@@ -15,16 +15,19 @@
 #define STICTION_REPORTS_REPORT_H_
 
 #include <filesystem>
+#include <vector>
 
 #include "corpus/store.h"
 #include "corpus/whole_folder.h"
 
 namespace stiction {
 
+// `benches`: files of bench --csv, which the page draws.
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
 // content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
-                                  Occupied occupied = Occupied::kRefused);
+                                  Occupied occupied = Occupied::kRefused,
+                                  const std::vector<std::filesystem::path>& benches = {});
 
 }  // namespace stiction
 

@@ -89,6 +89,13 @@ MuChoice ParseMu(const std::string& text) {
   return {static_cast<int>(mu->get_num().get_si()), static_cast<int>(mu->get_den().get_si())};
 }
 
+Arithmetic ParseSearchArithmetic(const std::string& text) {
+  for (const Arithmetic arithmetic : {Arithmetic::kDouble, Arithmetic::kFiltered, Arithmetic::kExact}) {
+    if (text == Name(arithmetic)) return arithmetic;
+  }
+  throw InputError(fmt::format("arithmetic: found '{}', expected double, filtered or exact", text));
+}
+
 namespace {
 
 Campaign ParseCampaign(const std::string& text, const std::string& source) {
@@ -96,8 +103,8 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
-                  "audit_every", "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives",
-                  "max_pivots", "max_bits", "gravity_only", "objective", "optimizer", "parents"});
+                  "audit_every", "complete_every", "lemke_every", "enumerate_every", "representatives_per_unit",
+                  "max_drives", "max_pivots", "max_bits", "arithmetic", "gravity_only", "objective", "optimizer", "parents"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -113,6 +120,7 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   integer("seed", 0, std::numeric_limits<std::int64_t>::max(), campaign.seed);
   integer("unit_problems", 1, kMost, campaign.unit_problems);
   integer("audit_every", 1, kMost, campaign.audit_every);
+  integer("complete_every", 1, kMost, campaign.complete_every);
   integer("lemke_every", 1, kMost, campaign.lemke_every);
   integer("enumerate_every", 1, kMost, campaign.enumerate_every);
   integer("representatives_per_unit", 1, kMost, campaign.representatives_per_unit);
@@ -139,6 +147,13 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   if (const auto place = root.Optional("gravity_only")) {
     if (!place->json().is_boolean()) place->Refuse("true or false");
     campaign.gravity_only = place->json().get<bool>();
+  }
+  if (const auto place = root.Optional("arithmetic")) {
+    try {
+      campaign.arithmetic = ParseSearchArithmetic(place->Text("an arithmetic"));
+    } catch (const InputError& error) {
+      place->Refuse(error.what());
+    }
   }
   if (const auto place = root.Optional("objective")) {
     campaign.objective = place->Text("the name of an objective");
@@ -191,6 +206,9 @@ void RequireConsistent(const Campaign& campaign) {
   }
   RequireParents(campaign);
   for (const GeneratorId id : campaign.generators) {
+    if (campaign.arithmetic != Arithmetic::kDouble && Row(id).InSpace())
+      throw InputError(fmt::format("arithmetic: found {} for generator {}, expected double in space",
+                                   Name(campaign.arithmetic), Row(id).name));
     if (!campaign.objective.empty() && !Row(id).IsPlain())
       throw InputError(fmt::format(
           "objective: found generator {}, expected one of static contacts of the plane", Row(id).name));
@@ -202,6 +220,9 @@ void RequireConsistent(const Campaign& campaign) {
                       PolicyName(policy), Row(id).name));
     }
   }
+  if (!campaign.objective.empty() && campaign.arithmetic != Arithmetic::kDouble)
+    throw InputError(fmt::format("arithmetic: found {} with an objective, expected double",
+                                 Name(campaign.arithmetic)));
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
     throw InputError(
         fmt::format("policies: found {}, expected one, for an objective", campaign.policies.size()));
@@ -215,6 +236,8 @@ Campaign ReadCampaign(const std::filesystem::path& file) {
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source) {
   Campaign campaign = ParseCampaign(identity.definition, source + ": definition");
   campaign.seed = identity.seed;
+  // A store from before it was drawn by lot goes on as it began.
+  if (!ParseJson(identity.definition, source).contains("complete_every")) campaign.complete_every = 1;
   const std::string place = source + ": policies";
   const Json policies = ParseJson(identity.policies, place);
   campaign.policies = ReadList(JsonPlace(policies, place, ""), ReadPolicy);
@@ -240,6 +263,8 @@ Json DefinitionToJson(const Campaign& campaign) {
                      {"max_drives", campaign.limits.drives},
                      {"max_pivots", campaign.limits.pivots},
                      {"max_bits", campaign.limits.bits}};
+  if (campaign.complete_every != 1) definition["complete_every"] = campaign.complete_every;
+  if (campaign.arithmetic != Arithmetic::kDouble) definition["arithmetic"] = Name(campaign.arithmetic);
   if (campaign.gravity_only) definition["gravity_only"] = true;
   if (!campaign.objective.empty()) {
     definition["objective"] = campaign.objective;

@@ -11,14 +11,15 @@
 #include "corpus/store.h"
 #include "search/adversary/candidate.h"
 #include "search/generators.h"
+#include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
 
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
-// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "lemke_every",
-// "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits", "gravity_only",
-// "objective", "optimizer", "parents".
+// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "complete_every",
+// "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits", "arithmetic",
+// "gravity_only", "objective", "optimizer", "parents".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all ordinary ones (generators.h)
@@ -27,14 +28,18 @@ struct Campaign {
   std::vector<Policy> policies = {Policy{}};
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
   std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
-  // Of the problems that are run exactly, all are run by complete driving too; one in so many, drawn by their
-  // seeds, also by Lemke's method (audited problems: all); and of those of at most kMostContactsEnumerated
-  // contacts one in so many is enumerated: all of up to 4^n contact modes. Representatives are run by all when
-  // finished.
+  // Complete driving runs on all problems that are audited, on all that the published algorithm does not solve, and
+  // on one in so many, drawn by their seeds, of the suspicions that turn out to be solved. Of what it runs on, one
+  // in so many is run by Lemke's method too (audited problems: all); and of those of at most
+  // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes. Representatives
+  // are run by all when finished.
+  std::int64_t complete_every = 100;
   std::int64_t lemke_every = 100;
   std::int64_t enumerate_every = 1000;
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
+  // double: suspicions are decided again, filtered. filtered, exact: every problem is decided so at once.
+  Arithmetic arithmetic = Arithmetic::kDouble;
   bool gravity_only = false;  // bodies without applied forces
   // A unit spends its problems on the candidates of an optimizer, under the one policy (adversary/). Empty:
   // random problems.
@@ -77,6 +82,8 @@ std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems);
 // "1/2" or "0.5" -> MuChoice; InputError otherwise.
 MuChoice ParseMu(const std::string& text);
 MuChoice ReadMu(const JsonPlace& place);
+// double, filtered or exact; InputError otherwise.
+Arithmetic ParseSearchArithmetic(const std::string& text);
 GeneratorId ReadGenerator(const JsonPlace& place);
 
 }  // namespace stiction

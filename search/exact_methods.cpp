@@ -4,6 +4,7 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/filtered.h"
 #include "certify/published_space.h"
 #include "certify/safe.h"
 #include "certify/space.h"
@@ -12,7 +13,9 @@ namespace stiction {
 
 ExactMethods::ExactMethods()
     : published(RunExact),
+      filtered(RunPublishedFiltered),
       complete([](const ExactProblem& problem, const Limits& limits) { return RunComplete(problem, limits); }),
+      complete_filtered(RunCompleteFiltered),
       lemke(RunLemke),
       modes([](const ExactProblem& problem) { return EnumerateModes(problem); }),
       is_safe(IsSafeIfSmall),

@@ -5,6 +5,7 @@
 #ifndef STICTION_SEARCH_EXACT_METHODS_H_
 #define STICTION_SEARCH_EXACT_METHODS_H_
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -15,17 +16,22 @@ namespace stiction {
 struct CompleteRun;       // certify/existence.h
 struct Enumeration;       // certify/enumerate.h
 struct ExactRun;          // certify/exact.h
+struct FilteredComplete;  // certify/filtered.h
+struct FilteredVerdict;   // certify/filtered.h
 struct IntervalSpaceRun;  // certify/published_space.h
 struct LemkeRun;          // certify/existence.h
 struct Limits;
 struct PublishedOptions;
+struct Rungs;             // certify/filtered.h
 struct SpaceSolution;  // certify/space.h
 
 struct ExactMethods {
   ExactMethods();  // those of certify
 
   std::function<ExactRun(const ExactProblem&, const PublishedOptions&)> published;
+  std::function<FilteredVerdict(const ExactProblem&, const PublishedOptions&, const Rungs&)> filtered;
   std::function<CompleteRun(const ExactProblem&, const Limits&)> complete;
+  std::function<FilteredComplete(const ExactProblem&, const Limits&)> complete_filtered;
   std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke;
   std::function<Enumeration(const ExactProblem&)> modes;
   std::function<std::optional<bool>(const ExactProblem&)> is_safe;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t kMostContactsWithWord = 2;
 
-using Steps = std::vector<const Pivot<Rational>*>;
+template <class Scalar>
+using Steps = std::vector<const Pivot<Scalar>*>;
 
 // Names of one reading of the period: contacts by first appearance, tangents by their first limit.
 class Naming {
@@ -42,11 +43,12 @@ class Naming {
   std::map<int, int> turns_;
 };
 
-std::string Word(const Steps& period, std::size_t first, const RowLayout<Eigen::Dynamic>& layout) {
+template <class Scalar>
+std::string Word(const Steps<Scalar>& period, std::size_t first, const RowLayout<Eigen::Dynamic>& layout) {
   Naming naming(layout);
   std::string word;
   for (std::size_t k = 0; k < period.size(); ++k) {
-    const Pivot<Rational>& step = *period[(first + k) % period.size()];
+    const Pivot<Scalar>& step = *period[(first + k) % period.size()];
     word += naming.Variable(step.driven);
     if (step.goal == DriveGoal::kZero) word += '0';
     word += step.s == 0 ? "=" : ">";
@@ -57,10 +59,9 @@ std::string Word(const Steps& period, std::size_t first, const RowLayout<Eigen::
 }
 
 // The steps of the first period.
-Steps Period(const ExactRun& run) {
-  const Verdict& verdict = run.verdict;
-  const auto& pivots = run.trace.pivots;
-  Steps period;
+template <class Scalar>
+Steps<Scalar> Period(const Verdict& verdict, const std::vector<Pivot<Scalar>>& pivots) {
+  Steps<Scalar> period;
   for (std::size_t k = 0; k < pivots.size(); ++k) {
     const bool inside = verdict.outcome == Outcome::kCycle ? pivots[k].drive > verdict.start
                                                            : static_cast<std::int64_t>(k) >= verdict.start;
@@ -75,22 +76,27 @@ std::uint64_t Hash(std::string_view text) {  // FNV-1a
   return hash;
 }
 
+template <class Scalar>
+std::string SmallestWord(const Verdict& verdict, const Steps<Scalar>& period,
+                         const RowLayout<Eigen::Dynamic>& layout) {
+  std::string smallest;
+  for (std::size_t first = 0; first < period.size(); ++first) {
+    const std::size_t before = (first + period.size() - 1) % period.size();
+    const bool starts_drive = period[first]->drive != period[before]->drive || period.size() == 1;
+    if (verdict.outcome == Outcome::kCycle && !starts_drive && verdict.period > 1) continue;
+    std::string word = Word(period, first, layout);
+    if (smallest.empty() || word < smallest) smallest = std::move(word);
+  }
+  return smallest;
+}
+
 }  // namespace
 
 std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
   STICTION_CHECK(IsLoop(run.verdict.outcome), "only loops have a word");
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
-  const Steps period = Period(run);
-  std::string smallest;
-  for (std::size_t first = 0; first < period.size(); ++first) {
-    const std::size_t before = (first + period.size() - 1) % period.size();
-    const bool starts_drive = period[first]->drive != period[before]->drive || period.size() == 1;
-    if (run.verdict.outcome == Outcome::kCycle && !starts_drive && run.verdict.period > 1) continue;
-    std::string word = Word(period, first, layout);
-    if (smallest.empty() || word < smallest) smallest = std::move(word);
-  }
-  return smallest;
+  return SmallestWord(run.verdict, Period(run.verdict, run.trace.pivots), layout);
 }
 
 std::string CountsSignature(std::size_t contacts, const Verdict& verdict) {
@@ -98,14 +104,15 @@ std::string CountsSignature(std::size_t contacts, const Verdict& verdict) {
   return fmt::format("{}-{}c-{}d", Name(verdict.outcome), contacts, verdict.period);
 }
 
-std::string Signature(const ExactProblem& problem, const ExactRun& run) {
-  const Verdict& verdict = run.verdict;
+template <class Scalar>
+std::string Signature(const ExactProblem& problem, const Verdict& verdict,
+                      const std::vector<Pivot<Scalar>>& pivots) {
   if (!IsLoop(verdict.outcome)) return CountsSignature(problem.contacts.size(), verdict);
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
-  const Steps period = Period(run);
+  const Steps<Scalar> period = Period(verdict, pivots);
   std::vector<int> contacts;
-  for (const Pivot<Rational>* step : period) {
+  for (const Pivot<Scalar>* step : period) {
     contacts.push_back(layout.ContactOf(step->driven));
     contacts.push_back(layout.ContactOf(step->limiting));
   }
@@ -115,7 +122,14 @@ std::string Signature(const ExactProblem& problem, const ExactRun& run) {
   const std::string counts =
       fmt::format("{}-{}c-{}d-{}s", Name(verdict.outcome), contacts.size(), drives, period.size());
   if (contacts.size() > kMostContactsWithWord) return counts;
-  return fmt::format("{}-{:016x}", counts, Hash(LoopWord(problem, run)));
+  return fmt::format("{}-{:016x}", counts, Hash(SmallestWord(verdict, period, layout)));
+}
+
+template std::string Signature(const ExactProblem&, const Verdict&, const std::vector<Pivot<Rational>>&);
+template std::string Signature(const ExactProblem&, const Verdict&, const std::vector<Pivot<double>>&);
+
+std::string Signature(const ExactProblem& problem, const ExactRun& run) {
+  return Signature(problem, run.verdict, run.trace.pivots);
 }
 
 }  // namespace stiction

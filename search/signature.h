@@ -24,6 +24,10 @@ std::string LoopWord(const ExactProblem& problem, const ExactRun& run);
 // than a loop only its name and the number of contacts remain: "singular-3c". In space the counts alone, of all
 // contacts.
 std::string Signature(const ExactProblem& problem, const ExactRun& run);
+// The same from certified pivots: a length is zero if it is zero there. Rational and double.
+template <class Scalar>
+std::string Signature(const ExactProblem& problem, const Verdict& verdict,
+                      const std::vector<Pivot<Scalar>>& pivots);
 // "cycle-2c-4d", "ray-2c": by counts that a verdict alone gives.
 std::string CountsSignature(std::size_t contacts, const Verdict& verdict);
 

@@ -10,6 +10,7 @@
 #include "certify/enumerate.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
+#include "certify/filtered.h"
 #include "certify/published_space.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
@@ -58,28 +59,40 @@ class Collector {
       : campaign_(campaign), methods_(methods), task_(task), unit_(unit) {
     result_.problems = UnitProblems(campaign, task);
     for (const Policy& policy : campaign.policies) {
-      const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};
+      const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy), "baraff",
+                         std::string(Name(campaign.arithmetic))};
       tallies_.push_back(&result_.record.tallies[key]);
     }
   }
 
   Tally& tally(std::size_t policy) { return *tallies_[policy]; }
 
-  // Runs problem `index` exactly. `suspected`: the inexact run did not end in a verified solution.
-  void RunExactly(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
+  // A problem that is looked at again. `suspected`: the inexact run did not end in a verified solution. Certified
+  // signs decide; what they leave open, what is audited, and a few of the others are examined over rationals.
+  void RunAgain(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
     const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
-    const ExactRun run = methods_.published(problem, {campaign_.policies[policy], {}, campaign_.limits});
-    const Outcome exact = run.verdict.outcome;
-    CountVerdict(*tallies_[policy], inexact, exact, suspected);
     const Place place = {index, policy, inexact};
-    Compare(place, run, problem, /*with_lemke=*/!suspected);
-    if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
-    if (exact != Outcome::kSolved) {
-      const bool safe_cycle = exact == Outcome::kCycle && methods_.is_safe(problem) == true;
-      Find(place, exact, safe_cycle ? kSafeCycle : Name(exact),
-           (safe_cycle ? "safe-" : "") + Signature(problem, run), problem);
-    } else {
+    // The first rung seldom tells what rounding did not.
+    const Rung first = suspected ? Rung::kDoubleDouble : Rung::kDouble;
+    if (Decide(place, problem, Filter(problem, policy, {first, Rung::kDoubleDouble}), suspected) ==
+        Outcome::kSolved)
       FindOfDoubles(place, wrong, problem);
+  }
+
+  // Problem `index` where the campaign asks for certified signs from the start.
+  void RunCertified(std::int64_t index, std::size_t policy, bool audit) {
+    const bool exact = campaign_.arithmetic == Arithmetic::kExact;
+    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
+    const FilteredVerdict filtered =
+        Filter(problem, policy, {exact ? Rung::kExact : Rung::kDouble, Rung::kExact});
+    const Verdict& verdict = filtered.verdict;
+    tallies_[policy]->Count(verdict);
+    const bool suspected = verdict.outcome != Outcome::kSolved;
+    const Place place = {index, policy, verdict.outcome};
+    if (audit || (exact && suspected)) {
+      Examine(place, problem, exact ? nullptr : &verdict, suspected);
+    } else if (suspected) {
+      Decide(place, problem, filtered, suspected);
     }
   }
 
@@ -112,6 +125,92 @@ class Collector {
     std::size_t policy;
     Outcome inexact;
   };
+
+  PublishedOptions OptionsOf(std::size_t policy) const {
+    return {campaign_.policies[policy], {}, campaign_.limits};
+  }
+
+  // What a problem is drawn by for the methods that run on a few only.
+  std::uint64_t DrawOf(std::int64_t index) const {
+    return Mix(
+        ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_), static_cast<std::uint64_t>(index)));
+  }
+  static bool IsOneIn(std::uint64_t draw, std::int64_t every) {
+    return draw % static_cast<std::uint64_t>(every) == 0;
+  }
+  bool IsDrawn(std::uint64_t draw) const {
+    return IsOneIn(draw, campaign_.complete_every) || IsOneIn(draw, campaign_.lemke_every) ||
+           IsOneIn(draw, campaign_.enumerate_every);
+  }
+
+  FilteredVerdict Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs) {
+    const FilteredVerdict filtered = methods_.filtered(problem, OptionsOf(policy), rungs);
+    const Rung rung = IsUnsure(filtered.verdict) ? Rung::kExact : filtered.rung;
+    if (campaign_.arithmetic != Arithmetic::kExact) ++tallies_[policy]->rungs[static_cast<int>(rung)];
+    return filtered;
+  }
+  static bool IsUnsure(const Verdict& verdict) {
+    return verdict.outcome == Outcome::kUndecided && verdict.reason == kUnsureSign;
+  }
+
+  // The outcome in exact arithmetic: that of certified signs, or of a run over rationals.
+  Outcome Decide(const Place& place, const ExactProblem& problem, const FilteredVerdict& filtered,
+                 bool suspected) {
+    const Verdict& verdict = filtered.verdict;
+    const bool certified = filtered.rung != Rung::kExact && verdict.outcome != Outcome::kUndecided;
+    const bool drawn = !suspected || IsDrawn(DrawOf(place.index));
+    if (drawn || !certified) return Examine(place, problem, certified ? &verdict : nullptr, suspected, drawn);
+    CountVerdict(*tallies_[place.policy], place.inexact, verdict.outcome, suspected);
+    if (verdict.outcome != Outcome::kSolved) Confirm(place, problem, filtered);
+    return verdict.outcome;
+  }
+
+  // What is not solved, by certified signs: complete driving must solve it.
+  void Confirm(const Place& place, const ExactProblem& problem, const FilteredVerdict& filtered) {
+    const Verdict& verdict = filtered.verdict;
+    const CompleteRun complete = methods_.complete_filtered(problem, campaign_.limits).run;
+    CompareAnswers(place, verdict.outcome, complete, problem,
+          {{{"complete", complete.verdict.outcome, complete.f}, {"baraff", verdict.outcome, {}}}, {}});
+    const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
+    const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
+    FindUnsolved(place, verdict.outcome, Signature(problem, verdict, run.pivots), problem);
+  }
+
+  // Runs exactly, counts, compares; returns the exact outcome. `filtered`: what was said with certified signs, null
+  // if nothing. What is solved and not drawn, other methods do not see.
+  Outcome Examine(const Place& place, const ExactProblem& problem, const Verdict* filtered, bool suspected,
+                  bool drawn = true) {
+    const ExactRun run = methods_.published(problem, OptionsOf(place.policy));
+    const Outcome exact = run.verdict.outcome;
+    CountVerdict(*tallies_[place.policy], place.inexact, exact, suspected);
+    if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);
+    if (exact == Outcome::kSolved && !drawn) return exact;
+    Compare(place, run, problem, /*with_lemke=*/!suspected && campaign_.arithmetic == Arithmetic::kDouble);
+    if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
+    if (exact == Outcome::kSolved) return exact;
+    FindUnsolved(place, exact, Signature(problem, run), problem);
+    return exact;
+  }
+
+  void FindUnsolved(const Place& place, Outcome outcome, const std::string& signature, const ExactProblem& problem) {
+    const bool safe_cycle = outcome == Outcome::kCycle && methods_.is_safe(problem) == true;
+    Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), (safe_cycle ? "safe-" : "") + signature, problem);
+  }
+
+  // Certified signs are those of rationals: the same end after the same steps.
+  void CompareFiltered(const Place& place, const Verdict& filtered, const ExactRun& run,
+                       const ExactProblem& problem) {
+    const Verdict& exact = run.verdict;
+    if (filtered.outcome == exact.outcome && filtered.start == exact.start &&
+        filtered.period == exact.period && filtered.statistics == exact.statistics)
+      return;
+    FindDisagreementOfMethods(
+        place, exact.outcome,
+        {"filtered-baraff", fmt::format("filtered, the published algorithm ends {} after {} steps; over rationals {} after {}",
+                                        Name(filtered.outcome), filtered.statistics.steps, Name(exact.outcome),
+                                        exact.statistics.steps)},
+        problem, {{{"baraff", exact.outcome, run.state.f}}, {}});
+  }
 
   // Complete driving on polygons ends in a solution of its own law, which is proved; that more corners lead to
   // one of (21), (22) is not.
@@ -159,26 +258,31 @@ class Collector {
                      {"baraff", published.verdict.outcome, published.state.f}},
                     {}};
     AgreementTally& tally = result_.record.agreement[task_.contacts];
-    const bool promised = Row(task_.generator).other_kind != ContactKind::kSliding;  // a solution
-    const std::uint64_t draw = Mix(ProblemSeed(campaign_.seed, static_cast<std::uint64_t>(unit_),
-                                               static_cast<std::uint64_t>(place.index)));
-    if (with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0) {
+    const bool promised = PromisesSolution();
+    const std::uint64_t draw = DrawOf(place.index);
+    if (with_lemke || IsOneIn(draw, campaign_.lemke_every)) {
       const LemkeRun lemke = methods_.lemke(problem, campaign_.limits);
       answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
       tally.compared += promised;
     }
     if (task_.contacts <= kMostContactsEnumerated &&
-        draw % static_cast<std::uint64_t>(campaign_.enumerate_every) == 0) {
+        IsOneIn(draw, campaign_.enumerate_every)) {
       answers.modes = methods_.modes(problem);
       if (promised) CountModes(tally, problem, *answers.modes);
     }
+    CompareAnswers(place, published.verdict.outcome, complete, problem, answers);
+  }
+
+  // The answer of complete driving is the first.
+  void CompareAnswers(const Place& place, Outcome published, const CompleteRun& complete, const ExactProblem& problem,
+                      const Answers& answers) {
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
-    if (promised)
+    if (PromisesSolution())
       CountExistence(complete.verdict.outcome, complete.verdict.statistics,
                      disagreement && disagreement->what == "complete-wrong");
-    if (disagreement)
-      FindDisagreementOfMethods(place, published.verdict.outcome, *disagreement, problem, answers);
+    if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
   }
+  bool PromisesSolution() const { return Row(task_.generator).other_kind != ContactKind::kSliding; }
 
   void FindDisagreementOfMethods(const Place& place, Outcome published, const Disagreement& disagreement,
                                  const ExactProblem& problem, const Answers& answers) {
@@ -336,7 +440,7 @@ class Kernel final : public SizedKernel {
     Verdict verdict;
     verdict.outcome = Outcome::kSingular;
     collector.tally(policy).Count(verdict);
-    collector.RunExactly(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
+    collector.RunAgain(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
   }
 
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
@@ -349,7 +453,7 @@ class Kernel final : public SizedKernel {
       f = &distorted;
     }
     const auto [wrong, suspected] = Judge(verdict, collector.tally(policy), [&] { return Residual(*f); });
-    if (suspected || audit) collector.RunExactly(index, policy, verdict.outcome, wrong, suspected);
+    if (suspected || audit) collector.RunAgain(index, policy, verdict.outcome, wrong, suspected);
   }
 
   // Of f alone: the accelerations are computed anew.
@@ -368,6 +472,21 @@ class Kernel final : public SizedKernel {
   const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double, Rows> problem_;
+};
+
+// Problems that are decided with certified signs from the start.
+class CertifiedKernel final : public SizedKernel {
+ public:
+  explicit CertifiedKernel(const Campaign& campaign) : campaign_(campaign) {}
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector) override {
+    TryAll(
+        campaign_, unit, task, [](Choices&) {},
+        [&](std::int64_t index, std::size_t policy, bool audit) { collector.RunCertified(index, policy, audit); });
+  }
+
+ private:
+  const Campaign& campaign_;
 };
 
 // Problems of space.
@@ -404,6 +523,7 @@ class SpaceKernel final : public SizedKernel {
 std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers,
                                         const Task& task) {
   if (Row(task.generator).InSpace()) return std::make_unique<SpaceKernel>(campaign, solvers);
+  if (campaign.arithmetic != Arithmetic::kDouble) return std::make_unique<CertifiedKernel>(campaign);
   if (Row(task.generator).HasOtherKinds()) return std::make_unique<Kernel<Eigen::Dynamic>>(campaign, solvers);
   switch (task.contacts) {
     case 1:

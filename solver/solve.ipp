@@ -136,7 +136,8 @@ template <class Numbers>
 int ExponentOf(const Numbers& numbers) {
   if (numbers.size() == 0) return 0;
   const auto most = numbers.cwiseAbs().maxCoeff();
-  return most > 0 ? std::ilogb(most) : 0;
+  using std::ilogb;
+  return most > 0 ? ilogb(most) : 0;
 }
 
 template <class Scalar>
@@ -149,7 +150,8 @@ BinaryScale FindScale(const ContactProblem<Scalar>& problem) {
 
 template <class Values>
 void ScaleBy(Values& values, int exponent) {
-  for (auto& x : values.reshaped()) x = std::ldexp(x, exponent);
+  using std::ldexp;
+  for (auto& x : values.reshaped()) x = ldexp(x, exponent);
 }
 
 template <class Scalar>
@@ -164,11 +166,12 @@ void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const BinaryScale& sc
   ScaleBy(answer.f, scale.f());
   ScaleBy(answer.first_f, scale.f());
   if (trace == nullptr) return;
+  using std::ldexp;
   for (Pivot<Scalar>& pivot : trace->pivots) {
     ScaleBy(pivot.f, scale.f());
     ScaleBy(pivot.a, scale.b);
     ScaleBy(pivot.da, scale.A);
-    pivot.s = std::ldexp(pivot.s, scale.f());
+    pivot.s = ldexp(pivot.s, scale.f());
   }
 }
 
@@ -177,7 +180,10 @@ template <class Scalar>
 bool IsFinite(const ContactProblem<Scalar>& problem) {
   return problem.A.allFinite() && problem.b.allFinite() &&
          std::all_of(problem.contacts.begin(), problem.contacts.end(),
-                     [](const auto& contact) { return std::isfinite(contact.mu); });
+                     [](const auto& contact) {
+                       using std::isfinite;
+                       return isfinite(contact.mu);
+                     });
 }
 
 template <class Scalar>
@@ -226,7 +232,11 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
   answer.a = problem.A * answer.f + problem.b;
   const LongVector f = answer.f.template cast<long double>();
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
-  answer.residual = static_cast<double>(ResidualBound(problem, answer.law, f));
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    answer.residual = static_cast<double>(ResidualBound(problem, answer.law, f));
+  } else {
+    answer.residual = static_cast<double>(ResidualBound(InLongDouble(problem), answer.law, f));
+  }
   if (!answer.Solved() || (is_finite && answer.residual <= bound)) return;
   answer.outcome = Outcome::kUndecided;
   answer.reason = is_finite ? "the residual is above the bound" : "a number is not finite";

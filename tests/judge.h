@@ -89,8 +89,10 @@ inline std::string FaultOf(const ExactProblem& problem, const InexactAnswer& ans
 // not.
 inline std::string FaultOf(const ExactProblem& problem, const SolveRequest& request, const Solution& solution) {
   if (solution.outcome() != Outcome::kSolved) return "";
-  const ExactProblem ran = AsRun(problem, request.arithmetic);
-  if (const auto* exact = std::get_if<ExactAnswer>(&solution.answer)) return FaultOf(ran, *exact);
+  const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
+  const bool filtered = request.arithmetic == Arithmetic::kFiltered;  // to the end, or with rounded forces
+  const ExactProblem ran = filtered && exact ? problem : AsRun(problem, request.arithmetic);
+  if (exact) return FaultOf(ran, *exact);
   const double usual =
       request.arithmetic == Arithmetic::kFloat ? kSolvedResidual<float> : kSolvedResidual<double>;
   const double bound = request.options.residual > 0 ? request.options.residual : usual;

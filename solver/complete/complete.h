@@ -50,6 +50,7 @@
 #include "solver/complete/cells.h"
 #include "solver/complete/polygon.h"
 #include "solver/linear/direction.h"
+#include "solver/problem/enclosure.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -117,6 +118,9 @@ class CompleteDriving {
   // Requires a problem of dimension 3, and a polygon per contact, read for static contacts with mu > 0 only.
   CompleteVerdict Run(const Problem& problem, const Polygons& polygons,
                       Trace<Scalar>* trace = nullptr) requires(Rows == Eigen::Dynamic);
+
+  // Over enclosures: as PublishedAlgorithm::KnowDependentRows.
+  void KnowDependentRows(DependentRows* rows) { dependent_rows_ = rows; }
 
   // The state in which the last run ended.
   const Vector& f() const { return f_; }
@@ -235,6 +239,7 @@ class CompleteDriving {
   RowLayout<Rows> layout_;
   Scale<Scalar> scale_;
   DirectionSystem<Scalar, Rows> direction_;
+  DependentRows* dependent_rows_ = nullptr;
 
   Vector f_, a_, ray_;
   Scalar rho_ = Scalar(0);   // of a friction stage
@@ -249,6 +254,7 @@ class CompleteDriving {
   int driven_ = 0;  // contact, or their number at the end
   Stage stage_ = Stage::kNormal;
   std::vector<Candidate> candidates_;
+  std::vector<Scalar> may_be_ahead_;  // over enclosures: facets of unsure rates, not reached before
 };
 
 }  // namespace stiction

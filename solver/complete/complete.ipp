@@ -242,13 +242,15 @@ void CompleteDriving<Scalar, Rows>::TraceStage(Facet entry) {
     if (determinant != 0) last_turn = determinant;
     CollectFacets();
     Record(determinant, std::exchange(turn, PathTurn::kNone));
+    if (kEncloses<Scalar> && candidates_.empty() && !may_be_ahead_.empty()) Unsure<Scalar>::Refuse();
     if (candidates_.empty()) return Unlimited();
     const int nearest = Nearest(entry);
     if (Ended()) return;
     const Candidate& reached = candidates_[nearest];
     const bool ends = reached.facet.beyond == Beyond::kStart || reached.facet.beyond == Beyond::kEnd;
     Advance(reached.s);
-    if constexpr (!kIsExact<Scalar>) Snap(reached.facet);
+    if constexpr (kMeetsLimits<Scalar>) Snap(reached.facet);
+    if constexpr (kEncloses<Scalar>) MeetDependentZeros(dependent_rows_, a_);
     if (ends) {
       EndStage(reached.facet);
     } else {
@@ -264,6 +266,7 @@ template <class Scalar, int Rows>
 int CompleteDriving<Scalar, Rows>::Direction() {
   const std::optional<int> determinant = direction_.SolveOriented(*problem_, unknowns_, scale_);
   if (!determinant) Impossible("the direction is not unique");
+  if constexpr (kEncloses<Scalar>) MeetDependentZeros(dependent_rows_, direction_.da());
   rate_ = Scalar(determinant.value_or(0));
   return determinant.value_or(0);
 }
@@ -271,6 +274,7 @@ int CompleteDriving<Scalar, Rows>::Direction() {
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::CollectFacets() {
   candidates_.clear();
+  may_be_ahead_.clear();
   for (int i = 0; i <= driven_; ++i)
     ForEachFacet(i, [this](auto kind, const Facet& facet) { this->Offer(kind, facet); });
 }
@@ -282,6 +286,13 @@ void CompleteDriving<Scalar, Rows>::Offer(OfKind kind, const Facet& facet) {
     return InSpace() ? SpatialValue(facet, f, a, radius) : PlanarValue(kind, facet, f, a, radius);
   };
   Scalar rate = -value(direction_.df(), direction_.da(), rate_);
+  if constexpr (kEncloses<Scalar>) {
+    if (!Unsure<Scalar>::MayBePositive(rate)) return;
+    if (!Unsure<Scalar>::TellsSign(rate)) {
+      may_be_ahead_.push_back(Unsure<Scalar>::Earliest(value(f_, a_, rho_), rate));
+      return;
+    }
+  }
   if (Sign(rate, facet.OfAcceleration() ? scale_.rate : scale_.pivot) <= 0) return;
   Scalar s = value(f_, a_, rho_) / rate;
   if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // by rounding only
@@ -294,7 +305,17 @@ int CompleteDriving<Scalar, Rows>::Nearest(const Facet& entry) {
   int nearest = 0;
   const int count = static_cast<int>(candidates_.size());
   for (int i = 1; i < count; ++i) {
-    if (candidates_[i].s < candidates_[nearest].s) nearest = i;
+    if constexpr (kEncloses<Scalar>) {  // those far away may tie: what is nearest is held against all below
+      const Scalar before = candidates_[nearest].s - candidates_[i].s;
+      if (Unsure<Scalar>::TellsSign(before) && before > 0) nearest = i;
+    } else {
+      if (candidates_[i].s < candidates_[nearest].s) nearest = i;
+    }
+  }
+  if constexpr (kEncloses<Scalar>) {  // what is surely beyond does not matter
+    for (const Scalar& earliest : may_be_ahead_) {
+      if (!(earliest > candidates_[nearest].s)) Unsure<Scalar>::Refuse();
+    }
   }
   const Scalar reach = candidates_[nearest].s + scale_.force;
   std::optional<Row> least;  // parts of the nearest candidate, once there is a tie
@@ -320,18 +341,18 @@ int CompleteDriving<Scalar, Rows>::Nearest(const Facet& entry) {
 // f += s df, a += s da.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Advance(const Scalar& s) {
-  if (kIsExact<Scalar> && Sign(s) == 0) return;
+  if (kIsExact<Scalar> && IsSurelyZero(s)) return;
   const auto& df = direction_.df();
   const auto& da = direction_.da();
   for (int row = 0; row < problem_->rows(); ++row) {
-    if (!kIsExact<Scalar> || Sign(df[row]) != 0) f_[row] += s * df[row];
-    if (!kIsExact<Scalar> || Sign(da[row]) != 0) a_[row] += s * da[row];
+    if (!kIsExact<Scalar> || !IsSurelyZero(df[row])) f_[row] += s * df[row];
+    if (!kIsExact<Scalar> || !IsSurelyZero(da[row])) a_[row] += s * da[row];
   }
   if (stage_ == Stage::kFriction) rho_ += s * rate_;
 }
 
-// Over inexact scalars the facet that was reached is met exactly, and so are the equations of the cells, where
-// they are those of single rows.
+// Over inexact scalars and enclosures the facet that was reached is met exactly, and so are the equations of the
+// cells, where they are those of single rows.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Snap(const Facet& reached) {
   const int row = RowOf(reached.contact);

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/problem/scalar.h"
+
 namespace stiction {
 
 template <class Scalar>
@@ -100,7 +102,7 @@ class DenseFactor {
     size_ = size;
     Scalar largest = Scalar(0);
     for (int j = 0; j < size; ++j) {
-      for (int i = 0; i < size; ++i) largest = std::max(largest, Scalar(std::abs(Column(j)[i])));
+      for (int i = 0; i < size; ++i) largest = std::max(largest, Scalar(Abs(Column(j)[i])));
     }
     least_pivot_ = tolerance * largest;
     return GeneralColumns(0, size);
@@ -190,9 +192,9 @@ class DenseFactor {
       Scalar* column = Column(j);
       int pivot = j;
       for (int i = j + 1; i < size_; ++i) {
-        if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
+        if (Abs(column[i]) > Abs(column[pivot])) pivot = i;
       }
-      if (!(std::abs(column[pivot]) > least_pivot_)) return false;
+      if (!(Abs(column[pivot]) > least_pivot_)) return false;
       swaps_[j] = pivot;
       if (pivot != j) {
         for (int k = first; k < end; ++k) std::swap(Column(k)[j], Column(k)[pivot]);

@@ -75,6 +75,7 @@ class DirectionSystem {
 
   const Vector& df() const { return df_; }
   const Vector& da() const { return da_; }
+  Vector& da() { return da_; }
   const Updated& updated() const { return updated_; }
 
  private:

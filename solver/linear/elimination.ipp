@@ -5,8 +5,10 @@
 #define STICTION_SOLVER_LINEAR_ELIMINATION_IPP_
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/linear/elimination.h"
+#include "solver/problem/enclosure.h"
 
 namespace stiction {
 
@@ -55,6 +57,17 @@ void Elimination<Scalar, Rows>::Run(int rows, int unknowns, int columns, const S
 template <class Scalar, int Rows>
 int Elimination<Scalar, Rows>::FindPivot(int column, const Scalar& zero) const {
   int best = -1;
+  if constexpr (kEncloses<Scalar>) {
+    bool unsure = false;  // whether some entry may be zero
+    for (int i = rank_; i < rows_; ++i) {
+      const auto size = [&](int row) { return std::abs(Approximation<Scalar>::Of(M_(row, column))); };
+      const bool tells = Unsure<Scalar>::TellsSign(M_(i, column));
+      unsure |= !tells;
+      if (tells && !IsSurelyZero(M_(i, column)) && (best < 0 || size(i) > size(best))) best = i;
+    }
+    if (best < 0 && unsure) Unsure<Scalar>::Refuse();
+    return best;
+  }
   for (int i = rank_; i < rows_; ++i) {
     if constexpr (kIsExact<Scalar>) {
       if (Sign(M_(i, column)) != 0) return i;

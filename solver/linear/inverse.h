@@ -21,6 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/problem/scalar.h"
+
 namespace stiction {
 
 template <class Scalar>
@@ -67,7 +69,7 @@ class Inverse {
     u.noalias() = Block() * column;
     v.noalias() = Block().transpose() * row;
     const Scalar s = corner - row.dot(u);
-    if (!IsPivot(s, std::max(Scalar(std::abs(corner)), Largest(column)))) return false;
+    if (!IsPivot(s, std::max(Scalar(Abs(corner)), Largest(column)))) return false;
     u /= -s;
     Block().noalias() -= u * v.transpose();
     B_.col(k).head(k) = u;
@@ -119,7 +121,8 @@ class Inverse {
   // What the determinant is multiplied by; counts its sign if the change is made. Below the root of the
   // rounding of `entries` the sign, and half of the digits, would be in doubt.
   bool IsPivot(Scalar s, Scalar entries) {
-    if (!(std::abs(s) > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * entries)) return false;
+    using std::sqrt;
+    if (!(Abs(s) > sqrt(std::numeric_limits<Scalar>::epsilon()) * entries)) return false;
     if (s < 0) sign_ = -sign_;
     return true;
   }

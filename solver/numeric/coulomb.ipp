@@ -182,8 +182,9 @@ auto CoulombSolver<Scalar, ProblemType>::Answer(const Vector& f) const -> Vector
 // there.
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::Newton() {
-  const Scalar root = std::sqrt(std::numeric_limits<Scalar>::epsilon());
-  Scalar shift = std::pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
+  using std::pow, std::sqrt;
+  const Scalar root = sqrt(std::numeric_limits<Scalar>::epsilon());
+  Scalar shift = pow(std::numeric_limits<Scalar>::epsilon(), Scalar(2) / 3);
   regular_ = WithDiagonal<Scalar>(problem_->A, std::max(rho_, shift) * weight_);
   Slopes slopes(r_.size());
   a_ = Answer(f_);

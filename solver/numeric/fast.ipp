@@ -72,8 +72,8 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
     f_[i] = Scalar(0);
     a_[i] = problem.b[i];
     inverse_[i] = problem.A(i, i) > 0 ? 1 / problem.A(i, i) : Scalar(0);
-    max_A_ = std::max(max_A_, Scalar(std::abs(problem.A(i, i))));
-    max_b_ = std::max(max_b_, Scalar(std::abs(problem.b[i])));
+    max_A_ = std::max(max_A_, Scalar(Abs(problem.A(i, i))));
+    max_b_ = std::max(max_b_, Scalar(Abs(problem.b[i])));
   }
   unit_ = max_A_ > 0 ? 1 / max_A_ : Scalar(0);
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
@@ -164,7 +164,7 @@ template <class Scalar>
 bool FastSolver<Scalar>::IsSymmetric(Scalar tolerance) const {
   for (int j = 0; j < problem_->rows(); ++j) {
     for (int i = 0; i < j; ++i) {
-      if (!(std::abs(problem_->A(i, j) - problem_->A(j, i)) <= tolerance)) return false;
+      if (!(Abs(problem_->A(i, j) - problem_->A(j, i)) <= tolerance)) return false;
     }
   }
   return true;
@@ -275,7 +275,7 @@ bool FastSolver<Scalar>::SolveCells() {
   if (!(symmetric_ && !distrust_ ? SolveSymmetric() : SolveGeneral())) return false;
   SetForces();
   Scalar max_f = max_b_ * unit_;
-  for (int j = 0; j < size_; ++j) max_f = std::max(max_f, Scalar(std::abs(u_[j])));
+  for (int j = 0; j < size_; ++j) max_f = std::max(max_f, Scalar(Abs(u_[j])));
   least_f_ = zero_f_ * max_f;
   least_a_ = zero_a_ * max_A_ * max_f;
   return true;

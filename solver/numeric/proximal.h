@@ -64,7 +64,7 @@ class ProximalNewton {
   const Vector& a() const { return best_a_; }
 
  private:
-  static constexpr Scalar kSettled = Scalar(1e-12);  // natural residual of a proximal problem
+  static inline const Scalar kSettled = Scalar(1e-12);  // natural residual of a proximal problem
 
   void Start(const Problem& problem);
   Scalar Measured() const;

@@ -16,7 +16,7 @@ namespace stiction {
 template <class Scalar>
 ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
   Start(problem);
-  constexpr Scalar kHopeless(1e6);  // so large an eps keeps f where it is
+  const Scalar kHopeless(1e6);  // so large an eps keeps f where it is
   constexpr int kIdle = 4;          // points that gain nothing before a solution is good enough
   Scalar eps(options_.first_eps), best = Measured();
   int idle = 0;

@@ -24,6 +24,12 @@ inline constexpr std::string_view Name(Arithmetic arithmetic) {
   return kArithmeticNames[static_cast<int>(arithmetic)];
 }
 
+// What a filtered run is decided on, in this order: balls around doubles, around double-doubles, rationals.
+enum class Rung : std::uint8_t { kDouble, kDoubleDouble, kExact };
+inline constexpr int kRungCount = 3;
+inline constexpr std::array<std::string_view, kRungCount> kRungNames = {"double", "double-double", "exact"};
+inline constexpr std::string_view Name(Rung rung) { return kRungNames[static_cast<int>(rung)]; }
+
 template <class Scalar>
 inline constexpr Arithmetic kArithmeticOf = Arithmetic::kExact;
 template <>

@@ -8,6 +8,8 @@
 #ifndef STICTION_SOLVER_PROBLEM_ENCLOSURE_H_
 #define STICTION_SOLVER_PROBLEM_ENCLOSURE_H_
 
+#include <vector>
+
 #include "solver/problem/scalar.h"
 
 namespace stiction {
@@ -26,16 +28,45 @@ struct Approximation {
 template <class Scalar>
 inline constexpr bool kMeetsLimits = !kIsExact<Scalar> || kEncloses<Scalar>;
 
-// The one exception from "throws": a rate whose ends have both signs. What shrinks at it reaches zero at Reach(gap, rate), from the earliest to
-// never; Refuse() throws, as comparisons do. Specialised beside the scalar.
+// What is asked of an enclosure before it is compared, where a comparison would throw. Specialised beside the
+// scalar; the defaults are those of scalars that know their signs.
 template <class Scalar>
-struct UncertainRate {
-  static bool Is(const Scalar&) { return false; }
-  static bool IsNone(const Scalar&) { return false; }  // surely not positive
-  static Scalar Reach(const Scalar& gap, const Scalar&) { return gap; }
-  static bool IsReach(const Scalar&) { return false; }
+struct Unsure {
+  static bool TellsSign(const Scalar&) { return true; }
+  static bool MayBePositive(const Scalar& x) { return x > 0; }
+  // Of a gap that shrinks at a rate of unsure sign: not later than it could be closed.
+  static Scalar Earliest(const Scalar& gap, const Scalar&) { return gap; }
+  // Throws, as comparisons do.
   static void Refuse() {}
 };
+
+// Rows of (A b) that are combinations of others: there a = A f + b is zero wherever it is zero in those, whatever f.
+// Where A is singular, a comparison of ends never tells such zeros.
+class DependentRows {
+ public:
+  virtual ~DependentRows() = default;
+  // Whether row `row` is a combination of the rows that are marked.
+  virtual bool Follows(const std::vector<bool>& zero, int row) = 0;
+};
+
+// Which entries are known to be zero.
+template <class Vector>
+std::vector<bool> SureZeros(const Vector& values) {
+  std::vector<bool> zero(values.size());
+  for (int row = 0; row < values.size(); ++row) zero[row] = IsSurelyZero(values[row]);
+  return zero;
+}
+
+// Accelerations, or their changes, that are zero by the equations between rows become zero. Null: none are known.
+template <class Vector>
+void MeetDependentZeros(DependentRows* rows, Vector& a) {
+  using Scalar = typename Vector::Scalar;
+  if (rows == nullptr) return;
+  const std::vector<bool> zero = SureZeros(a);
+  for (int row = 0; row < a.size(); ++row) {
+    if (!Unsure<Scalar>::TellsSign(a[row]) && rows->Follows(zero, row)) a[row] = Scalar(0);
+  }
+}
 
 }  // namespace stiction
 

@@ -60,6 +60,20 @@ CheckedAccelerations Recompute(const ContactProblem<Scalar>& problem, const Long
   return checked;
 }
 
+// The problem that is measured, of numbers wider than long double.
+template <class Scalar>
+ContactProblem<long double> InLongDouble(const ContactProblem<Scalar>& problem) {
+  const auto convert = [](const Scalar& x) { return static_cast<long double>(x); };
+  ContactProblem<long double> rounded;
+  rounded.dimension = problem.dimension;
+  for (const auto& contact : problem.contacts)
+    rounded.contacts.push_back(
+        {contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
+  rounded.A = problem.A.unaryExpr(convert);
+  rounded.b = problem.b.unaryExpr(convert);
+  return rounded;
+}
+
 // Relative as residual.h and weak_residual.h say for the law; infinite if a number is not finite.
 template <class Scalar>
 long double ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law, const LongVector& f) {

@@ -64,14 +64,19 @@ class Remainder {
   std::optional<Reduction<Scalar>> reduction_;
 };
 
-template <class Scalar>
-std::string Remainder<Scalar>::Word(const std::string& word) const {
-  if (!reduction_ || word.empty()) return word;
+// The letters of all contacts from those of what bilateral contacts left: one is always held, '='.
+template <class Contacts>
+std::string WholeWord(const Contacts& contacts, const std::string& word) {
+  if (word.empty()) return word;
   std::string all;
   std::size_t next = 0;
-  for (const auto& contact : whole_.contacts)
-    all += contact.kind == ContactKind::kBilateral ? '=' : word.at(next++);
+  for (const auto& contact : contacts) all += contact.kind == ContactKind::kBilateral ? '=' : word.at(next++);
   return all;
+}
+
+template <class Scalar>
+std::string Remainder<Scalar>::Word(const std::string& word) const {
+  return reduction_ ? WholeWord(whole_.contacts, word) : word;
 }
 
 template <class Scalar>

@@ -14,9 +14,13 @@
 
 namespace stiction {
 
-// True for number types without rounding. Floating-point types are the only inexact ones.
+// True for number types that round. Specialised beside those that are not the language's own.
 template <class Scalar>
-inline constexpr bool kIsExact = !std::is_floating_point_v<Scalar>;
+inline constexpr bool kIsRounded = std::is_floating_point_v<Scalar>;
+
+// True for number types without rounding.
+template <class Scalar>
+inline constexpr bool kIsExact = !kIsRounded<Scalar>;
 
 // -1, 0 or 1. Not-a-number has sign 0: callers of inexact runs test for it where it can arise.
 template <class Scalar>
@@ -44,7 +48,8 @@ bool IsSurelyZero(const Scalar& x) {
 template <class Scalar>
 Scalar Abs(const Scalar& x) {
   if constexpr (!kIsExact<Scalar>) {
-    return std::abs(x);  // without a branch
+    using std::abs;
+    return abs(x);  // without a branch
   } else {
     if (Sign(x) < 0) return Scalar(-x);
     return x;

@@ -10,8 +10,8 @@
 // readings.md fixes every choice that the text leaves open; `Policy` names the readings. The algorithm
 // can fail to end: a repeated outer state is the outcome `cycle`, a repeated state inside a drive `stall`.
 //
-// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, and what the
-// ends do not decide throws. Over inexact ones it is a suspicion: forces are compared
+// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, a repetition where
+// the sets decide the forces, and what the ends do not decide throws. Over inexact ones it is a suspicion: forces are compared
 // after rounding, and callers run the problem again exactly before they claim anything.
 
 #ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
@@ -57,6 +57,10 @@ class PublishedAlgorithm {
   // Variables whose conditions do not hold with these forces leave their sets, and the forces are solved for
   // again; where that has no solution, the run starts from f = 0. Work: one factorization, then as the run.
   Verdict RunFrom(const Problem& problem, std::span<const IndexSet> guess, Trace<Scalar>* trace = nullptr);
+
+  // Over enclosures: tells accelerations that are zero where others are, by an equation between the rows of A and
+  // of b. Null: none.
+  void KnowDependentRows(DependentRows* rows) { dependent_rows_ = rows; step_size_.KnowDependentRows(rows); }
 
   // The state in which the last run ended.
   const State& state() const { return state_; }
@@ -104,6 +108,8 @@ class PublishedAlgorithm {
   bool Violated(int row) const;
   void Establish(int row);
   bool OuterStateRecurs();
+  bool SurelyDiffers(const Vector& f) const;
+  bool SetsDecideForces(const Vector& earlier);
   std::uint64_t RoundedHash() const;
 
   // One drive (4.1-4.3, 5.2-5.5).
@@ -129,6 +135,7 @@ class PublishedAlgorithm {
   Scale<Scalar> scale_;
   DirectionSystem<Scalar, Rows> direction_;
   StepSize<Scalar, Rows> step_size_;
+  DependentRows* dependent_rows_ = nullptr;
 
   State state_;
   Verdict verdict_;

@@ -257,6 +257,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     const auto status = direction_.Solve(*problem_, layout_, state_.sets, driven, sign, scale_);
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
+    if constexpr (kEncloses<Scalar>) MeetDependentZeros(dependent_rows_, direction_.da());
     const Step<Scalar> step =
         step_size_.Find(*problem_, layout_, state_, direction_, driven, goal, options_.policy.ties, scale_);
     if (step.limiting < 0) return End(Outcome::kRay);
@@ -315,7 +316,10 @@ void PublishedAlgorithm<Scalar, Rows>::Advance(const Scalar& s, int limiting, In
         break;
     }
   }
-  if constexpr (kEncloses<Scalar>) FollowLimits(*problem_, layout_, state_.sets, state_.f);
+  if constexpr (kEncloses<Scalar>) {
+    FollowLimits(*problem_, layout_, state_.sets, state_.f);
+    MeetDependentZeros(dependent_rows_, state_.a);
+  }
 }
 
 template <class Scalar, int Rows>
@@ -374,6 +378,29 @@ std::uint64_t PublishedAlgorithm<Scalar, Rows>::RoundedHash() const {
   return hash;
 }
 
+// Over enclosures: whether some force is surely another one now.
+template <class Scalar, int Rows>
+bool PublishedAlgorithm<Scalar, Rows>::SurelyDiffers(const Vector& f) const {
+  for (int row = 0; row < problem_->rows(); ++row) {
+    const Scalar change = state_.f[row] - f[row];
+    if (Unsure<Scalar>::TellsSign(change) && !IsSurelyZero(change)) return true;
+  }
+  return false;
+}
+
+// Over enclosures: whether the forces, now and in an earlier state of the same sets, are the one solution of the
+// equations of these sets.
+template <class Scalar, int Rows>
+bool PublishedAlgorithm<Scalar, Rows>::SetsDecideForces(const Vector& earlier) {
+  using System = DirectionSystem<Scalar, Rows>;
+  for (int row = 0; row < problem_->rows(); ++row) {
+    const bool decided = IsUnknown(state_.sets[row]) || LimitSign(state_.sets[row]) != 0;
+    if (!decided && !(IsSurelyZero(state_.f[row]) && IsSurelyZero(earlier[row]))) return false;
+  }
+  const SetUnknowns<Scalar, Rows> unknowns{*problem_, layout_, state_.sets};
+  return direction_.SolveForces(*problem_, unknowns, scale_) == System::Status::kRegular;
+}
+
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::OuterStateRecurs() {
   const int contact = options_.policy.resume == Resume::kRound ? last_driven_contact_ : -1;
@@ -381,7 +408,10 @@ bool PublishedAlgorithm<Scalar, Rows>::OuterStateRecurs() {
   if constexpr (!kIsExact<Scalar>) rounded = RoundedHash();
   for (const OuterState& earlier : outer_states_) {
     if (earlier.contact != contact) continue;
-    if constexpr (kIsExact<Scalar>) {
+    if constexpr (kEncloses<Scalar>) {
+      if (earlier.sets != state_.sets || SurelyDiffers(earlier.f)) continue;
+      if (!SetsDecideForces(earlier.f)) Unsure<Scalar>::Refuse();
+    } else if constexpr (kIsExact<Scalar>) {
       if (earlier.sets != state_.sets || earlier.f != state_.f) continue;
     } else {
       if (earlier.rounded != rounded) continue;

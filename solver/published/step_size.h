@@ -21,6 +21,7 @@
 #define STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
 
 #include <algorithm>
+#include <vector>
 
 #include "solver/linear/direction.h"
 #include "solver/problem/enclosure.h"
@@ -48,6 +49,8 @@ class StepSize {
   void MeetBound(int row, int sign) { met_bound_[row] = sign; }
   void LeaveBounds() { std::fill(met_bound_.begin(), met_bound_.end(), 0); }
 
+  void KnowDependentRows(DependentRows* rows) { dependent_rows_ = rows; }
+
   // Requires: the maintained variables are legal at f, a; aN_d < 0 for a driven normal; for a friction
   // variable to establish aF_d /= 0 and abs(fF_d) <= mu fN_d; to zero fF_d /= 0.
   Step<Scalar> Find(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
@@ -59,6 +62,13 @@ class StepSize {
     Scalar s = Scalar(0);
     IndexSet wants = IndexSet::kNone;
     bool exists = false;
+    bool may_exist = false;        // over enclosures: another, not before `earliest`
+    Scalar earliest = Scalar(0);
+
+    void MayExistFrom(const Scalar& s) {
+      if (!may_exist || s < earliest) earliest = s;
+      may_exist = true;
+    }
   };
 
   // The driver's gap shrinks at `rate`; a limit exists if rate > 0.
@@ -69,11 +79,15 @@ class StepSize {
                    const Scale<Scalar>& scale);
   void LimitMaintained(const Problem& problem, const RowLayout<Rows>& layout, const State& state,
                        const DirectionSystem<Scalar, Rows>& direction, int row, const Scale<Scalar>& scale);
-  void LeaveOutUncertain(int nearest);
+  int Order(int row, int other) const;
+  bool IsSurelyBefore(int row, int other) const;
+  void RequireBeyond(int nearest) const;
   Scalar GapToBound(const Scalar& bound, const Scalar& f, int row, int sign) const;
   int FirstOf(const State& state, int driven, Ties ties, int nearest, const Scalar& reach) const;
 
   RowArray<Limit, Rows> limits_;
+  DependentRows* dependent_rows_ = nullptr;
+  std::vector<bool> resting_;  // accelerations that are zero and stay so, where rows are dependent
   RowArray<int, Rows> met_bound_;  // sign of the limit, or 0; over enclosures
 };
 

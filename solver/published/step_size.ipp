@@ -17,11 +17,20 @@ void StepSize<Scalar, Rows>::Resize(int rows) {
 template <class Scalar, int Rows>
 void StepSize<Scalar, Rows>::Offer(Limit& limit, const Scalar& gap, const Scalar& rate, IndexSet wants,
                                    const Scalar& tolerance) {
-  if (kEncloses<Scalar> && UncertainRate<Scalar>::IsNone(rate)) return;
-  const bool uncertain = kEncloses<Scalar> && UncertainRate<Scalar>::Is(rate);
-  if (!uncertain && Sign(rate, tolerance) <= 0) return;
-  Scalar s = uncertain ? UncertainRate<Scalar>::Reach(gap, rate) : Scalar(gap / rate);
+  if constexpr (kEncloses<Scalar>) {
+    if (!Unsure<Scalar>::MayBePositive(rate)) return;
+    if (!Unsure<Scalar>::TellsSign(rate)) return limit.MayExistFrom(Unsure<Scalar>::Earliest(gap, rate));
+  }
+  if (Sign(rate, tolerance) <= 0) return;
+  Scalar s = gap / rate;
   if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
+  if constexpr (kEncloses<Scalar>) {
+    if (limit.exists && !Unsure<Scalar>::TellsSign(s - limit.s)) {  // two of one variable; either may be the first
+      limit.exists = false;
+      limit.MayExistFrom(Unsure<Scalar>::Earliest(limit.s, Scalar(1)));
+      return limit.MayExistFrom(Unsure<Scalar>::Earliest(s, Scalar(1)));
+    }
+  }
   if (limit.exists && !(s < limit.s)) return;
   limit.s = std::move(s);
   limit.wants = wants;
@@ -95,8 +104,10 @@ Scalar StepSize<Scalar, Rows>::GapToBound(const Scalar& bound, const Scalar& f, 
 template <class Scalar, int Rows>
 int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, int nearest,
                                     const Scalar& reach) const {
-  const auto within_reach = [&](int row) {
-    return limits_[row].exists && (row == nearest || !(limits_[row].s > reach));
+  const auto within_reach = [&](int row) -> bool {
+    if (!limits_[row].exists || row == nearest) return row == nearest;
+    if constexpr (kEncloses<Scalar>) return Order(row, nearest) <= 0;
+    return !(limits_[row].s > reach);
   };
   if (within_reach(driven)) return driven;
   int first = -1;
@@ -107,13 +118,33 @@ int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, i
   return first;
 }
 
-// Limits that may not exist: they do not matter if they are surely beyond the nearest.
+// Over enclosures: of two limits, which is reached first; 0: both at once. Accelerations may be known to reach zero
+// together where their ends do not tell.
 template <class Scalar, int Rows>
-void StepSize<Scalar, Rows>::LeaveOutUncertain(int nearest) {
-  for (Limit& limit : limits_) {
-    if (!limit.exists || !UncertainRate<Scalar>::IsReach(limit.s)) continue;
-    if (nearest < 0 || !(limit.s > limits_[nearest].s)) UncertainRate<Scalar>::Refuse();
-    limit.exists = false;
+int StepSize<Scalar, Rows>::Order(int row, int other) const {
+  const Scalar later = limits_[row].s - limits_[other].s;
+  if (Unsure<Scalar>::TellsSign(later)) return Sign(later);
+  const bool of_accelerations = IsUnknown(limits_[row].wants) && IsUnknown(limits_[other].wants);
+  if (dependent_rows_ == nullptr || !of_accelerations) Unsure<Scalar>::Refuse();
+  std::vector<bool> zero = resting_;
+  zero[other] = true;
+  if (!dependent_rows_->Follows(zero, row)) Unsure<Scalar>::Refuse();
+  return 0;
+}
+
+template <class Scalar, int Rows>
+bool StepSize<Scalar, Rows>::IsSurelyBefore(int row, int other) const {
+  const Scalar later = limits_[row].s - limits_[other].s;
+  return Unsure<Scalar>::TellsSign(later) && Sign(later) < 0;
+}
+
+// No limit is before the nearest. Those that may not exist do not matter if they are surely beyond it.
+template <class Scalar, int Rows>
+void StepSize<Scalar, Rows>::RequireBeyond(int nearest) const {
+  for (int row = 0; row < static_cast<int>(limits_.size()); ++row) {
+    const Limit& limit = limits_[row];
+    if (limit.exists && row != nearest && Order(row, nearest) < 0) Unsure<Scalar>::Refuse();
+    if (limit.may_exist && (nearest < 0 || !(limit.earliest > limits_[nearest].s))) Unsure<Scalar>::Refuse();
   }
 }
 
@@ -123,17 +154,27 @@ Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayou
                                           int driven, DriveGoal goal, Ties ties, const Scale<Scalar>& scale) {
   const int rows = problem.rows();
   int nearest = -1;
+  if constexpr (kEncloses<Scalar>) {
+    if (dependent_rows_ != nullptr) {
+      resting_ = SureZeros(state.a);
+      for (int row = 0; row < rows; ++row) resting_[row] = resting_[row] && IsSurelyZero(direction.da()[row]);
+    }
+  }
   for (int row = 0; row < rows; ++row) {
-    limits_[row].exists = false;
+    limits_[row].exists = limits_[row].may_exist = false;
     if (row == driven) {
       LimitDriven(problem, layout, state, direction, driven, goal, scale);
     } else {
       LimitMaintained(problem, layout, state, direction, row, scale);
     }
-    if (!limits_[row].exists || (kEncloses<Scalar> && UncertainRate<Scalar>::IsReach(limits_[row].s))) continue;
-    if (nearest < 0 || limits_[row].s < limits_[nearest].s) nearest = row;
+    if (!limits_[row].exists) continue;
+    if constexpr (kEncloses<Scalar>) {  // those far away may tie: what is nearest is held against all below
+      if (nearest < 0 || IsSurelyBefore(row, nearest)) nearest = row;
+    } else {
+      if (nearest < 0 || limits_[row].s < limits_[nearest].s) nearest = row;
+    }
   }
-  if constexpr (kEncloses<Scalar>) LeaveOutUncertain(nearest);
+  if constexpr (kEncloses<Scalar>) RequireBeyond(nearest);
   if (nearest < 0) return {};
   const Scalar reach = limits_[nearest].s + scale.force;
   const int limiting = FirstOf(state, driven, ties, nearest, reach);

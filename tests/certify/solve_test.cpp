@@ -227,7 +227,8 @@ TEST_CASE("solve: combinations that are not built are refused with what is") {
     }
   }
   CHECK(Refusal(kAutomatic, 3, Arithmetic::kExact).empty());
-  CHECK(!Refusal(kAutomatic, 2, Arithmetic::kQuad).empty());
+  CHECK(Refusal(kAutomatic, 2, Arithmetic::kQuad).empty());
+  CHECK(!Refusal(kAutomatic, 3, Arithmetic::kFiltered).empty());
 }
 
 }  // namespace stiction

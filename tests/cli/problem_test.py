@@ -108,7 +108,7 @@ class Solve(cli.TestCase):
 
     def test_rounded_arithmetics(self):
         file = self.file("p.json", cli.SOLVED)
-        for arithmetic in ["float", "double", "long-double"]:
+        for arithmetic in ["float", "double", "long-double", "quad"]:
             with self.subTest(arithmetic=arithmetic):
                 result = self.succeeds("solve", file, "--json", "--arithmetic", arithmetic).json()
                 self.assertEqual((result["outcome"], result["arithmetic"]), ("solved", arithmetic))
@@ -121,10 +121,41 @@ class Solve(cli.TestCase):
                 self.assertEqual((cycle["outcome"], cycle["start"], cycle["period"]), ("cycle", 3, 4))
                 self.assertIn(cycle["suspected"]["outcome"], ["cycle", "stall", "limit"])
 
+    def test_filtered_says_what_it_was_decided_on(self):
+        for problem, outcome, rung in [(cli.SOLVED, "solved", "double"), (cli.REFERENCE, "cycle", "exact")]:
+            with self.subTest(outcome=outcome):
+                file = self.file("p.json", problem)
+                code = 0 if outcome == "solved" else 1
+                result = self.succeeds("solve", file, "--json", "--method", "baraff", "--arithmetic", "filtered", code=code).json()
+                self.assertEqual((result["outcome"], result["arithmetic"], result["rung"]), (outcome, "filtered", rung))
+                exact = self.succeeds("solve", file, "--json", "--method", "baraff", code=code).json()
+                self.assertEqual(result["statistics"], exact["statistics"])
+                self.assertNotIn("rung", exact)
+                for ends, force in zip(result["f"], exact["f"]) if rung != "exact" else []:
+                    self.assertLessEqual(Fraction(ends[0]), Fraction(force))
+                    self.assertLessEqual(Fraction(force), Fraction(ends[1]))
+
+    def test_a_backward_error_is_told_in_words(self):
+        file = self.file("p.json", cli.SOLVED)
+        error = self.succeeds("solve", file, "--json", "--arithmetic", "double").json()["backward_error"]
+        self.assertLess(error["data"], 1e-14)
+        self.assertIn("A and b", error["meaning"])
+        self.assertNotIn("backward_error", self.succeeds("solve", file, "--json").json())
+        scene = self.folder / "scene.json"
+        self.succeeds("assemble", cli.ROOT / "corpus" / "scenes" / "block-in-a-valley.json", "-o", scene)
+        error = self.succeeds("solve", scene, "--json", "--arithmetic", "double").json()["backward_error"]
+        self.assertIn("masses and positions", error["meaning"])
+
+    def test_the_usual_arithmetic_says_why(self):
+        file = self.file("p.json", cli.SOLVED)
+        self.assertIn("few rows", self.succeeds("solve", file, "--json").json()["why"])
+        self.assertIn("made for doubles", self.succeeds("solve", file, "--json", "--method", "fast").json()["why"])
+        self.assertNotIn("why", self.succeeds("solve", file, "--json", "--arithmetic", "double").json())
+
     def test_what_is_not_built_is_refused(self):
         file = self.file("p.json", cli.SOLVED)
-        for arithmetic in ["quad", "filtered", "decimal"]:
-            self.refuses("solve", file, "--arithmetic", arithmetic, says=[arithmetic, "expected one of", "exact"])
+        self.refuses("solve", file, "--arithmetic", "decimal", says=["decimal", "expected one of", "exact"])
+        self.refuses("solve", file, "--arithmetic", "interval", "--method", "fast", says=["interval", "expected one of", "exact"])
         self.refuses("solve", file, "--method", "gauss", says=["gauss", "expected one of", "baraff"])
 
     def test_the_fast_method(self):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import bench_figures as bench
 import corpus_figures as corpus
+import rung_figures as rungs
 import scene_figures as scene
 import search_figures as search
 from program import ROOT
@@ -27,6 +28,7 @@ SEARCH = ("algorithm",)
 METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
 PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
          "bench/peers_tables.cpp")
+RUNGS = ("algorithm", "bench/ladder.cpp", "bench/rungs.cpp", "bench/dials.cpp", "certify/filtered.cpp")
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
 
 FIGURES = [
@@ -73,6 +75,12 @@ FIGURES = [
     Figure("starts", "reports/methods.md", "long", bench.starts, METHODS),
     Figure("method-times", "reports/methods.md", "minutes", bench.method_times, METHODS),
     Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless, METHODS),
+    Figure("certified", "reports/arithmetic.md", "minutes", rungs.certified,
+           ("algorithm", "bench/ratios.cpp", "certify/filtered.cpp")),
+    Figure("same-tables", "reports/arithmetic.md", "long", rungs.same_tables, ("algorithm", "certify/filtered.cpp")),
+    Figure("trade", "reports/arithmetic.md", "minutes", rungs.trade, RUNGS),
+    Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
+    Figure("silent", "reports/arithmetic.md", "long", rungs.silent, RUNGS),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
     Figure("structure", "reports/peers.md", "long", bench.structure, STRUCTURE),
     Figure("structure-large", "reports/peers.md", "long", bench.structure_large, STRUCTURE),

@@ -117,7 +117,7 @@ COMPLETE = "^solver: (complete|space|equivalence|reduction|4.5)"
 bug = in_file("solver/complete/complete.ipp", COMPLETE)
 bug("up-or-level", "if (sign < 0) TraceStage(DrivenAmount());", "if (sign <= 0) TraceStage(DrivenAmount());",
     "a stage is entered without a sign")
-bug("no-snap", "if constexpr (!kIsExact<Scalar>) Snap(reached.facet);", "", "the facet reached is not met exactly")
+bug("no-snap", "if constexpr (kMeetsLimits<Scalar>) Snap(reached.facet);", "", "the facet reached is not met exactly")
 bug("folds-everywhere", "determinant * last_turn < 0", "determinant * last_turn <= 0", "every piece is a fold")
 bug("ties-reversed", "if (order > 0) continue;", "if (order < 0) continue;", "of a tie the later one is taken")
 bug("bilateral-ray-sign", "return Unlimited(-sign);", "return Unlimited(sign);", "the ray of bilateral contacts is turned")
@@ -194,7 +194,7 @@ bug("forces-inconsistent", "if (!system.IsConsistent(size, scale.rate)) return S
 
 bug = in_file("solver/linear/inverse.h", LINEAR)
 bug("inverse-sign", "if (s < 0) sign_ = -sign_;", "", "updates forget the sign of the determinant")
-bug("any-pivot", "std::abs(s) > std::sqrt(std::numeric_limits<Scalar>::epsilon()) * entries", "std::abs(s) > 0",
+bug("any-pivot", "Abs(s) > sqrt(std::numeric_limits<Scalar>::epsilon()) * entries", "std::abs(s) > 0",
     "updates divide by rounding errors")
 
 bug = in_file("solver/linear/updated_system.ipp", LINEAR)
@@ -436,6 +436,46 @@ bug("curvature-witness", "y[k] = -(S(i, i) + 1) / (2 * S(i, k));", "y[k] = (S(i,
     "a direction of positive curvature")
 bug("range-obstacle", "M(i, size) != 0", "M(i, size) > 0", "an obstacle of one sign only")
 
+# ---- certified signs ---------------------------------------------------------------
+
+FILTERED = "^certify: (balls|filtered|backward)|^search: (unit|alarms)"
+
+bug = in_file("solver/problem/ball.h", FILTERED)
+bug("ball-sum-unrounded", "x.radius_ + y.radius_ + Round::OfSum(x.middle_, y.middle_, sum)", "x.radius_ + y.radius_",
+    "sums do not round")
+bug("ball-product-unrounded", "x.IsZero() || y.IsZero() ? 0 : Round::OfProduct(product)", "0.0", "products do not round")
+bug("ball-product-radius", "x.Size() * y.radius_ + x.radius_ * (y.Size() + y.radius_)", "x.Size() * y.radius_ + x.radius_ * y.Size()",
+    "the product of the radii is forgotten")
+bug("ball-least", "kUnit * std::abs(product) + kLeast", "kUnit * std::abs(product)", "products below all doubles are exact")
+bug("ball-quotient-of-unsure", "if (!(least > 0)) throw UnsureSign();", "", "what may be zero divides")
+bug("ball-quotient-radius", "x.radius_ + (Round::Size(quotient) + rounding) * y.radius_ + Rounding<double>::kLeast",
+    "x.radius_ + Rounding<double>::kLeast", "the divisor is known")
+bug("ball-zero-lost", "if (x.IsZero()) return {};", "", "zero over anything is no longer known to be zero")
+bug("ball-sign-of-zero", "if (!IsZero()) throw UnsureSign();", "", "an unsure sign is zero")
+bug("ball-earliest", "(gap.Size() - gap.radius()) / (rate.Size() + rate.radius())", "gap.Size() / rate.Size()",
+    "an unsure limit is later than it may be")
+
+bug = in_file("certify/filtered.cpp", FILTERED)
+bug("no-second-rung", "if (rungs.first <= Rung::kDoubleDouble && ", "if (false && ", "double-doubles are never asked")
+bug("rungs-beyond-last", "if (rungs.last != Rung::kExact) {", "if (false) {", "rationals are asked where they were not wanted",
+    equivalent="the verdict is the same, only slower")
+bug("complete-upper-lower", "return Mode::kSlipMinus;  // fF = mu fN", "return Mode::kSlipPlus;",
+    "the last word slides the wrong way, and rationals must help")
+bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)", "TryPublished<dd_real>(remaining, options, nullptr)",
+    "zeros of singular matrices are unsure")
+
+bug = in_file("certify/dependent_rows.cpp", FILTERED)
+bug("dependent-without-b", "M(rows, j) = problem_.b[columns[j]];", "M(rows, j) = 0;", "equations between rows of A alone",
+    equivalent="of the generators b is in the range of A, where the same equations hold for b")
+
+bug = in_file("solver/problem/backward_error.h", FILTERED)
+bug("backward-rounding", "(distance + checked.error) / of", "distance / of", "the rounding of accelerations is forgotten",
+    equivalent="an upper bound that is a few roundings larger; the tests' problems are solved to more than that")
+bug("backward-pull", "if (contact.kind == ContactKind::kSliding || (!bilateral && f[row] < 0)) return std::nullopt;",
+    "if (contact.kind == ContactKind::kSliding) return std::nullopt;", "a force that pulls has a problem nearby")
+bug("backward-opposes", "within && opposes && change < at_rest", "within && change < at_rest",
+    "friction slides along with its force")
+
 # ---- search --------------------------------------------------------------------------
 
 bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
@@ -444,6 +484,15 @@ bug("misjudged-not-counted", "tally.misjudged += exact != inexact;", "", "misjud
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
 bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
     "wrong solutions are counted as solved")
+bug("certified-undrawn", "!suspected || IsDrawn(DrawOf(place.index))", "!suspected",
+    "no certified suspicion is drawn for other methods")
+bug("unsure-believed", "if (drawn || !certified) return Examine(", "if (drawn) return Examine(",
+    "where a sign is unsure, rationals are not asked")
+bug("unconfirmed", "if (verdict.outcome != Outcome::kSolved) Confirm(place, problem, filtered);", "",
+    "what certified signs do not solve is no finding")
+bug("filtered-uncompared", "if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);", "",
+    "filtered runs are not held against rationals")
+bug("certified-unaudited", "if (audit || (exact && suspected)) {", "if (exact && suspected) {", "certified runs are not audited")
 bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check of safe problems lacks its switch")
 bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
 bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
@@ -456,7 +505,7 @@ bug("space-existence-unasked", "if (!wrong && complete.outcome != Outcome::kRay)
     "no solution in space is no finding")
 bug("space-undecided-dropped", "inexact.outcome == Outcome::kCycle", "false",
     "loops that intervals do not prove are no findings")
-bug("safe-cycle-missed", "exact == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
+bug("safe-cycle-missed", "outcome == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
     "cycles of safe problems are cycles like others")
 bug("ties-not-excused", "if (HasTies(problem, run)) return;", "", "safe problems with ties are findings")
 bug("give-ups-not-read", "if (run.verdict.statistics.give_ups == 0) return;", "", "every safe problem gives up")
@@ -471,7 +520,7 @@ bug("audit-once", "if (audit) until_audit = campaign.audit_every;", "until_audit
 bug("one-too-many", "static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit",
     "static_cast<std::int64_t>(result_.candidates.size()) > campaign_.representatives_per_unit",
     "one representative too many")
-bug("lemke-on-audits-only", "with_lemke || draw % static_cast<std::uint64_t>(campaign_.lemke_every) == 0", "with_lemke",
+bug("lemke-on-audits-only", "with_lemke || IsOneIn(draw, campaign_.lemke_every)", "with_lemke",
     "suspicions are never run by Lemke's method")
 bug("safety-of-fewer", "if (task_.contacts > kMostContactsEnumerated) return;",
     "if (task_.contacts >= kMostContactsEnumerated) return;", "the largest problems are not checked")

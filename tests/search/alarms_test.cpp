@@ -14,6 +14,7 @@
 #include "certify/agreement.h"
 #include "certify/enumerate.h"
 #include "certify/exact.h"
+#include "certify/filtered.h"
 #include "certify/existence.h"
 #include "certify/published_space.h"
 #include "certify/space.h"
@@ -78,9 +79,21 @@ std::set<std::string> KindsKept(const UnitResult& result) {
   return kinds;
 }
 
+// Whose certified signs leave everything to rationals, where the test's own run is.
+ExactMethods WithoutSigns() {
+  ExactMethods methods;
+  methods.filtered = [](const ExactProblem&, const PublishedOptions&, const Rungs& rungs) {
+    FilteredVerdict filtered;
+    filtered.verdict.reason = kUnsureSign;
+    filtered.rung = rungs.last;
+    return filtered;
+  };
+  return methods;
+}
+
 // A method that answers in this outcome whatever the problem.
 ExactMethods PublishedEndsIn(Outcome outcome) {
-  ExactMethods methods;
+  ExactMethods methods = WithoutSigns();
   methods.published = [outcome](const ExactProblem& problem, const PublishedOptions& options) {
     ExactRun run = RunExact(problem, options);
     run.verdict.outcome = outcome;
@@ -101,6 +114,61 @@ TEST_CASE("alarms: none rings with right solvers") {
   CHECK(result.record.agreement.at(2).disagreements == 0);
   CHECK(result.record.existence.at(2).solved == kTried);
   for (const Finding& finding : result.candidates) CHECK_FALSE(IsGrave(finding.kind));
+}
+
+// ---- Certified signs that are not ------------------------------------------------------------
+
+TEST_CASE("alarms: a filtered run that ends otherwise than over rationals is a grave finding") {
+  for (const Arithmetic arithmetic : {Arithmetic::kDouble, Arithmetic::kFiltered}) {
+    for (const bool outcome : {true, false}) {  // or another number of steps
+      UnitSolvers solvers;
+      std::int64_t decided = 0;
+      solvers.exact.filtered = [&](const ExactProblem& problem, const PublishedOptions& options,
+                                   const Rungs& rungs) {
+        FilteredVerdict filtered = RunPublishedFiltered(problem, options, rungs);
+        if (filtered.verdict.outcome == Outcome::kUndecided) return filtered;
+        ++decided;
+        if (outcome) {
+          filtered.verdict.outcome = Outcome::kRay;
+        } else {
+          ++filtered.verdict.statistics.steps;
+        }
+        return filtered;
+      };
+      Campaign campaign = Audited();
+      campaign.arithmetic = arithmetic;
+      const UnitResult result = RunWith(campaign, solvers);
+      CAPTURE(Name(arithmetic), outcome);
+      CHECK(decided > kTried / 2);
+      CHECK(MetOf(result, "disagreement-of-methods-filtered-baraff-2c") == decided);
+      CHECK(std::any_of(result.candidates.begin(), result.candidates.end(),
+                        [](const Finding& finding) { return IsGrave(finding.kind); }));
+    }
+  }
+}
+
+TEST_CASE("alarms: complete driving with certified signs that does not solve a loop is a grave finding") {
+  Campaign campaign = Audited(GeneratorId::kNearDegenerate, 4);
+  campaign.unit_problems = 12000;
+  campaign.audit_every = campaign.lemke_every = campaign.enumerate_every = 1000000;
+  CHECK(RunWith(campaign, {}).record.agreement[4].disagreements == 0);
+  for (const bool ray : {true, false}) {  // or forces that are none
+    UnitSolvers solvers;
+    solvers.exact.complete_filtered = [ray](const ExactProblem& problem, const Limits& limits) {
+      FilteredComplete filtered = RunCompleteFiltered(problem, limits);
+      if (ray) filtered.run.verdict.outcome = Outcome::kRay;
+      filtered.run.f[0] += 1;
+      return filtered;
+    };
+    const UnitResult result = RunWith(campaign, solvers);
+    CAPTURE(ray);
+    const std::int64_t alarms =
+        MetOf(result, ray ? "disagreement-of-methods-complete-ray-4c" : "disagreement-of-methods-complete-wrong-4c");
+    CHECK(alarms > 0);
+    CHECK(alarms + result.record.existence.at(4).solved == result.record.existence.at(4).problems);
+    CHECK(std::any_of(result.candidates.begin(), result.candidates.end(),
+                      [](const Finding& finding) { return IsGrave(finding.kind); }));
+  }
 }
 
 // ---- Doubles that say something wrong --------------------------------------------------------
@@ -382,7 +450,7 @@ TEST_CASE("alarms: a grave finding is kept in a unit that is full, others are no
   Campaign campaign = Audited();
   campaign.representatives_per_unit = 1;
   int runs = 0;
-  UnitSolvers solvers;
+  UnitSolvers solvers = {WithoutSigns(), {}};
   solvers.distort = [](Verdict& verdict, std::span<double>) { verdict.outcome = Outcome::kRay; };
   solvers.exact.complete = [&runs](const ExactProblem& problem, const Limits& limits) {
     ++runs;
@@ -428,7 +496,7 @@ TEST_CASE("alarms: a cycle of a safe problem has a grave kind and signature of i
 
 // Gives something up under this value of the switch only.
 ExactMethods GivesUpUnder(Apex apex, std::vector<Policy>& asked) {
-  ExactMethods methods;
+  ExactMethods methods = WithoutSigns();
   methods.published = [apex, &asked](const ExactProblem& problem, const PublishedOptions& options) {
     asked.push_back(options.policy);
     ExactRun run = RunExact(problem, options);

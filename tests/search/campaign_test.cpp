@@ -62,7 +62,7 @@ TEST_CASE("campaign: every key of a file is read") {
   const Campaign campaign = Read(With(
       R"("seed": 9223372036854775807, "generators": ["bodies", "psd"], "contacts": [8, 1], "mu": ["0", "1/3", "0.5"],
          "policies": ["paper", "ties=contacts"], "unit_problems": 11, "audit_every": 12,
-         "lemke_every": 17, "enumerate_every": 18, "representatives_per_unit": 13, "max_drives": 14, "max_pivots": 15, "max_bits": 16)"));
+         "complete_every": 19, "arithmetic": "filtered", "lemke_every": 17, "enumerate_every": 18, "representatives_per_unit": 13, "max_drives": 14, "max_pivots": 15, "max_bits": 16)"));
   CHECK(campaign.seed == std::numeric_limits<std::int64_t>::max());
   CHECK(campaign.generators == std::vector{GeneratorId::kBodies, GeneratorId::kPsd});
   CHECK(campaign.contacts == std::vector{8, 1});
@@ -70,6 +70,8 @@ TEST_CASE("campaign: every key of a file is read") {
   CHECK(campaign.policies == std::vector{Policy{}, ParsePolicy("ties=contacts")});
   CHECK(campaign.unit_problems == 11);
   CHECK(campaign.audit_every == 12);
+  CHECK(campaign.complete_every == 19);
+  CHECK(campaign.arithmetic == Arithmetic::kFiltered);
   CHECK(campaign.lemke_every == 17);
   CHECK(campaign.enumerate_every == 18);
   CHECK(campaign.representatives_per_unit == 13);
@@ -174,7 +176,7 @@ TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
   CHECK(definition ==
         R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
         R"("unit_problems":50,"audit_every":5000,"lemke_every":100,"enumerate_every":1000,)"
-        R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99})");
+        R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99,"complete_every":100})");
   CHECK(Read(definition) == campaign);
   CHECK(Read(DefinitionToJson(Campaign{}).dump()) == Campaign{});
 }
@@ -198,13 +200,33 @@ TEST_CASE("campaign: the identity is the same however the file is written, and d
        {R"("seed": 2)", R"("generators": ["psd"])", R"("contacts": [2])", R"("mu": ["1"])",
         R"("policies": ["ties=contacts"])", R"("unit_problems": 1)", R"("audit_every": 1)",
         R"("lemke_every": 1)", R"("enumerate_every": 1)", R"("representatives_per_unit": 1)",
-        R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)"}) {
+        R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)", R"("complete_every": 1)",
+        R"("arithmetic": "exact")"}) {
     CAPTURE(members);
     CHECK_FALSE(identity(members) == identity(""));
   }
   CHECK(identity("").build == "build");
   CHECK(identity(R"("seed": 5)").definition == identity("").definition);
   CHECK(identity(R"("policies": ["ties=contacts"])").definition == identity("").definition);
+}
+
+TEST_CASE("campaign: a store from before lots for complete driving goes on as it began") {
+  CampaignIdentity identity = IdentityOf(Campaign{}, "build");
+  CHECK(CampaignOf(identity, "store").complete_every == 100);
+  const std::string key = R"(,"complete_every":100)";
+  identity.definition.erase(identity.definition.find(key), key.size());
+  const Campaign before = CampaignOf(identity, "store");
+  CHECK(before.complete_every == 1);
+  CHECK(IdentityOf(before, "build").definition == identity.definition);
+}
+
+TEST_CASE("campaign: certified signs are for the plane, without an objective") {
+  const auto refused = [](const std::string& members, const char* says) {
+    CHECK_THROWS_WITH(RequireConsistent(Read(With(members))), Contains(says));
+  };
+  refused(R"("arithmetic": "exact", "generators": ["space"], "policies": ["slip=redirect"])", "expected double in space");
+  refused(R"("arithmetic": "filtered", "objective": "friction")", "expected double");
+  CHECK_THROWS_WITH(Read(With(R"("arithmetic": "float")")), Contains("expected double, filtered or exact"));
 }
 
 // Each policy is a column of the statistics: twice the same would count every problem twice.

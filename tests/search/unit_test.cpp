@@ -360,6 +360,7 @@ TEST_CASE("unit: methods are compared, and all modes tried, as often as the camp
 TEST_CASE("unit: Lemke's method runs on all audits, and by lot on suspicions") {
   Campaign campaign = Small(GeneratorId::kConditioned, 2, 1000);
   campaign.audit_every = 1000000;
+  campaign.complete_every = 1;
   const auto counts = [&campaign](std::int64_t every) {
     campaign.lemke_every = every;
     const Record record = UnitRunner(campaign).Run(0).record;
@@ -371,6 +372,71 @@ TEST_CASE("unit: Lemke's method runs on all audits, and by lot on suspicions") {
   const auto [some, same] = counts(1000000);
   CHECK(same == problems);
   CHECK(some <= 1);  // the first problem, audited
+}
+
+TEST_CASE("unit: suspicions that certified signs refute are seen by other methods by lot, and counted alike") {
+  Campaign campaign = Small(GeneratorId::kConditioned, 2, 3000);
+  campaign.audit_every = 1000000;
+  const auto run = [&campaign](std::int64_t every) {
+    campaign.complete_every = campaign.lemke_every = campaign.enumerate_every = every;
+    return UnitRunner(campaign).Run(0);
+  };
+  const UnitResult all = run(1), few = run(1000000);
+  const Tally &of_all = all.record.tallies.begin()->second, &of_few = few.record.tallies.begin()->second;
+  CHECK(of_all == of_few);  // verdicts, rungs and all
+  CHECK(all.candidates == few.candidates);
+  CHECK(of_few.rungs[static_cast<int>(Rung::kDoubleDouble)] > of_few.rungs[static_cast<int>(Rung::kExact)]);
+  const std::int64_t compared = few.record.existence.at(2).problems;
+  CHECK(compared >= 1);
+  CHECK(compared < all.record.existence.at(2).problems / 2);
+}
+
+TEST_CASE("unit: what certified signs confirm is counted and signed as by rationals") {
+  Campaign campaign = Small(GeneratorId::kNearDegenerate, 4, 3000);
+  campaign.audit_every = 1000000;
+  campaign.complete_every = campaign.lemke_every = campaign.enumerate_every = 1000000;
+  const UnitResult certified = UnitRunner(campaign).Run(0);
+  campaign.complete_every = 1;
+  const UnitResult exact = UnitRunner(campaign).Run(0);
+  CHECK(certified.record.signatures == exact.record.signatures);
+  CHECK(certified.record.tallies == exact.record.tallies);
+  CHECK(certified.candidates == exact.candidates);
+  CHECK(certified.record.signatures.size() > 4);  // loops, and what doubles suspected
+  // Of what is solved only rationals tell complete driving; loops it solves in both.
+  const ExistenceTally& confirmed = certified.record.existence.at(4);
+  CHECK(confirmed.problems > 5);
+  CHECK(confirmed.solved == confirmed.problems);
+  CHECK(confirmed.with_folds > 0);
+}
+
+TEST_CASE("unit: with certified signs from the start all counts are those of rationals") {
+  for (const GeneratorId generator : {GeneratorId::kSmall, GeneratorId::kConditioned, GeneratorId::kBilateral}) {
+    Campaign campaign = Small(generator, 3, 120);
+    campaign.audit_every = 1;
+    campaign.policies = {Policy{}, ParsePolicy("give-up=second,ties=contacts")};
+    const auto run = [&campaign](Arithmetic arithmetic) {
+      campaign.arithmetic = arithmetic;
+      return UnitRunner(campaign).Run(0);
+    };
+    const UnitResult filtered = run(Arithmetic::kFiltered), exact = run(Arithmetic::kExact);
+    CAPTURE(Row(generator).name);
+    CHECK(filtered.record.signatures == exact.record.signatures);
+    CHECK(filtered.record.existence == exact.record.existence);
+    CHECK(filtered.record.agreement == exact.record.agreement);
+    CHECK(filtered.candidates.size() == exact.candidates.size());
+    REQUIRE(filtered.record.tallies.size() == 2);
+    for (const auto& [key, tally] : filtered.record.tallies) {
+      CHECK(key.arithmetic == "filtered");
+      TallyKey other = key;
+      other.arithmetic = "exact";
+      Tally without = tally;
+      CHECK(std::accumulate(without.rungs.begin(), without.rungs.end(), std::int64_t{0}) == 120);
+      without.rungs = {};
+      CHECK(without == exact.record.tallies.at(other));
+      CHECK(tally.audited + Sum(tally.outcomes) - tally.outcomes[static_cast<int>(Outcome::kSolved)] == 120);
+      CHECK(tally.misjudged == 0);
+    }
+  }
 }
 
 // Too small a budget makes a method end otherwise than it must: a wrong method as a unit sees one.

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/rungs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "corpus/input_error.h"
+#include "corpus/input_file.h"
+#include "corpus/intervals.h"
+#include "reports/page.h"
+
+namespace stiction {
+namespace {
+
+// ---- Reading -------------------------------------------------------------------------------------
+
+std::vector<std::string> Split(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == at) {
+      parts.emplace_back();
+    } else if (c != '\r') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// The cells of one line by the names of the columns.
+class Cells {
+ public:
+  Cells(const std::filesystem::path& file, std::size_t line, const std::vector<std::string>& names,
+        std::vector<std::string> cells)
+      : file_(file), line_(line), names_(names), cells_(std::move(cells)) {
+    if (cells_.size() != names_.size())
+      throw InputError(fmt::format("{}:{}: found {} cells, expected {}", file_.string(), line_, cells_.size(),
+                                   names_.size()));
+  }
+
+  const std::string& Text(const std::string& name) const {
+    const auto at = std::find(names_.begin(), names_.end(), name);
+    if (at == names_.end())
+      throw InputError(fmt::format("{}:1: found no column {}, expected a file of bench --csv", file_.string(), name));
+    return cells_[static_cast<std::size_t>(at - names_.begin())];
+  }
+
+  template <class Value>
+  Value Number(const std::string& name, const char* expected) const {
+    const std::string& text = Text(name);
+    Value value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool fits = error == std::errc() && end == text.data() + text.size();
+    if constexpr (std::is_floating_point_v<Value>) fits = fits && std::isfinite(value) && value >= 0;
+    if (!fits) throw InputError(fmt::format("{}:{}: {}: found '{}', expected {}", file_.string(), line_, name, text, expected));
+    return value;
+  }
+  std::int64_t Count(const std::string& name) const {
+    const auto count = Number<std::int64_t>(name, "a count");
+    if (count < 0) throw InputError(fmt::format("{}:{}: {}: found {}, expected a count", file_.string(), line_, name, count));
+    return count;
+  }
+  std::optional<double> Measure(const std::string& name) const {
+    if (Text(name).empty()) return std::nullopt;
+    return Number<double>(name, "a number, or nothing");
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  std::size_t line_;
+  const std::vector<std::string>& names_;
+  std::vector<std::string> cells_;
+};
+
+// ---- One row of a family: a method over an arithmetic, over all settings -----------------------
+
+struct RungSum {
+  std::string method, arithmetic;
+  std::int64_t asked = 0, solved = 0, undecided = 0, wrong = 0, silent = 0;
+  std::vector<double> microseconds;
+  double worst = 0;
+
+  void Add(const RungLine& line) {
+    asked += line.problems - line.refused;
+    solved += line.solved;
+    undecided += line.undecided;
+    wrong += line.wrong;
+    silent += line.silent;
+    if (line.microseconds) microseconds.push_back(*line.microseconds);
+    worst = std::max(worst, line.worst_residual.value_or(0));
+  }
+  double Median() const {
+    std::vector<double> sorted = microseconds;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[sorted.size() / 2];
+  }
+  // What is no right answer.
+  double LostShare() const { return static_cast<double>(wrong + undecided) / static_cast<double>(asked); }
+};
+
+std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
+  std::vector<RungSum> sums;
+  for (const RungLine* line : lines) {
+    auto sum = std::find_if(sums.begin(), sums.end(), [line](const RungSum& s) {
+      return s.method == line->method && s.arithmetic == line->arithmetic;
+    });
+    if (sum == sums.end()) sum = sums.insert(sums.end(), RungSum{line->method, line->arithmetic, 0, 0, 0, 0, 0, {}, 0});
+    sum->Add(*line);
+  }
+  return sums;
+}
+
+// ---- The plot: time across, what is lost up ------------------------------------------------------
+
+constexpr double kLeft = 40, kTop = 8, kWidth = 300, kHeight = 150;
+constexpr double kBase = kTop + kHeight;
+
+double Decade(double x) { return std::log10(std::max(x, 1e-3)); }
+
+class Plot {
+ public:
+  explicit Plot(const std::vector<RungSum>& sums) : sums_(sums) {
+    for (const RungSum& sum : sums_) {
+      if (sum.microseconds.empty() || sum.asked == 0) continue;
+      low_ = std::min(low_, std::floor(Decade(sum.Median())));
+      high_ = std::max(high_, std::ceil(Decade(sum.Median())));
+      most_ = std::max(most_, sum.LostShare());
+    }
+    if (high_ <= low_) high_ = low_ + 1;
+  }
+
+  Html Draw(const std::string& label) const {
+    const std::string view = fmt::format("0 0 {:.0f} {:.0f}", kLeft + kWidth + 10, kBase + 34);
+    Html marks = Scale();
+    for (const RungSum& sum : sums_) {
+      if (!sum.microseconds.empty() && sum.asked > 0) marks += Mark(sum);
+    }
+    return Tag("svg", {{"viewBox", view}, {"role", "img"}, {"aria-label", label}})(Html("\n") + marks);
+  }
+
+ private:
+  double X(double microseconds) const { return kLeft + kWidth * (Decade(microseconds) - low_) / (high_ - low_); }
+  double Y(double share) const { return kBase - kHeight * share / most_; }
+
+  static Html Label(double x, double y, const char* anchor, const std::string& text) {
+    return Tag("text", {{"x", Fixed(x)}, {"y", Fixed(y)}, {"text-anchor", anchor}})(text) + Html("\n");
+  }
+  static Html Line(double x1, double y1, double x2, double y2) {
+    return Tag("line", {{"x1", Fixed(x1)}, {"y1", Fixed(y1)}, {"x2", Fixed(x2)}, {"y2", Fixed(y2)}})("");
+  }
+
+  Html Scale() const {
+    Html scale;
+    for (double decade = low_; decade <= high_; ++decade) {
+      const double x = kLeft + kWidth * (decade - low_) / (high_ - low_);
+      scale += Line(x, kTop, x, kBase) + Label(x, kBase + 14, "middle", fmt::format("{:g}", std::pow(10.0, decade)));
+    }
+    for (const double part : {0.0, 0.5, 1.0})
+      scale += Line(kLeft, Y(part * most_), kLeft + kWidth, Y(part * most_)) +
+               Label(kLeft - 4, Y(part * most_) + 4, "end", fmt::format("{:.3g} %", 100 * part * most_));
+    return scale + Label(kLeft + kWidth, kBase + 28, "end", "microseconds");
+  }
+
+  // Certified ones are filled.
+  Html Mark(const RungSum& sum) const {
+    const bool certified = sum.arithmetic == "filtered" || sum.arithmetic == "exact";
+    const std::string tip = fmt::format("{} {}: {:.3g} microseconds, {} solved, {} wrong, {} undecided of {}", sum.method,
+                                        sum.arithmetic, sum.Median(), Grouped(sum.solved), Grouped(sum.wrong),
+                                        Grouped(sum.undecided), Grouped(sum.asked));
+    return Tag("circle", {{"cx", Fixed(X(sum.Median()))},
+                          {"cy", Fixed(Y(sum.LostShare()))},
+                          {"r", certified ? "4.5" : "3"},
+                          {"fill", certified ? "currentColor" : "none"},
+                          {"stroke", "currentColor"}})(Tag("title")(tip)) +
+           Html("\n");
+  }
+
+  const std::vector<RungSum>& sums_;
+  double low_ = 6, high_ = -3, most_ = 0.01;
+};
+
+Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
+  Table table("Rungs on " + family, {{"method", "", false},
+                                     {"arithmetic", "", false},
+                                     {"microseconds", "median of the settings' medians"},
+                                     {"problems", "that its numbers hold"},
+                                     {"solved"},
+                                     {"undecided"},
+                                     {"wrong", "another end than over rationals; below: the share, with its interval at 95 %"},
+                                     {"silent", "called solved within a residual that it does not have"},
+                                     {"worst residual", "of what is called solved, over rationals"}});
+  for (const RungSum& sum : sums) {
+    const Html share = Tag("small")(ShareText(sum.wrong, sum.asked));
+    table.AddRow({{Text(sum.method)},
+                  {Text(sum.arithmetic)},
+                  {Text(sum.microseconds.empty() ? "" : fmt::format("{:.3g}", sum.Median()))},
+                  {Text(Grouped(sum.asked))},
+                  {Text(Grouped(sum.solved))},
+                  {Text(Grouped(sum.undecided))},
+                  {Text(Grouped(sum.wrong)) + share},
+                  {Text(Grouped(sum.silent))},
+                  {Text(fmt::format("{:.0e}", sum.worst))}},
+                 2);
+  }
+  return table.Done();
+}
+
+}  // namespace
+
+std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
+  const std::vector<std::string> texts = Split(ReadText(file), '\n');
+  const std::vector<std::string> names = Split(texts.front(), ',');
+  std::vector<RungLine> lines;
+  for (std::size_t i = 1; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;
+    const Cells cells(file, i + 1, names, Split(texts[i], ','));
+    RungLine line;
+    line.family = cells.Text("family");
+    line.method = cells.Text("method");
+    line.arithmetic = cells.Text("arithmetic");
+    line.setting = cells.Number<int>("setting", "an integer");
+    line.problems = cells.Count("problems");
+    line.solved = cells.Count("solved");
+    line.undecided = cells.Count("undecided");
+    line.other = cells.Count("other");
+    line.refused = cells.Count("refused");
+    line.wrong = cells.Count("wrong");
+    line.silent = cells.Count("silent");
+    line.microseconds = cells.Measure("microseconds_median");
+    line.worst_residual = cells.Measure("worst_residual");
+    if (line.solved + line.undecided + line.other + line.refused != line.problems || line.wrong > line.problems ||
+        line.silent > line.solved + line.other)
+      throw InputError(fmt::format("{}:{}: found counts that do not add up to {} problems", file.string(), i + 1, line.problems));
+    lines.push_back(std::move(line));
+  }
+  if (lines.empty()) throw InputError(fmt::format("{}: found no line, expected a file of bench --csv", file.string()));
+  return lines;
+}
+
+Html RungsSection(const std::vector<RungLine>& lines) {
+  std::vector<std::string> families;
+  std::map<std::string, std::vector<const RungLine*>> by_family;
+  for (const RungLine& line : lines) {
+    if (by_family[line.family].empty()) families.push_back(line.family);
+    by_family[line.family].push_back(&line);
+  }
+  Html plots, tables;
+  for (const std::string& family : families) {
+    const std::vector<RungSum> sums = SumsOf(by_family[family]);
+    plots += Tag("figure")(Tag("figcaption")(family) + Plot(sums).Draw("Time and lost answers on " + family)) + Html("\n");
+    tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
+  }
+  return Section("rungs", "Speed against accuracy",
+                 Html("<p>Across: microseconds a problem, on a logarithmic scale. Up: the share that ends wrongly or "
+                      "undecided. A dot is a method over an arithmetic; filtered and exact ones are filled.</p>\n") +
+                     Tag("div", {{"class", "charts"}})(Html("\n") + plots) + Html("\n") + tables);
+}
+
+}  // namespace stiction

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// The planar methods over balls: the pivots of rationals, and forces within their ends. Rung after rung they end
+// as runs over rationals do.
+
+#include "certify/filtered.h"
+
+#include <catch2/catch.hpp>
+
+#include "certify/certificate.h"
+#include "certify/exact.h"
+#include "certify/existence.h"
+#include "certify/verify_solution.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// Positive definite, numbers that are no doubles and tie by no accident.
+ExactProblem Generic(int contacts, std::uint64_t seed) {
+  Choices choices(seed);
+  static const std::vector<Rational> palette = {Rational(1, 5), Rational(1, 3), 1, 2, 5};
+  ExactProblem problem;
+  const int rows = 2 * contacts;
+  for (int i = 0; i < contacts; ++i)
+    problem.contacts.push_back({ContactKind::kStatic, palette[choices.Integer(0, 4)], {}});
+  ExactMatrix J(rows, rows);
+  for (Rational& x : J.reshaped()) x = Rational(choices.Integer(-1000, 1000)) / 7;
+  problem.A = J * J.transpose();
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    problem.A(i, i) += 1;
+    problem.b[i] = Rational(choices.Integer(-1000, i % 2 == 0 ? 300 : 1000)) / 3;
+  }
+  return problem;
+}
+
+// What the pivots did, in words.
+template <class Scalar>
+std::vector<std::string> Steps(const std::vector<Pivot<Scalar>>& pivots) {
+  std::vector<std::string> steps;
+  for (const auto& pivot : pivots) {
+    steps.push_back(std::to_string(pivot.driven) + " " + std::to_string(pivot.limiting) + " " + Name(pivot.to) +
+                    " " + pivot.entering + " " + pivot.leaving);
+  }
+  return steps;
+}
+
+void CheckEnclosed(const std::vector<Enclosure>& ends, const ExactVector& values) {
+  REQUIRE(ends.size() == static_cast<std::size_t>(values.size()));
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    CHECK(Rational(ends[i].low) <= values[i]);
+    CHECK(values[i] <= Rational(ends[i].high));
+  }
+}
+
+// Whether the run was decided. What it says is what the exact run says, pivot by pivot.
+bool Agrees(const InexactAnswer& run, const ExactAnswer& exact) {
+  const auto steps = Steps(run.pivots), all = Steps(exact.pivots);
+  REQUIRE(steps.size() <= all.size());
+  CHECK(std::equal(steps.begin(), steps.end(), all.begin()));
+  if (run.outcome == Outcome::kUndecided) {
+    CHECK(run.reason == kUnsureSign);
+    return false;
+  }
+  CHECK(run.outcome == exact.outcome);
+  CHECK(run.start == exact.start);
+  CHECK(run.period == exact.period);
+  CHECK(run.counters == exact.counters);
+  CHECK(run.word == exact.word);
+  CHECK(steps.size() == all.size());
+  if (exact.Solved()) {
+    CheckEnclosed(run.f_enclosed, exact.f);
+    CheckEnclosed(run.a_enclosed, exact.a);
+  }
+  return true;
+}
+
+// On both rungs; whether each decided.
+struct Decided {
+  bool narrow = false, wide = false;
+};
+Decided AgreeOnRungs(std::string_view method, const ExactProblem& problem, const Policy& policy = {}) {
+  SolveRequest request{.method = std::string(method), .trace = KeepTrace::kYes};
+  request.options.policy = policy;
+  const ExactAnswer exact = std::get<ExactAnswer>(SolveIn(problem, request).answer);
+  const auto agrees = [&](Rung rung) {
+    return Agrees(RunEnclosed(method, problem, request.options, rung, KeepTrace::kYes), exact);
+  };
+  return {agrees(Rung::kDouble), agrees(Rung::kDoubleDouble)};
+}
+
+TEST_CASE("filtered: of 300 generic problems all but a few are decided on the first rung") {
+  for (const std::string_view method : kEnclosedMethods) {
+    int decided = 0, bounces = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+      CAPTURE(method, seed);
+      const ExactProblem problem = Generic(1 + static_cast<int>(seed % 5), seed);
+      decided += AgreeOnRungs(method, problem).narrow;
+      bounces += RunExact(problem, {}).verdict.statistics.zero_steps > 0;
+    }
+    CHECK(decided >= 299);
+    CHECK(bounces > 0);  // zero steps are known from the sets
+  }
+}
+
+TEST_CASE("filtered: a problem beyond the doubles is undecided on a rung, and decided on the last") {
+  const Rational huge = Number("1e309");
+  for (int entry = 0; entry < 4; ++entry) {
+    ExactProblem problem = MakeProblem({1}, {{2, 0}, {0, 3}}, {-1, 1});
+    if (entry == 0) problem.A(0, 0) = huge;
+    if (entry == 1) problem.A(1, 1) = huge;
+    if (entry == 2) problem.b[0] = -huge;
+    if (entry == 3) problem.contacts[0].mu = huge;
+    for (const std::string_view method : kEnclosedMethods) {
+      CAPTURE(entry, method);
+      for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
+        const InexactAnswer run = RunEnclosed(method, problem, {}, rung);
+        CHECK((run.Solved() || run.outcome == Outcome::kUndecided));
+      }
+      const Solution filtered = SolveIn(
+          problem, {.method = std::string(method), .arithmetic = Arithmetic::kFiltered});
+      CHECK(filtered.outcome() == Outcome::kSolved);
+    }
+  }
+}
+
+TEST_CASE("filtered: with ties, cycles and rays no verdict is wrong") {
+  int narrow = 0, wide = 0, all = 0;
+  const auto count = [&](const Decided& decided) {
+    narrow += decided.narrow;
+    wide += decided.wide;
+    ++all;
+  };
+  for (const GeneratorRow& generator : Generators()) {
+    if (!generator.IsPlain()) continue;
+    for (int index = 0; index < Few(20); ++index) {
+      const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 4, index);
+      CAPTURE(generator.name, index);
+      for (const char* policy : {"paper", "admit=eager,file=yes,apex=suspended"})
+        count(AgreeOnRungs("baraff", problem, ParsePolicy(policy)));
+      count(AgreeOnRungs("complete", problem));
+      count(AgreeOnRungs("lemke", problem));
+    }
+  }
+  CHECK(narrow > 0);
+  CHECK(narrow < wide);
+  CHECK(wide < all);
+  AgreeOnRungs("baraff", GiveUpProblem());
+  for (const std::string_view method : kEnclosedMethods) {
+    AgreeOnRungs(method, NoSolution());
+    CHECK(AgreeOnRungs(method, NoContacts()).narrow);
+  }
+}
+
+TEST_CASE("filtered: loops are proved without rationals where the sets decide the forces") {
+  int proved = 0;
+  for (const CyclingSeed& seed : CyclingSeeds()) {
+    CAPTURE(seed.contacts, seed.index);
+    const Decided decided = AgreeOnRungs("baraff", Cycling(seed));
+    proved += decided.narrow && decided.wide;
+  }
+  AgreeOnRungs("baraff", ReferenceProblem());
+  CHECK(proved == static_cast<int>(CyclingSeeds().size()));
+}
+
+TEST_CASE("filtered: bilateral and sliding contacts leave exactly, and runs are told in their terms") {
+  for (const std::string_view method : kEnclosedMethods) {
+    int decided = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      CAPTURE(method, seed);
+      decided += AgreeOnRungs(method, Bordered(Generic(2, seed))).narrow;
+    }
+    CHECK(decided >= 55);
+  }
+}
+
+TEST_CASE("filtered: of problem after problem the verdict is that of rationals, whichever rung it begins on") {
+  std::array<int, 3> decided = {};
+  for (const char* name : {"paper", "admit=eager,file=yes,apex=suspended", "scan=most-violated"}) {
+    PublishedOptions options;
+    options.policy = ParsePolicy(name);
+    for (const GeneratorRow& generator : Generators()) {
+      if (generator.InSpace()) continue;
+      for (int index = 0; index < Few(40); ++index) {
+        const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 5, index);
+        const Verdict exact = RunExact(problem, options).verdict;
+        for (const Rung first : {Rung::kDouble, Rung::kDoubleDouble, Rung::kExact}) {
+          CAPTURE(name, generator.name, index, Name(first));
+          const auto [verdict, rung] = RunPublishedFiltered(problem, options, {.first = first});
+          CHECK(verdict.outcome == exact.outcome);
+          CHECK(verdict.statistics == exact.statistics);
+          CHECK(verdict.start == exact.start);
+          CHECK(verdict.period == exact.period);
+          CHECK(rung >= first);
+          decided[static_cast<int>(rung)] += first == Rung::kDouble;
+        }
+      }
+    }
+  }
+  CHECK(decided[0] > 0);
+  CHECK(decided[1] > 0);
+  CHECK(decided[2] > 0);
+}
+
+TEST_CASE("filtered: complete driving counts as over rationals, and its forces solve the problem") {
+  std::array<int, 3> decided = {};
+  for (const GeneratorRow& generator : Generators()) {
+    if (generator.InSpace()) continue;
+    for (int index = 0; index < Few(60); ++index) {
+      const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 5, index);
+      CAPTURE(generator.name, index);
+      const CompleteRun exact = RunComplete(problem, {});
+      const auto [run, rung] = RunCompleteFiltered(problem, {});
+      ++decided[static_cast<int>(rung)];
+      CHECK(run.verdict.outcome == exact.verdict.outcome);
+      CHECK(run.verdict.statistics == exact.verdict.statistics);
+      CHECK(run.word == exact.word);
+      if (run.verdict.outcome != Outcome::kSolved) continue;
+      CHECK_FALSE(FindViolation(problem, run.f));
+      CHECK(run.a == ExactVector(problem.A * run.f + problem.b));
+    }
+  }
+  CAPTURE(decided[0], decided[1], decided[2]);
+  CHECK(decided[0] > 0);
+  CHECK(decided[1] > 0);
+  CHECK(decided[2] < decided[0]);
+  CHECK(RunCompleteFiltered(NoSolution(), {}).run.verdict.outcome == Outcome::kRay);
+  CHECK(RunCompleteFiltered(GiveUpProblem(), {}).rung != Rung::kExact);
+}
+
+TEST_CASE("filtered: existence is decided by the end of a run, few rows or many, and its certificate is accepted") {
+  for (const auto& [contacts, method] : {std::pair{3, "complete"}, std::pair{14, "fast"}}) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      CAPTURE(contacts, seed);
+      const Existence existence = DecideExistence(Generic(contacts, seed), {});
+      CHECK(existence.method == method);
+      CHECK(CheckCertificate(existence.certificate, "test").accepted);
+    }
+  }
+  // Where doubles hold none of it, rationals do.
+  ExactProblem beyond = Generic(13, 1);
+  for (auto& contact : beyond.contacts) contact.mu *= Number("1e400");
+  const Existence existence = DecideExistence(beyond, {});
+  CHECK(CheckCertificate(existence.certificate, "test").accepted);
+  CHECK(DecideExistence(NoSolution(), {}).certificate.at("claim") == "no-solution");
+}
+
+// Of A = J J' with fewer columns than rows: most accelerations follow from a few.
+TEST_CASE("filtered: accelerations that follow from others are known to be zero, and to reach zero together") {
+  int wide = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Choices choices(seed);
+    ExactProblem problem = Generic(3, seed);
+    ExactMatrix J(6, 3);
+    ExactVector y(3);
+    for (Rational& x : J.reshaped()) x = Rational(choices.Integer(-1000, 1000)) / 7;
+    for (Rational& x : y) x = choices.Integer(-1000, 1000);
+    problem.A = J * J.transpose();
+    problem.b = J * y;
+    CAPTURE(seed);
+    const Verdict exact = RunExact(problem, {}).verdict;
+    const auto [verdict, rung] = RunPublishedFiltered(problem, {});
+    CHECK(verdict.outcome == exact.outcome);
+    CHECK(verdict.statistics == exact.statistics);
+    wide += rung == Rung::kDoubleDouble;
+    all += rung != Rung::kDouble;
+  }
+  CAPTURE(wide, all);
+  CHECK(all > 50);
+  CHECK(wide > all / 2);
+}
+
+}  // namespace
+}  // namespace stiction

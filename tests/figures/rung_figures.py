@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of speed against accuracy: certified outcomes, rungs on generators and along dials, silent wrong answers."""
+
+import collections
+import csv
+
+from markdown import count, machine, prose, table
+
+
+def times(triple):
+    """2.1 (1.3 - 4.0)"""
+    return f"{triple[1]:.2f} ({triple[0]:.2f} - {triple[2]:.2f})" if triple else ""
+
+
+def certified(program):
+    result = program.bench("ratios")
+    rows, families = [], []
+    for line in result["certified"]:
+        row = (f"`{line['method']}`", line["contacts"], line["problems"], times(line["certified / double"]),
+               times(line["exact / double"]), line["needed rationals"])
+        if line["family"] == "all":
+            rows.append(row)
+        else:
+            families.append((row[0], row[1], line["family"], *row[2:]))
+    searches = [(f"`{line['generator']}`", line["contacts"], times(line["times as many as over rationals"]))
+                for line in result["searches"]]
+    head = ["method", "contacts", "problems", "certified, times doubles", "rationals, times doubles", "needed rationals, 95 %"]
+    return "\n\n".join((
+        table(head, rows), table([*head[:2], "family", *head[2:]], families),
+        table(["search of", "contacts", "problems a second, times those with all suspicions over rationals"], searches),
+        prose("Median (least - most)" + machine())))
+
+
+def quartile(values):
+    return f"{values[1]:.1f}" if values else ""
+
+
+def ladder(program, *options):
+    """Summed over families: rows of method and arithmetic."""
+    lines = program.bench(*options)
+    sums = collections.defaultdict(lambda: collections.Counter())
+    medians, worst = collections.defaultdict(list), collections.defaultdict(float)
+    double = {}
+    for line in lines:
+        if line["arithmetic"] == "double" and line["microseconds"]:
+            double[line["family"], line["setting"], line["method"]] = line["microseconds"][1]
+    for line in lines:
+        key = line["method"], line["arithmetic"]
+        for name in ("problems", "solved", "undecided", "other", "refused", "wrong", "silent"):
+            sums[key][name] += line[name]
+        unit = double.get((line["family"], line["setting"], line["method"]))
+        if unit and line["microseconds"]:
+            medians[key].append(line["microseconds"][1] / unit)
+        if line["worst_residual"] is not None:
+            worst[key] = max(worst[key], line["worst_residual"])
+    rows = []
+    for (method, arithmetic), s in sums.items():
+        ratios = sorted(medians[method, arithmetic])
+        ratio = f"{ratios[len(ratios) // 2]:.2f} ({ratios[0]:.2f} - {ratios[-1]:.2f})" if ratios else ""
+        rows.append((f"`{method}`", arithmetic, ratio, count(s["solved"]), count(s["undecided"]), count(s["other"]),
+                     count(s["wrong"]), count(s["silent"]), count(s["refused"]), f"{worst[method, arithmetic]:.0e}"))
+    problems = max(s["problems"] for s in sums.values())
+    return table(["method", "arithmetic", "time, times double", "solved", "undecided", "another end", "wrong end",
+                  "silently wrong", "out of range", "worst residual"], rows) + "\n\n" + prose(
+        f"{count(problems)} problems; times: median (least - most) of the medians of families" + machine())
+
+
+def trade(program):
+    return ladder(program, "trade")
+
+
+def extremes(program):
+    return ladder(program, "extremes")
+
+
+def silent(program):
+    result = program.bench("silent", "--problems", program.size(10_000_000), "--seed", 6)
+    rows = [(f"`{row['row']}`", count(row["problems"]), count(row["solved"]), count(row["undecided"]),
+             count(row["other"]), count(row["silent"]), f"{row['at most in a million']:.2g}") for row in result["rows"]]
+    return table(["method and arithmetic", "problems", "solved", "undecided", "another end", "silently wrong",
+                  "at most in a million, 95 %"], rows)
+
+
+def same_tables(program):
+    """The tables of a search over filtered numbers, every problem audited, and of one over rationals."""
+    problems, tables = program.size(1_000_000), {}
+    for arithmetic in ("filtered", "exact"):
+        store, report = program.folder / f"{arithmetic}.db", program.folder / arithmetic
+        program.text("search", "--arithmetic", arithmetic, "--audit-every", 1, "--problems", problems, "--store", store)
+        program.text("report", store, "-o", report)
+        tables[arithmetic] = {file.name: [[cell.replace("filtered", "exact") for cell in row]
+                                          for row in csv.reader(file.open())] for file in report.glob("*.csv")}
+    assert tables["filtered"].keys() == tables["exact"].keys() and tables["exact"]
+    same = [name for name in sorted(tables["exact"]) if tables["filtered"][name] == tables["exact"][name]]
+    differ = sorted(set(tables["exact"]) - set(same))
+    return prose(f"{count(problems)} problems each. The same to the last number, but for the name of the arithmetic: "
+                 f"{', '.join(f'`{name}`' for name in same) or 'none'}; different: "
+                 f"{', '.join(f'`{name}`' for name in differ) or 'none'}.")
