@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <iostream>
+#include <set>
 #include <thread>
 
+#include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
@@ -20,14 +23,16 @@
 #include "reports/report.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/exponential.h"
+#include "search/known_signatures.h"
 #include "search/summary.h"
+#include "search/testimony.h"
 #include "search/unit.h"
 
 namespace stiction {
 namespace {
 
 constexpr double kDefaultMinutes = 1;
-constexpr double kLogSeconds = 10;  // between progress lines where standard error is no terminal
+constexpr double kLook = 2;  // seconds between looks at a store that is watched
 
 struct SearchVerb {
   std::string campaign;
@@ -43,6 +48,9 @@ struct SearchVerb {
   std::string objective, optimizer;
   std::vector<std::string> parents;  // files
   bool gravity_only = false;
+  std::optional<double> finishing;  // percent
+  bool finish = false;
+  std::string on_finding;
   bool json = false;
 };
 
@@ -104,49 +112,14 @@ Campaign CampaignOf(const SearchVerb& o) {
   return campaign;
 }
 
-// ---- Progress on standard error --------------------------------------------------------------
-
-class ProgressLine {
- public:
-  explicit ProgressLine(std::optional<double> minutes) : minutes_(minutes) {}
-
-  void Show(const SearchProgress& progress) {
-    if (bar_.IsShown()) {
-      bar_.Show(Fraction(progress), Line(progress));
-    } else if (progress.seconds - last_ >= kLogSeconds) {
-      last_ = progress.seconds;
-      fmt::print(stderr, "{}\n", Line(progress));
-      std::fflush(stderr);
-    }
-  }
-  void Finish() const { bar_.Clear(); }
-
- private:
-  double Fraction(const SearchProgress& progress) const {
-    double fraction = 0;
-    if (minutes_) fraction = progress.seconds / (*minutes_ * 60);
-    if (progress.units_wanted && *progress.units_wanted > 0) {
-      fraction = std::max(
-          fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
-    }
-    return std::min(fraction, 1.0);
-  }
-  std::string Line(const SearchProgress& progress) const {
-    const double fraction = Fraction(progress);
-    const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
-    return fmt::format("{} problems, {} a second, {} findings in {} groups, {} to finish, {:.0f} s left",
-                       Grouped(progress.problems),
-                       Grouped(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
-                                                         std::max(progress.seconds, 1e-9))),
-                       Grouped(progress.findings), Grouped(progress.groups), progress.pending, left);
-  }
-
-  std::optional<double> minutes_;
-  ProgressBar bar_;
-  double last_ = 0;
-};
-
 // ---- Verbs -----------------------------------------------------------------------------------
+
+// A store of which all is as it must be.
+Store OpenSound(const std::string& file) {
+  Store store = Store::OpenToRead(file);
+  RequireSound(store, file);
+  return store;
+}
 
 // Grave findings are an alarm.
 int ExitOf(const Store& store, const std::string& file) {
@@ -159,23 +132,57 @@ int ExitOf(const Store& store, const std::string& file) {
   return kExitGrave;
 }
 
-int RunSearchVerb(const SearchVerb& o) {
-  const Campaign campaign = CampaignOf(o);
+// What --finish works on: the campaign of the store, and no other.
+Campaign CampaignToFinish(const SearchVerb& o) {
+  const Campaign campaign = CampaignOf(Store::OpenToRead(o.store).identity(), o.store);
+  const bool asks_for_more = !o.campaign.empty() || !o.generators.empty() || !o.mu.empty() || !o.policies.empty() ||
+                             !o.contacts.empty() || o.seed || o.problems || o.audit_every || o.enumerate_every ||
+                             !o.arithmetic.empty() || o.shard != "0/1" || !o.objective.empty() ||
+                             !o.optimizer.empty() || !o.parents.empty() || o.gravity_only || o.finishing;
+  if (asks_for_more)
+    throw InputError("--finish: found options of a campaign or of its size, expected --store, --minutes, --threads, "
+                     "--on-finding and --json alone: the campaign is that of the store");
+  return campaign;
+}
+
+SearchOptions OptionsOf(const SearchVerb& o) {
   SearchOptions options;
   options.store = o.store;
+  options.build = BuildId();
   options.shard = ParseShard(o.shard);
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   options.threads = o.threads > 0 ? o.threads : std::max(1, cores);
   options.minutes = o.minutes;
   options.problems = o.problems;
-  if (!o.minutes && !o.problems) options.minutes = kDefaultMinutes;
+  if (o.finishing) options.finishing = *o.finishing / 100;
+  options.only_finish = o.finish;
+  if (!o.minutes && !o.problems && !o.finish) options.minutes = kDefaultMinutes;
   options.interrupted = &Interruption();
-  fmt::print(stderr, "seed {}, {} threads, shard {}, store {}\n", campaign.seed, options.threads, o.shard,
-             o.store);
-  ProgressLine line(options.minutes);
-  const SearchReport report = RunSearch(campaign, IdentityOf(campaign, BuildId()), options,
-                                        [&line](const SearchProgress& progress) { line.Show(progress); });
-  line.Finish();
+  return options;
+}
+
+int RunSearchVerb(const SearchVerb& o) {
+  const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
+  const SearchOptions options = OptionsOf(o);
+  fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed, options.threads,
+             o.shard, o.store);
+  NightLog log(options.minutes);
+  const FindingCommand command(o.on_finding, o.store);
+  std::int64_t untold = 0;
+  const SearchReport report = RunSearch(campaign, IdentityOf(campaign), options, [&](const SearchProgress& progress) {
+    log.Show(progress);
+    if (o.on_finding.empty()) return;
+    for (const Finding& finding : progress.news) {
+      if (*options.interrupted) {
+        ++untold;
+      } else {
+        command.Run(finding);
+      }
+    }
+  });
+  log.Finish(report.progress);
+  if (untold > 0)
+    fmt::print(stderr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(), untold);
   const Store store = Store::OpenToRead(o.store);
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
@@ -183,18 +190,64 @@ int RunSearchVerb(const SearchVerb& o) {
     std::cout << SummaryText(store, o.store);
   }
   if (report.end == SearchEnd::kInterrupted) {
-    fmt::print(stderr, "Interrupted; everything done so far is stored. The same command goes on from here.\n");
+    fmt::print(stderr, "{} Interrupted; everything done so far is stored. The same command goes on from here.\n",
+               TimeOfDay());
   }
   return ExitOf(store, o.store);
 }
 
 struct StatusVerb {
   std::string store;
+  bool watch = false;
   bool json = false;
 };
 
+// Signatures met so far, and how many problems were run.
+struct Look {
+  std::int64_t problems = 0;
+  std::set<std::string> signatures;
+};
+
+Look LookAt(const Store& store) {
+  Look look;
+  for (const auto& [key, tally] : store.Total().tallies) look.problems += tally.problems;
+  for (const auto& [signature, count] : store.Total().signatures) look.signatures.insert(signature);
+  return look;
+}
+
+std::string Changes(const Look& before, const Look& now) {
+  std::string names;
+  std::int64_t groups = 0;
+  for (const std::string& signature : now.signatures) {
+    if (before.signatures.contains(signature)) continue;
+    const std::string known(KnownAs(signature));
+    names += fmt::format("{}{}{}", groups++ > 0 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
+  }
+  return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
+                     Grouped(now.problems - before.problems), Grouped(static_cast<std::int64_t>(now.signatures.size())),
+                     Grouped(groups), names);
+}
+
+// Lines on standard error as long as a process works on the store.
+void Watch(const std::string& file) {
+  const std::atomic<bool>& interrupted = Interruption();
+  std::optional<Look> before;
+  while (!interrupted && StoreLock::IsHeld(file)) {
+    if (std::filesystem::exists(file)) {  // a search makes it in its first moment
+      const Look now = LookAt(OpenSound(file));
+      if (!before || now.problems != before->problems)
+        fmt::print(stderr, "{} {}\n", TimeOfDay(), Changes(before.value_or(now), now));
+      before = now;
+    }
+    for (double waited = 0; waited < kLook && !interrupted && StoreLock::IsHeld(file); waited += 0.1)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  if (!interrupted) fmt::print(stderr, "{} no process works on {}\n", TimeOfDay(), file);
+}
+
 int RunStatus(const StatusVerb& o) {
-  const Store store = Store::OpenToRead(o.store);
+  if (o.watch) Watch(o.store);
+  const Store store = OpenSound(o.store);
   std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryText(store, o.store));
   return kExitDone;
 }
@@ -254,13 +307,71 @@ int RunProblem(const ProblemVerb& o) {
 struct MergeVerb {
   std::string out;
   std::vector<std::string> stores;
+  bool salvage = false;
 };
 
+// That of the first store whose campaign can be read.
+CampaignIdentity IdentityOfAny(const std::vector<std::string>& stores) {
+  for (std::size_t i = 0; i + 1 < stores.size(); ++i) {
+    try {
+      return Store::IdentityIn(stores[i]);
+    } catch (const InputError&) {
+    }
+  }
+  return Store::IdentityIn(stores.back());
+}
+
+// A store that was made only now goes with a merge that failed.
+class NewStore {
+ public:
+  explicit NewStore(std::string file) : file_(std::move(file)), is_new_(!std::filesystem::exists(file_)) {}
+  NewStore(const NewStore&) = delete;
+  NewStore& operator=(const NewStore&) = delete;
+  ~NewStore() {
+    std::error_code ignored;
+    if (!is_new_) return;
+    for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file_ + end, ignored);
+  }
+  void Keep() { is_new_ = false; }
+
+ private:
+  std::string file_;
+  bool is_new_;
+};
+
+void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
+  std::size_t left_out = 0, refused = 0;
+  for (const std::string& file : stores) {
+    try {
+      const std::vector<std::string> lines = merged.Salvage(file);
+      for (const std::string& line : lines) fmt::print(stderr, "left out: {}\n", line);
+      left_out += lines.size();
+    } catch (const InputError& error) {
+      fmt::print(stderr, "left out: {}\n", error.what());
+      ++refused;
+    }
+  }
+  fmt::print(stderr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
+  if (refused == stores.size())
+    throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
+}
+
 int RunMerge(const MergeVerb& o) {
-  const Store first = Store::OpenToRead(o.stores.front());
+  const CampaignIdentity identity =
+      o.salvage ? IdentityOfAny(o.stores) : OpenSound(o.stores.front()).identity();
   const StoreLock lock(o.out, Shard{});
-  Store merged(o.out, first.identity());
-  for (const std::string& file : o.stores) merged.MergeFrom(Store::OpenToRead(file));
+  NewStore made(o.out);
+  {
+    Store merged(o.out, identity);
+    if (o.salvage) {
+      TakeWhatIsSound(merged, o.stores);
+    } else {
+      for (const std::string& file : o.stores) merged.MergeFrom(OpenSound(file));
+    }
+    RequireSound(merged, o.out);
+  }
+  made.Keep();
+  const Store merged = Store::OpenToRead(o.out);
   std::cout << SummaryText(merged, o.out);
   return ExitOf(merged, o.out);
 }
@@ -272,7 +383,7 @@ struct ReportVerb {
 };
 
 int RunReport(const ReportVerb& o) {
-  TellAside(WriteReport(Store::OpenToRead(o.store), o.folder, OccupiedIf(o.replace),
+  TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
                         {o.benches.begin(), o.benches.end()}));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
@@ -341,6 +452,16 @@ void AddSearch(CommandLine& program) {
   verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
   verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i");
   verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
+  verb.Option("--finishing", o.finishing, "most processor time for finishing findings, while there are units to run")
+      .Unit("%")
+      .Range(0, 100)
+      .Details("By default 20, with an objective 5; 0 finishes none. Once the units of --problems are done, the rest "
+               "is finished whatever it takes, but at most 100 of a kind and number of contacts");
+  verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
+  verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
+      .Details("The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, STICTION_GRAVE, "
+               "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, "
+               "or takes a minute, is reported");
   verb.Flag("--json", o.json, "machine output");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
@@ -351,6 +472,7 @@ void AddSearch(CommandLine& program) {
 void AddStatus(CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
+  verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
   verb.Flag("--json", o.json, "machine output");
 }
 
@@ -358,6 +480,7 @@ void AddMerge(CommandLine& program) {
   auto [verb, o] = program.Add("merge", "Join the stores of one campaign", RunMerge);
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
+  verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
 }
 
 void AddProblem(CommandLine& program) {

@@ -75,7 +75,8 @@ Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest
 
 // A backward error in words: of the scene, where the problem has one.
 std::string Meaning(const BackwardError& error, const ProblemFile& file) {
-  if (!file.scene)
+  const bool has_scene = file.scene || (file.origin && file.origin->is_object() && file.origin->contains("scene"));
+  if (!has_scene)
     return fmt::format(
         "the forces are exact for a problem nearby: every entry of A and b moved by at most {:.2g} of itself, every "
         "mu by at most {:.2g}",

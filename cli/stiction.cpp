@@ -34,6 +34,7 @@ int Main(int argc, char** argv) {
   AddMinimize(program);
   AddStatus(program);
   AddMerge(program);
+  AddSlurm(program);
   AddProblem(program);
   AddRecords(program);
   AddImport(program);

@@ -18,6 +18,7 @@ void AddStatus(CommandLine& program);
 void AddMerge(CommandLine& program);
 void AddProblem(CommandLine& program);
 void AddReport(CommandLine& program);
+void AddSlurm(CommandLine& program);
 void AddBench(CommandLine& program);
 void AddImport(CommandLine& program);
 void AddExport(CommandLine& program);

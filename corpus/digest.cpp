@@ -27,15 +27,15 @@ std::string ContactLine(const Contact<Rational>& contact, int dimension) {
   return DigestLine(Name(contact.kind), numbers);
 }
 
-std::string Sha256(const std::string& text) {
+}  // namespace
+
+std::string Sha256(std::string_view text) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes;
   unsigned int count = 0;
   const int done = EVP_Digest(text.data(), text.size(), bytes.data(), &count, EVP_sha256(), nullptr);
   STICTION_CHECK(done == 1, "SHA-256 is not available");
   return fmt::format("{:02x}", fmt::join(bytes.begin(), bytes.begin() + count, ""));
 }
-
-}  // namespace
 
 std::string ProblemDigest(const ExactProblem& problem) {
   std::string text = fmt::format("stiction-problem 1\ndimension {}\n", problem.dimension);

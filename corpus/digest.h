@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest of a problem: the same for every file that states the same numbers, however it spells them.
+// Digests: SHA-256 of bytes, and that of a problem, the same for every file that states the same numbers, however it
+// spells them.
 
 #ifndef STICTION_CORPUS_DIGEST_H_
 #define STICTION_CORPUS_DIGEST_H_
 
 #include <string>
+#include <string_view>
 
 #include "corpus/problem_file.h"
 
 namespace stiction {
+
+// 64 hexadecimal digits.
+std::string Sha256(std::string_view bytes);
 
 // "sha256:" and 64 hexadecimal digits: SHA-256 of the lines
 //

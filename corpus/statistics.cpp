@@ -160,15 +160,32 @@ void ReadCounts(const JsonPlace& place, Array& values) {
 
 Statistics ReadStatistics(const JsonPlace& place) {
   Statistics statistics;
-  ForEachField(statistics, [&place](const char* name, const char*, std::int64_t& value) {
+  std::vector<std::string> names;
+  place.RequireObject();
+  ForEachField(statistics, [&](const char* name, const char*, std::int64_t& value) {
+    names.emplace_back(name);
     value = ReadCount(place, name);
   });
+  place.AllowKeys(names);
   return statistics;
 }
 
+// `others`: keys that stand beside the counters.
 template <class Tally>
-void ReadCounters(const JsonPlace& place, Tally& tally) {
-  ForEachCounter(tally, [&place](const char* name, std::int64_t& value) { value = ReadCount(place, name); });
+void ReadCounters(const JsonPlace& place, Tally& tally, std::vector<std::string> others) {
+  ForEachCounter(tally, [&](const char* name, std::int64_t& value) {
+    others.emplace_back(name);
+    value = ReadCount(place, name);
+  });
+  place.AllowKeys(others);
+}
+
+// The place of a key in a map that does not have it yet.
+template <class Map, class Key>
+auto& PlaceFor(Map& map, const Key& key, const JsonPlace& entry, const char* expected) {
+  const auto [place, is_new] = map.try_emplace(key);
+  if (!is_new) entry.Refuse("a second one", expected);
+  return place->second;
 }
 
 void ReadHistogram(const JsonPlace& place, std::map<int, std::int64_t>& histogram) {
@@ -176,12 +193,16 @@ void ReadHistogram(const JsonPlace& place, std::map<int, std::int64_t>& histogra
   for (std::size_t i = 0; i < bins; ++i) {
     const JsonPlace bin = place[i];
     if (bin.Size("a pair [value, count]") != 2) bin.Refuse("a pair [value, count]");
-    histogram[ReadSmall(bin[0])] = ReadCount(bin[1]);
+    PlaceFor(histogram, ReadSmall(bin[0]), bin, "each value once") = ReadCount(bin[1]);
   }
 }
 
 Tally ReadTally(const JsonPlace& place) {
   Tally tally;
+  place.RequireObject();
+  place.AllowKeys({"generator", "contacts", "policy", "method", "arithmetic", "problems", "outcomes", "verdicts",
+                   "audited", "misjudged", "rungs", "wrong", "with_zero_steps", "with_give_ups", "sums", "maxima",
+                   "steps"});
   tally.problems = ReadCount(place, "problems");
   ReadCounts(place.Required("outcomes", "counts"), tally.outcomes);
   const JsonPlace verdicts = place.Required("verdicts", "a list of counts for every outcome");
@@ -222,19 +243,24 @@ Tally TallyFromJson(const Json& json) {
 Record ParseRecord(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"tallies", "signatures", "existence", "agreement"});
   Record record;
-  ForEachIn(root.Required("tallies", "a list"),
-            [&record](const JsonPlace& entry) { record.tallies[ReadKey(entry)] = ReadTally(entry); });
+  ForEachIn(root.Required("tallies", "a list"), [&record](const JsonPlace& entry) {
+    PlaceFor(record.tallies, ReadKey(entry), entry, "each generator, size and policy once") = ReadTally(entry);
+  });
   const JsonPlace signatures = root.Required("signatures", "counts by signature");
   signatures.RequireObject();
   for (const auto& [signature, count] : signatures.json().items())
     record.signatures[signature] = ReadCount(signatures.Child(signature, count));
   ForEachIn(root.Required("existence", "a list"), [&record](const JsonPlace& entry) {
-    ReadCounters(entry, record.existence[ReadSmall(entry.Required("contacts", "a number"))]);
+    const int contacts = ReadSmall(entry.Required("contacts", "a number"));
+    ReadCounters(entry, PlaceFor(record.existence, contacts, entry, "each size once"), {"contacts"});
   });
   ForEachIn(root.Required("agreement", "a list"), [&record](const JsonPlace& entry) {
-    AgreementTally& tally = record.agreement[ReadSmall(entry.Required("contacts", "a number"))];
-    ReadCounters(entry, tally);
+    const int contacts = ReadSmall(entry.Required("contacts", "a number"));
+    AgreementTally& tally = PlaceFor(record.agreement, contacts, entry, "each size once");
+    ReadCounters(entry, tally, {"contacts", "words", "solutions"});
     ReadHistogram(entry.Required("words", "a list"), tally.words);
     ReadHistogram(entry.Required("solutions", "a list"), tally.solutions);
   });

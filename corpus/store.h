@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Store: one SQLite file with what a campaign has done and found.
 //
-//   campaign   its identity: definition, seed, policies, build
+//   campaign   its identity: definition, seed, policies, version of the algorithm
 //   blocks     statistics of kUnitsPerBlock consecutive units of one shard
 //   units      statistics of single units, of blocks that are not complete yet
 //   findings   one representative per signature, with certificate and minimized form
 //   elites     of an optimized search: the best of every unit
+//   work       of every block and unit: the builds that made it, and their processor time
+//
+// Every row carries the SHA-256 of its content (store_rows.h), which is checked when a store is opened: what a disk
+// or a hand has changed is named and refused, never read. Work is no part of what is compared.
 //
 // Never a row per problem tried. Units may be added in any order, each once; a finding's representative is
 // the one with the smallest (unit, index), whoever came first. So the same units leave the same store,
@@ -22,21 +26,26 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "corpus/statistics.h"
+#include "corpus/work.h"
 
 struct sqlite3;
 
 namespace stiction {
 
-// Two stores belong together if all of this is equal. Shards are no part of it.
+class Statement;
+struct StoreTable;
+
+// Two stores belong together if all of this is equal. Shards and builds are no part of it.
 struct CampaignIdentity {
   std::string definition;  // canonical JSON: generators, sizes, palette, unit size, ...
   std::uint64_t seed = 0;
   std::string policies;  // JSON list of canonical names
-  std::string build;     // commit, compiler, flags
+  int algorithm = 1;     // version of what a search computes (search/algorithm_version.h)
 
   bool operator==(const CampaignIdentity&) const = default;
 };
@@ -93,12 +102,13 @@ class Store {
  public:
   static constexpr std::int64_t kUnitsPerBlock = 1024;
 
-  // Opens a store for a campaign, making it where no file is. A file that is none, and a store of another
-  // campaign, is an InputError that names the difference and how to start a new one. Here and in all that
-  // changes a store: OutputError if the disk is full or the store cannot be written; nothing that was committed
-  // is lost then.
+  // Opens a store for a campaign, making it where no file is. A file that is none, a store of another campaign, and
+  // a row that is not as it was written, is an InputError that names the difference and the way out. Here and in
+  // all that changes a store: OutputError if the disk is full or the store cannot be written; nothing that was
+  // committed is lost then.
   Store(const std::filesystem::path& file, const CampaignIdentity& identity);
-  // Opens an existing store to read, while others write or not, in a folder that can be written or not.
+  // Opens an existing store to read, while others write or not, in a folder that can be written or not. The same
+  // errors.
   static Store OpenToRead(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -112,17 +122,21 @@ class Store {
   // representatives.
   // `elites`: what later units of an optimized search start from; empty of other searches.
   std::vector<Finding> AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
-                               const std::vector<Finding>& candidates, const std::string& elites = {});
+                               const std::vector<Finding>& candidates, const std::string& elites = {},
+                               const Work& work = {});
   // By unit.
   std::map<std::int64_t, std::string> Elites() const;
-  // Fills in a representative, unless a smaller one has taken its place meanwhile.
-  void Finish(const Finding& finding);
+  // Fills in a representative, unless a smaller one has taken its place meanwhile. `work` is added to that of its
+  // unit or block.
+  void Finish(const Finding& finding, const Work& work = {});
   // Representatives that are not done, fewest contacts first, then by (unit, index).
   std::vector<Finding> Pending() const;
   // All representatives in the order of signature.
   std::vector<Finding> Findings() const;
   // Sum over all units.
   Record Total() const;
+  // What it took.
+  Work TotalWork() const;
 
   struct BlockInfo {
     Shard shard;
@@ -132,7 +146,13 @@ class Store {
 
   // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless
   // as the same block; a block in both with different content is an InternalError that names it.
+  // The work of two copies is that of the longer one, with the builds of both.
   void MergeFrom(const Store& other);
+  // Takes in what is sound of a store that need not be, and what fits to what is here. Returns a line for
+  // everything that is left out. InputError if not even its campaign can be read, or is another one.
+  std::vector<std::string> Salvage(const std::filesystem::path& file);
+  // The campaign of a store, of which nothing else need be sound.
+  static CampaignIdentity IdentityIn(const std::filesystem::path& file);
 
  private:
   struct Close {
@@ -142,13 +162,21 @@ class Store {
   static void Make(const std::filesystem::path& file, const CampaignIdentity& identity);
   static Store ReadAlone(const std::filesystem::path& file);
   static Store Snapshot(sqlite3* db, const std::filesystem::path& file);
+  static Store OpenUnchecked(const std::filesystem::path& file);
   void CreateTables();
   void WriteIdentity(const CampaignIdentity& identity);
   std::optional<CampaignIdentity> ReadIdentity() const;
+  void RequireSound() const;
   void InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record);
   void MergeBlock(const Shard& shard, std::int64_t block, const std::string& record, const UnitSet& before);
   void MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record);
   void MergeFinding(const Finding& finding);
+  void MergeElites(std::int64_t unit, const std::string& elites);
+  void MergeWork(const Statement& row);
+  void MergeRow(std::string_view table, const Statement& row, const UnitSet& before);
+  void SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out);
+  std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row, const UnitSet& before);
+  void CloseBlocks();
   void CloseBlockIfComplete(const Shard& shard, std::int64_t block);
   bool Represent(const Finding& candidate);
   std::vector<Finding> SelectFindings(const std::string& where_and_order) const;

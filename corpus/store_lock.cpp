@@ -124,6 +124,14 @@ int StoreLock::FreeLine(const std::filesystem::path& store, const Shard& shard) 
   return free > 0 ? free : line;
 }
 
+bool StoreLock::IsHeld(const std::filesystem::path& store) {
+  const Descriptor file(open((store.string() + ".lock").c_str(), O_RDONLY | O_CLOEXEC));
+  bool held = false;
+  for (int line = 1; file.valid() && !held && ReadLine(file.number(), line); ++line)
+    held = IsHeldByAnother(file.number(), line);
+  return held;
+}
+
 StoreLock::~StoreLock() { Leave(); }
 
 void StoreLock::Leave() const {

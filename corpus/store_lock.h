@@ -26,6 +26,9 @@ class StoreLock {
   StoreLock& operator=(const StoreLock&) = delete;
   ~StoreLock();
 
+  // Whether any process works on the store.
+  static bool IsHeld(const std::filesystem::path& store);
+
  private:
   void Open();
   void Leave() const;  // removes the file if nobody else works on the store

@@ -239,7 +239,8 @@ Html FilesSection() {
            {"steps.csv", "histograms of steps per problem"},
            {"agreement.csv", "existence, agreement of methods and safe problems per number of contacts"},
            {"solutions.csv", "histograms of solutions per number of contacts"},
-           {"findings.csv", "every signature, with its counts, facts and files"}}) {
+           {"findings.csv", "every signature, with its counts, facts and files"},
+           {"SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check"}}) {
     list += Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   }
   list +=
@@ -283,19 +284,34 @@ Html FoundSection(const ReportContent& content) {
   return Section("found", "What was found", found);
 }
 
+// Of another run of the same campaign all of this may be different.
+Html TimeTable(const ProcessorTime& time) {
+  if (time.Total() == 0) return {};
+  Table table("Processor time", {{"spent on", "", false}, {"seconds", ""}, {"share", ""}});
+  ForEachPart(time, [&](const char* name, const char* meaning, std::int64_t value) {
+    const double share = 100 * static_cast<double>(value) / static_cast<double>(time.Total());
+    table.AddRow({{Text(fmt::format("{}: {}", name, meaning))},
+                  {Text(fmt::format("{:.1f}", static_cast<double>(value) * 1e-6))},
+                  {Text(fmt::format("{:.1f} %", share))}});
+  });
+  return table.Done();
+}
+
 Html CampaignSection(const ReportContent& content) {
   Definitions list;
   list.Add("seed", std::to_string(content.identity.seed));
   AddDefinition(list, content.identity.definition);
   list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
-  list.Add("build", content.identity.build);
+  list.Add("version of the algorithm", std::to_string(content.identity.algorithm));
+  for (const std::string& build : content.work.builds) list.Add("searched by", build);
   list.Add("problems", Grouped(ProblemsOf(content.total)));
   list.Add("units", Grouped(content.units));
   list.Add("complete blocks",
            fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
   return Section("campaign", "Campaign",
                  list.Done() + Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
-                                    "findings on any machine.</p>\n"));
+                                    "findings on any machine.</p>\n") +
+                     TimeTable(content.work.time));
 }
 
 std::string Page(const ReportContent& content) {

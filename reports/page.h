@@ -25,6 +25,7 @@ struct ReportContent {
   std::int64_t units = 0;
   std::int64_t blocks = 0;
   Record total;
+  Work work;
   std::vector<Discovery> discoveries;
   std::vector<RungLine> rungs;  // of a benchmark; empty: no such section
 };
@@ -35,6 +36,7 @@ std::string Page(const ReportContent& content);
 
 Html FoundSection(const ReportContent& content);
 Html CampaignSection(const ReportContent& content);
+Html TimeTable(const ProcessorTime& time);
 Html OutcomesSection(const Record& total);
 Html FrequenciesSection(const Record& total);
 Html DoublesSection(const Record& total);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/report.h"
 
+#include <map>
 #include <string>
 
+#include "corpus/digest.h"
 #include "corpus/problem_file.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
@@ -15,12 +17,33 @@ std::string Pretty(const std::string& problem, const std::string& source) {
   return Print(ParseProblem(problem, source));
 }
 
+// Writes the files of a report, and at last what they are.
+class ReportFiles {
+ public:
+  explicit ReportFiles(const WholeFolder& folder) : folder_(folder) {}
+
+  void Write(const std::string& name, const std::string& text) {
+    folder_.Write(name, text);
+    digests_[name] = Sha256(text);
+  }
+  // In the format of sha256sum.
+  void WriteManifest() const {
+    std::string manifest;
+    for (const auto& [name, digest] : digests_) manifest += digest + "  " + name + "\n";
+    folder_.Write("SHA256SUMS", manifest);
+  }
+
+ private:
+  const WholeFolder& folder_;
+  std::map<std::string, std::string> digests_;
+};
+
 // `name` is empty for a certificate that the finding does not have.
-void WriteCertificate(const WholeFolder& folder, const std::string& name, const std::string& text) {
+void WriteCertificate(ReportFiles& folder, const std::string& name, const std::string& text) {
   if (!name.empty()) folder.Write(name, text + "\n");
 }
 
-void WriteFinding(const Discovery& discovery, const WholeFolder& folder) {
+void WriteFiles(const Discovery& discovery, ReportFiles& folder) {
   const Finding& finding = *discovery.representative;
   const FindingFiles& files = discovery.files;
   const std::string original = Pretty(finding.problem, finding.signature);
@@ -41,15 +64,17 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   for (const auto& file : benches) {
     for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));
   }
-  WholeFolder folder(directory, "report", occupied);
+  WholeFolder whole(directory, "report", occupied);
+  ReportFiles folder(whole);
   const std::vector<Finding> findings = store.Findings();
   content.identity = store.identity();
   content.units = store.Units().Count();
   content.blocks = static_cast<std::int64_t>(store.Blocks().size());
   content.total = store.Total();
+  content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   for (const Discovery& discovery : content.discoveries) {
-    if (discovery.representative != nullptr) WriteFinding(discovery, folder);
+    if (discovery.representative != nullptr) WriteFiles(discovery, folder);
   }
   folder.Write("statistics.csv", StatisticsCsv(content.total));
   folder.Write("verdicts.csv", VerdictsCsv(content.total));
@@ -58,7 +83,8 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   folder.Write("solutions.csv", SolutionsCsv(content.total));
   folder.Write("findings.csv", FindingsCsv(content.discoveries));
   folder.Write("index.html", Page(content));
-  return folder.Commit();
+  folder.WriteManifest();
+  return whole.Commit();
 }
 
 }  // namespace stiction

@@ -4,6 +4,7 @@
 //   index.html                    one page that needs nothing else
 //   statistics.csv verdicts.csv   what was counted (csv.h)
 //   steps.csv findings.csv agreement.csv solutions.csv
+//   SHA256SUMS                    of every file but itself
 //   findings/NAME.json            the minimized problem; as found while there is none
 //   findings/NAME.original.json   the problem as found
 //   findings/NAME.certificate.json  of the minimized problem, otherwise of the problem as found

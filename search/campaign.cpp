@@ -8,12 +8,13 @@
 
 #include "corpus/json_text.h"
 #include "search/adversary/optimizer.h"
+#include "search/algorithm_version.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
 
-constexpr int kLargestMuPart = 1'000'000;
+constexpr int kLargestMuPart = std::numeric_limits<int>::max();
 
 int WeightOf(int contacts) {
   switch (contacts) {
@@ -197,7 +198,7 @@ void RequireConsistent(const Campaign& campaign) {
     if (campaign.gravity_only && !Row(id).has_gravity) {
       throw InputError(fmt::format("gravity only: found generator {}, expected one of bodies", Row(id).name));
     }
-    const int most = LargestMuPart(id);
+    const int most = MostMuPart(id);
     for (const MuChoice& mu : campaign.palette) {
       if (mu.numerator <= most && mu.denominator <= most) continue;
       throw InputError(fmt::format("friction coefficient: found {}/{} for {}, expected p/q of at most {}",
@@ -274,10 +275,10 @@ Json DefinitionToJson(const Campaign& campaign) {
   return definition;
 }
 
-CampaignIdentity IdentityOf(const Campaign& campaign, const std::string& build) {
+CampaignIdentity IdentityOf(const Campaign& campaign) {
   Json policies = Json::array();
   for (const Policy& policy : campaign.policies) policies.push_back(PolicyName(policy));
-  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), build};
+  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), kAlgorithmVersion};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {

@@ -62,7 +62,7 @@ inline Surroundings SurroundingsOf(const Campaign& campaign) {
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
 // Everything but the seed and the policies, canonical.
 Json DefinitionToJson(const Campaign& campaign);
-CampaignIdentity IdentityOf(const Campaign& campaign, const std::string& build);
+CampaignIdentity IdentityOf(const Campaign& campaign);
 
 // A unit tries one generator at one size.
 struct Task {

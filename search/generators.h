@@ -13,7 +13,7 @@
 // Requires    1 <= contacts <= kMaxContacts; contacts = Rows / 2 where Rows is fixed, which is for static
 //             contacts of the plane only; a palette that is
 //             not empty, of coefficients with 0 <= numerator <= most and 1 <= denominator <= most, where most
-//             is LargestMuPart(id); gravity_only only where the generator has gravity.
+//             is MostMuPart(id); gravity_only only where the generator has gravity.
 // Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
 
 #ifndef STICTION_SEARCH_GENERATORS_H_
@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -89,6 +90,10 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators();
 inline const GeneratorRow& Row(GeneratorId id) { return Generators()[static_cast<int>(id)]; }
 
 // Of friction coefficients. Forces of `near-degenerate` are multiples of their parts, and must stay exact.
+constexpr int MostMuPart(GeneratorId id) {
+  return id == GeneratorId::kNearDegenerate ? 64 : std::numeric_limits<int>::max();
+}
+// Of those that optimizers make.
 constexpr int LargestMuPart(GeneratorId id) { return id == GeneratorId::kNearDegenerate ? 64 : 1'000'000; }
 
 // What all problems of a generator share.

@@ -3,18 +3,24 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <thread>
-#include <tuple>
 #include <vector>
 
+#include "corpus/kinds.h"
+#include "corpus/stopwatch.h"
 #include "corpus/store_lock.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/backlog.h"
 #include "search/finish.h"
+#include "search/testimony.h"
 #include "search/unit.h"
+#include "search/work_meter.h"
 
 namespace stiction {
 namespace {
@@ -22,13 +28,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::duration;
 
-// Fewest contacts first: they are the quickest to minimize and the most wanted.
-struct FinishOrder {
-  bool operator()(const Finding& left, const Finding& right) const {
-    return std::tie(left.contacts, left.unit, left.index, left.signature) <
-           std::tie(right.contacts, right.unit, right.index, right.signature);
-  }
-};
+// Of a first try to finish a finding, beyond what the share allows; four times as much at each further try.
+constexpr double kFirstTry = 2;  // seconds of processor time
+
+double ThreadSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
 class Search {
  public:
@@ -38,10 +41,20 @@ class Search {
         lock_(options.store, options.shard),
         store_(options.store, identity),
         done_(store_.Units()),
-        heritage_(campaign, options.shard) {
+        heritage_(campaign, options.shard),
+        share_(options.finishing.value_or(campaign.objective.empty() ? kFinishingShare : kFinishingShareOfObjective)),
+        backlog_(options.only_finish ? std::nullopt : std::optional(kMostFinished)) {
+    RequireSound(store_, options.store.string());
     for (const auto& [unit, text] : store_.Elites())
       heritage_.Add(unit, ElitesFromText(text, options.store.string()));
-    for (Finding& finding : store_.Pending()) pending_.insert(std::move(finding));
+    for (const bool done : {true, false}) {  // what is finished takes its place first
+      for (Finding& finding : store_.Findings()) {
+        if (finding.done != done) continue;
+        known_.insert(finding.signature);
+        backlog_.Add(std::move(finding));
+      }
+    }
+    if (options.only_finish) wanted_units_ = 0;
     if (!options.problems) return;
     wanted_units_ = UnitsFor(campaign, *options.problems);
     progress_.units_wanted =
@@ -56,12 +69,18 @@ class Search {
           start_ + std::chrono::duration_cast<Clock::duration>(duration<double>(*options_.minutes * 60));
     std::vector<std::jthread> workers;
     running_ = options_.threads;
-    for (int i = 0; i < options_.threads; ++i) workers.emplace_back([this] { Work(); });
+    for (int i = 0; i < options_.threads; ++i) workers.emplace_back([this] { RunThread(); });
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, std::chrono::milliseconds(500), [this] { return running_ == 0; }))
-      show(Progress());
+    const auto tell = [&] {
+      const SearchProgress progress = Progress();
+      progress_.news.clear();
+      lock.unlock();
+      show(progress);
+      lock.lock();
+    };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(500), [this] { return running_ == 0; })) tell();
     if (failure_) std::rethrow_exception(failure_);
-    show(Progress());
+    tell();
     return {End(), Progress()};
   }
 
@@ -72,31 +91,31 @@ class Search {
 
   SearchEnd End() const {
     if (Interrupted()) return SearchEnd::kInterrupted;
-    const bool unfinished = abandoned_ || !pending_.empty() || !wanted_units_ || next_unit_ < *wanted_units_;
+    const bool unfinished =
+        abandoned_ || backlog_.waiting() > 0 || !wanted_units_ || next_unit_ < *wanted_units_;
     return unfinished ? SearchEnd::kTimeUp : SearchEnd::kDone;
   }
 
   SearchProgress Progress() const {  // under the mutex
     SearchProgress progress = progress_;
     progress.seconds = duration<double>(Clock::now() - start_).count();
-    progress.pending = static_cast<std::int64_t>(pending_.size());
+    progress.pending = backlog_.waiting();
+    progress.left_out = backlog_.left_out();
     return progress;
   }
 
-  void Work() {
+  void RunThread() {
     try {
       UnitRunner runner(campaign_);
-      double searching = 0, finishing = 0;  // seconds of this thread
+      double searching = 0, finishing = 0;  // processor seconds of this thread
       while (!Stopped()) {
-        const auto before = Clock::now();
-        // Half of the time goes to finishing, as long as there is something to finish; little of it where what
-        // is sought is better candidates.
-        const int weight = campaign_.objective.empty() ? 1 : 16;
-        if (weight * finishing <= searching && FinishOne()) {
-          finishing += duration<double>(Clock::now() - before).count();
+        const double before = ThreadSeconds();
+        const double allowed = share_ < 1 ? share_ / (1 - share_) * searching - finishing : kNoBound;
+        if (share_ > 0 && allowed >= 0 && FinishOne(allowed)) {
+          finishing += ThreadSeconds() - before;
         } else if (RunOneUnit(runner)) {
-          searching += duration<double>(Clock::now() - before).count();
-        } else if (!FinishOne() && Idle()) {
+          searching += ThreadSeconds() - before;
+        } else if (!(share_ > 0 && FinishOne(kNoBound)) && Idle()) {
           break;
         }
       }
@@ -113,7 +132,8 @@ class Search {
   // Whether no other thread can still bring something to finish. Otherwise waits a little.
   bool Idle() {
     std::unique_lock lock(mutex_);
-    if (busy_ == 0 && pending_.empty()) return wanted_units_ && next_unit_ >= *wanted_units_;
+    const bool finished = backlog_.waiting() == 0 || share_ == 0;
+    if (busy_ == 0 && finished) return wanted_units_ && next_unit_ >= *wanted_units_;
     changed_.wait_for(lock, std::chrono::milliseconds(20));
     return false;
   }
@@ -138,7 +158,9 @@ class Search {
   // Empty if it was cancelled: half an optimized unit is none.
   std::optional<UnitResult> Run(UnitRunner& runner, std::int64_t unit, const std::vector<Candidate>& parents) {
     if (campaign_.objective.empty()) return runner.Run(unit);
+    WorkMeter meter;  // candidates are tried and confirmed in turn: all of it counts as what is not named
     UnitResult result = RunOptimizedUnit(campaign_, unit, parents, [this] { return Stopped(); });
+    result.time = meter.Read();
     if (Stopped()) return std::nullopt;
     return result;
   }
@@ -158,12 +180,14 @@ class Search {
     if (!run) return abandoned_ = true;
     const UnitResult& result = *run;
     if (!result.elites.empty()) heritage_.Add(*unit, ElitesFromText(result.elites, "a unit"));
-    // A group's former representative may be waiting here; a smaller one takes its place.
+    const Work work{{options_.build}, result.time};
+    // A group's former representative may be waiting; a smaller one takes its place.
     for (Finding& finding :
-         store_.AddUnit(options_.shard, *unit, result.record, result.candidates, result.elites)) {
-      std::erase_if(pending_, [&](const Finding& other) { return other.signature == finding.signature; });
-      pending_.insert(std::move(finding));
+         store_.AddUnit(options_.shard, *unit, result.record, result.candidates, result.elites, work)) {
+      if (known_.insert(finding.signature).second) progress_.news.push_back(finding);
+      backlog_.Add(std::move(finding));
     }
+    Spend(result.time);
     ++progress_.units_done;
     progress_.problems += result.problems;
     for (const auto& [signature, count] : result.record.signatures) {
@@ -175,23 +199,41 @@ class Search {
     return true;
   }
 
-  bool FinishOne() {
+  // `allowed`: processor seconds that are left of the share.
+  bool FinishOne(double allowed) {
     std::unique_lock lock(mutex_);
-    if (pending_.empty()) return false;
-    const Finding finding = std::move(pending_.extract(pending_.begin()).value());
+    std::optional<Backlog::Entry> entry = backlog_.Take();
+    if (!entry) return false;
     ++busy_;
     lock.unlock();
-    const auto finished = FinishFinding(finding, campaign_.limits, [this] { return Stopped(); });
+    const double start = ThreadSeconds();
+    const double until = start + allowed + kFirstTry * std::pow(4, entry->tries);
+    const auto finished = FinishFinding(entry->finding, campaign_.limits,
+                                        [&] { return Stopped() || ThreadSeconds() > until; });
+    ProcessorTime time;
+    time.finishing = static_cast<std::int64_t>(1e6 * (ThreadSeconds() - start));
     lock.lock();
     --busy_;
+    Spend(time);
     if (finished) {
-      store_.Finish(*finished);
+      store_.Finish(*finished, {{options_.build}, time});
+      ++progress_.finished;
+      if (IsGrave(finished->kind) && !IsGrave(entry->finding.kind)) progress_.news.push_back(*finished);
     } else {
-      pending_.insert(finding);
+      entry->tries += !Stopped();
+      backlog_.GiveBack(*std::move(entry));
     }
     changed_.notify_all();
     return true;
   }
+
+  void Spend(const ProcessorTime& time) {  // under the mutex
+    Work sum{{}, progress_.time};
+    sum.Add({{}, time});
+    progress_.time = sum.time;
+  }
+
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
   const Campaign& campaign_;
   const SearchOptions& options_;
@@ -199,6 +241,8 @@ class Search {
   Store store_;  // under the mutex
   UnitSet done_;
   Heritage heritage_;               // under the mutex
+  double share_;                    // of processor time, for finishing
+  Backlog backlog_;                 // under the mutex
   std::set<std::int64_t> in_work_;  // likewise
   std::optional<std::int64_t> wanted_units_;
   Clock::time_point start_;
@@ -207,7 +251,7 @@ class Search {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::int64_t next_unit_ = 0;
-  std::set<Finding, FinishOrder> pending_;
+  std::set<std::string> known_;     // signatures that have a representative
   std::set<std::string> signatures_;
   SearchProgress progress_;
   int busy_ = 0;

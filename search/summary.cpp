@@ -57,12 +57,14 @@ struct Digest {
   std::vector<Finding> grave;
   std::int64_t finished = 0, pending = 0, whole_grid = 0;
   std::vector<Finding> simplest;
+  Work work;
 };
 
 Digest DigestOf(const Store& store) {
   Digest digest;
   const Record total = store.Total();
   digest.units = store.Units().Count();
+  digest.work = store.TotalWork();
   std::map<std::pair<std::string, int>, std::int64_t> problems;  // the same problems run under each policy
   for (const auto& [key, tally] : total.tallies) {
     digest.runs += tally.problems;
@@ -153,6 +155,26 @@ std::string ExistenceText(const Digest& digest) {
   return text;
 }
 
+Json TimeToJson(const ProcessorTime& time) {
+  Json json = Json::object();
+  ForEachPart(time, [&json](const char* name, const char*, std::int64_t value) {
+    json[name] = static_cast<double>(value) * 1e-6;
+  });
+  return json;
+}
+
+// "processor time: 41.2 s: generation 10 %, ..."; what took nothing is left out.
+std::string TimeText(const ProcessorTime& time) {
+  const auto total = static_cast<double>(time.Total());
+  if (total == 0) return "";
+  std::string parts;
+  ForEachPart(time, [&](const char* name, const char*, std::int64_t value) {
+    const double share = 100 * static_cast<double>(value) / total;
+    if (value > 0) parts += fmt::format("{}{} {:.{}f} %", parts.empty() ? "" : ", ", name, share, share < 1 ? 1 : 0);
+  });
+  return fmt::format("  processor time: {:.4g} s: {}\n", total * 1e-6, parts);
+}
+
 Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
 
 // Per label: findings in a million runs.
@@ -213,6 +235,7 @@ std::string OptimizedText(const Store& store, const Campaign& campaign, const st
   for (const Finding& finding : store.Findings()) ++(finding.done ? finished : pending);
   text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n", finished + pending,
                       finished);
+  text += TimeText(store.TotalWork().time);
   text += fmt::format(
       "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the "
       "same "
@@ -224,6 +247,7 @@ std::string OptimizedText(const Store& store, const Campaign& campaign, const st
 Json OptimizedToJson(const Store& store, const Campaign& campaign) {
   const Objective& objective = *FindObjective(campaign.objective);
   const Yield yield = YieldOf(store);
+  const Work work = store.TotalWork();
   Json best = Json::array();
   for (const Elite& elite : BestOf(store, 1)) {
     Json row = {{"candidate", ToJson(elite.candidate)}};
@@ -232,14 +256,15 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
     best.push_back(std::move(row));
   }
   return {{"seed", campaign.seed},
-          {"build", store.identity().build},
           {"objective", objective.name},
           {"optimizer", campaign.optimizer},
           {"units", yield.units},
           {"candidates", yield.evaluations},
           {"confirmations", yield.confirmations},
           {"denied", yield.denied},
-          {"best", best}};
+          {"best", best},
+          {"builds", work.builds},
+          {"processor_seconds", TimeToJson(work.time)}};
 }
 
 }  // namespace
@@ -257,7 +282,9 @@ Json SummaryToJson(const Store& store) {
   for (const Finding& finding : digest.grave)
     grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
   Json summary = {{"seed", store.identity().seed},
-                  {"build", store.identity().build},
+                  {"algorithm", store.identity().algorithm},
+                  {"builds", digest.work.builds},
+                  {"processor_seconds", TimeToJson(digest.work.time)},
                   {"units", digest.units},
                   {"problems", digest.problems},
                   {"runs", digest.runs},
@@ -314,6 +341,9 @@ std::string SummaryText(const Store& store, const std::string& file) {
   text += ExistenceText(digest);
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Grouped(digest.finished), Grouped(digest.pending), Grouped(digest.whole_grid));
+  if (digest.pending > 0)
+    text += fmt::format("  what is to go is finished by: ./run search --store {} --finish\n", file);
+  text += TimeText(digest.work.time);
   if (!digest.simplest.empty()) text += "Simplest, proved and minimized:\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(kShown, digest.simplest.size()); ++i) {
     text += FindingLine(digest.simplest[i]);

@@ -19,6 +19,7 @@
 #include "search/generators.ipp"
 #include "search/scenes.h"
 #include "search/signature.h"
+#include "search/work_meter.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/reduction.h"
 #include "solver/problem/residual.h"
@@ -70,7 +71,7 @@ class Collector {
   // A problem that is looked at again. `suspected`: the inexact run did not end in a verified solution. Certified
   // signs decide; what they leave open, what is audited, and a few of the others are examined over rationals.
   void RunAgain(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
-    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
+    const ExactProblem problem = Regenerate(index);
     const Place place = {index, policy, inexact};
     // The first rung seldom tells what rounding did not.
     const Rung first = suspected ? Rung::kDoubleDouble : Rung::kDouble;
@@ -82,7 +83,7 @@ class Collector {
   // Problem `index` where the campaign asks for certified signs from the start.
   void RunCertified(std::int64_t index, std::size_t policy, bool audit) {
     const bool exact = campaign_.arithmetic == Arithmetic::kExact;
-    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
+    const ExactProblem problem = Regenerate(index);
     const FilteredVerdict filtered =
         Filter(problem, policy, {exact ? Rung::kExact : Rung::kDouble, Rung::kExact});
     const Verdict& verdict = filtered.verdict;
@@ -100,9 +101,8 @@ class Collector {
   // a loop.
   void RunOverIntervals(std::int64_t index, std::size_t policy, const Verdict& inexact, bool wrong,
                         bool suspected) {
-    const ExactProblem problem = RegenerateExactly(campaign_, unit_, index);
-    const Verdict verdict =
-        methods_.published_in_space(problem, {campaign_.policies[policy], {}, campaign_.limits}).verdict;
+    const ExactProblem problem = Regenerate(index);
+    const Verdict verdict = RunInSpace(problem, policy);
     const Outcome proved = verdict.outcome;
     const Place place = {index, policy, inexact.outcome};
     CountVerdict(*tallies_[policy], inexact.outcome, proved, suspected);
@@ -116,7 +116,11 @@ class Collector {
     }
   }
 
-  UnitResult Take() { return std::move(result_); }
+  WorkMeter& meter() { return meter_; }
+  UnitResult Take() {
+    result_.time = meter_.Read();
+    return std::move(result_);
+  }
 
  private:
   // Where an exact run comes from.
@@ -125,6 +129,21 @@ class Collector {
     std::size_t policy;
     Outcome inexact;
   };
+
+  ExactProblem Regenerate(std::int64_t index) {
+    const Spending spending(meter_, &ProcessorTime::generation);
+    return RegenerateExactly(campaign_, unit_, index);
+  }
+
+  Verdict RunInSpace(const ExactProblem& problem, std::size_t policy) {
+    const Spending spending(meter_, &ProcessorTime::exact);
+    return methods_.published_in_space(problem, OptionsOf(policy)).verdict;
+  }
+
+  ExactRun RunExactly(const ExactProblem& problem, std::size_t policy) {
+    const Spending spending(meter_, &ProcessorTime::exact);
+    return methods_.published(problem, OptionsOf(policy));
+  }
 
   PublishedOptions OptionsOf(std::size_t policy) const {
     return {campaign_.policies[policy], {}, campaign_.limits};
@@ -144,6 +163,7 @@ class Collector {
   }
 
   FilteredVerdict Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs) {
+    const Spending spending(meter_, &ProcessorTime::filtered);
     const FilteredVerdict filtered = methods_.filtered(problem, OptionsOf(policy), rungs);
     const Rung rung = IsUnsure(filtered.verdict) ? Rung::kExact : filtered.rung;
     if (campaign_.arithmetic != Arithmetic::kExact) ++tallies_[policy]->rungs[static_cast<int>(rung)];
@@ -168,9 +188,10 @@ class Collector {
   // What is not solved, by certified signs: complete driving must solve it.
   void Confirm(const Place& place, const ExactProblem& problem, const FilteredVerdict& filtered) {
     const Verdict& verdict = filtered.verdict;
+    const Spending spending(meter_, &ProcessorTime::compared);
     const CompleteRun complete = methods_.complete_filtered(problem, campaign_.limits).run;
     CompareAnswers(place, verdict.outcome, complete, problem,
-          {{{"complete", complete.verdict.outcome, complete.f}, {"baraff", verdict.outcome, {}}}, {}});
+                   {{{"complete", complete.verdict.outcome, complete.f}, {"baraff", verdict.outcome, {}}}, {}});
     const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
     const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
     FindUnsolved(place, verdict.outcome, Signature(problem, verdict, run.pivots), problem);
@@ -180,7 +201,7 @@ class Collector {
   // if nothing. What is solved and not drawn, other methods do not see.
   Outcome Examine(const Place& place, const ExactProblem& problem, const Verdict* filtered, bool suspected,
                   bool drawn = true) {
-    const ExactRun run = methods_.published(problem, OptionsOf(place.policy));
+    const ExactRun run = RunExactly(problem, place.policy);
     const Outcome exact = run.verdict.outcome;
     CountVerdict(*tallies_[place.policy], place.inexact, exact, suspected);
     if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);
@@ -193,7 +214,7 @@ class Collector {
   }
 
   void FindUnsolved(const Place& place, Outcome outcome, const std::string& signature, const ExactProblem& problem) {
-    const bool safe_cycle = outcome == Outcome::kCycle && methods_.is_safe(problem) == true;
+    const bool safe_cycle = outcome == Outcome::kCycle && IsSafe(problem);
     Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), (safe_cycle ? "safe-" : "") + signature, problem);
   }
 
@@ -215,6 +236,7 @@ class Collector {
   // Complete driving on polygons ends in a solution of its own law, which is proved; that more corners lead to
   // one of (21), (22) is not.
   void CompareInSpace(const Place& place, Outcome published, const ExactProblem& problem) {
+    const Spending spending(meter_, &ProcessorTime::compared);
     const SpaceSolution complete = methods_.complete_in_space(problem, campaign_.limits);
     const bool solved = complete.outcome == Outcome::kSolved;
     const bool wrong = solved && FindWeakViolation(problem, complete.f);
@@ -253,6 +275,7 @@ class Collector {
   // FindDisagreement requires; that there is a solution is counted where none slides. Lemke's method where
   // asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
+    const Spending spending(meter_, &ProcessorTime::compared);
     const CompleteRun complete = methods_.complete(problem, campaign_.limits);
     Answers answers{{{"complete", complete.verdict.outcome, complete.f},
                      {"baraff", published.verdict.outcome, published.state.f}},
@@ -313,8 +336,14 @@ class Collector {
     if (count.regular) ++tally.solutions[count.words];
   }
 
+  bool IsSafe(const ExactProblem& problem) {
+    const Spending spending(meter_, &ProcessorTime::compared);
+    return methods_.is_safe(problem) == true;
+  }
+
   // In a safe problem nothing is given up under apex=suspended, unless there are ties.
   void CheckSafety(const Place& place, const ExactRun& published, const ExactProblem& problem) {
+    const Spending spending(meter_, &ProcessorTime::compared);
     if (task_.contacts > kMostContactsEnumerated) return;
     AgreementTally& tally = result_.record.agreement[task_.contacts];
     ++tally.safety_decided;
@@ -361,23 +390,27 @@ class Collector {
   const ExactMethods& methods_;
   const Task& task_;
   std::int64_t unit_;
+  WorkMeter meter_;
   UnitResult result_;
   std::vector<Tally*> tallies_;
 };
 
 // draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
 template <class Draw, class Attempt>
-void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, Draw draw, Attempt attempt) {
+void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkMeter& meter, Draw draw,
+            Attempt attempt) {
+  SampledDraws draws;
   const std::int64_t problems = UnitProblems(campaign, task);
   std::int64_t until_audit = 1;  // the first problem is audited
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(
         ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
-    draw(choices);
+    draws(index, [&] { draw(choices); });
     const bool audit = --until_audit == 0;
     if (audit) until_audit = campaign.audit_every;
     for (std::size_t policy = 0; policy < campaign.policies.size(); ++policy) attempt(index, policy, audit);
   }
+  meter.Attribute(&ProcessorTime::generation, draws.Nanoseconds(problems));
 }
 
 struct Judgement {
@@ -424,7 +457,7 @@ class Kernel final : public SizedKernel {
         if (reduced) problem_ = reduction.problem();
       }
     };
-    TryAll(campaign_, unit, task, draw, [&](std::int64_t index, std::size_t policy, bool audit) {
+    TryAll(campaign_, unit, task, collector.meter(), draw, [&](std::int64_t index, std::size_t policy, bool audit) {
       if (reduced)
         Try(index, policy, audit, collector);
       else
@@ -481,7 +514,7 @@ class CertifiedKernel final : public SizedKernel {
 
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
     TryAll(
-        campaign_, unit, task, [](Choices&) {},
+        campaign_, unit, task, collector.meter(), [](Choices&) {},
         [&](std::int64_t index, std::size_t policy, bool audit) { collector.RunCertified(index, policy, audit); });
   }
 
@@ -498,7 +531,7 @@ class SpaceKernel final : public SizedKernel {
     const auto draw = [&](Choices& choices) {
       Generate(task.generator, task.contacts, SurroundingsOf(campaign_), choices, problem_);
     };
-    TryAll(campaign_, unit, task, draw,
+    TryAll(campaign_, unit, task, collector.meter(), draw,
            [&](std::int64_t index, std::size_t policy, bool audit) { Try(index, policy, audit, collector); });
   }
 

@@ -31,6 +31,7 @@ struct UnitResult {
   std::vector<Finding>
       candidates;      // first of each signature, at most representatives_per_unit beside the grave ones
   std::string elites;  // of a campaign with an objective: adversary/optimized_unit.h
+  ProcessorTime time;  // that this run of it took
 };
 
 // What a unit solves with; a search leaves it as it is.

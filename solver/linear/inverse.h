@@ -21,8 +21,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/problem/scalar.h"
-
 namespace stiction {
 
 template <class Scalar>

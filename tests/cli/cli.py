@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program under test, its problems and its stores. Used by the tests beside this file."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -13,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = os.environ.get("STICTION_TESTS") == "short"
+# What is compared of two stores; `work` is another in every run.
 TABLES = {
     "campaign": "key",
     "blocks": "shards, shard, block",
@@ -64,6 +66,41 @@ def content(store):
                 for table, order in TABLES.items()}
     finally:
         db.close()
+
+
+# The columns that the seal of a row is of, in order (corpus/store_rows.h).
+SEALED = {
+    "blocks": "shards, shard, block, record",
+    "units": "unit, shards, shard, block, record",
+    "findings": "signature, kind, unit, idx, generator, contacts, policy, inexact_outcome, exact_outcome, problem, done, "
+                "certificate, minimized, minimized_certificate, existence, minimized_existence, facts",
+    "elites": "unit, elites",
+    "work": "shards, shard, block, unit, builds, time",
+}
+
+
+def seal(table, columns):
+    parts = [table.encode()] + [x if isinstance(x, bytes) else str(x).encode() for x in columns]
+    return hashlib.sha256(b"".join(b"%d:%s\n" % (len(part), part) for part in parts)).hexdigest()
+
+
+def change(store, sql, parameters=(), reseal=True):
+    """Changes rows of a store; sealed anew, as if a program had written them so. Returns how many."""
+    db = sqlite3.connect(store)
+    with db:
+        changed = db.execute(sql, parameters).rowcount
+        if reseal:
+            for table, columns in SEALED.items():
+                key = TABLES.get(table, "shards, shard, block, unit").split(", ")
+                for row in db.execute(f"SELECT {', '.join(key)}, {columns} FROM {table}").fetchall():
+                    where = " AND ".join(f"{name} = ?" for name in key)
+                    db.execute(f"UPDATE {table} SET seal = ? WHERE {where}",
+                               [seal(table, row[len(key):]), *row[:len(key)]])
+            rows = dict(db.execute("SELECT key, value FROM campaign WHERE key != 'seal'"))
+            db.execute("UPDATE campaign SET value = ? WHERE key = 'seal'",
+                       [seal("campaign", [x for key in sorted(rows) for x in (key, rows[key])])])
+    db.close()
+    return changed
 
 
 def total(store):

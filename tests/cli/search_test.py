@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+from fractions import Fraction
 from pathlib import Path
 
 import cli
@@ -90,6 +91,16 @@ class Search(cli.TestCase):
         self.succeeds("search", file, *common, by_file)
         self.assertSameContent(by_options, by_file)
 
+    def test_friction_may_be_any_rational(self):
+        store = self.folder / "a.store"
+        for mu in ("1234567/10000000", "0.1234567", "1e-9", "2147483647/2147483646", "0"):
+            self.succeeds("search", "--generator", "psd", "scenes", "--contacts", 2, "--problems", 20000, "--mu", mu,
+                          "--store", store)
+            problem = self.succeeds("problem", store, 0, 0).out
+            self.assertEqual({Fraction(contact["mu"]) for contact in json.loads(problem)["contacts"]}, {Fraction(mu)})
+            store.unlink()
+        self.refuses("search", "--generator", "near-degenerate", "--mu", "1/65", "--store", store, says="at most 64")
+
     # ---- Shards and merging ----
 
     def test_merged_shards_are_the_unsharded_search(self):
@@ -128,9 +139,7 @@ class Search(cli.TestCase):
 
     def test_two_copies_of_a_block_that_differ_exit_with_70_and_name_it(self):
         changed, out = self.copy("changed.store"), self.copy("out.store")
-        with sqlite3.connect(changed) as db:
-            db.execute("UPDATE blocks SET record = replace(record, '\"wrong\":0', '\"wrong\":1')")
-        db.close()
+        cli.change(changed, "UPDATE blocks SET record = replace(record, '\"wrong\":0', '\"wrong\":1')")
         done = cli.run("merge", out, changed)
         self.assertEqual(done.code, 70)
         self.assertIn("block 0 of shard 0/1", done.err)
@@ -167,7 +176,7 @@ class Search(cli.TestCase):
             ("--problems", 0), ("--problems", -1), ("--problems", "many"), ("--problems", 1.5),
             ("--minutes", 0), ("--minutes", -1), ("--minutes", "nan"), ("--minutes", "inf"), ("--minutes", "1e300"),
             ("--threads", 0), ("--threads", "all"), ("--audit-every", 0), ("--enumerate-every", 0), ("--contacts", 0), ("--contacts", 9), ("--generator", "nonsense"),
-            ("--mu", "-1"), ("--mu", "x"), ("--mu", "1000001"), ("--policy", "nonsense"), ("--policy", "ties=none"),
+            ("--mu", "-1"), ("--mu", "x"), ("--mu", "2147483648"), ("--mu", "1/2147483648"), ("--policy", "nonsense"), ("--policy", "ties=none"),
             ("--policy", "paper", "scan=lowest"),
             ("--seed", -1), ("--seed", 2**64), ("--seed", "x"), ("--seed", 1.5),
             ("--shard", "2/2"), ("--shard", "-1/2"), ("--shard", "0/0"), ("--shard", "1"), ("--shard", "a/b"),
@@ -263,8 +272,8 @@ class Search(cli.TestCase):
         store = self.copy("a.store")
         with sqlite3.connect(store) as db:
             signature, = db.execute("SELECT signature FROM findings WHERE kind = 'cycle' LIMIT 1").fetchone()
-            db.execute("UPDATE findings SET kind = 'safe-cycle' WHERE signature = ?", [signature])
         db.close()
+        cli.change(store, "UPDATE findings SET kind = 'safe-cycle' WHERE signature = ?", [signature])
         lines = self.succeeds("status", store).out.splitlines()
         self.assertEqual(lines[1], f"  GRAVE: safe-cycle: {signature}")
         simplest = next(i for i, line in enumerate(lines) if line.startswith("Simplest"))
@@ -285,17 +294,19 @@ class Search(cli.TestCase):
         self.refuses("problem", self.reference, 0, "x")
         self.refuses("problem", self.folder / "none.store", 0, 0, says="no such store")
 
-    def test_a_store_of_an_older_version_is_refused(self):
+    def test_a_store_of_another_version_is_refused(self):
         store = self.copy("old.store")
-        with sqlite3.connect(store) as db:
-            db.execute("UPDATE campaign SET value = '1' WHERE key = 'version'")
-        db.close()
-        before = cli.content(store)
-        for arguments in (("status", store), ("report", store, "-o", self.folder / "report"),
-                          ("merge", self.folder / "out.store", store), ("problem", store, 0, 0),
-                          ("search", self.campaign, "--store", store, "--problems", 1)):
-            self.refuses(*arguments, says=["old.store", "version 1", "version 2", "--store NEW_FILE"])
-        self.assertEqual(cli.content(store), before)
+        for version, says in ((2, "older stiction, commit abc: that one goes on"), (9, "newer stiction: take that one")):
+            cli.change(store, "INSERT OR REPLACE INTO campaign VALUES ('build', 'commit abc')")
+            cli.change(store, "UPDATE campaign SET value = ? WHERE key = 'version'", [version])
+            before = cli.content(store)
+            for arguments in (("status", store), ("report", store, "-o", self.folder / "report"),
+                              ("merge", self.folder / "out.store", store), ("problem", store, 0, 0),
+                              ("merge", "--salvage", self.folder / "out.store", store),
+                              ("search", self.campaign, "--store", store, "--problems", 1)):
+                self.refuses(*arguments, says=["old.store", f"version {version}", "version 3", "--store NEW_FILE", says])
+            self.assertEqual(cli.content(store), before)
+            self.assertFalse((self.folder / "out.store").exists())
 
     def test_status_of_a_running_search(self):
         store = self.folder / "a.store"

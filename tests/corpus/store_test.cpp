@@ -33,7 +33,7 @@ constexpr std::int64_t kBlock = Store::kUnitsPerBlock;
 
 // ---- Stores to test --------------------------------------------------------------------------
 
-CampaignIdentity Identity() { return {R"({"contacts":[2,3]})", 7, R"(["paper"])", "0.1.0 abc, g++"}; }
+CampaignIdentity Identity() { return {R"({"contacts":[2,3]})", 7, R"(["paper"])", 3}; }
 
 // What unit `unit` counts; every unit counts something else.
 Record RecordOf(std::int64_t unit) {
@@ -113,7 +113,7 @@ std::string Content(const fs::path& file) {
   };
   for (const char* query :
        {"SELECT * FROM campaign ORDER BY key", "SELECT * FROM units ORDER BY unit",
-        "SELECT * FROM blocks ORDER BY shards, shard, block", "SELECT * FROM findings ORDER BY signature"}) {
+        "SELECT * FROM blocks ORDER BY shards, shard, block", "SELECT * FROM findings ORDER BY signature", "SELECT * FROM elites ORDER BY unit"}) {
     REQUIRE(sqlite3_exec(db, query, take, &text, nullptr) == SQLITE_OK);
   }
   sqlite3_close(db);
@@ -151,8 +151,8 @@ TEST_CASE("store: another campaign is refused, with the difference and the way t
   other.seed = 8;
   refused(other, "seed is 7", "is 8");
   other = Identity();
-  other.build = "0.1.0 def, clang";
-  refused(other, "build is 0.1.0 abc, g++", "is 0.1.0 def, clang");
+  other.algorithm = 4;
+  refused(other, "version of the algorithm is 3", "is 4");
   other = Identity();
   other.policies = R"(["ties=contacts"])";
   refused(other, R"(policies is ["paper"])", R"(is ["ties=contacts"])");
@@ -551,14 +551,156 @@ TEST_CASE("store: what is no store is refused by name and left as it is") {
     Execute(file, "UPDATE campaign SET value = '1' WHERE key = 'version'");
     refused_to_read(file);
     refused_to_write(file);
-    Execute(file, "UPDATE campaign SET value = '2' WHERE key = 'version'");
-    Execute(file, "UPDATE campaign SET value = 'seven' WHERE key = 'seed'");
-    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("found seed 'seven'"));
-    Execute(file, "UPDATE campaign SET value = '1' WHERE key = 'version'");
     CHECK_THROWS_WITH(Store::OpenToRead(file),
-                      Contains("found format stiction-store version 1, expected stiction-store version 2") &&
-                          Contains("search anew with --store NEW_FILE"));
+                      Contains("found format stiction-store version 1, expected stiction-store version 3") &&
+                          Contains("of an older stiction") && Contains("search anew with --store NEW_FILE"));
+    Execute(file, "UPDATE campaign SET value = '4' WHERE key = 'version'");
+    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("of a newer stiction"));
+    Execute(file, "UPDATE campaign SET value = '3' WHERE key = 'version'");
+    Store::OpenToRead(file);
+    Execute(file, "UPDATE campaign SET value = '8' WHERE key = 'seed'");
+    CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("campaign: found content of SHA-256"));
   }
+}
+
+// ---- Damage ----------------------------------------------------------------------------------
+
+// A store with a closed block, open units, findings that are finished and not, and elites.
+fs::path MakeFullStore(const Scratch& scratch, const std::string& name) {
+  Store store(scratch / name, Identity());
+  AddRange(store, {}, 0, kBlock + 3);
+  store.AddUnit({}, kBlock + 3, RecordOf(kBlock + 3), {}, "elites");
+  store.Finish(Finished(store.Findings().front()), {{"a build"}, {.finishing = 7}});
+  return scratch / name;
+}
+
+TEST_CASE("store: a row that is not as it was written is named, and nothing is read") {
+  const Scratch scratch;
+  const fs::path file = MakeFullStore(scratch, "a.store");
+  const std::vector<std::pair<std::string, std::string>> damages = {
+      {"UPDATE blocks SET record = replace(record, '1', '2')", "block 0 of shard 0/1: found content of SHA-256"},
+      {"UPDATE blocks SET block = 1", "block 1 of shard 0/1"},
+      {"UPDATE units SET record = record || ' ' WHERE unit = 1025", "unit 1025"},
+      {"UPDATE units SET unit = 2000 WHERE unit = 1025", "unit 2000"},
+      {"UPDATE findings SET contacts = 3 WHERE signature = 'all'", "finding all"},
+      {"UPDATE findings SET facts = 'x' WHERE signature = 'group-1'", "finding group-1"},
+      {"UPDATE findings SET seal = 'none' WHERE signature = 'group-1'", "expected none"},
+      {"UPDATE elites SET elites = 'elitez'", "elites of unit 1027"},
+      {"UPDATE work SET time = replace(time, '0', '1') WHERE unit = -1", "work of block 0 of shard 0/1"}};
+  for (const auto& [sql, name] : damages) {
+    CAPTURE(sql);
+    fs::copy_file(file, scratch / "b.store", fs::copy_options::overwrite_existing);
+    Execute(scratch / "b.store", sql.c_str());
+    CHECK_THROWS_AS(Store::OpenToRead(scratch / "b.store"), InputError);
+    CHECK_THROWS_WITH(Store::OpenToRead(scratch / "b.store"), Contains(name) && Contains("--salvage NEW_FILE"));
+    CHECK_THROWS_WITH(Store(scratch / "b.store", Identity()), Contains(name));
+    Store into(scratch / fmt::format("{}.store", std::hash<std::string>()(sql)), Identity());
+    CHECK_THROWS_WITH(into.MergeFrom(Store::OpenToRead(scratch / "b.store")), Contains(name));
+    CHECK(into.Units().Count() == 0);
+  }
+}
+
+TEST_CASE("store: salvage saves what is sound and names what it leaves out") {
+  const Scratch scratch;
+  const fs::path file = MakeFullStore(scratch, "a.store");
+  const std::string whole = Content(file);
+  const auto salvaged = [&](const std::string& name) {
+    Store store(scratch / name, Identity());
+    return store.Salvage(file);
+  };
+  CHECK(salvaged("whole").empty());
+  CHECK((Content(scratch / "whole") == whole));
+  Execute(file, "UPDATE units SET record = record || ' ' WHERE unit = 1025");
+  Execute(file, "UPDATE findings SET policy = 'x' WHERE signature = 'group-2'");
+  const std::vector<std::string> left_out = salvaged("rest");
+  REQUIRE(left_out.size() == 2);
+  CHECK_THAT(left_out[0], Contains("unit 1025"));
+  CHECK_THAT(left_out[1], Contains("finding group-2"));
+  Store rest(scratch / "rest", Identity());
+  CHECK(rest.Units().Count() == kBlock + 3);
+  CHECK_FALSE(rest.Units().Contains(1025));
+  CHECK(rest.Findings().size() == 5);
+  CHECK(BlockCount(rest) == 1);
+  Add(rest, 1025);  // what was left out can be run again
+  CHECK(rest.Total() == Store::OpenToRead(scratch / "whole").Total());
+
+  Execute(file, "UPDATE campaign SET value = 'x' WHERE key = 'definition'");
+  CHECK_THROWS_WITH(Store::IdentityIn(file), Contains("what it is of cannot be told"));
+}
+
+TEST_CASE("store: salvage leaves out what contradicts what is there") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity()), other(scratch / "b.store", Identity());
+  store.AddUnit({}, 3, RecordOf(3), {});
+  other.AddUnit({}, 3, RecordOf(4), {});
+  other.AddUnit({}, 4, RecordOf(4), {});
+  const auto left_out = store.Salvage(scratch / "b.store");
+  REQUIRE(left_out.size() == 1);
+  CHECK_THAT(left_out[0], Contains("unit 3"));
+  CHECK(store.Units().Count() == 2);
+}
+
+TEST_CASE("store: a record with a key that none has is refused, sealed or not") {
+  const std::string record = Serialize(RecordOf(3));
+  const auto with = [&record](const std::string& from, const std::string& to) {
+    std::string text = record;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  CHECK_THROWS_WITH(ParseRecord(with("\"audited\"", "\"audits\":0,\"audited\"")), Contains("audits"));
+  CHECK_THROWS_WITH(ParseRecord(with("\"drives\"", "\"drive\":0,\"drives\"")), Contains("drive"));
+  CHECK_THROWS_WITH(ParseRecord(with("\"compared\"", "\"more\":0,\"compared\"")), Contains("more"));
+  CHECK_THROWS_WITH(ParseRecord(with("{\"tallies\"", "{\"x\":0,\"tallies\"")), Contains("x"));
+  Json twice = ParseJson(record, "record");
+  twice["tallies"].push_back(twice["tallies"][0]);
+  CHECK_THROWS_WITH(ParseRecord(twice.dump()), Contains("once"));
+  twice = ParseJson(record, "record");
+  twice["agreement"].push_back(twice["agreement"][0]);
+  CHECK_THROWS_WITH(ParseRecord(twice.dump()), Contains("once"));
+  twice = ParseJson(record, "record");
+  twice["agreement"][0]["words"].push_back(twice["agreement"][0]["words"][0]);
+  CHECK_THROWS_WITH(ParseRecord(twice.dump()), Contains("once"));
+}
+
+// ---- Work ------------------------------------------------------------------------------------
+
+Work WorkOf(const std::string& build, std::int64_t exact) { return {{build}, {.doubles = 1, .exact = exact}}; }
+
+TEST_CASE("work: a block has the builds and the time of its units, and of finishing their findings") {
+  const Scratch scratch;
+  const Shard shard{1, 2};
+  Store store(scratch / "a.store", Identity());
+  for (std::int64_t k = 0; k < kBlock; ++k) {
+    if (k == 1) store.Finish(Finished(Candidate("all", 1, 3)), {{"finisher"}, {.finishing = 5}});
+    const std::int64_t unit = UnitOf(shard, k);
+    store.AddUnit(shard, unit, RecordOf(unit), CandidatesOf(unit), {}, WorkOf(k < 3 ? "first" : "second", 2));
+  }
+  REQUIRE(BlockCount(store) == 1);
+  Work expected{{"first", "second", "finisher"}, {.doubles = kBlock, .exact = 2 * kBlock, .finishing = 5}};
+  CHECK(store.TotalWork() == expected);
+  store.Finish(Finished(Candidate("all", 1, 3)), {{"later"}, {.finishing = 6}});
+  expected.builds.insert("later");
+  expected.time.finishing += 6;
+  CHECK(store.TotalWork() == expected);
+  CHECK(Store::OpenToRead(scratch / "a.store").TotalWork() == expected);
+}
+
+TEST_CASE("work: copies of a unit or block with other work are the same unit or block") {
+  const Scratch scratch;
+  const auto make = [&](const std::string& name, std::int64_t units, const std::string& build, std::int64_t time) {
+    Store store(scratch / name, Identity());
+    for (std::int64_t unit = 0; unit < units; ++unit)
+      store.AddUnit({}, unit, RecordOf(unit), CandidatesOf(unit), {}, WorkOf(build, time));
+    return scratch / name;
+  };
+  const fs::path a = make("a", kBlock + 2, "here", 5), b = make("b", kBlock + 2, "there", 9);
+  const Work expected{{"here", "there"}, {.doubles = kBlock + 2, .exact = 9 * (kBlock + 2)}};
+  CHECK(Store::OpenToRead(Merged(scratch, "ab", {a, b})).TotalWork() == expected);
+  CHECK(Store::OpenToRead(Merged(scratch, "ba", {b, a, b, a})).TotalWork() == expected);
+  CHECK((Content(scratch / "ab") == Content(a)));
+  const fs::path part = make("part", 10, "elsewhere", 100);  // of a block that is whole in the other
+  CHECK(Store::OpenToRead(Merged(scratch, "1", {part, a})).TotalWork() == Store::OpenToRead(a).TotalWork());
+  CHECK(Store::OpenToRead(Merged(scratch, "2", {a, part})).TotalWork() == Store::OpenToRead(a).TotalWork());
 }
 
 // ---- A running search ------------------------------------------------------------------------

@@ -108,10 +108,8 @@ class Stores(cli.TestCase):
 
     def test_a_grave_finding_is_exit_4_of_search_and_merge(self):
         store = self.search(self.folder / "s.store", 20000)
-        with sqlite3.connect(store) as db:
-            changed = db.execute("UPDATE findings SET kind = 'safe-cycle' WHERE signature = "
-                                 "(SELECT MIN(signature) FROM findings)").rowcount
-        db.close()
+        changed = cli.change(store, "UPDATE findings SET kind = 'safe-cycle' WHERE signature = "
+                                    "(SELECT MIN(signature) FROM findings)")
         self.assertEqual(changed, 1)
         done = self.succeeds("search", *CAMPAIGN, "--store", store, "--problems", 20000, code=4)
         self.assertIn("1 grave finding", done.err)

@@ -15,7 +15,7 @@ constexpr std::size_t kMostTasks = 100000;
 bool TakesIdentity(const CampaignIdentity& identity) {
   const auto campaign = Unrefused([&identity] { return CampaignOf(identity, "input"); });
   if (!campaign) return false;
-  const CampaignIdentity own = IdentityOf(*campaign, identity.build);
+  const CampaignIdentity own = IdentityOf(*campaign);
   STICTION_CHECK(CampaignOf(own, "its own identity") == *campaign, "a campaign that is read back to another");
   if (campaign->contacts.size() * campaign->generators.size() > kMostTasks) return true;
   const std::vector<Task> schedule = Schedule(*campaign);
@@ -27,7 +27,7 @@ bool TakesIdentity(const CampaignIdentity& identity) {
   return true;
 }
 
-CampaignIdentity DefaultIdentity() { return IdentityOf(Campaign(), "build"); }
+CampaignIdentity DefaultIdentity() { return IdentityOf(Campaign()); }
 
 bool TakesPolicy(const std::string& text) {
   try {

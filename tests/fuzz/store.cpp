@@ -6,9 +6,8 @@
 //
 // A text, a number or null is one of SQLite; any other value is written as JSON text; "hex:ff00" are bytes.
 
-#include "corpus/store.h"
+#include "corpus/store_rows.h"
 
-#include <sqlite3.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -19,6 +18,7 @@
 #include "reports/page.h"
 #include "search/campaign.h"
 #include "search/summary.h"
+#include "search/testimony.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support.h"
@@ -105,6 +105,28 @@ class Database {
 
   void Execute(const std::string& sql) const { sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr); }
 
+  // Every row as if it had been written as it stands.
+  void Seal() const {
+    for (const StoreTable& table : StoreTables()) {
+      std::string keys;
+      for (int i = 0; i < table.keys; ++i)
+        keys += (i > 0 ? " AND " : " WHERE ") + std::string(table.columns[i]) + " IS ?";
+      std::vector<std::vector<std::string>> rows;
+      ForEachRow(SelectFrom(table.name, ""), [&](std::vector<std::string> row) { rows.push_back(std::move(row)); });
+      for (std::vector<std::string>& row : rows) {
+        row.pop_back();
+        std::vector<std::string> values = {SealOf(table.name, row)};
+        values.insert(values.end(), row.begin(), row.begin() + table.keys);
+        Update("UPDATE " + std::string(table.name) + " SET seal = ?" + keys, values);
+      }
+    }
+    std::vector<std::string> campaign;
+    ForEachRow("SELECT key, value FROM campaign WHERE key != 'seal' ORDER BY key", [&](const auto& row) {
+      campaign.insert(campaign.end(), row.begin(), row.end());
+    });
+    Update("UPDATE campaign SET value = ? WHERE key = 'seal'", {SealOf("campaign", campaign)});
+  }
+
   // Nothing happens where SQLite does not let it: null, a key that stands already, a column that is none.
   void Set(const std::string& table, const std::string& column, const Json& value) const {
     const bool campaign = table == "campaign";
@@ -120,6 +142,31 @@ class Database {
   }
 
  private:
+  template <class Visit>
+  void ForEachRow(const std::string& sql, const Visit& visit) const {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(db_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) return;
+    while (sqlite3_step(statement) == SQLITE_ROW) {
+      std::vector<std::string> row;
+      for (int i = 0; i < sqlite3_column_count(statement); ++i) {
+        const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, i));
+        row.emplace_back(text == nullptr ? "" : text, static_cast<std::size_t>(sqlite3_column_bytes(statement, i)));
+      }
+      visit(std::move(row));
+    }
+    sqlite3_finalize(statement);
+  }
+
+  void Update(const std::string& sql, const std::vector<std::string>& values) const {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(db_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) return;
+    int number = 0;
+    for (const std::string& value : values)
+      sqlite3_bind_text(statement, ++number, value.data(), static_cast<int>(value.size()), SQLITE_TRANSIENT);
+    sqlite3_step(statement);
+    sqlite3_finalize(statement);
+  }
+
   static std::string FromHex(const std::string& text) {
     std::string bytes;
     for (std::size_t i = 4; i + 1 < text.size(); i += 2)
@@ -149,11 +196,13 @@ class Database {
 std::string MakeStore(const StoreFolder& folder) {
   const fs::path file = folder / "first";
   {
-    Store store(file, IdentityOf(Campaign(), "build"));
+    Store store(file, IdentityOf(Campaign()));
     store.AddUnit({}, 0, SomeRecord(), {SomeFinding()});
     store.Finish(SomeFinding());
   }
-  Database(file).Execute("INSERT INTO blocks SELECT shards, shard, 5, record FROM units");
+  const Database database(file);
+  database.Execute("INSERT INTO blocks SELECT shards, shard, 5, record, seal FROM units");
+  database.Seal();
   return BytesOf(file);
 }
 
@@ -187,6 +236,7 @@ void ReadFindings(const Store& store) {
   content.units = store.Units().Count();
   content.blocks = static_cast<std::int64_t>(store.Blocks().size());
   content.total = store.Total();
+  content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   FindingsCsv(content.discoveries);
   Page(content);
@@ -205,6 +255,10 @@ void ReadUnits(const Store& store) {
 }
 
 bool ReadAll(const Store& store, const StoreFolder& folder) {
+  Unrefused([&store] {  // what is made here is of no unit that was run
+    RequireSound(store, "input");
+    return true;
+  });
   Readers read;
   read([&store] { CampaignOf(store.identity(), "input"); });
   read([&store] { ReadTotal(store); });
@@ -234,6 +288,7 @@ bool FuzzStore(std::string_view bytes) {
       if (!columns.is_object()) continue;
       for (const auto& [column, value] : columns.items()) database.Set(table, column, value);
     }
+    database.Seal();
   }
   const auto taken = Unrefused([&file] { return ReadAll(Store::OpenToRead(file), folder); });
   return taken.value_or(false);

@@ -456,8 +456,8 @@ bug("ball-earliest", "(gap.Size() - gap.radius()) / (rate.Size() + rate.radius()
     "an unsure limit is later than it may be")
 
 bug = in_file("certify/filtered.cpp", FILTERED)
-bug("no-second-rung", "if (rungs.first <= Rung::kDoubleDouble && ", "if (false && ", "double-doubles are never asked")
-bug("rungs-beyond-last", "if (rungs.last != Rung::kExact) {", "if (false) {", "rationals are asked where they were not wanted",
+bug("no-second-rung", "Rung::kDoubleDouble <= rungs.last", "false", "double-doubles are never asked")
+bug("rungs-beyond-last", "rungs.last != Rung::kExact", "false", "rationals are asked where they were not wanted",
     equivalent="the verdict is the same, only slower")
 bug("complete-upper-lower", "return Mode::kSlipMinus;  // fF = mu fN", "return Mode::kSlipPlus;",
     "the last word slides the wrong way, and rationals must help")
@@ -465,7 +465,7 @@ bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)"
     "zeros of singular matrices are unsure")
 
 bug = in_file("certify/dependent_rows.cpp", FILTERED)
-bug("dependent-without-b", "M(rows, j) = problem_.b[columns[j]];", "M(rows, j) = 0;", "equations between rows of A alone",
+bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << problem_.A.row(i), Rational(0);", "equations between rows of A alone",
     equivalent="of the generators b is in the range of A, where the same equations hold for b")
 
 bug = in_file("solver/problem/backward_error.h", FILTERED)
@@ -486,13 +486,13 @@ bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !w
     "wrong solutions are counted as solved")
 bug("certified-undrawn", "!suspected || IsDrawn(DrawOf(place.index))", "!suspected",
     "no certified suspicion is drawn for other methods")
-bug("unsure-believed", "if (drawn || !certified) return Examine(", "if (drawn) return Examine(",
+bug("unsure-believed", "drawn || !certified", "drawn",
     "where a sign is unsure, rationals are not asked")
 bug("unconfirmed", "if (verdict.outcome != Outcome::kSolved) Confirm(place, problem, filtered);", "",
     "what certified signs do not solve is no finding")
 bug("filtered-uncompared", "if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);", "",
     "filtered runs are not held against rationals")
-bug("certified-unaudited", "if (audit || (exact && suspected)) {", "if (exact && suspected) {", "certified runs are not audited")
+bug("certified-unaudited", "audit || (exact && suspected)", "exact && suspected", "certified runs are not audited")
 bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check of safe problems lacks its switch")
 bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
 bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
@@ -505,7 +505,7 @@ bug("space-existence-unasked", "if (!wrong && complete.outcome != Outcome::kRay)
     "no solution in space is no finding")
 bug("space-undecided-dropped", "inexact.outcome == Outcome::kCycle", "false",
     "loops that intervals do not prove are no findings")
-bug("safe-cycle-missed", "outcome == Outcome::kCycle && methods_.is_safe(problem) == true", "false",
+bug("safe-cycle-missed", "outcome == Outcome::kCycle && IsSafe(problem)", "false",
     "cycles of safe problems are cycles like others")
 bug("ties-not-excused", "if (HasTies(problem, run)) return;", "", "safe problems with ties are findings")
 bug("give-ups-not-read", "if (run.verdict.statistics.give_ups == 0) return;", "", "every safe problem gives up")
@@ -591,15 +591,32 @@ bug("block-too-early", "count.Integer(0) < kUnitsPerBlock", "count.Integer(0) < 
     "a block closes one unit too early")
 bug("finish-overwrites", "if (present.Step()) WriteFinding(db_.get(), finding);", "WriteFinding(db_.get(), finding);",
     "what was replaced meanwhile is finished all the same")
-bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;",
-    "", "the other store's findings win")
-bug("any-campaign", "if (*stored == identity) return;", "return;", "another campaign's store is taken")
+bug("any-campaign", "*stored == identity", "true", "another campaign's store is taken")
 bug("any-file", "head != kMagic", "false", "a file that is no database is taken over")
 bug("blocks-of-all-shards", "shard.Owns(unit) && blocks.contains(BlockOf(shard, unit))", "blocks.contains(BlockOf(shard, unit))",
     "a block of one shard has the units of others")
-bug("merge-any-campaign", "other.identity_ != identity_", "false", "stores of different campaigns are merged")
-bug("merge-twice", "before.Contains(unit) && rest.Contains(unit)", "false", "a unit counts for two shards")
 bug("foreign-database", "tables.Integer(0) > 0 && tables.Integer(1) == 0", "false", "another database is taken over")
+bug("campaign-unsealed", "seal != stored", "false", "a campaign that was changed is believed",
+    context="if (const std::string seal = CampaignSeal(values); seal != stored) {")
+
+bug = in_file("corpus/store_rows.cpp", "^corpus: (store|merge|work)")
+bug("row-unsealed", "seal != stored", "false", "a row that was changed is believed", context="  if (seal != stored) {")
+bug("seal-without-lengths", 'fmt::format("{}:{}\\n", column.size(), column)', "column", "columns may change places in a seal")
+
+bug = in_file("corpus/store_merge.cpp", "^corpus: (store|merge|work)")
+bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;",
+    "", "the other store's findings win")
+bug("merge-any-campaign", "other.identity_ != identity_", "false", "stores of different campaigns are merged",
+    context="""void Store::MergeFrom(const Store& other) {
+  if (other.identity_ != identity_) {""")
+bug("merge-twice", "before.Contains(unit) && rest.Contains(unit)", "false", "a unit counts for two shards")
+bug("salvage-unsound", "RequireSoundRow(other.db_.get(), table, row);", "", "damaged rows are saved")
+bug("work-added", "work.Unite(ReadWorkRow(row));", "work.Add(ReadWorkRow(row));", "a merge with itself doubles the time")
+
+bug = in_file("search/backlog.cpp", "^search: backlog")
+bug("no-bound", "size >= *most_", "false", "the backlog has no bound")
+bug("grave-waits-not", "!IsGrave(finding.kind) && ", "", "a grave finding may be left out")
+bug("outdated-back", "admitted->second.unit != entry.finding.unit", "false", "what was replaced meanwhile waits again")
 
 bug = in_file("corpus/problem_file.cpp", "^corpus: (problem|formats)")
 bug("entry-twice", 'if (is_listed[flat(i, j)]) entry.Refuse("each entry once");', "", "an entry may stand twice")

@@ -51,7 +51,7 @@ const std::string kFacts =
 const CampaignIdentity kIdentity = {
     R"({"format":"stiction-campaign","version":1,"generators":["integers","psd"],)"
     R"("contacts":[1,2],"mu":["1/2","5"],"unit_problems":10000})",
-    4711, R"(["paper","scan=highest"])", "abc123, gcc 12, -O2"};
+    4711, R"(["paper","scan=highest"])"};
 
 Finding PendingFinding(const std::string& signature, std::int64_t unit) {
   Finding finding;
@@ -455,7 +455,7 @@ TEST_CASE("report: every file that is named exists") {
   for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
   for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
   named.erase("");
-  CHECK(named.size() == 6 + 5 + 2);
+  CHECK(named.size() == 7 + 5 + 2);
   for (const std::string& file : named) {
     INFO(file);
     CHECK(fs::is_regular_file(scratch / "out" / file));
@@ -609,7 +609,7 @@ TEST_CASE("report: units without findings, or without any tally, are no trouble"
 TEST_CASE("report: whatever stands in a store is shown as text") {
   const Scratch scratch;
   const std::string evil = "</td><script>alert(\"1\")</script>&'\x01";
-  CampaignIdentity identity = {evil, 1, evil, evil};
+  CampaignIdentity identity = {evil, 1, evil};
   Record record;
   record.tallies[{evil, 2, evil, evil, evil}] = SampleTally(1);
   record.signatures = {{"cycle-2c-" + evil, 1}, {evil, 2}};
@@ -784,7 +784,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 7 + 5 + 1);  // and the list of them
+  CHECK(contents.size() == 8 + 5 + 1);  // and the list of them
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));

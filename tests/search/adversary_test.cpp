@@ -326,7 +326,7 @@ void Run(const Campaign& campaign, const std::filesystem::path& store, int threa
   options.store = store;
   options.threads = threads;
   options.problems = problems;
-  RunSearch(campaign, IdentityOf(campaign, "test"), options, [](const SearchProgress&) {});
+  RunSearch(campaign, IdentityOf(campaign), options, [](const SearchProgress&) {});
 }
 
 void RequireEqualStores(const std::filesystem::path& left, const std::filesystem::path& right) {
@@ -353,7 +353,7 @@ TEST_CASE("adversary: the same records on one thread and on three, at once and i
       hurried.threads = 2;
       hurried.minutes = 1e-4;
       hurried.problems = 150 * units;
-      RunSearch(campaign, IdentityOf(campaign, "test"), hurried, [](const SearchProgress&) {});
+      RunSearch(campaign, IdentityOf(campaign), hurried, [](const SearchProgress&) {});
       Run(campaign, pieces, 2, 150 * units);
     }
     RequireEqualStores(alone, pieces);

@@ -22,7 +22,7 @@ namespace {
 
 using DoubleProblem = ContactProblem<double>;
 using ChoiceList = std::vector<std::int64_t>;
-using Record = std::vector<Choice>;  // with ranges
+using RangedChoices = std::vector<Choice>;  // with ranges
 
 constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
@@ -196,7 +196,7 @@ TEST_CASE("choices: numbers that share a word are independent in pairs") {
 
 TEST_CASE("choices: a replay clamps into the range and goes on with the value nearest zero") {
   const ChoiceList sequence = {100, -100, 3, kLowest, kHighest};
-  Record used;
+  RangedChoices used;
   Choices choices = Choices::Replay(sequence, &used);
   CHECK(choices.Integer(-5, 5) == 5);
   CHECK(choices.Integer(-5, 5) == -5);
@@ -367,7 +367,7 @@ TEST_CASE("generators: a problem depends on nothing that was in its memory befor
 TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals") {
   ForEachKind([](GeneratorId id, int contacts) {
     for (int index = 0; index < 50; ++index) {
-      Record record, again;
+      RangedChoices record, again;
       const std::uint64_t seed = Seed(id, contacts, index);
       const auto problem = Make<DoubleProblem>(id, contacts, Choices(seed, &record));
       REQUIRE(Equal(problem, Make<DoubleProblem>(id, contacts, Choices(seed))));
@@ -384,7 +384,7 @@ TEST_CASE("generators: any sequence of choices makes a problem that meets the as
   ForEachKind([](GeneratorId id, int contacts) {
     Choices edits(Seed(id, contacts, 77));
     for (int index = 0; index < 20; ++index) {
-      Record record;
+      RangedChoices record;
       Make<DoubleProblem>(id, contacts, Choices(Seed(id, contacts, index), &record));
       ChoiceList sequence = ValuesOf(record);
       sequence.resize(edits.Integer(0, static_cast<std::int64_t>(sequence.size())));
@@ -568,7 +568,7 @@ TEST_CASE("bodies: one body on two contacts gives A = J W J', b = J W F computed
                               1, -15, 18,             // F
                               0, -10, 3,  1,  0,      // at (0, -1), normal (3/5, 4/5), with the world
                               5, -10, 7,  -1, 0, 0};  // at (1/2, -1), normal (-7/25, 24/25), the same
-  Record used;
+  RangedChoices used;
   const auto problem = Make<ExactProblem>(GeneratorId::kBodies, 2, Choices::Replay(choices, &used), kPalette);
   CHECK(ValuesOf(used) == choices);
   CHECK((problem.contacts[0].mu == 2 && problem.contacts[1].mu == 10));

@@ -62,7 +62,7 @@ Record TwoPolicies() {
 
 Store StoreWith(const std::filesystem::path& file) {
   const std::string definition = R"({"format":"stiction-campaign","version":1,"contacts":[2]})";
-  Store store(file, {definition, 7, R"(["paper"])", "a build"});
+  Store store(file, {definition, 7, R"(["paper"])"});
   const Finding cycle = Waiting("cycle-2c-4d-10s-00", "cycle", 0),
                 other = Waiting("cycle-2c-4d-12s-00", "cycle", 0);
   const Finding grave = Waiting("safe-cycle-2c-4d-10s-00", kSafeCycle, 1), ray = Waiting("ray-2c", "ray", 1);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a search says while it runs: a bar on a terminal, dated lines in a log, a command for every finding.
+
+#ifndef STICTION_CLI_NIGHT_H_
+#define STICTION_CLI_NIGHT_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/shared.h"
+#include "search/search.h"
+
+namespace stiction {
+
+// "2026-01-31 23:59:59", local.
+std::string TimeOfDay();
+
+// Progress on standard error. A log has a line every ten seconds at first, later more seldom, and one when there is a
+// new group; each says what is new since the line before it, and which of that the corpus has too.
+class NightLog {
+ public:
+  explicit NightLog(std::optional<double> minutes) : minutes_(minutes) {}
+
+  void Show(const SearchProgress& progress);
+  // The end: nothing that is new stays unsaid.
+  void Finish(const SearchProgress& progress);
+
+ private:
+  double Fraction(const SearchProgress& progress) const;
+  std::string Line(const SearchProgress& progress) const;
+  void Print(const SearchProgress& progress);
+
+  std::optional<double> minutes_;
+  ProgressBar bar_;
+  double last_ = 0;                 // seconds, of the line before
+  std::int64_t problems_ = 0;       // then
+  std::vector<Finding> news_;       // since then
+};
+
+// Runs a shell command for each finding. It gets the finding as JSON on standard input, and STICTION_SIGNATURE,
+// STICTION_KIND, STICTION_GRAVE (0 or 1), STICTION_KNOWN (the case of the corpus with this signature, or nothing),
+// STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, or is still running after a
+// minute and is killed then, is reported on standard error and nothing else.
+class FindingCommand {
+ public:
+  FindingCommand(std::string command, std::string store)
+      : command_(std::move(command)), store_(std::move(store)) {}
+
+  void Run(const Finding& finding) const;
+
+ private:
+  std::string command_, store_;
+};
+
+// What is stored of a finding, as JSON.
+Json ToJson(const Finding& finding);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NIGHT_H_

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction slurm: a campaign as a job array and a job that merges what it leaves.
+//
+// A task runs the units of its shard into a store of its own, under another name until it is whole, so that an old copy
+// of a task that still runs somewhere does no harm: both write the same. Tasks finish no findings, since shards meet the
+// same ones; the merge does. The scripts need bash and, to start over, Slurm's commands; without Slurm the same tasks run
+// in a loop or under GNU parallel.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "cli/shared.h"
+#include "cli/verbs.h"
+#include "corpus/atomic_file.h"
+#include "corpus/json_text.h"
+#include "search/campaign.h"
+
+namespace stiction {
+namespace {
+
+struct SlurmVerb {
+  std::string campaign, folder;
+  int shards = 0;
+  std::int64_t problems = 0;
+  int cpus = 1;
+  int time = 120;  // minutes
+  bool replace = false;
+};
+
+constexpr const char* kCommon = R"sh(
+set -u
+shards=@SHARDS@ units=@UNITS@ problems=@PROBLEMS@
+dir=@DIR@
+stiction=${STICTION:-@STICTION@}
+cd "$dir" || exit 2
+
+note() { printf '%s %s\n' "$(date '+%F %T')" "$*" >&2; }
+
+# Units that a store holds.
+units_of() { "$stiction" status "$1" --json | tr ',' '\n' | sed -n 's/^{*"units":\([0-9]*\).*/\1/p' | head -n 1; }
+
+# Units of a shard when it is whole.
+units_wanted() { echo $(((units - $1 + shards - 1) / shards)); }
+)sh";
+
+constexpr const char* kTask = R"sh(#!/bin/bash
+# One shard of a campaign: task NUMBER, or SLURM_ARRAY_TASK_ID. Leaves shards/NUMBER.store, or nothing.
+#SBATCH --job-name=stiction
+#SBATCH --array=0-@LAST@
+#SBATCH --cpus-per-task=@CPUS@
+#SBATCH --time=@TIME@
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output="@LOGS@/task-%a.log"
+@COMMON@
+shard=${SLURM_ARRAY_TASK_ID:-${1-}}
+[[ $shard =~ ^[0-9]+$ ]] && ((shard < shards)) || { note "task: found shard '$shard', expected 0 to $((shards - 1))"; exit 2; }
+whole=shards/$shard.store
+[[ ! -e $whole ]] || exit 0
+# Of this attempt alone: another one may still be running on a node that was given up.
+store=shards/.$shard.${SLURM_JOB_ID:-$$}.${SLURM_RESTART_COUNT:-0}
+trap 'rm -f -- "$store" "$store"-wal "$store"-shm "$store".lock' EXIT
+
+# What a signal or a lost child leaves is done again, a few times. Slurm does not requeue a task whose program was killed.
+again() {
+  if [[ -n ${SLURM_ARRAY_JOB_ID-} ]] && ((${SLURM_RESTART_COUNT:-0} < 5)); then
+    note "shard $shard: $1: once more"
+    scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID" && sleep 60
+  fi
+  note "shard $shard: $1"
+  exit 75
+}
+
+"$stiction" search campaign.json --store "$store" --shard "$shard/$shards" --problems "$problems" --finishing 0 \
+  --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >/dev/null &
+child=$!
+trap 'kill -TERM "$child" 2>/dev/null' TERM INT HUP
+wait "$child"
+status=$?
+while kill -0 "$child" 2>/dev/null; do wait "$child"; status=$?; done  # a signal ends `wait` first
+case $status in
+  0 | 4) ;;  # 4: a grave finding, which the merge reports
+  2 | 70) note "shard $shard: stiction ended with status $status"; exit "$status" ;;
+  *) again "stiction ended with status $status" ;;
+esac
+have=$(units_of "$store")
+[[ $have == "$(units_wanted "$shard")" ]] || again "has ${have:-no} units, expected $(units_wanted "$shard")"
+[[ ! -s $store-wal ]] || again "its store is not closed"
+sync -- "$store" && mv -f -- "$store" "$whole" || exit 74
+note "shard $shard: $have units"
+)sh";
+
+constexpr const char* kMerge = R"sh(#!/bin/bash
+# Merges the shards once all are there; has those that are missing run again, and itself after them.
+#SBATCH --job-name=stiction-merge
+#SBATCH --cpus-per-task=@CPUS@
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output="@LOGS@/merge.log"
+@COMMON@
+round=${STICTION_ROUND:-1}
+missing=() stores=()
+for ((shard = 0; shard < shards; ++shard)); do
+  store=shards/$shard.store
+  if [[ ! -e $store ]]; then
+    missing+=("$shard")
+    continue
+  fi
+  have=$(units_of "$store")
+  if [[ $have == "$(units_wanted "$shard")" ]]; then
+    stores+=("$store")
+  else
+    note "shard $shard: ${have:-no} units can be read, expected $(units_wanted "$shard"); kept as $store.damaged"
+    mv -f -- "$store" "$store.damaged"
+    missing+=("$shard")
+  fi
+done
+if ((${#missing[@]})); then
+  list=$(IFS=,; echo "${missing[*]}")
+  note "${#missing[@]} of $shards shards are missing: $list"
+  if ((round >= 5)) || ! command -v sbatch >/dev/null; then
+    note "run them with task.sh, then merge.sh again"
+    exit 75
+  fi
+  job=$(sbatch --parsable --array="$list" task.sh) || exit 75
+  STICTION_ROUND=$((round + 1)) sbatch --parsable --export=ALL,STICTION_ROUND=$((round + 1)) \
+    --dependency="afterany:${job%%;*}" merge.sh >/dev/null || exit 75
+  exit 0
+fi
+
+merged=.merged.${SLURM_JOB_ID:-$$}.store
+trap 'rm -f -- "$merged" "$merged"-wal "$merged"-shm "$merged".lock' EXIT
+"$stiction" merge "$merged" "${stores[@]}" >/dev/null
+status=$?
+[[ $status == 0 || $status == 4 ]] || exit "$status"
+[[ $(units_of "$merged") == "$units" ]] || { note "the merged store has $(units_of "$merged") units, expected $units"; exit 70; }
+"$stiction" search --store "$merged" --finish --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >/dev/null
+status=$?
+[[ $status == 0 || $status == 4 ]] || exit "$status"
+mv -f -- "$merged" merged.store || exit 74
+"$stiction" report merged.store -o report || exit
+"$stiction" status merged.store
+exit "$status"
+)sh";
+
+constexpr const char* kSubmit = R"sh(#!/bin/bash
+# Submits the shards, and the merge after them. Options are sbatch's, for both: --partition=... --account=...
+cd -- @DIR@ || exit 2
+job=$(sbatch --parsable "$@" task.sh) || exit
+merge=$(sbatch --parsable "$@" --dependency="afterany:${job%%;*}" merge.sh) || exit
+echo "tasks ${job%%;*}, merge ${merge%%;*}"
+)sh";
+
+// As one word of a shell.
+std::string ShellWord(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string Filled(std::string text, const std::map<std::string, std::string>& values) {
+  for (const auto& [name, value] : values) {
+    const std::string mark = "@" + name + "@";
+    for (auto at = text.find(mark); at != text.npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  }
+  return text;
+}
+
+// The whole campaign as a file.
+Json CampaignToJson(const Campaign& campaign) {
+  Json json = DefinitionToJson(campaign);
+  json["seed"] = campaign.seed;
+  for (const Policy& policy : campaign.policies) json["policies"].push_back(PolicyName(policy));
+  return json;
+}
+
+int RunSlurm(const SlurmVerb& o) {
+  namespace fs = std::filesystem;
+  const Campaign campaign = ReadCampaign(o.campaign);
+  RequireConsistent(campaign);
+  const std::int64_t units = UnitsFor(campaign, o.problems);
+  if (units < o.shards) {
+    throw InputError(fmt::format("--shards: found {}, expected at most {}: so many units hold {} problems", o.shards,
+                                 units, o.problems));
+  }
+  const fs::path folder = fs::absolute(o.folder).lexically_normal();
+  if (folder.string().find_first_of("\n%\"\\") != std::string::npos)
+    throw InputError(fmt::format("{}: found %, \", \\ or a line feed in the name, expected a folder that Slurm can name",
+                                 folder.string()));
+  std::map<std::string, std::string> values = {{"SHARDS", std::to_string(o.shards)},
+                                               {"LAST", std::to_string(o.shards - 1)},
+                                               {"UNITS", std::to_string(units)},
+                                               {"PROBLEMS", std::to_string(o.problems)},
+                                               {"CPUS", std::to_string(o.cpus)},
+                                               {"TIME", std::to_string(o.time)},
+                                               {"DIR", ShellWord(folder.string())},
+                                               {"LOGS", (folder / "logs").string()},
+                                               {"STICTION", ShellWord(fs::read_symlink("/proc/self/exe").string())}};
+  values["COMMON"] = Filled(kCommon, values);
+  WholeFolder whole(folder, "slurm", OccupiedIf(o.replace));
+  whole.Write("campaign.json", JsonText(CampaignToJson(campaign), 1) + "\n");
+  for (const auto& [name, text] : {std::pair("task.sh", kTask), {"merge.sh", kMerge}, {"submit.sh", kSubmit}}) {
+    whole.Write(name, Filled(text, values));
+    fs::permissions(whole.Place(folder / name), fs::perms(0755));
+  }
+  whole.Write("logs/.keep", "");
+  whole.Write("shards/.keep", "");
+  TellAside(whole.Commit());
+  fmt::print("{}/submit.sh\n", o.folder);
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddSlurm(CommandLine& program) {
+  auto [verb, o] = program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
+  verb.footer =
+      "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json. Tasks that are killed are queued "
+      "again; the merge has what is missing run again, finishes all findings and writes merged.store and report/. "
+      "Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then FOLDER/merge.sh. How many shards there are changes "
+      "nothing, unless the campaign has an objective: a shard learns from its own units. STICTION names another "
+      "program.";
+  verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file").Required();
+  verb.Option("--shards", o.shards, "tasks; each should take minutes").Required().Range(1, 100000);
+  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").Required().AtLeast(1);
+  verb.Option("-o,--output", o.folder, "folder to write, which every node sees").Required();
+  verb.Option("--cpus", o.cpus, "cores of a task").Range(1, 1024);
+  verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);
+  AddReplace(verb, o.replace);
+}
+
+}  // namespace stiction

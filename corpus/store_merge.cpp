@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Merging stores: whole ones, and what is sound of damaged ones.
+
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "corpus/store_rows.h"
+#include "solver/problem/check.h"
+
+namespace stiction {
+
+void Store::MergeFrom(const Store& other) {
+  if (other.identity_ != identity_) {
+    throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
+  }
+  Transaction transaction(db_.get());
+  const UnitSet before = Units();
+  for (const StoreTable& table : StoreTables()) {
+    Statement rows(other.db_.get(), SelectFrom(table.name, ""));
+    while (rows.Step()) MergeRow(table.name, rows, before);
+  }
+  CloseBlocks();
+  transaction.Commit();
+}
+
+// Blocks come before units, and both before their work.
+void Store::MergeRow(std::string_view table, const Statement& row, const UnitSet& before) {
+  if (table == "blocks") {
+    MergeBlock(ReadShard(row), ReadBlock(row, 2), row.Text(3), before);
+  } else if (table == "units") {
+    const Shard shard{static_cast<int>(row.Integer(2)), static_cast<int>(row.Integer(1))};
+    MergeUnit(shard, ReadUnit(row, 0), row.Text(4));
+  } else if (table == "findings") {
+    MergeFinding(ReadFinding(row));
+  } else if (table == "elites") {
+    MergeElites(ReadUnit(row, 0), row.Text(1));
+  } else {
+    MergeWork(row);
+  }
+}
+
+// A finished block takes the place of an unfinished copy of itself.
+void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record,
+                       const UnitSet& before) {
+  Statement same(db_.get(), "SELECT record FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  if (same.Bind(shard).Bind(block).Step()) {
+    STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of block {} of shard {}/{} differ", block,
+                                                       shard.index, shard.count));
+    return;
+  }
+  for (const char* table : {"units", "work"}) {
+    Statement remove(db_.get(), fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table));
+    remove.Bind(shard).Bind(block).Step();
+  }
+  const UnitSet rest = Units();
+  for (std::int64_t k = 0; k < kUnitsPerBlock; ++k) {
+    const std::int64_t unit = (block * kUnitsPerBlock + k) * shard.count + shard.index;
+    if (before.Contains(unit) && rest.Contains(unit)) {
+      throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
+    }
+  }
+  PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, record});
+}
+
+void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
+  if (Units().Contains(unit)) {
+    // As part of the same block, finished here or not; otherwise it was counted for different shards.
+    Statement same(db_.get(), "SELECT record FROM units WHERE unit = ? AND shards = ? AND shard = ?");
+    if (same.Bind(unit).Bind(shard).Step()) {
+      STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of unit {} differ", unit));
+      return;
+    }
+    Statement closed(db_.get(), "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+    if (closed.Bind(shard).Bind(BlockOf(shard, unit)).Step()) return;
+    throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
+  }
+  InsertUnit(shard, unit, record);
+}
+
+void Store::MergeFinding(const Finding& finding) {
+  Statement present(db_.get(), "SELECT unit, idx, done FROM findings WHERE signature = ?");
+  present.Bind(finding.signature);
+  if (present.Step()) {
+    const std::tuple mine(present.Integer(0), present.Integer(1), -present.Integer(2));
+    if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;
+  }
+  WriteFinding(db_.get(), finding);
+}
+
+void Store::MergeElites(std::int64_t unit, const std::string& elites) {
+  Statement same(db_.get(), "SELECT elites FROM elites WHERE unit = ?");
+  if (same.Bind(unit).Step()) {
+    STICTION_CHECK(same.Text(0) == elites, fmt::format("two copies of the elites of unit {} differ", unit));
+    return;
+  }
+  PutRow(db_.get(), "elites", {unit, elites});
+}
+
+void Store::MergeWork(const Statement& row) {
+  const WorkKey key = ReadWorkKey(row);
+  const bool of_unit = key.unit != WorkKey::kNoUnit;
+  Statement present(db_.get(), of_unit ? "SELECT 1 FROM units WHERE shards = ? AND shard = ? AND unit = ?"
+                                       : "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  if (!present.Bind(key.shard).Bind(of_unit ? key.unit : key.block).Step()) return;  // of a block that is whole here
+  Work work = ReadWork(db_.get(), key);
+  work.Unite(ReadWorkRow(row));
+  WriteWork(db_.get(), key, work);
+}
+
+void Store::CloseBlocks() {
+  std::vector<BlockInfo> open;
+  {
+    Statement blocks(db_.get(), "SELECT DISTINCT shards, shard, block FROM units");
+    while (blocks.Step()) open.push_back({ReadShard(blocks), ReadBlock(blocks, 2)});
+  }
+  for (const BlockInfo& info : open) CloseBlockIfComplete(info.shard, info.block);
+}
+
+// ---- What is sound of a damaged store ---------------------------------------------------------
+
+std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
+  const Store other = OpenUnchecked(file);
+  if (other.identity_ != identity_) {
+    throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
+  }
+  std::vector<std::string> left_out;
+  Transaction transaction(db_.get());
+  for (const StoreTable& table : StoreTables()) SalvageTable(table, other, left_out);
+  CloseBlocks();
+  transaction.Commit();
+  return left_out;
+}
+
+// From both ends: a page that cannot be read ends a walk.
+void Store::SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out) {
+  const UnitSet before = Units();
+  bool whole = true;
+  const auto walk = [&](const char* direction) {
+    std::string order;
+    for (int i = 0; i < table.keys; ++i) order += fmt::format("{}{} {}", i > 0 ? ", " : "", table.columns[i], direction);
+    std::int64_t rows_read = 0;
+    try {
+      Statement rows(other.db_.get(), SelectFrom(table.name, "ORDER BY " + order));
+      for (; rows.Step(); ++rows_read) {
+        if (auto reason = SalvageRow(table, other, rows, before); !reason.empty() && (whole || rows_read == 0))
+          left_out.push_back(std::move(reason));
+      }
+    } catch (const InputError& error) {
+      if (whole)
+        left_out.push_back(fmt::format("{}: not all rows can be reached: {}", table.name, error.what()));
+      whole = false;
+    }
+  };
+  walk("ASC");
+  if (!whole) walk("DESC");
+}
+
+// Empty if the row was taken in, otherwise why it was not.
+std::string Store::SalvageRow(const StoreTable& table, const Store& other, const Statement& row,
+                              const UnitSet& before) {
+  Execute("SAVEPOINT of_row");
+  try {
+    RequireSoundRow(other.db_.get(), table, row);
+    MergeRow(table.name, row, before);
+    Execute("RELEASE of_row");
+    return {};
+  } catch (const InputError& error) {
+    Execute("ROLLBACK TO of_row");
+    Execute("RELEASE of_row");
+    return error.what();
+  } catch (const InternalError& error) {  // two copies differ
+    Execute("ROLLBACK TO of_row");
+    Execute("RELEASE of_row");
+    return error.what();
+  }
+}
+
+}  // namespace stiction

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/testimony.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "corpus/digest.h"
+#include "corpus/json_text.h"
+#include "corpus/kinds.h"
+#include "search/adversary/optimized_unit.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+namespace {
+
+bool IsOutcome(std::string_view text) {
+  return std::find(kOutcomeNames.begin(), kOutcomeNames.end(), text) != kOutcomeNames.end();
+}
+
+bool IsKind(std::string_view text) {
+  return text == kSafeCycle || text == kDisagreementOfMethods || text == "wrong-answer" || text == "disagreement" ||
+         IsOutcome(text);
+}
+
+// Refuses texts of one place.
+class Witness {
+ public:
+  explicit Witness(std::string place) : place_(std::move(place)) {}
+
+  const std::string& place() const { return place_; }
+  void Require(bool holds, const char* what, const std::string& found, const std::string& expected) const {
+    if (!holds) throw InputError(place_, what, found, expected);
+  }
+  void RequireOneOf(const char* what, std::string_view found, bool known, const char* expected) const {
+    Require(known, what, fmt::format("'{}'", Shortened(std::string(found))), expected);
+  }
+
+ private:
+  std::string place_;
+};
+
+void RequirePolicy(const Witness& witness, const std::string& name, const Campaign& campaign) {
+  const auto is_this = [&name](const Policy& policy) { return PolicyName(policy) == name; };
+  witness.RequireOneOf("policy", name, std::any_of(campaign.policies.begin(), campaign.policies.end(), is_this),
+                       "one of the campaign's");
+}
+
+// ---- Findings --------------------------------------------------------------------------------
+
+ExactProblem ReadStored(const Witness& witness, const char* what, const std::string& text) {
+  const std::string source = witness.place() + ": " + what;
+  return ParseProblem(text, source).problem;
+}
+
+// Of the problem, to the digest; which claim it makes is for the checkers.
+void RequireCertificate(const Witness& witness, const char* what, const std::string& text,
+                        const ExactProblem& problem) {
+  if (text.empty()) return;
+  const std::string source = witness.place() + ": " + what;
+  const Json json = ParseJson(text, source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"format", "version", "claim", "problem", "witness"});
+  const JsonPlace format = root.Required("format", "\"stiction-certificate\"");
+  if (format.Text("\"stiction-certificate\"") != "stiction-certificate") format.Refuse("\"stiction-certificate\"");
+  root.Required("version", "1").Integer(1, 1, "1");
+  root.Required("claim", "a claim").Text("a claim");
+  root.Required("witness", "a witness");
+  root.Required("problem", "a problem");
+  const std::string digest = ProblemDigest(ProblemFromJson(json["problem"], source, "problem", /*strict=*/true));
+  const std::string expected = ProblemDigest(problem);
+  witness.Require(digest == expected, what, "the certificate of " + digest, expected);
+}
+
+void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  facts.RequireObject();
+  facts.AllowKeys({"contacts", "outcome", "start", "period", "steps", "grid", "safe", "existence"});
+  facts.Required("contacts", "a number of contacts").Integer(contacts, contacts, fmt::format("{}", contacts));
+  const JsonPlace outcome = facts.Required("outcome", "an outcome");
+  if (!IsOutcome(outcome.Text("an outcome"))) outcome.Refuse("an outcome");
+  for (const char* key : {"start", "period", "steps"}) facts.Required(key, "a count").Integer(0, kMost, "a count");
+  const JsonPlace grid = facts.Required("grid", "policies by outcome");
+  grid.RequireObject();
+  for (const auto& [name, count] : grid.json().items()) {
+    if (!IsOutcome(name)) grid.Child(name, count).Refuse(name, "an outcome");
+    grid.Child(name, count).Integer(0, kMost, "a count");
+  }
+  if (const auto safe = facts.Optional("safe"); safe && !safe->json().is_null() && !safe->json().is_boolean())
+    safe->Refuse("true, false or null");
+  const JsonPlace existence = facts.Required("existence", "what is known of a solution");
+  existence.RequireObject();
+  existence.AllowKeys({"claim", "method", "pieces", "folds", "descents"});
+  const JsonPlace claim = existence.Required("claim", "a claim or null");
+  if (!claim.json().is_null()) claim.Text("a claim or null");
+}
+
+void RequireFacts(const Witness& witness, const Finding& finding, const ExactProblem* minimized) {
+  if (finding.facts.empty()) return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
+  const std::string source = witness.place() + ": facts";
+  const Json json = ParseJson(finding.facts, source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"found", "minimized", "disagreement", "answers"});
+  if (const auto reason = root.Optional("disagreement")) reason->Text("a reason");
+  const auto found = root.Optional("found"), small = root.Optional("minimized");
+  if (finding.done || found) RequireRunFacts(root.Required("found", "facts of the problem as found"), finding.contacts);
+  witness.Require(small.has_value() == (minimized != nullptr), "facts", small ? "those of a minimized problem" : "none",
+                  "those of a minimized problem where there is one, and only there");
+  if (small) RequireRunFacts(*small, static_cast<std::int64_t>(minimized->contacts.size()));
+}
+
+// ---- Statistics ------------------------------------------------------------------------------
+
+template <class Counts>
+std::int64_t Sum(const Counts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
+void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campaign, const std::string& file) {
+  const Witness witness(fmt::format("{}: statistics of {} of {} contacts, {}", file, Shortened(key.generator),
+                                    key.contacts, Shortened(key.policy)));
+  const auto generator = FindGenerator(key.generator);
+  const auto& all = campaign.generators;
+  witness.RequireOneOf("generator", key.generator,
+                       generator && std::find(all.begin(), all.end(), *generator) != all.end(), "one of the campaign's");
+  const auto& sizes = campaign.contacts;
+  witness.Require(std::find(sizes.begin(), sizes.end(), key.contacts) != sizes.end(), "contacts",
+                  std::to_string(key.contacts), "one of the campaign's");
+  RequirePolicy(witness, key.policy, campaign);
+  witness.RequireOneOf("method", key.method, key.method == "baraff", "baraff");
+  witness.RequireOneOf("arithmetic", key.arithmetic, key.arithmetic == Name(campaign.arithmetic), "the campaign's");
+  const auto at_most = [&](const char* what, std::int64_t count, std::int64_t most) {
+    witness.Require(count <= most, what, std::to_string(count), fmt::format("at most {}", most));
+  };
+  const auto as_many = [&](const char* what, std::int64_t count) {
+    witness.Require(count == tally.problems, what, fmt::format("{} in all", count),
+                    fmt::format("as many as problems, {}", tally.problems));
+  };
+  as_many("outcomes", Sum(tally.outcomes));
+  as_many("steps", Sum(tally.steps));
+  at_most("misjudged", tally.misjudged, tally.audited);
+  at_most("wrong", tally.wrong, tally.problems);
+  at_most("with_zero_steps", tally.with_zero_steps, tally.problems);
+  at_most("with_give_ups", tally.with_give_ups, tally.problems);
+  at_most("audited", tally.audited, tally.problems);
+}
+
+}  // namespace
+
+void RequireSound(const Finding& finding, const Campaign& campaign, const std::string& file) {
+  const Witness witness(fmt::format("{}: finding {}", file, Shortened(finding.signature, 100)));
+  witness.RequireOneOf("kind", finding.kind, IsKind(finding.kind), "a kind of findings");
+  witness.RequireOneOf("signature", finding.signature, IsKind(KindOf(finding.signature)), "one that begins with a kind");
+  const auto in_range = [&witness](const char* what, std::int64_t number) {
+    witness.Require(number >= 0 && number < std::int64_t{1} << 62, what, std::to_string(number), "0 or more");
+  };
+  in_range("unit", finding.unit);
+  in_range("index", finding.index);
+  const Task task = TaskOf(Schedule(campaign), finding.unit);
+  witness.RequireOneOf("generator", finding.generator, finding.generator == Row(task.generator).name,
+                       "that of its unit");
+  witness.Require(finding.contacts == task.contacts, "contacts", std::to_string(finding.contacts),
+                  fmt::format("{}, as its unit has", task.contacts));
+  RequirePolicy(witness, finding.policy, campaign);
+  witness.RequireOneOf("inexact_outcome", finding.inexact_outcome, IsOutcome(finding.inexact_outcome), "an outcome");
+  witness.RequireOneOf("exact_outcome", finding.exact_outcome, IsOutcome(finding.exact_outcome), "an outcome");
+  const ExactProblem problem = ReadStored(witness, "problem", finding.problem);
+  witness.Require(static_cast<int>(problem.contacts.size()) == finding.contacts, "problem",
+                  fmt::format("{} contacts", problem.contacts.size()), std::to_string(finding.contacts));
+  std::optional<ExactProblem> minimized;
+  if (!finding.minimized.empty()) minimized = ReadStored(witness, "minimized", finding.minimized);
+  RequireCertificate(witness, "certificate", finding.certificate, problem);
+  RequireCertificate(witness, "existence", finding.existence, problem);
+  for (const auto& [what, text] : {std::pair("minimized_certificate", &finding.minimized_certificate),
+                                   std::pair("minimized_existence", &finding.minimized_existence)}) {
+    witness.Require(text->empty() || minimized, what, "one", "none without a minimized problem");
+    if (minimized) RequireCertificate(witness, what, *text, *minimized);
+  }
+  RequireFacts(witness, finding, minimized ? &*minimized : nullptr);
+}
+
+void RequireSound(const Record& total, const Campaign& campaign, const std::string& file) {
+  for (const auto& [key, tally] : total.tallies) RequireTally(key, tally, campaign, file);
+  const Witness witness(file);
+  for (const auto& [signature, count] : total.signatures) {
+    witness.RequireOneOf("signatures", signature, IsKind(KindOf(signature)), "signatures that begin with a kind");
+  }
+  const auto is_size = [&campaign](int contacts) {
+    return std::find(campaign.contacts.begin(), campaign.contacts.end(), contacts) != campaign.contacts.end();
+  };
+  for (const auto& [contacts, tally] : total.existence) {
+    witness.Require(is_size(contacts), "existence", fmt::format("{} contacts", contacts), "a size of the campaign's");
+    witness.Require(tally.solved <= tally.problems, "existence", fmt::format("{} solved", tally.solved),
+                    fmt::format("at most {}", tally.problems));
+  }
+  for (const auto& [contacts, tally] : total.agreement)
+    witness.Require(is_size(contacts), "agreement", fmt::format("{} contacts", contacts), "a size of the campaign's");
+}
+
+void RequireSound(const Store& store, const std::string& file) {
+  const Campaign campaign = CampaignOf(store.identity(), file);
+  RequireSound(store.Total(), campaign, file);
+  for (const Finding& finding : store.Findings()) RequireSound(finding, campaign, file);
+  for (const auto& [unit, text] : store.Elites()) ElitesFromText(text, fmt::format("{}: elites of unit {}", file, unit));
+}
+
+}  // namespace stiction
