@@ -8,8 +8,8 @@
 //
 // The systems are the reduced systems that complete driving meets on problems of the generators (entries: over
 // rationals, or of the problem over doubles taken exactly), and dense ones of random integers. Only regular
-// ones. All answers are compared exactly. Then whole runs of complete driving and of the published algorithm,
-// by both eliminations; the published algorithm runs under the policy `paper`.
+// ones. All answers are compared exactly. Then whole runs of complete driving, of the published algorithm and of
+// Lemke's method, by both eliminations; the published algorithm runs under the policy `paper`.
 
 #include <fmt/format.h>
 
@@ -36,6 +36,7 @@
 #include "corpus/stopwatch.h"
 #include "search/choices.h"
 #include "solver/complete/complete.ipp"
+#include "solver/lemke/lemke.ipp"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 #include "solver/published/published.ipp"
@@ -385,15 +386,20 @@ void AddRuns(GeneratorId id, int contacts, const BenchOptions& o, std::int64_t c
   CompleteDriving<PlainRational> plain_complete;
   PublishedAlgorithm<Rational> published;
   PublishedAlgorithm<PlainRational> plain_published;
+  LemkeAlgorithm<Rational> lemke;
+  LemkeAlgorithm<PlainRational> plain_lemke;
   const std::vector<Way> ways = {
       {"complete, gauss", [&](std::size_t i) { plain_complete.Run(plain[i]); }, 0},
       {"complete, fraction-free", [&](std::size_t i) { complete.Run(problems[i]); }, 0},
       {"baraff, gauss", [&](std::size_t i) { plain_published.Run(plain[i]); }, 2},
-      {"baraff, fraction-free", [&](std::size_t i) { published.Run(problems[i]); }, 2}};
+      {"baraff, fraction-free", [&](std::size_t i) { published.Run(problems[i]); }, 2},
+      {"lemke, gauss", [&](std::size_t i) { plain_lemke.Run(plain[i]); }, 4},
+      {"lemke, fraction-free", [&](std::size_t i) { lemke.Run(problems[i]); }, 4}};
   for (std::size_t i = 0; i < problems.size(); ++i) {
     for (const Way& way : ways) way.run(i);
     STICTION_CHECK(complete.f() == plain_complete.f().cast<Rational>() &&
-                       published.state().f == plain_published.state().f.cast<Rational>(),
+                       published.state().f == plain_published.state().f.cast<Rational>() &&
+                       lemke.f() == plain_lemke.f().cast<Rational>(),
                    "runs by different eliminations disagree");
   }
   table.AddRows(fmt::format("{}, runs", Row(id).name), contacts, problems.size(), ways);

@@ -37,6 +37,13 @@ struct BitLength<Rational> {
 };
 
 template <>
+struct BitLength<mpz_class> {
+  static std::int64_t Of(const mpz_class& x) {
+    return static_cast<std::int64_t>(mpz_sizeinbase(x.get_mpz_t(), 2));
+  }
+};
+
+template <>
 struct Fractions<Rational> {
   using Integer = mpz_class;
 

@@ -114,6 +114,8 @@ class LemkeAlgorithm {
   const Vector& ray() const { return ray_; }
 
  private:
+  // Integers for fraction-free scalars, otherwise the scalar itself.
+  using Entry = typename Fractions<Scalar>::Integer;
   static constexpr int kSize = Rows == Eigen::Dynamic ? Eigen::Dynamic : 2 * Rows;
   static constexpr int kColumns = Rows == Eigen::Dynamic ? Eigen::Dynamic : 2 * Rows + 1;
 
@@ -137,7 +139,8 @@ class LemkeAlgorithm {
   Scalar RightSide(const Component& w) const;
   Scalar MatrixEntry(const Component& w, const Component& z) const;
   Scalar LimitCover() const;
-  void SetCover();
+  Scalar CoverOf(const Component& w, const Scalar& limit_cover) const;
+  void SetRow(int i, const Scalar& limit_cover);
   bool IsNonnegative() const;
 
   // Variables of the path: w_0 ... w_{m-1}, z_0 ... z_{m-1}, z0.
@@ -150,13 +153,17 @@ class LemkeAlgorithm {
   int CompareQuotients(int i, int k, int c) const;
   bool IsBefore(int i, int k) const;
   void Pivot(int row, int entering);
+  void Eliminate(int row);
+  void EliminateIntegers(int row);
   bool IsBasic(int variable) const;
   bool FollowsCover(int i, int entering) const;
   void MeetEnd(int entering);
   void Renew();
   Scalar BasisEntry(int row, int variable) const;
   bool BudgetSpent();
+  bool MayExceedBits(int i) const;
 
+  Scalar Value(int i) const;
   void AddForce(int variable, const Scalar& value, Vector& f) const;
   void Extract();
   void ComputeRay(int entering);
@@ -175,11 +182,15 @@ class LemkeAlgorithm {
   Trace<Scalar>* trace_ = nullptr;      // where pivots are kept
   int size_ = 0;                        // m
   std::vector<Component> components_;
-  Eigen::Matrix<Scalar, kSize, kColumns, Eigen::RowMajor> T_;  // inv(B) (q, I)
-  Eigen::Matrix<Scalar, kSize, kSize> M_;
-  Eigen::Matrix<Scalar, kSize, 1> column_;  // inv(B) times the entering column
-  Eigen::Matrix<Scalar, kSize, 1> cover_;   // d
-  std::vector<int> basis_;                  // variable of each row
+  // w - M z - d z0 = q, B its basic columns. Over integers each row is times its unit, w_i with it, and T_ and
+  // column_ are times the denominator.
+  Eigen::Matrix<Entry, kSize, kColumns, Eigen::RowMajor> T_;  // inv(B) (q, I)
+  Eigen::Matrix<Entry, kSize, kSize> M_;
+  Eigen::Matrix<Entry, kSize, 1> column_;  // inv(B) times the entering column
+  Eigen::Matrix<Entry, kSize, 1> cover_;   // d
+  std::vector<Entry> row_units_;
+  Entry denominator_ = Entry(1);
+  std::vector<int> basis_;  // variable of each row
   Scalar unit_A_ = Scalar(1), unit_b_ = Scalar(1);
   Scalar pivot_tolerance_ = Scalar(0), tie_tolerance_ = Scalar(0), residual_tolerance_ = Scalar(0);
   Vector f_, a_, ray_;

@@ -66,17 +66,33 @@ void LemkeAlgorithm<Scalar, Rows>::Start() {
     column_.resize(size_);
     cover_.resize(size_);
   }
-  SetCover();
+  denominator_ = Entry(1);
+  row_units_.assign(size_, Entry(1));
   basis_.resize(size_);
   for (int i = 0; i < problem.rows(); ++i) f_[i] = ray_[i] = Scalar(0);
+  const Scalar limit = LimitCover();
   for (int i = 0; i < size_; ++i) {
     basis_[i] = i;
-    T_(i, 0) = RightSide(components_[i]);
-    for (int j = 0; j < size_; ++j) {
-      T_(i, j + 1) = Scalar(i == j ? 1 : 0);
-      M_(i, j) = MatrixEntry(components_[i], components_[j]);
-    }
+    for (int j = 0; j < size_; ++j) T_(i, j + 1) = Entry(i == j ? 1 : 0);
+    SetRow(i, limit);
   }
+}
+
+// q, M and d; where integers are beneath the scalar, times their common denominator.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::SetRow(int i, const Scalar& limit_cover) {
+  using F = Fractions<Scalar>;
+  const Component& w = components_[i];
+  const Scalar q = RightSide(w), cover = CoverOf(w, limit_cover);
+  Entry& unit = row_units_[i];
+  if constexpr (kFractionFree<Scalar>) {
+    F::Include(unit, q);
+    F::Include(unit, cover);
+    for (const Component& z : components_) F::Include(unit, MatrixEntry(w, z));
+  }
+  T_(i, 0) = F::Numerator(q, unit);
+  cover_[i] = F::Numerator(cover, unit);
+  for (int j = 0; j < size_; ++j) M_(i, j) = F::Numerator(MatrixEntry(w, components_[j]), unit);
 }
 
 template <class Scalar, int Rows>
@@ -170,20 +186,18 @@ template <class Scalar, int Rows>
 Scalar LemkeAlgorithm<Scalar, Rows>::LimitCover() const {
   const Problem& problem = *problem_;
   if (options_.cover == Cover::kOnes) return unit_A_;
+  if (options_.cover == Cover::kGraded) return Scalar(1 / Grade<Scalar>());
   Scalar A = Scalar(0);
   for (int i = 0; i < problem.rows(); ++i) A = std::max<Scalar>(A, problem.A(i, i));
   return Sign(A) > 0 ? Scalar(unit_A_ / A) : Scalar(1);
 }
 
 template <class Scalar, int Rows>
-void LemkeAlgorithm<Scalar, Rows>::SetCover() {
-  const bool graded = options_.cover == Cover::kGraded;
-  const Scalar grade = Grade<Scalar>(), limit = graded ? Scalar(1 / grade) : LimitCover();
-  for (int i = 0; i < size_; ++i) {
-    const Component& w = components_[i];
-    cover_[i] = w.block == Block::kMultiplier ? limit : Scalar(1);
-    for (int r = 0; graded && w.block != Block::kMultiplier && r < w.row; ++r) cover_[i] *= grade;
-  }
+Scalar LemkeAlgorithm<Scalar, Rows>::CoverOf(const Component& w, const Scalar& limit_cover) const {
+  if (w.block == Block::kMultiplier) return limit_cover;
+  Scalar cover(1);
+  for (int r = 0; options_.cover == Cover::kGraded && r < w.row; ++r) cover *= Grade<Scalar>();
+  return cover;
 }
 
 template <class Scalar, int Rows>
@@ -226,7 +240,7 @@ template <class Scalar, int Rows>
 int LemkeAlgorithm<Scalar, Rows>::FirstLeaving() const {
   int best = 0;
   for (int i = 1; i < size_; ++i) {
-    if (Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0) best = i;
+    if (Sign(Entry(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0) best = i;
   }
   return best;
 }
@@ -234,7 +248,7 @@ int LemkeAlgorithm<Scalar, Rows>::FirstLeaving() const {
 // inv(B) times the column of a variable in w - M z - e z0 = q.
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::ComputeColumn(int entering) {
-  const auto coefficient = [&](int k) -> const Scalar& {
+  const auto coefficient = [&](int k) -> const Entry& {
     return entering == Artificial() ? cover_[k] : M_(k, entering - size_);
   };
   for (int i = 0; i < size_; ++i) {
@@ -242,7 +256,7 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeColumn(int entering) {
       column_[i] = T_(i, entering + 1);
       continue;
     }
-    column_[i] = Scalar(0);
+    column_[i] = Entry(0);
     for (int k = 0; k < size_; ++k) {
       if (!IsSurelyZero(T_(i, k + 1))) column_[i] -= T_(i, k + 1) * coefficient(k);
     }
@@ -252,15 +266,22 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeColumn(int entering) {
 // The row that limits the entering variable first, -1 if none does. z0 leaves whenever it can.
 template <class Scalar, int Rows>
 int LemkeAlgorithm<Scalar, Rows>::Leaving(int entering) const {
-  Scalar largest = Scalar(0);
+  Scalar tolerance(0);
   if constexpr (!kIsExact<Scalar>) {
-    for (int i = 0; i < size_; ++i) largest = std::max(largest, Abs(column_[i]));
+    for (int i = 0; i < size_; ++i) tolerance = std::max(tolerance, Abs(column_[i]));
+    tolerance *= pivot_tolerance_;
   }
-  const Scalar tolerance = pivot_tolerance_ * largest;
+  const auto falls = [&](int i) {
+    if constexpr (kIsExact<Scalar>) {
+      return Sign(column_[i]) > 0;
+    } else {
+      return Sign(column_[i], tolerance) > 0;
+    }
+  };
   int best = -1, artificial = -1;
   for (int i = 0; i < size_; ++i) {
     if (kEncloses<Scalar> && FollowsCover(i, entering)) continue;  // z0 leaves in its place
-    if (Sign(column_[i], tolerance) <= 0) continue;
+    if (!falls(i)) continue;
     if (basis_[i] == Artificial()) artificial = i;
     if (best < 0 || IsBefore(i, best)) best = i;
   }
@@ -273,8 +294,8 @@ template <class Scalar, int Rows>
 int LemkeAlgorithm<Scalar, Rows>::CompareQuotients(int i, int k, int c) const {
   if constexpr (kIsExact<Scalar>) {
     const int left = Sign(T_(i, c)), right = Sign(T_(k, c));
-    if (left != right || left == 0) return Sign(Scalar(left - right));
-    return Sign(Scalar(T_(i, c) * column_[k] - T_(k, c) * column_[i]));
+    if (left != right || left == 0) return left - right;
+    return Sign(Entry(T_(i, c) * column_[k] - T_(k, c) * column_[i]));
   } else {
     const Scalar x = T_(i, c) / column_[i], y = T_(k, c) / column_[k];
     const Scalar scale = std::max({Abs(x), Abs(y), 1 / column_[i], 1 / column_[k]});
@@ -360,13 +381,24 @@ void LemkeAlgorithm<Scalar, Rows>::Renew() {
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::MeetEnd(int entering) {
   for (int i = 0; i < size_; ++i) {
-    if (FollowsCover(i, entering)) T_(i, 0) = Scalar(0);
+    if (FollowsCover(i, entering)) T_(i, 0) = Entry(0);
   }
 }
 
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::Pivot(int row, int entering) {
-  const Scalar pivot = column_[row];
+  if constexpr (kFractionFree<Scalar>) {
+    EliminateIntegers(row);
+  } else {
+    Eliminate(row);
+  }
+  basis_[row] = entering;
+  ++verdict_.statistics.pivots;
+}
+
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::Eliminate(int row) {
+  const Entry pivot = column_[row];
   for (int c = 0; c <= size_; ++c) {
     if (!IsSurelyZero(T_(row, c))) T_(row, c) /= pivot;
   }
@@ -376,8 +408,30 @@ void LemkeAlgorithm<Scalar, Rows>::Pivot(int row, int entering) {
       if (!IsSurelyZero(T_(row, c))) T_(i, c) -= column_[i] * T_(row, c);
     }
   }
-  basis_[row] = entering;
-  ++verdict_.statistics.pivots;
+}
+
+// By minors: the denominator, |det B|, divides every product of the rule of three (Edmonds 1967, Bareiss 1968). Only z0
+// comes in on a negative pivot.
+template <class Scalar, int Rows>
+void LemkeAlgorithm<Scalar, Rows>::EliminateIntegers(int row) {
+  if constexpr (kFractionFree<Scalar>) {  // over other scalars nothing calls it
+    using F = Fractions<Scalar>;
+    Entry pivot = column_[row];
+    if (pivot < 0) {
+      pivot = -pivot;
+      for (int c = 0; c <= size_; ++c) T_(row, c) = -T_(row, c);
+    }
+    for (int i = 0; i < size_; ++i) {
+      if (i == row) continue;
+      for (int c = 0; c <= size_; ++c) {
+        Entry& entry = T_(i, c);
+        entry *= pivot;
+        F::SubtractProduct(entry, column_[i], T_(row, c));
+        F::DivideExactly(entry, denominator_);
+      }
+    }
+    denominator_ = std::move(pivot);
+  }
 }
 
 template <class Scalar, int Rows>
@@ -387,14 +441,34 @@ bool LemkeAlgorithm<Scalar, Rows>::BudgetSpent() {
   } else if (options_.limits.Stopped()) {
     verdict_.reason = kStopped;
   } else {
-    for (int i = 0; i < size_; ++i) {
-      if (BitLength<Scalar>::Of(T_(i, 0)) > options_.limits.bits) verdict_.reason = "bits";
+    for (int i = 0; kIsExact<Scalar> && i < size_; ++i) {
+      if (MayExceedBits(i) && BitLength<Scalar>::Of(Value(i)) > options_.limits.bits) verdict_.reason = "bits";
     }
   }
   return !verdict_.reason.empty();
 }
 
+// Before common factors are found, which takes time.
+template <class Scalar, int Rows>
+bool LemkeAlgorithm<Scalar, Rows>::MayExceedBits(int i) const {
+  const auto bits = &BitLength<Entry>::Of;
+  const std::int64_t unit = basis_[i] < size_ ? bits(row_units_[basis_[i]]) : 0;
+  return std::max(bits(T_(i, 0)), bits(denominator_) + unit) > options_.limits.bits;
+}
+
 // ---- Answers -----------------------------------------------------------------------------------
+
+// Of the basic variable of row i.
+template <class Scalar, int Rows>
+Scalar LemkeAlgorithm<Scalar, Rows>::Value(int i) const {
+  if constexpr (kFractionFree<Scalar>) {
+    const int variable = basis_[i];
+    const Entry divisor = variable < size_ ? Entry(denominator_ * row_units_[variable]) : denominator_;
+    return Fractions<Scalar>::Quotient(T_(i, 0), divisor);
+  } else {
+    return T_(i, 0);
+  }
+}
 
 // Adds the force that a variable of the path stands for, if any.
 template <class Scalar, int Rows>
@@ -417,7 +491,9 @@ template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::Extract() {
   const Scalar unit = unit_b_ / unit_A_;
   for (int i = 0; i < problem_->rows(); ++i) f_[i] = Scalar(0);
-  for (int i = 0; i < size_; ++i) AddForce(basis_[i], T_(i, 0) * unit, f_);
+  for (int i = 0; i < size_; ++i) {
+    if (basis_[i] >= size_) AddForce(basis_[i], Value(i) * unit, f_);
+  }
   a_ = problem_->b;
   for (int i = 0; i < problem_->rows(); ++i) {
     for (int j = 0; j < problem_->rows(); ++j) {
@@ -431,7 +507,16 @@ template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::ComputeRay(int entering) {
   for (int i = 0; i < problem_->rows(); ++i) ray_[i] = Scalar(0);
   AddForce(entering, Scalar(1), ray_);
-  for (int i = 0; i < size_; ++i) AddForce(basis_[i], Scalar(-column_[i]), ray_);
+  for (int i = 0; i < size_; ++i) {
+    if (basis_[i] < size_) continue;
+    if constexpr (kFractionFree<Scalar>) {
+      Entry change = -column_[i];
+      if (entering < size_) change *= row_units_[entering];
+      AddForce(basis_[i], Fractions<Scalar>::Quotient(change, denominator_), ray_);
+    } else {
+      AddForce(basis_[i], Scalar(-column_[i]), ray_);
+    }
+  }
 }
 
 template <class Scalar, int Rows>
@@ -523,12 +608,12 @@ template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::RecordPoint(int row) {
   stiction::Pivot<Scalar>& pivot = trace_->pivots.back();
   Extract();
-  pivot.s = T_(row, 0) * UnitOf(basis_[row]);
+  pivot.s = Value(row) * UnitOf(basis_[row]);
   pivot.f = f_;
   pivot.a = a_;
   pivot.cover = Scalar(0);
   for (int i = 0; i < size_; ++i) {
-    if (basis_[i] == Artificial()) pivot.cover = T_(i, 0) * unit_b_;
+    if (basis_[i] == Artificial()) pivot.cover = Value(i) * unit_b_;
   }
 }
 

@@ -21,6 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/problem/scalar.h"
+
 namespace stiction {
 
 template <class Scalar>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Backward error: how far the nearest problem is that forces solve exactly.
 //
-// The forces stay; A, b and mu move. By the theorem of Oettli and Prager the least eps such that accelerations a + d
-// are those of a problem with abs(A' - A) <= eps abs(A), abs(b' - b) <= eps abs(b), entry by entry, is
+// The forces stay; A, b and mu move. By the theorem of Oettli and Prager the least eps such that accelerations
+// a + d are those of a problem with abs(A' - A) <= eps abs(A), abs(b' - b) <= eps abs(b), entry by entry, is
 //
 //   eps = max_i abs(d_i) / (abs(A) abs(f) + abs(b))_i,
 //
-// and each contact asks for the least d that makes its law hold: aN = 0 where it presses, aN >= 0 where it does not,
-// and for friction, whichever is less, aF = 0, or abs(fF) / fN in the place of mu where aF opposes fF. A' is not
-// symmetric as a rule. The same d is a change of b alone, with A' = A: of_b. Accelerations are computed in long double,
-// and their rounding added (gate.h): upper bounds.
+// and each contact asks for the least d that makes its law hold: aN = 0 where it presses, aN >= 0 where it does
+// not, and for friction, whichever is less, aF = 0, or abs(fF) / fN in the place of mu where aF opposes fF. A'
+// is not symmetric as a rule. The same d is a change of b alone, with A' = A: of_b. Accelerations are computed
+// in long double, and their rounding added (gate.h): upper bounds.
 //
-// W. Oettli and W. Prager, Numerische Mathematik 6, 1964. Shapes: f rows x 1, N. Static and frictionless contacts of
-// the plane; bilateral rows ask for a = 0.
+// W. Oettli and W. Prager, Numerische Mathematik 6, 1964. Shapes: f rows x 1, N. Static and frictionless
+// contacts of the plane; bilateral rows ask for a = 0.
 
 #ifndef STICTION_SOLVER_PROBLEM_BACKWARD_ERROR_H_
 #define STICTION_SOLVER_PROBLEM_BACKWARD_ERROR_H_
@@ -31,8 +31,8 @@ struct BackwardError {
   double of_mu = 0;    // largest relative change of a coefficient of friction
 };
 
-// Empty where no change of these numbers helps: a force pulls, friction stands without a normal force, or a number is
-// not finite.
+// Empty where no change of these numbers helps: a force pulls, friction stands without a normal force, or a
+// number is not finite.
 template <class Scalar>
 std::optional<BackwardError> FindBackwardError(const ContactProblem<Scalar>& problem, const LongVector& f) {
   if (problem.dimension != 2 || f.size() != problem.rows() || !f.allFinite()) return std::nullopt;
@@ -40,11 +40,13 @@ std::optional<BackwardError> FindBackwardError(const ContactProblem<Scalar>& pro
   if (!checked.a.allFinite()) return std::nullopt;
   const auto size = [&](int row) {  // (abs(A) abs(f) + abs(b))_row
     long double sum = std::abs(static_cast<long double>(problem.b[row]));
-    for (int j = 0; j < problem.rows(); ++j) sum += std::abs(static_cast<long double>(problem.A(row, j)) * f[j]);
+    for (int j = 0; j < problem.rows(); ++j)
+      sum += std::abs(static_cast<long double>(problem.A(row, j)) * f[j]);
     return sum;
   };
   long double max_b = 0;
-  for (int i = 0; i < problem.rows(); ++i) max_b = std::max(max_b, std::abs(static_cast<long double>(problem.b[i])));
+  for (int i = 0; i < problem.rows(); ++i)
+    max_b = std::max(max_b, std::abs(static_cast<long double>(problem.b[i])));
   // What it costs to move an acceleration so far, its rounding included.
   const auto cost = [&](int row, long double distance) {
     const long double of = size(row);

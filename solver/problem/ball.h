@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ball: a number known as a middle and a radius around it, an enclosure (enclosure.h) at nearly the speed of its
-// middle. The methods run over it as they do over exact scalars; a comparison that the radius leaves open throws
-// UnsureSign.
+// Ball: a number known as a middle and a radius around it, an enclosure (enclosure.h) at nearly the speed of
+// its middle. The methods run over it as they do over exact scalars; a comparison that the radius leaves open
+// throws UnsureSign.
 //
 // Rounding is to nearest throughout, so that no mode of the processor is switched. For every operation x o y
 //
@@ -10,8 +10,8 @@
 // and the doubles in which radii are computed are rounded up by kUpward, which exceeds the rounding of every
 // formula below. Zero with radius zero is the number zero, and stays so under all operations: what is zero by
 // structure is known to be. Overflow ends in a radius that decides nothing.
-// Exactness: sums of doubles are exact where they are subnormal, products lose at most half of the least double;
-// `kLeast` makes up for that.
+// Exactness: sums of doubles are exact where they are subnormal, products lose at most half of the least
+// double; `kLeast` makes up for that.
 //
 // Source: Rump, Fast and parallel interval arithmetic, BIT 39, 1999; Joldes, Muller and Popescu, Tight and
 // rigorous error bounds for basic building blocks of double-word arithmetic, ACM TOMS 44, 2017.
@@ -99,7 +99,8 @@ class Ball {
     if (x.IsZero()) return {};
     const Number quotient = x.middle_ / y.middle_;
     const double rounding = Round::OfQuotient(x.middle_, quotient);
-    const double reached = x.radius_ + (Round::Size(quotient) + rounding) * y.radius_ + Rounding<double>::kLeast;
+    const double reached =
+        x.radius_ + (Round::Size(quotient) + rounding) * y.radius_ + Rounding<double>::kLeast;
     const bool points = x.radius_ == 0 && y.radius_ == 0;
     const double moved = points ? 0 : reached / (least * kDownward);
     return {quotient, kUpward * (moved + rounding)};

@@ -40,8 +40,8 @@ struct Unsure {
   static void Refuse() {}
 };
 
-// Rows of (A b) that are combinations of others: there a = A f + b is zero wherever it is zero in those, whatever f.
-// Where A is singular, a comparison of ends never tells such zeros.
+// Rows of (A b) that are combinations of others: there a = A f + b is zero wherever it is zero in those,
+// whatever f. Where A is singular, a comparison of ends never tells such zeros.
 class DependentRows {
  public:
   virtual ~DependentRows() = default;
@@ -57,7 +57,8 @@ std::vector<bool> SureZeros(const Vector& values) {
   return zero;
 }
 
-// Accelerations, or their changes, that are zero by the equations between rows become zero. Null: none are known.
+// Accelerations, or their changes, that are zero by the equations between rows become zero. Null: none are
+// known.
 template <class Vector>
 void MeetDependentZeros(DependentRows* rows, Vector& a) {
   using Scalar = typename Vector::Scalar;

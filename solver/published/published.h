@@ -10,9 +10,10 @@
 // readings.md fixes every choice that the text leaves open; `Policy` names the readings. The algorithm
 // can fail to end: a repeated outer state is the outcome `cycle`, a repeated state inside a drive `stall`.
 //
-// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, a repetition where
-// the sets decide the forces, and what the ends do not decide throws. Over inexact ones it is a suspicion: forces are compared
-// after rounding, and callers run the problem again exactly before they claim anything.
+// Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, a repetition
+// where the sets decide the forces, and what the ends do not decide throws. Over inexact ones it is a
+// suspicion: forces are compared after rounding, and callers run the problem again exactly before they claim
+// anything.
 
 #ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
 #define STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
@@ -58,9 +59,12 @@ class PublishedAlgorithm {
   // again; where that has no solution, the run starts from f = 0. Work: one factorization, then as the run.
   Verdict RunFrom(const Problem& problem, std::span<const IndexSet> guess, Trace<Scalar>* trace = nullptr);
 
-  // Over enclosures: tells accelerations that are zero where others are, by an equation between the rows of A and
-  // of b. Null: none.
-  void KnowDependentRows(DependentRows* rows) { dependent_rows_ = rows; step_size_.KnowDependentRows(rows); }
+  // Over enclosures: tells accelerations that are zero where others are, by an equation between the rows of A
+  // and of b. Null: none.
+  void KnowDependentRows(DependentRows* rows) {
+    dependent_rows_ = rows;
+    step_size_.KnowDependentRows(rows);
+  }
 
   // The state in which the last run ended.
   const State& state() const { return state_; }

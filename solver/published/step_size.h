@@ -62,7 +62,7 @@ class StepSize {
     Scalar s = Scalar(0);
     IndexSet wants = IndexSet::kNone;
     bool exists = false;
-    bool may_exist = false;        // over enclosures: another, not before `earliest`
+    bool may_exist = false;  // over enclosures: another, not before `earliest`
     Scalar earliest = Scalar(0);
 
     void MayExistFrom(const Scalar& s) {
@@ -87,7 +87,7 @@ class StepSize {
 
   RowArray<Limit, Rows> limits_;
   DependentRows* dependent_rows_ = nullptr;
-  std::vector<bool> resting_;  // accelerations that are zero and stay so, where rows are dependent
+  std::vector<bool> resting_;      // accelerations that are zero and stay so, where rows are dependent
   RowArray<int, Rows> met_bound_;  // sign of the limit, or 0; over enclosures
 };
 

@@ -57,6 +57,51 @@ TEST_CASE("lemke: problems that meet the paper's assumptions are solved, whateve
   }
 }
 
+// 1/p of row p in every number, so that each row of the tableau has a unit of its own.
+ExactProblem OfFractions(int contacts, std::uint64_t seed) {
+  ExactProblem problem = RandomDefinite(contacts, seed);
+  for (auto& contact : problem.contacts) contact.mu += Rational(1, 7);
+  for (int i = 0; i < problem.rows(); ++i) {
+    problem.b[i] /= 2 * i + 3;
+    for (int j = 0; j < problem.rows(); ++j) problem.A(i, j) /= (2 * i + 3) * (2 * j + 3);
+  }
+  return problem;
+}
+
+TEST_CASE("lemke: every step of a path over fractions leads from one point to the next") {
+  LemkeAlgorithm<Rational> lemke;
+  int entering_accelerations = 0;
+  for (std::uint64_t index = 0; index < 40; ++index) {
+    const ExactProblem problem = OfFractions(3, index);
+    Trace<Rational> trace;
+    REQUIRE(lemke.Run(problem, &trace).outcome == Outcome::kSolved);
+    ExactVector before = ExactVector::Zero(problem.rows());
+    for (const Pivot<Rational>& pivot : trace.pivots) {
+      INFO("problem " << index << ": " << pivot.entering << " enters, " << pivot.leaving << " leaves");
+      CHECK(pivot.f == before + pivot.s * pivot.df);
+      CHECK(pivot.a == Accelerations(problem, pivot.f));
+      entering_accelerations += pivot.entering[0] == 'a' && Sign(pivot.s) > 0;
+      before = pivot.f;
+    }
+    CHECK_FALSE(FindViolation(problem, lemke.f()));
+    CHECK(Sign(trace.pivots.back().cover) == 0);
+  }
+  CHECK(entering_accelerations > 20);
+}
+
+// Two balls: z0 = 6, then z0 = 4 beside f2 = 2/10, which has three bits in lowest terms.
+TEST_CASE("lemke: a budget of bits is one of numbers in lowest terms") {
+  ExactProblem problem = MakeProblem({0}, {{6, 0}, {0, 10}}, {-4, -6});
+  problem.contacts.assign(2, {ContactKind::kFrictionless, 0, {}});
+  for (const int bits : {2, 3}) {
+    LemkeOptions options;
+    options.limits.bits = bits;
+    const Verdict verdict = LemkeAlgorithm<Rational>(options).Run(problem);
+    CHECK(verdict.outcome == (bits == 2 ? Outcome::kLimit : Outcome::kSolved));
+    CHECK(verdict.reason == (bits == 2 ? "bits" : ""));
+  }
+}
+
 TEST_CASE("lemke: mixed frictionless and static contacts") {
   LemkeAlgorithm<Rational> lemke;
   for (std::uint64_t index = 0; index < 40; ++index) {

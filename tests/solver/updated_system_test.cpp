@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Updated direction systems beside those that are eliminated afresh: directions, signs, whole runs.
 
-#include "solver/problem/scalar.h"
-
 #include "solver/linear/updated_system.ipp"
 
 #include <catch2/catch.hpp>
