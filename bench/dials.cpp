@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bench/structure.h"
 #include "certify/exact.h"
 #include "corpus/rounded.h"
 #include "search/exponential.h"
@@ -59,7 +60,8 @@ std::array<Rational, 2> DrawDirection(Choices& choices) {
 }
 
 // Rows of a contact on a body: its normal and its tangent, with the arm at which it acts.
-void SetRows(int contact, int body, int sign, const std::array<Rational, 2>& normal, Choices& choices, Matrix& J) {
+void SetRows(int contact, int body, int sign, const std::array<Rational, 2>& normal, Choices& choices,
+             Matrix& J) {
   const std::array<std::array<Rational, 2>, 2> directions = {{normal, {Rational(-normal[1]), normal[0]}}};
   const Rational x = Uniform(9, choices) / 4, y = Uniform(9, choices) / 4;
   for (int r = 0; r < 2; ++r) {
@@ -73,7 +75,8 @@ void SetRows(int contact, int body, int sign, const std::array<Rational, 2>& nor
 // Each contact is of a body with another, or with the ground; as many bodies as contacts, or one fewer.
 Draft DrawBodies(Choices& choices) {
   Draft draft;
-  const int contacts = static_cast<int>(choices.Integer(2, 4)), bodies = contacts - static_cast<int>(choices.Integer(0, 1));
+  const int contacts = static_cast<int>(choices.Integer(2, 4)),
+            bodies = contacts - static_cast<int>(choices.Integer(0, 1));
   draft.J = Matrix::Constant(2 * contacts, 3 * bodies, Rational(0));
   for (int i = 0; i < contacts; ++i) {
     const MuChoice& mu = kFrictionsDrawn[choices.Integer(0, kFrictionsDrawn.size() - 1)];
@@ -98,7 +101,8 @@ Draft DrawBodies(Choices& choices) {
 // Heavy bodies beside light ones.
 ExactProblem Masses(int setting, Choices& choices) {
   Draft draft = DrawBodies(choices);
-  const int bodies = static_cast<int>(draft.W.size()) / 3, heavy = static_cast<int>(choices.Integer(0, bodies - 1));
+  const int bodies = static_cast<int>(draft.W.size()) / 3,
+            heavy = static_cast<int>(choices.Integer(0, bodies - 1));
   for (int k = 0; k < bodies; ++k) {
     const bool is_heavy = k == heavy || choices.Integer(0, 1) == 0;
     if (is_heavy) draft.W.segment(3 * k, 3) /= PowerOfTen(setting);
@@ -245,13 +249,28 @@ ExactProblem Exponential(int setting, Choices& choices) {
   return problem;
 }
 
+// ---- Blocks --------------------------------------------------------------------------------------
+
+ExactProblem StackOfMasses(int setting, Choices& choices) {
+  return Unrounded(StackProblem(4, setting, choices));
+}
+
+ExactProblem WallOfMasses(int setting, Choices& choices) {
+  return Unrounded(WallProblem(3, 2, setting, choices));
+}
+
 }  // namespace
 
 const std::vector<Dial>& Dials() {
   static const std::vector<Dial> dials = {
       {"tame", "nothing", "", {0}, true, &Tame},
       {"masses", "ratio of masses", "10^k", {0, 2, 4, 8, 12, 16}, true, &Masses},
-      {"levers", "arms of contacts beside masses", "10^k m", {-150, -75, -16, -8, 0, 8, 16, 75, 150}, true, &Levers},
+      {"levers",
+       "arms of contacts beside masses",
+       "10^k m",
+       {-150, -75, -16, -8, 0, 8, 16, 75, 150},
+       true,
+       &Levers},
       {"units", "unit of mass", "10^k kg", {-300, -150, 0, 150, 300}, true, &Units},
       {"conditioned", "condition number of A", "10^k", {0, 8, 16, 32, 100, 300}, true, &Conditioned},
       {"parallel", "contacts alike but for", "10^-k", {1, 4, 8, 12, 16, 40}, true, &Parallel},
@@ -261,6 +280,14 @@ const std::vector<Dial>& Dials() {
       {"range", "distance of b from the range of A", "10^-k", {0, 4, 8, 12, 16, 40}, false, &Range},
       {"near-loops", "distance from the border of a loop", "10^-k", {1, 4, 8, 12, 16, 30}, true, &NearLoops},
       {"exponential", "paths of 2^n - 1 pivots", "contacts n", {2, 4, 6, 8, 10}, true, &Exponential},
+      {"stack", "four boxes, ratio of masses", "10^k", {0, 4, 8, 12, 16}, true, &StackOfMasses, true},
+      {"wall",
+       "three courses of bricks, ratio of masses",
+       "10^k",
+       {0, 4, 8, 12, 16},
+       true,
+       &WallOfMasses,
+       true},
   };
   return dials;
 }

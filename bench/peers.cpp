@@ -72,6 +72,8 @@ Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   if (name == "structure") return MeasureStructure(o);
   if (name == "growth-frictionless") return MeasureGrowth(false, o);
   if (name == "growth-planar") return MeasureGrowth(true, o);
+  if (name == "extremes") return MeasureExtremes(true, o);
+  if (name == "extremes-frictionless") return MeasureExtremes(false, o);
   return MeasureTable(name, o);
 }
 
@@ -128,9 +130,15 @@ int RunPeers(const PeersOptions& o) {
   return 0;
 }
 
-std::vector<std::string> AllTables() {
+std::vector<std::string> UsualTables() {
   std::vector<std::string> tables = PeerTableNames();
   tables.insert(tables.end(), {"structure", "growth-frictionless", "growth-planar"});
+  return tables;
+}
+
+std::vector<std::string> AllTables() {
+  std::vector<std::string> tables = UsualTables();
+  tables.insert(tables.end(), {"extremes-frictionless", "extremes"});
   return tables;
 }
 
@@ -158,6 +166,8 @@ void AddOptions(CLI::App& program, PeersOptions& o) {
       ->capture_default_str();
   program.add_option("--structure-cap", o.structure_cap, "the same, of the table `structure`")
       ->capture_default_str();
+  program.add_option("--examples", o.examples,
+                     "of the tables `extremes`, a folder for files of silently wrong answers");
   program.add_option("--seed", o.seed, "of the problems")->capture_default_str();
   program.add_flag("--json", o.json, "machine output");
 }
@@ -165,7 +175,7 @@ void AddOptions(CLI::App& program, PeersOptions& o) {
 int Main(int argc, char** argv) {
   RequireOneThread(argv);
   PeersOptions o;
-  o.tables = AllTables();
+  o.tables = UsualTables();
   CLI::App program("stiction beside the solvers of other packages", "stiction-peers");
   AddOptions(program, o);
   try {

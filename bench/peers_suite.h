@@ -23,6 +23,7 @@ struct PeersOptions {
   double structure_cap = 5;  // the same, of `structure`
   double growth_cap = 3;
   std::uint64_t seed = 1;
+  std::string examples;  // folder for the files of `extremes`; empty: none
   bool json = false;
 };
 
@@ -48,6 +49,9 @@ Json MeasureTable(const std::string& name, const PeersOptions& o);
 
 // Families of problems with structure (peers_structure.cpp).
 Json MeasureStructure(const PeersOptions& o);
+
+// Along dials (peers_extremes.cpp): without friction, where all packages mean the same law, and with it.
+Json MeasureExtremes(bool friction, const PeersOptions& o);
 
 // Time, memory and counts by the number of contacts (peers_growth.cpp).
 Json MeasureGrowth(bool friction, const PeersOptions& o);

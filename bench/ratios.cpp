@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench --suite ratios: what certified outcomes cost beside doubles, and what staged suspicions save a search.
 //
-// Certified outcomes: the same run over doubles and over the rungs of filtered arithmetic, bare, with memory kept
-// and numbers converted before. Nondegenerate: the run over rationals meets no tie, which is told by rationals, not
-// by the rungs: HasTies for the published algorithm, no perturbation consulted for complete driving. A problem's
-// time is that of all rungs it was tried on.
-// Searches: units of a campaign as it is, and with every suspicion examined over rationals, in processor time.
+// Certified outcomes: the same run over doubles and over the rungs of filtered arithmetic, bare, with memory
+// kept and numbers converted before. Nondegenerate: the run over rationals meets no tie, which is told by
+// rationals, not by the rungs: HasTies for the published algorithm, no perturbation consulted for complete
+// driving. A problem's time is that of all rungs it was tried on. Searches: units of a campaign as it is, and
+// with every suspicion examined over rationals, in processor time.
 
 #include <fmt/format.h>
 
@@ -113,7 +113,7 @@ class Rival {
   Method<Rational> exact_;
 };
 
-constexpr std::array kFamilies = {GeneratorId::kIntegers, GeneratorId::kPsd, GeneratorId::kNearDegenerate,
+constexpr std::array kFamilies = {GeneratorId::kIntegers,    GeneratorId::kPsd,    GeneratorId::kNearDegenerate,
                                   GeneratorId::kConditioned, GeneratorId::kBodies, GeneratorId::kScenes};
 
 std::string NameOf(std::optional<GeneratorId> generator) {
@@ -126,7 +126,8 @@ Json SpreadJson(const std::vector<double>& values) {
 }
 
 // A line of the table: all problems, or the nondegenerate ones, of one family or of all.
-Json Line(const std::string& method, int contacts, const std::string& family, const std::vector<Costs>& all, bool nondegenerate) {
+Json Line(const std::string& method, int contacts, const std::string& family, const std::vector<Costs>& all,
+          bool nondegenerate) {
   std::vector<double> certified, exact;
   std::int64_t to_rationals = 0, problems = 0;
   for (const Costs& costs : all) {
@@ -200,7 +201,8 @@ Json SearchLine(GeneratorId generator, int contacts, const BenchOptions& o) {
 
 int BenchRatios(const BenchOptions& o) {
   const std::vector<int> sizes = o.contacts.empty() ? std::vector<int>{2, 4, 6, 8} : o.contacts;
-  BenchTable outcomes{"certified", "Certified outcomes, times of doubles: median (least - most)", Json::array()};
+  BenchTable outcomes{"certified", "Certified outcomes, times of doubles: median (least - most)",
+                      Json::array()};
   BenchTable searches{"searches", "Searches, processor time: median (least - most)", Json::array()};
   for (const int contacts : sizes) {
     AddLines<Complete>("complete", contacts, o, outcomes.rows);

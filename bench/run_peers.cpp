@@ -49,6 +49,10 @@ int BenchRandom(const BenchOptions& options) {
 
 int BenchStructure(const BenchOptions& options) { return BecomePeers(options, {"--table", "structure"}); }
 
+int BenchPeersExtremes(const BenchOptions& options) {
+  return BecomePeers(options, {"--table", "extremes-frictionless", "extremes"});
+}
+
 int BenchGrowth(const BenchOptions& options) {
   return BecomePeers(options, {"--table", "growth-frictionless", "growth-planar"});
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rungs: every method over every arithmetic on the same problems, and what their answers are worth.
 //
-// A call is what a user's program calls: Solve() over numbers of the rung's own, the filtered call for filtered,
-// both on data already in memory; its time is that of the call alone. Answers are judged over rationals, on the
-// problem that the rung was given: rounded to float, rounded to double for wider numbers, as it is for filtered
-// and exact.
+// A call is what a user's program calls: Solve() over numbers of the rung's own, the filtered call for
+// filtered, both on data already in memory; its time is that of the call alone. Answers are judged over
+// rationals, on the problem that the rung was given: rounded to float, rounded to double for wider numbers, as
+// it is for filtered and exact.
 //
 //   silent   called solved within a residual that it does not have, or that no solution exists where one does
 //   wrong    the published algorithm ends otherwise than over rationals, and does not say that it is undecided
@@ -57,7 +57,7 @@ struct RungAnswer {
   bool refused = false;
   Outcome outcome = Outcome::kUndecided;
   double seconds = 0;
-  double bound = 0;                       // of the residual, that solved claims
+  double bound = 0;                            // of the residual, that solved claims
   std::optional<ExactProblem::Vector> f = {};  // as the rung has them, exactly
   std::optional<Rung> decided_on = {};         // filtered
 };
@@ -68,7 +68,11 @@ struct RungRow {
   Remedy remedy = Remedy::kNone;
 
   std::string Name() const;  // "double", "double scaled"
-  RungAnswer Run(const RungProblem& problem) const;
+  // The time is the least of so many runs: the first finds memory cold.
+  RungAnswer Run(const RungProblem& problem, int repeats = 1) const;
+
+ private:
+  RungAnswer RunOnce(const RungProblem& problem) const;
 };
 
 // complete, lemke, fast, baraff over all that they are built for; with `remedies` those of doubles too.
@@ -82,6 +86,7 @@ struct RungTally {
 
   // Returns whether the answer is silently wrong. `has_solution`: that there is one is known.
   bool Count(const RungRow& row, const RungProblem& problem, const RungAnswer& answer, bool has_solution);
+  void Merge(const RungTally& more);
   Json ToJson() const;
 };
 

@@ -32,8 +32,8 @@ constexpr std::array kSuites = {
     Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts,
           BenchPatches},
     Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
-    Suite{"trade", "speed against accuracy: every method over every arithmetic, on the generators", kMaxContacts,
-          BenchTrade},
+    Suite{"trade", "speed against accuracy: every method over every arithmetic, on the generators",
+          kMaxContacts, BenchTrade},
     Suite{"extremes", "the same along dials: masses, levers, units, conditioning, friction, ...", kMaxContacts,
           BenchExtremes},
     Suite{"silent", "wrong answers that say nothing of it, counted over generators and dials", kMaxContacts,
@@ -46,6 +46,7 @@ constexpr std::array kSuites = {
     Suite{"peers", "stiction beside other packages, by the program stiction-peers", 2000, BenchPeers},
     Suite{"random", "of it, random problems by the number of contacts", 2000, BenchRandom},
     Suite{"structure", "of it, stacks, walls, scenes, nearly dependent rows", 2000, BenchStructure},
+    Suite{"peers-extremes", "of it, the dials of extremes, judged over rationals", 2000, BenchPeersExtremes},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", 2000, BenchGrowth},
     Suite{"linear-algebra", "ways to solve a linear system exactly, side by side", kMaxContacts,
           BenchLinearAlgebra},
@@ -99,7 +100,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
           "most "
           "so many of a family; frictionless: at most so many of each number (default 48); linear-algebra: "
           "systems of a row (default 200); trade, extremes: problems of a row (default 60, 25); silent: all "
-          "(default 20000); ratios: of a family and size (default 200); space: problems of each family and number of contacts "
+          "(default 20000); ratios: of a family and size (default 200); space: problems of each family and "
+          "number of contacts "
           "(default 2000); sliding: problems of each row (default 200000)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--repeat", o->repeat,
@@ -118,7 +120,8 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
   verb.add_option("--scenes", o->scenes, "scenes, structure: the folder")->capture_default_str();
   verb.add_option("--families", o->families, "structure, extremes, silent: these alone");
   verb.add_option("--csv", o->csv, "trade, extremes: a file for the lines, with intervals");
-  verb.add_option("--threads", o->threads, "scenes: above 1, so many threads beside one, minimal models both")
+  verb.add_option("--threads", o->threads,
+                  "scenes: above 1, so many threads beside one, minimal models both; silent: so many")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
   verb.add_flag("--exact", o->exact, "smallest: every run over rationals, which makes the search exhaustive");

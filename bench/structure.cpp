@@ -281,6 +281,14 @@ StructuredFamily NearlyDependentFamily(int contacts) {
 
 }  // namespace
 
+Problem StackProblem(int boxes, int decades, Choices& choices) {
+  return ProblemOf<Plane>(StackJson(boxes, {2, true, decades}, choices));
+}
+
+Problem WallProblem(int courses, int bricks, int decades, Choices& choices) {
+  return ProblemOf<Plane>(WallJson(courses, bricks, {2, true, decades}, choices));
+}
+
 std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& scenes) {
   const Building plain, heavy = {2, true, 4}, smooth = {2, false, 4}, space = {3, true, 0},
                         heavy_space = {3, true, 4};

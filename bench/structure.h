@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "search/choices.h"
 #include "solver/problem/problem.h"
 
 namespace stiction {
@@ -32,6 +33,10 @@ struct StructuredFamily {
 
 // `scenes`: folder of the corpus's scenes. InputError, when a family of them is made, if one cannot be read.
 std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& scenes);
+
+// One of them, in the plane, with friction and masses from 1 to 10^decades, at most 10^18.
+ContactProblem<double> StackProblem(int boxes, int decades, Choices& choices);
+ContactProblem<double> WallProblem(int courses, int bricks, int decades, Choices& choices);
 
 }  // namespace stiction
 

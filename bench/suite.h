@@ -22,7 +22,7 @@ struct BenchOptions {
   std::optional<GeneratorId> generator;  // empty: the suite's own
   std::string scenes = "corpus/scenes";  // folder
   std::vector<std::string> families;     // of problems with structure; empty: all
-  int threads = 1;                       // of a simulation
+  int threads = 1;                       // of a simulation, of `silent`
   int entries = 2;                       // the largest integer of `smallest`
   bool exact = false;                    // `smallest`: every run over rationals
   std::string csv;                       // a file for the lines of trade and extremes
@@ -38,12 +38,13 @@ int BenchPatches(const BenchOptions& options);
 // The problems of two contacts with small integers, A definite, mu = 1 (smallest.cpp).
 int BenchSmallest(const BenchOptions& options);
 
-// Every method over every arithmetic: on generators; along dials; counting silent wrong answers alone (ladder.cpp).
-// Exit 1 where one is silently wrong.
+// Every method over every arithmetic: on generators; along dials; counting silent wrong answers alone
+// (ladder.cpp). Exit 1 where one is silently wrong.
 int BenchTrade(const BenchOptions& options);
 int BenchExtremes(const BenchOptions& options);
 int BenchSilent(const BenchOptions& options);
-// What certified outcomes cost beside doubles, and searches with staged suspicions beside those without (ratios.cpp).
+// What certified outcomes cost beside doubles, and searches with staged suspicions beside those without
+// (ratios.cpp).
 int BenchRatios(const BenchOptions& options);
 
 // Problems a second of the search's hot path, one thread (search_rate.cpp).
@@ -62,6 +63,8 @@ int BenchPeers(const BenchOptions& options);
 int BenchRandom(const BenchOptions& options);
 // Of it, problems with structure (peers_structure.cpp).
 int BenchStructure(const BenchOptions& options);
+// Of it, the dials of `extremes` (peers_extremes.cpp).
+int BenchPeersExtremes(const BenchOptions& options);
 // Of it, the growth of time and memory with the number of contacts, direction systems updated and solved
 // afresh.
 int BenchGrowth(const BenchOptions& options);

@@ -78,7 +78,8 @@ Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
   const bool in_plane = problem.dimension == 2;
   if (in_plane && problem.rows() <= kFewRows) {
     const CompleteRun complete = RunCompleteFiltered(problem, limits).run;
-    if (complete.verdict.outcome == Outcome::kSolved) return {SolutionCertificate(problem, complete.f), "complete"};
+    if (complete.verdict.outcome == Outcome::kSolved)
+      return {SolutionCertificate(problem, complete.f), "complete"};
   } else if (in_plane) {
     const Answer<Rational> answer = Solve(problem, "fast", {.limits = limits});
     if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};

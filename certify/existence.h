@@ -3,12 +3,11 @@
 //
 // The cheapest method first: complete driving, which ends in a solution whenever A is symmetric positive
 // semidefinite and b in range(A) (solver/complete/complete_driving.md), by certified signs where they suffice
-// (filtered.h: the end is solved for and verified over rationals, not the way), with many rows the cells in which a run
-// over doubles ends, solved likewise; then Lemke's method, whose path is
-// another; both after bilateral constraints and sliding contacts have left the problem
-// (solver/problem/reduction.h); then all contact modes, which decide every planar problem that is small enough.
-// In space complete driving on polygons alone (space.h): it finds solutions of (21), (22), and proves nothing
-// where it finds none.
+// (filtered.h: the end is solved for and verified over rationals, not the way), with many rows the cells in
+// which a run over doubles ends, solved likewise; then Lemke's method, whose path is another; both after
+// bilateral constraints and sliding contacts have left the problem (solver/problem/reduction.h); then all
+// contact modes, which decide every planar problem that is small enough. In space complete driving on polygons
+// alone (space.h): it finds solutions of (21), (22), and proves nothing where it finds none.
 
 #ifndef STICTION_CERTIFY_EXISTENCE_H_
 #define STICTION_CERTIFY_EXISTENCE_H_

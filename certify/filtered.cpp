@@ -70,7 +70,8 @@ BallAnswer<Number> RunComplete(const BallProblem<Number>& problem, const SolveOp
     answer.word = driving.Word();
   } catch (const UnsureSign&) {
     answer.reason = kUnsureSign;
-    if (trace != nullptr && !trace->pivots.empty() && trace->pivots.back().limiting < 0) trace->pivots.pop_back();
+    if (trace != nullptr && !trace->pivots.empty() && trace->pivots.back().limiting < 0)
+      trace->pivots.pop_back();
   }
   answer.f = driving.f();
   answer.a = driving.a();
@@ -190,7 +191,8 @@ FilteredVerdict RunPublishedFiltered(const ExactProblem& problem, const Publishe
   }
   const ExactProblem& remaining = remainder.problem();
   if (rungs.first == Rung::kDouble) {
-    if (const auto verdict = TryPublished<double>(remaining, options, nullptr)) return {*verdict, Rung::kDouble};
+    if (const auto verdict = TryPublished<double>(remaining, options, nullptr))
+      return {*verdict, Rung::kDouble};
   }
   if (rungs.first <= Rung::kDoubleDouble && Rung::kDoubleDouble <= rungs.last) {
     ExactDependentRows dependent(remaining);

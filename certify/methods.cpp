@@ -245,8 +245,8 @@ class FactsList {
   // What is decided exactly can be told in floating-point numbers, too.
   void AddToldExactly() {
     for (MethodFacts& facts : rows_) {
-      for (const Arithmetic told : {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble,
-                                    Arithmetic::kQuad})
+      for (const Arithmetic told :
+           {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble, Arithmetic::kQuad})
         Mark(facts, 2, told, facts.IsBuilt(2, Arithmetic::kExact));
     }
   }

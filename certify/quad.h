@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quad: Boost's binary floating point of 113 bits, IEEE's binary128, the same on every compiler; all methods that
-// floating-point scalars have run over it.
+// Quad: Boost's binary floating point of 113 bits, IEEE's binary128, the same on every compiler; all methods
+// that floating-point scalars have run over it.
 
 #ifndef STICTION_CERTIFY_QUAD_H_
 #define STICTION_CERTIFY_QUAD_H_

@@ -217,10 +217,9 @@ void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, Inex
 }
 
 Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  InexactAnswer answer =
-      problem.dimension == 2
-          ? RunEnclosed(request.method, problem, request.options, Rung::kDouble, request.trace)
-          : RunEnclosedInSpace(problem, request.options);
+  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(request.method, problem, request.options,
+                                                              Rung::kDouble, request.trace)
+                                                : RunEnclosedInSpace(problem, request.options);
   answer.arithmetic = Arithmetic::kInterval;
   JudgeMiddles(problem, request, answer);
   return {.answer = std::move(answer)};
@@ -322,9 +321,11 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
 ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem) {
   using enum Arithmetic;
   if (method == kAutomatic && problem.rows() > kExactRows)
-    return {kDouble, fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), kExactRows)};
+    return {kDouble,
+            fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), kExactRows)};
   if (method == "fast") return {kDouble, "the method is made for doubles"};
-  if (Refusal(method, problem.dimension, kExact).empty()) return {kExact, "nothing is lost, and there are few rows"};
+  if (Refusal(method, problem.dimension, kExact).empty())
+    return {kExact, "nothing is lost, and there are few rows"};
   if (Refusal(method, problem.dimension, kInterval).empty())
     return {kInterval, "the method takes roots: intervals prove what they decide"};
   return {kDouble, "the method is built for nothing better"};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // WideBall: a ball around a double-double of the QD library, of about 100 bits. And balls around rationals.
 //
-// Error bounds, with a wide margin over those proved (Joldes, Muller and Popescu 2017: a few 2^-106): QD adds in the
-// "sloppy" way, whose error is relative to the summands; products and quotients round relative to themselves,
-// unless parts of them are lost below the least double, which is at most kLost for products and excluded for
-// quotients.
+// Error bounds, with a wide margin over those proved (Joldes, Muller and Popescu 2017: a few 2^-106): QD adds
+// in the "sloppy" way, whose error is relative to the summands; products and quotients round relative to
+// themselves, unless parts of them are lost below the least double, which is at most kLost for products and
+// excluded for quotients.
 
 #ifndef STICTION_CERTIFY_WIDE_BALL_H_
 #define STICTION_CERTIFY_WIDE_BALL_H_
@@ -27,7 +27,9 @@ struct Rounding<dd_real> {
 
   static double Near(const dd_real& x) { return x.x[0]; }
   static double Size(const dd_real& x) { return std::abs(x.x[0]); }
-  static double OfSum(const dd_real& x, const dd_real& y, const dd_real&) { return kUnit * (Size(x) + Size(y)); }
+  static double OfSum(const dd_real& x, const dd_real& y, const dd_real&) {
+    return kUnit * (Size(x) + Size(y));
+  }
   static double OfProduct(const dd_real& product) { return kUnit * Size(product) + kLost; }
   static double OfQuotient(const dd_real& x, const dd_real& quotient) {
     const bool holds = (Size(x) >= kLeastOfQuotients && Size(quotient) >= kLeastOfQuotients) || Size(x) == 0;

@@ -13,8 +13,9 @@
 namespace stiction {
 namespace {
 
-constexpr std::array kShown = {Arithmetic::kFloat, Arithmetic::kDouble,   Arithmetic::kLongDouble, Arithmetic::kQuad,
-                               Arithmetic::kInterval, Arithmetic::kFiltered, Arithmetic::kExact};
+constexpr std::array kShown = {Arithmetic::kFloat, Arithmetic::kDouble,   Arithmetic::kLongDouble,
+                               Arithmetic::kQuad,  Arithmetic::kInterval, Arithmetic::kFiltered,
+                               Arithmetic::kExact};
 
 // "plane space", "plane", "space" or "-".
 std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {

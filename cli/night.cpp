@@ -60,7 +60,8 @@ void NightLog::Show(const SearchProgress& progress) {
   news_.insert(news_.end(), progress.news.begin(), progress.news.end());
   if (bar_.IsShown()) return bar_.Show(Fraction(progress), Line(progress));
   const double passed = progress.seconds - last_;
-  if (passed >= std::clamp(progress.seconds / 20, kFirstLine, kLastLine) || (!news_.empty() && passed >= kFirstLine))
+  if (passed >= std::clamp(progress.seconds / 20, kFirstLine, kLastLine) ||
+      (!news_.empty() && passed >= kFirstLine))
     Print(progress);
 }
 
@@ -83,19 +84,19 @@ double NightLog::Fraction(const SearchProgress& progress) const {
   double fraction = 0;
   if (minutes_) fraction = progress.seconds / (*minutes_ * 60);
   if (progress.units_wanted && *progress.units_wanted > 0) {
-    fraction = std::max(
-        fraction, static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
+    fraction = std::max(fraction,
+                        static_cast<double>(progress.units_done) / static_cast<double>(*progress.units_wanted));
   }
   return std::min(fraction, 1.0);
 }
 
 std::string NightLog::Line(const SearchProgress& progress) const {
   const double fraction = Fraction(progress);
-  std::string text = fmt::format("{} problems, {} a second, {} findings in {} groups, {} to finish",
-                                 Grouped(progress.problems),
-                                 Grouped(static_cast<std::int64_t>(static_cast<double>(progress.problems) /
-                                                                   std::max(progress.seconds, 1e-9))),
-                                 Grouped(progress.findings), Grouped(progress.groups), Grouped(progress.pending));
+  std::string text = fmt::format(
+      "{} problems, {} a second, {} findings in {} groups, {} to finish", Grouped(progress.problems),
+      Grouped(
+          static_cast<std::int64_t>(static_cast<double>(progress.problems) / std::max(progress.seconds, 1e-9))),
+      Grouped(progress.findings), Grouped(progress.groups), Grouped(progress.pending));
   if (progress.left_out > 0) text += fmt::format(" and {} left out", Grouped(progress.left_out));
   if (progress.time.Total() > 0 && progress.time.finishing > 0)
     text += fmt::format(", finishing {} % of the time", 100 * progress.time.finishing / progress.time.Total());
@@ -158,8 +159,8 @@ Descriptor InMemory(const std::string& text) {
   return file;
 }
 
-// In a group of its own: a signal of the terminal that ends the search does not end it, and all of it can be killed.
-// Zero if it cannot be started; errno says why.
+// In a group of its own: a signal of the terminal that ends the search does not end it, and all of it can be
+// killed. Zero if it cannot be started; errno says why.
 pid_t Start(const std::string& command, int input, const std::vector<std::string>& variables) {
   std::vector<char*> environment;
   for (const std::string& variable : variables) environment.push_back(const_cast<char*>(variable.c_str()));

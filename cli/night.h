@@ -17,8 +17,8 @@ namespace stiction {
 // "2026-01-31 23:59:59", local.
 std::string TimeOfDay();
 
-// Progress on standard error. A log has a line every ten seconds at first, later more seldom, and one when there is a
-// new group; each says what is new since the line before it, and which of that the corpus has too.
+// Progress on standard error. A log has a line every ten seconds at first, later more seldom, and one when
+// there is a new group; each says what is new since the line before it, and which of that the corpus has too.
 class NightLog {
  public:
   explicit NightLog(std::optional<double> minutes) : minutes_(minutes) {}
@@ -34,15 +34,15 @@ class NightLog {
 
   std::optional<double> minutes_;
   ProgressBar bar_;
-  double last_ = 0;                 // seconds, of the line before
-  std::int64_t problems_ = 0;       // then
-  std::vector<Finding> news_;       // since then
+  double last_ = 0;            // seconds, of the line before
+  std::int64_t problems_ = 0;  // then
+  std::vector<Finding> news_;  // since then
 };
 
 // Runs a shell command for each finding. It gets the finding as JSON on standard input, and STICTION_SIGNATURE,
-// STICTION_KIND, STICTION_GRAVE (0 or 1), STICTION_KNOWN (the case of the corpus with this signature, or nothing),
-// STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, or is still running after a
-// minute and is killed then, is reported on standard error and nothing else.
+// STICTION_KIND, STICTION_GRAVE (0 or 1), STICTION_KNOWN (the case of the corpus with this signature, or
+// nothing), STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, or is still
+// running after a minute and is killed then, is reported on standard error and nothing else.
 class FindingCommand {
  public:
   FindingCommand(std::string command, std::string store)

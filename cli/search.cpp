@@ -135,13 +135,15 @@ int ExitOf(const Store& store, const std::string& file) {
 // What --finish works on: the campaign of the store, and no other.
 Campaign CampaignToFinish(const SearchVerb& o) {
   const Campaign campaign = CampaignOf(Store::OpenToRead(o.store).identity(), o.store);
-  const bool asks_for_more = !o.campaign.empty() || !o.generators.empty() || !o.mu.empty() || !o.policies.empty() ||
-                             !o.contacts.empty() || o.seed || o.problems || o.audit_every || o.enumerate_every ||
-                             !o.arithmetic.empty() || o.shard != "0/1" || !o.objective.empty() ||
-                             !o.optimizer.empty() || !o.parents.empty() || o.gravity_only || o.finishing;
+  const bool asks_for_more = !o.campaign.empty() || !o.generators.empty() || !o.mu.empty() ||
+                             !o.policies.empty() || !o.contacts.empty() || o.seed || o.problems ||
+                             o.audit_every || o.enumerate_every || !o.arithmetic.empty() || o.shard != "0/1" ||
+                             !o.objective.empty() || !o.optimizer.empty() || !o.parents.empty() ||
+                             o.gravity_only || o.finishing;
   if (asks_for_more)
-    throw InputError("--finish: found options of a campaign or of its size, expected --store, --minutes, --threads, "
-                     "--on-finding and --json alone: the campaign is that of the store");
+    throw InputError(
+        "--finish: found options of a campaign or of its size, expected --store, --minutes, --threads, "
+        "--on-finding and --json alone: the campaign is that of the store");
   return campaign;
 }
 
@@ -164,22 +166,23 @@ SearchOptions OptionsOf(const SearchVerb& o) {
 int RunSearchVerb(const SearchVerb& o) {
   const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
   const SearchOptions options = OptionsOf(o);
-  fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed, options.threads,
-             o.shard, o.store);
+  fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
+             options.threads, o.shard, o.store);
   NightLog log(options.minutes);
   const FindingCommand command(o.on_finding, o.store);
   std::int64_t untold = 0;
-  const SearchReport report = RunSearch(campaign, IdentityOf(campaign), options, [&](const SearchProgress& progress) {
-    log.Show(progress);
-    if (o.on_finding.empty()) return;
-    for (const Finding& finding : progress.news) {
-      if (*options.interrupted) {
-        ++untold;
-      } else {
-        command.Run(finding);
-      }
-    }
-  });
+  const SearchReport report =
+      RunSearch(campaign, IdentityOf(campaign), options, [&](const SearchProgress& progress) {
+        log.Show(progress);
+        if (o.on_finding.empty()) return;
+        for (const Finding& finding : progress.news) {
+          if (*options.interrupted) {
+            ++untold;
+          } else {
+            command.Run(finding);
+          }
+        }
+      });
   log.Finish(report.progress);
   if (untold > 0)
     fmt::print(stderr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(), untold);
@@ -190,7 +193,8 @@ int RunSearchVerb(const SearchVerb& o) {
     std::cout << SummaryText(store, o.store);
   }
   if (report.end == SearchEnd::kInterrupted) {
-    fmt::print(stderr, "{} Interrupted; everything done so far is stored. The same command goes on from here.\n",
+    fmt::print(stderr,
+               "{} Interrupted; everything done so far is stored. The same command goes on from here.\n",
                TimeOfDay());
   }
   return ExitOf(store, o.store);
@@ -221,11 +225,12 @@ std::string Changes(const Look& before, const Look& now) {
   for (const std::string& signature : now.signatures) {
     if (before.signatures.contains(signature)) continue;
     const std::string known(KnownAs(signature));
-    names += fmt::format("{}{}{}", groups++ > 0 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
+    names +=
+        fmt::format("{}{}{}", groups++ > 0 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
   }
   return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
-                     Grouped(now.problems - before.problems), Grouped(static_cast<std::int64_t>(now.signatures.size())),
-                     Grouped(groups), names);
+                     Grouped(now.problems - before.problems),
+                     Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
 }
 
 // Lines on standard error as long as a process works on the store.
@@ -383,8 +388,8 @@ struct ReportVerb {
 };
 
 int RunReport(const ReportVerb& o) {
-  TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
-                        {o.benches.begin(), o.benches.end()}));
+  TellAside(
+      WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace), {o.benches.begin(), o.benches.end()}));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
 }
@@ -452,16 +457,22 @@ void AddSearch(CommandLine& program) {
   verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
   verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i");
   verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
-  verb.Option("--finishing", o.finishing, "most processor time for finishing findings, while there are units to run")
+  verb.Option("--finishing", o.finishing,
+              "most processor time for finishing findings, while there are units to run")
       .Unit("%")
       .Range(0, 100)
-      .Details("By default 20, with an objective 5; 0 finishes none. Once the units of --problems are done, the rest "
-               "is finished whatever it takes, but at most 100 of a kind and number of contacts");
+      .Details(
+          "By default 20, with an objective 5; 0 finishes none. Once the units of --problems are done, the "
+          "rest "
+          "is finished whatever it takes, but at most 100 of a kind and number of contacts");
   verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
   verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
-      .Details("The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, STICTION_GRAVE, "
-               "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, "
-               "or takes a minute, is reported");
+      .Details(
+          "The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, "
+          "STICTION_GRAVE, "
+          "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
+          "fails, "
+          "or takes a minute, is reported");
   verb.Flag("--json", o.json, "machine output");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction slurm: a campaign as a job array and a job that merges what it leaves.
 //
-// A task runs the units of its shard into a store of its own, under another name until it is whole, so that an old copy
-// of a task that still runs somewhere does no harm: both write the same. Tasks finish no findings, since shards meet the
-// same ones; the merge does. The scripts need bash and, to start over, Slurm's commands; without Slurm the same tasks run
-// in a loop or under GNU parallel.
+// A task runs the units of its shard into a store of its own, under another name until it is whole, so that an
+// old copy of a task that still runs somewhere does no harm: both write the same. Tasks finish no findings,
+// since shards meet the same ones; the merge does. The scripts need bash and, to start over, Slurm's commands;
+// without Slurm the same tasks run in a loop or under GNU parallel.
 
 #include <fmt/format.h>
 
@@ -184,22 +184,24 @@ int RunSlurm(const SlurmVerb& o) {
   RequireConsistent(campaign);
   const std::int64_t units = UnitsFor(campaign, o.problems);
   if (units < o.shards) {
-    throw InputError(fmt::format("--shards: found {}, expected at most {}: so many units hold {} problems", o.shards,
-                                 units, o.problems));
+    throw InputError(fmt::format("--shards: found {}, expected at most {}: so many units hold {} problems",
+                                 o.shards, units, o.problems));
   }
   const fs::path folder = fs::absolute(o.folder).lexically_normal();
   if (folder.string().find_first_of("\n%\"\\") != std::string::npos)
-    throw InputError(fmt::format("{}: found %, \", \\ or a line feed in the name, expected a folder that Slurm can name",
-                                 folder.string()));
-  std::map<std::string, std::string> values = {{"SHARDS", std::to_string(o.shards)},
-                                               {"LAST", std::to_string(o.shards - 1)},
-                                               {"UNITS", std::to_string(units)},
-                                               {"PROBLEMS", std::to_string(o.problems)},
-                                               {"CPUS", std::to_string(o.cpus)},
-                                               {"TIME", std::to_string(o.time)},
-                                               {"DIR", ShellWord(folder.string())},
-                                               {"LOGS", (folder / "logs").string()},
-                                               {"STICTION", ShellWord(fs::read_symlink("/proc/self/exe").string())}};
+    throw InputError(
+        fmt::format("{}: found %, \", \\ or a line feed in the name, expected a folder that Slurm can name",
+                    folder.string()));
+  std::map<std::string, std::string> values = {
+      {"SHARDS", std::to_string(o.shards)},
+      {"LAST", std::to_string(o.shards - 1)},
+      {"UNITS", std::to_string(units)},
+      {"PROBLEMS", std::to_string(o.problems)},
+      {"CPUS", std::to_string(o.cpus)},
+      {"TIME", std::to_string(o.time)},
+      {"DIR", ShellWord(folder.string())},
+      {"LOGS", (folder / "logs").string()},
+      {"STICTION", ShellWord(fs::read_symlink("/proc/self/exe").string())}};
   values["COMMON"] = Filled(kCommon, values);
   WholeFolder whole(folder, "slurm", OccupiedIf(o.replace));
   whole.Write("campaign.json", JsonText(CampaignToJson(campaign), 1) + "\n");
@@ -217,16 +219,23 @@ int RunSlurm(const SlurmVerb& o) {
 }  // namespace
 
 void AddSlurm(CommandLine& program) {
-  auto [verb, o] = program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
+  auto [verb, o] =
+      program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
   verb.footer =
-      "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json. Tasks that are killed are queued "
-      "again; the merge has what is missing run again, finishes all findings and writes merged.store and report/. "
-      "Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then FOLDER/merge.sh. How many shards there are changes "
-      "nothing, unless the campaign has an objective: a shard learns from its own units. STICTION names another "
+      "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json. Tasks that are killed "
+      "are queued "
+      "again; the merge has what is missing run again, finishes all findings and writes merged.store and "
+      "report/. "
+      "Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then FOLDER/merge.sh. How many shards there are "
+      "changes "
+      "nothing, unless the campaign has an objective: a shard learns from its own units. STICTION names "
+      "another "
       "program.";
   verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file").Required();
   verb.Option("--shards", o.shards, "tasks; each should take minutes").Required().Range(1, 100000);
-  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").Required().AtLeast(1);
+  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units")
+      .Required()
+      .AtLeast(1);
   verb.Option("-o,--output", o.folder, "folder to write, which every node sees").Required();
   verb.Option("--cpus", o.cpus, "cores of a task").Range(1, 1024);
   verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);

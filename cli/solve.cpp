@@ -75,16 +75,19 @@ Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest
 
 // A backward error in words: of the scene, where the problem has one.
 std::string Meaning(const BackwardError& error, const ProblemFile& file) {
-  const bool has_scene = file.scene || (file.origin && file.origin->is_object() && file.origin->contains("scene"));
+  const bool has_scene =
+      file.scene || (file.origin && file.origin->is_object() && file.origin->contains("scene"));
   if (!has_scene)
     return fmt::format(
-        "the forces are exact for a problem nearby: every entry of A and b moved by at most {:.2g} of itself, every "
+        "the forces are exact for a problem nearby: every entry of A and b moved by at most {:.2g} of itself, "
+        "every "
         "mu by at most {:.2g}",
         error.of_data, error.of_mu);
   double most = 0;
   for (const Rational& b : file.problem.b.reshaped()) most = std::max(most, std::abs(ToDouble(b)));
   return fmt::format(
-      "the forces are exact for a scene nearby: the same masses and positions, loads that accelerate no contact by "
+      "the forces are exact for a scene nearby: the same masses and positions, loads that accelerate no "
+      "contact by "
       "more than {:.2g} m/s^2 besides, and coefficients of friction moved by at most {:.2g} of themselves",
       error.of_b * most, error.of_mu);
 }
@@ -95,7 +98,8 @@ int RunSolve(const SolveVerb& o) {
   const Solution solution = SolveFile(o, file.problem, request);
   Json result = SolutionToJson(solution, file.problem.dimension);
   const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);
-  if (inexact != nullptr && inexact->backward) result["backward_error"]["meaning"] = Meaning(*inexact->backward, file);
+  if (inexact != nullptr && inexact->backward)
+    result["backward_error"]["meaning"] = Meaning(*inexact->backward, file);
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
   result["assumptions"] = FailedAssumptions(file.problem);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digests: SHA-256 of bytes, and that of a problem, the same for every file that states the same numbers, however it
-// spells them.
+// Digests: SHA-256 of bytes, and that of a problem, the same for every file that states the same numbers,
+// however it spells them.
 
 #ifndef STICTION_CORPUS_DIGEST_H_
 #define STICTION_CORPUS_DIGEST_H_

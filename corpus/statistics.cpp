@@ -200,9 +200,9 @@ void ReadHistogram(const JsonPlace& place, std::map<int, std::int64_t>& histogra
 Tally ReadTally(const JsonPlace& place) {
   Tally tally;
   place.RequireObject();
-  place.AllowKeys({"generator", "contacts", "policy", "method", "arithmetic", "problems", "outcomes", "verdicts",
-                   "audited", "misjudged", "rungs", "wrong", "with_zero_steps", "with_give_ups", "sums", "maxima",
-                   "steps"});
+  place.AllowKeys({"generator", "contacts", "policy", "method", "arithmetic", "problems", "outcomes",
+                   "verdicts", "audited", "misjudged", "rungs", "wrong", "with_zero_steps", "with_give_ups",
+                   "sums", "maxima", "steps"});
   tally.problems = ReadCount(place, "problems");
   ReadCounts(place.Required("outcomes", "counts"), tally.outcomes);
   const JsonPlace verdicts = place.Required("verdicts", "a list of counts for every outcome");

@@ -50,7 +50,7 @@ struct Tally {
   std::array<Outcomes, kOutcomeCount> verdicts = {};  // [inexact][exact] of the problems run again exactly
   std::int64_t audited = 0;                           // run again exactly without a suspicion, as a sample
   std::int64_t misjudged = 0;                         // of these, with another exact outcome
-  std::array<std::int64_t, kRungCount> rungs = {};  // that decided, of the filtered runs
+  std::array<std::int64_t, kRungCount> rungs = {};    // that decided, of the filtered runs
   std::int64_t wrong = 0;  // called solved with a natural residual above 1e-6, or not a number
   std::int64_t with_zero_steps = 0;
   std::int64_t with_give_ups = 0;
@@ -82,7 +82,8 @@ struct Tally {
 Json ToJson(const Tally& tally);
 Tally TallyFromJson(const Json& json);  // InputError
 
-// Complete driving on the problems that were run exactly, by number of contacts.
+// Complete driving on the problems that were given to it, by number of contacts: those that the published
+// algorithm did not solve, audits, and drawn ones.
 struct ExistenceTally {
   std::int64_t problems = 0;
   std::int64_t solved = 0;  // with a solution that stood exact verification

@@ -136,10 +136,11 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
     RequireSound();
     return;
   }
-  throw InputError(fmt::format(
-      "{}: holds another campaign: {}. Go on with the same options and, of another version, with a build of it, or "
-      "start a new store with --store NEW_FILE",
-      file.string(), Difference(*stored, identity)));
+  throw InputError(
+      fmt::format("{}: holds another campaign: {}. Go on with the same options and, of another version, with a "
+                  "build of it, or "
+                  "start a new store with --store NEW_FILE",
+                  file.string(), Difference(*stored, identity)));
 }
 
 // Under another name first: a store is never half made, and no file that came meanwhile is overwritten.
@@ -229,13 +230,14 @@ std::string CampaignSeal(const std::map<std::string, std::string>& rows) {
   int version = 0;
   const std::string& text = rows["version"];
   std::from_chars(text.data(), text.data() + text.size(), version);
-  const std::string way_out =
-      version > kVersion ? "It is of a newer stiction: take that one"
-                         : "It is of an older stiction" + (rows.contains("build") ? ", " + rows["build"] : "") +
-                               ": that one goes on with it and reports it";
-  throw InputError(fmt::format("{}: found format {} version {}, expected {} version {}. {}, or search anew with "
-                               "--store NEW_FILE",
-                               file, rows["format"], text, kFormat, kVersion, way_out));
+  const std::string way_out = version > kVersion ? "It is of a newer stiction: take that one"
+                                                 : "It is of an older stiction" +
+                                                       (rows.contains("build") ? ", " + rows["build"] : "") +
+                                                       ": that one goes on with it and reports it";
+  throw InputError(
+      fmt::format("{}: found format {} version {}, expected {} version {}. {}, or search anew with "
+                  "--store NEW_FILE",
+                  file, rows["format"], text, kFormat, kVersion, way_out));
 }
 
 template <class Number>
@@ -269,23 +271,25 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
   const std::string stored = values["seal"];
   values.erase("seal");
   if (const std::string seal = CampaignSeal(values); seal != stored) {
-    throw InputError(fmt::format("{}: campaign: found content of SHA-256 {}, expected {}: the store is damaged, and "
-                                 "what it is of cannot be told",
-                                 file, seal, stored));
+    throw InputError(
+        fmt::format("{}: campaign: found content of SHA-256 {}, expected {}: the store is damaged, and "
+                    "what it is of cannot be told",
+                    file, seal, stored));
   }
-  return CampaignIdentity{values["definition"],
-                          NumberOf<std::uint64_t>(file, "seed", values["seed"], "an integer from 0 to 2^64 - 1"),
-                          values["policies"],
-                          NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm")};
+  return CampaignIdentity{
+      values["definition"],
+      NumberOf<std::uint64_t>(file, "seed", values["seed"], "an integer from 0 to 2^64 - 1"),
+      values["policies"], NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm")};
 }
 
 // Pages that SQLite cannot reach any more hide rows without a word.
 void Store::RequireSound() const {
   Statement check(db_.get(), "PRAGMA quick_check(1)");
   if (check.Step() && check.Text(0) != "ok") {
-    throw InputError(fmt::format("{0}: found pages that do not fit together ({1}), expected a whole database: the "
-                                 "store is damaged. What is sound is saved by: stiction merge --salvage NEW_FILE {0}",
-                                 StoreName(db_.get()), check.Text(0)));
+    throw InputError(
+        fmt::format("{0}: found pages that do not fit together ({1}), expected a whole database: the "
+                    "store is damaged. What is sound is saved by: stiction merge --salvage NEW_FILE {0}",
+                    StoreName(db_.get()), check.Text(0)));
   }
   for (const StoreTable& table : StoreTables()) {
     Statement rows(db_.get(), SelectFrom(table.name, ""));
@@ -386,8 +390,7 @@ void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
     Statement remove(db_.get(), fmt::format("DELETE FROM {}{}", table, of_block));
     bind(remove).Step();
   }
-  PutRow(db_.get(), "blocks",
-         {std::int64_t{shard.count}, std::int64_t{shard.index}, block, Serialize(sum)});
+  PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, Serialize(sum)});
   WriteWork(db_.get(), {shard, block}, work);
 }
 

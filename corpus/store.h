@@ -8,8 +8,8 @@
 //   elites     of an optimized search: the best of every unit
 //   work       of every block and unit: the builds that made it, and their processor time
 //
-// Every row carries the SHA-256 of its content (store_rows.h), which is checked when a store is opened: what a disk
-// or a hand has changed is named and refused, never read. Work is no part of what is compared.
+// Every row carries the SHA-256 of its content (store_rows.h), which is checked when a store is opened: what a
+// disk or a hand has changed is named and refused, never read. Work is no part of what is compared.
 //
 // Never a row per problem tried. Units may be added in any order, each once; a finding's representative is
 // the one with the smallest (unit, index), whoever came first. So the same units leave the same store,
@@ -102,13 +102,13 @@ class Store {
  public:
   static constexpr std::int64_t kUnitsPerBlock = 1024;
 
-  // Opens a store for a campaign, making it where no file is. A file that is none, a store of another campaign, and
-  // a row that is not as it was written, is an InputError that names the difference and the way out. Here and in
-  // all that changes a store: OutputError if the disk is full or the store cannot be written; nothing that was
-  // committed is lost then.
+  // Opens a store for a campaign, making it where no file is. A file that is none, a store of another campaign,
+  // and a row that is not as it was written, is an InputError that names the difference and the way out. Here
+  // and in all that changes a store: OutputError if the disk is full or the store cannot be written; nothing
+  // that was committed is lost then.
   Store(const std::filesystem::path& file, const CampaignIdentity& identity);
-  // Opens an existing store to read, while others write or not, in a folder that can be written or not. The same
-  // errors.
+  // Opens an existing store to read, while others write or not, in a folder that can be written or not. The
+  // same errors.
   static Store OpenToRead(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -126,8 +126,8 @@ class Store {
                                const Work& work = {});
   // By unit.
   std::map<std::int64_t, std::string> Elites() const;
-  // Fills in a representative, unless a smaller one has taken its place meanwhile. `work` is added to that of its
-  // unit or block.
+  // Fills in a representative, unless a smaller one has taken its place meanwhile. `work` is added to that of
+  // its unit or block.
   void Finish(const Finding& finding, const Work& work = {});
   // Representatives that are not done, fewest contacts first, then by (unit, index).
   std::vector<Finding> Pending() const;
@@ -175,7 +175,8 @@ class Store {
   void MergeWork(const Statement& row);
   void MergeRow(std::string_view table, const Statement& row, const UnitSet& before);
   void SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out);
-  std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row, const UnitSet& before);
+  std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row,
+                         const UnitSet& before);
   void CloseBlocks();
   void CloseBlockIfComplete(const Shard& shard, std::int64_t block);
   bool Represent(const Finding& candidate);

@@ -50,7 +50,8 @@ void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string
     return;
   }
   for (const char* table : {"units", "work"}) {
-    Statement remove(db_.get(), fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table));
+    Statement remove(db_.get(),
+                     fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table));
     remove.Bind(shard).Bind(block).Step();
   }
   const UnitSet rest = Units();
@@ -102,7 +103,8 @@ void Store::MergeWork(const Statement& row) {
   const bool of_unit = key.unit != WorkKey::kNoUnit;
   Statement present(db_.get(), of_unit ? "SELECT 1 FROM units WHERE shards = ? AND shard = ? AND unit = ?"
                                        : "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
-  if (!present.Bind(key.shard).Bind(of_unit ? key.unit : key.block).Step()) return;  // of a block that is whole here
+  if (!present.Bind(key.shard).Bind(of_unit ? key.unit : key.block).Step())
+    return;  // of a block that is whole here
   Work work = ReadWork(db_.get(), key);
   work.Unite(ReadWorkRow(row));
   WriteWork(db_.get(), key, work);
@@ -138,7 +140,8 @@ void Store::SalvageTable(const StoreTable& table, const Store& other, std::vecto
   bool whole = true;
   const auto walk = [&](const char* direction) {
     std::string order;
-    for (int i = 0; i < table.keys; ++i) order += fmt::format("{}{} {}", i > 0 ? ", " : "", table.columns[i], direction);
+    for (int i = 0; i < table.keys; ++i)
+      order += fmt::format("{}{} {}", i > 0 ? ", " : "", table.columns[i], direction);
     std::int64_t rows_read = 0;
     try {
       Statement rows(other.db_.get(), SelectFrom(table.name, "ORDER BY " + order));

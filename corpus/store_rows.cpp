@@ -80,8 +80,8 @@ const std::vector<StoreTable>& StoreTables() {
       {"blocks", {"shards", "shard", "block", "record"}, 3},
       {"units", {"unit", "shards", "shard", "block", "record"}, 1},
       {"findings",
-       {"signature", "kind", "unit", "idx", "generator", "contacts", "policy", "inexact_outcome", "exact_outcome",
-        "problem", "done", "certificate", "minimized", "minimized_certificate", "existence",
+       {"signature", "kind", "unit", "idx", "generator", "contacts", "policy", "inexact_outcome",
+        "exact_outcome", "problem", "done", "certificate", "minimized", "minimized_certificate", "existence",
         "minimized_existence", "facts"},
        1},
       {"elites", {"unit", "elites"}, 1},
@@ -123,11 +123,13 @@ void PutRow(sqlite3* db, std::string_view table, const std::vector<StoreValue>& 
 }
 
 std::string SelectFrom(std::string_view table, const std::string& rest) {
-  return fmt::format("SELECT {}, seal FROM {} {}", fmt::join(StoreTableNamed(table).columns, ", "), table, rest);
+  return fmt::format("SELECT {}, seal FROM {} {}", fmt::join(StoreTableNamed(table).columns, ", "), table,
+                     rest);
 }
 
 std::string RowName(const StoreTable& table, const Statement& row) {
-  if (table.name == "blocks") return fmt::format("block {} of shard {}/{}", row.Text(2), row.Text(1), row.Text(0));
+  if (table.name == "blocks")
+    return fmt::format("block {} of shard {}/{}", row.Text(2), row.Text(1), row.Text(0));
   if (table.name == "units") return "unit " + row.Text(0);
   if (table.name == "findings") return "finding " + Shortened(row.Text(0), 100);
   if (table.name == "elites") return "elites of unit " + row.Text(0);
@@ -142,16 +144,18 @@ void RequireSoundRow(sqlite3* db, const StoreTable& table, const Statement& row)
   const std::string stored = row.Text(static_cast<int>(columns.size()));
   const std::string place = fmt::format("{}: {}", StoreName(db), RowName(table, row));
   if (seal != stored) {
-    throw InputError(fmt::format("{}: found content of SHA-256 {}, expected {}: the store is damaged. What is sound "
-                                 "is saved by: stiction merge --salvage NEW_FILE {}",
-                                 place, seal, Shortened(stored, 64), StoreName(db)));
+    throw InputError(
+        fmt::format("{}: found content of SHA-256 {}, expected {}: the store is damaged. What is sound "
+                    "is saved by: stiction merge --salvage NEW_FILE {}",
+                    place, seal, Shortened(stored, 64), StoreName(db)));
   }
   if (table.name == "blocks" || table.name == "units") ParseRecord(columns.back(), place);
   if (table.name == "blocks") ReadShard(row);
   if (table.name == "units") {
     Statement shard(db, "SELECT shards, shard FROM units WHERE unit = ?");
     if (shard.Bind(ReadUnit(row, 0)).Step() && !ReadShard(shard).Owns(row.Integer(0)))
-      throw InputError(fmt::format("{}: found in shard {}/{}, which does not have it", place, columns[2], columns[1]));
+      throw InputError(
+          fmt::format("{}: found in shard {}/{}, which does not have it", place, columns[2], columns[1]));
   }
   if (table.name == "work") ReadWorkRow(row);
 }
@@ -193,9 +197,9 @@ Finding ReadFinding(const Statement& row) {
 
 void WriteFinding(sqlite3* db, const Finding& f) {
   PutRow(db, "findings",
-         {f.signature, f.kind, f.unit, f.index, f.generator, std::int64_t{f.contacts}, f.policy, f.inexact_outcome,
-          f.exact_outcome, f.problem, std::int64_t{f.done}, f.certificate, f.minimized, f.minimized_certificate,
-          f.existence, f.minimized_existence, f.facts});
+         {f.signature, f.kind, f.unit, f.index, f.generator, std::int64_t{f.contacts}, f.policy,
+          f.inexact_outcome, f.exact_outcome, f.problem, std::int64_t{f.done}, f.certificate, f.minimized,
+          f.minimized_certificate, f.existence, f.minimized_existence, f.facts});
 }
 
 // ---- Work ------------------------------------------------------------------------------------
@@ -248,7 +252,8 @@ std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& w
   if (stored.seed != wanted.seed)
     return differ("seed", std::to_string(stored.seed), std::to_string(wanted.seed));
   if (stored.algorithm != wanted.algorithm)
-    return differ("version of the algorithm", std::to_string(stored.algorithm), std::to_string(wanted.algorithm));
+    return differ("version of the algorithm", std::to_string(stored.algorithm),
+                  std::to_string(wanted.algorithm));
   if (stored.policies != wanted.policies) return differ("set of policies", stored.policies, wanted.policies);
   return differ("definition", stored.definition, wanted.definition);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of a store: the tables, statements on them, and the seal that every row carries.
 //
-// The seal of a row is the SHA-256 of the name of its table and of its columns, each as "LENGTH:BYTES\n" with the
-// length in bytes, integers in decimal. It says that the row is as it was written, no more: rows that are gone
-// leave no trace but the units that are missing.
+// The seal of a row is the SHA-256 of the name of its table and of its columns, each as "LENGTH:BYTES\n" with
+// the length in bytes, integers in decimal. It says that the row is as it was written, no more: rows that are
+// gone leave no trace but the units that are missing.
 
 #ifndef STICTION_CORPUS_STORE_ROWS_H_
 #define STICTION_CORPUS_STORE_ROWS_H_
@@ -104,8 +104,8 @@ struct WorkKey {
 
   static constexpr std::int64_t kNoUnit = -1;
 };
-Work ReadWorkRow(const Statement& row);      // of a row of `work`
-WorkKey ReadWorkKey(const Statement& row);   // likewise
+Work ReadWorkRow(const Statement& row);          // of a row of `work`
+WorkKey ReadWorkKey(const Statement& row);       // likewise
 Work ReadWork(sqlite3* db, const WorkKey& key);  // empty if there is none
 void WriteWork(sqlite3* db, const WorkKey& key, const Work& work);
 

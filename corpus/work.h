@@ -29,7 +29,7 @@ struct ProcessorTime {
 
 // visit(name, meaning, microseconds)
 template <class Time, class Visit>
-  requires std::is_same_v<std::remove_cvref_t<Time>, ProcessorTime>
+requires std::is_same_v<std::remove_cvref_t<Time>, ProcessorTime>
 void ForEachPart(Time&& time, Visit visit) {
   visit("generation", "problems drawn, over doubles and over rationals", time.generation);
   visit("doubles", "runs over doubles, and all that is not named here", time.doubles);

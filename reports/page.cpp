@@ -309,8 +309,9 @@ Html CampaignSection(const ReportContent& content) {
   list.Add("complete blocks",
            fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
   return Section("campaign", "Campaign",
-                 list.Done() + Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
-                                    "findings on any machine.</p>\n") +
+                 list.Done() +
+                     Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
+                          "findings on any machine.</p>\n") +
                      TimeTable(content.work.time));
 }
 

@@ -58,8 +58,8 @@ void WriteFiles(const Discovery& discovery, ReportFiles& folder) {
 
 }  // namespace
 
-std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
-                                  Occupied occupied, const std::vector<std::filesystem::path>& benches) {
+std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory, Occupied occupied,
+                                  const std::vector<std::filesystem::path>& benches) {
   ReportContent content;
   for (const auto& file : benches) {
     for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));

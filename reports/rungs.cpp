@@ -45,7 +45,8 @@ class Cells {
   const std::string& Text(const std::string& name) const {
     const auto at = std::find(names_.begin(), names_.end(), name);
     if (at == names_.end())
-      throw InputError(fmt::format("{}:1: found no column {}, expected a file of bench --csv", file_.string(), name));
+      throw InputError(
+          fmt::format("{}:1: found no column {}, expected a file of bench --csv", file_.string(), name));
     return cells_[static_cast<std::size_t>(at - names_.begin())];
   }
 
@@ -56,12 +57,16 @@ class Cells {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     bool fits = error == std::errc() && end == text.data() + text.size();
     if constexpr (std::is_floating_point_v<Value>) fits = fits && std::isfinite(value) && value >= 0;
-    if (!fits) throw InputError(fmt::format("{}:{}: {}: found '{}', expected {}", file_.string(), line_, name, text, expected));
+    if (!fits)
+      throw InputError(
+          fmt::format("{}:{}: {}: found '{}', expected {}", file_.string(), line_, name, text, expected));
     return value;
   }
   std::int64_t Count(const std::string& name) const {
     const auto count = Number<std::int64_t>(name, "a count");
-    if (count < 0) throw InputError(fmt::format("{}:{}: {}: found {}, expected a count", file_.string(), line_, name, count));
+    if (count < 0)
+      throw InputError(
+          fmt::format("{}:{}: {}: found {}, expected a count", file_.string(), line_, name, count));
     return count;
   }
   std::optional<double> Measure(const std::string& name) const {
@@ -108,7 +113,8 @@ std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
     auto sum = std::find_if(sums.begin(), sums.end(), [line](const RungSum& s) {
       return s.method == line->method && s.arithmetic == line->arithmetic;
     });
-    if (sum == sums.end()) sum = sums.insert(sums.end(), RungSum{line->method, line->arithmetic, 0, 0, 0, 0, 0, {}, 0});
+    if (sum == sums.end())
+      sum = sums.insert(sums.end(), RungSum{line->method, line->arithmetic, 0, 0, 0, 0, 0, {}, 0});
     sum->Add(*line);
   }
   return sums;
@@ -143,7 +149,9 @@ class Plot {
   }
 
  private:
-  double X(double microseconds) const { return kLeft + kWidth * (Decade(microseconds) - low_) / (high_ - low_); }
+  double X(double microseconds) const {
+    return kLeft + kWidth * (Decade(microseconds) - low_) / (high_ - low_);
+  }
   double Y(double share) const { return kBase - kHeight * share / most_; }
 
   static Html Label(double x, double y, const char* anchor, const std::string& text) {
@@ -157,7 +165,8 @@ class Plot {
     Html scale;
     for (double decade = low_; decade <= high_; ++decade) {
       const double x = kLeft + kWidth * (decade - low_) / (high_ - low_);
-      scale += Line(x, kTop, x, kBase) + Label(x, kBase + 14, "middle", fmt::format("{:g}", std::pow(10.0, decade)));
+      scale +=
+          Line(x, kTop, x, kBase) + Label(x, kBase + 14, "middle", fmt::format("{:g}", std::pow(10.0, decade)));
     }
     for (const double part : {0.0, 0.5, 1.0})
       scale += Line(kLeft, Y(part * most_), kLeft + kWidth, Y(part * most_)) +
@@ -168,9 +177,9 @@ class Plot {
   // Certified ones are filled.
   Html Mark(const RungSum& sum) const {
     const bool certified = sum.arithmetic == "filtered" || sum.arithmetic == "exact";
-    const std::string tip = fmt::format("{} {}: {:.3g} microseconds, {} solved, {} wrong, {} undecided of {}", sum.method,
-                                        sum.arithmetic, sum.Median(), Grouped(sum.solved), Grouped(sum.wrong),
-                                        Grouped(sum.undecided), Grouped(sum.asked));
+    const std::string tip = fmt::format("{} {}: {:.3g} microseconds, {} solved, {} wrong, {} undecided of {}",
+                                        sum.method, sum.arithmetic, sum.Median(), Grouped(sum.solved),
+                                        Grouped(sum.wrong), Grouped(sum.undecided), Grouped(sum.asked));
     return Tag("circle", {{"cx", Fixed(X(sum.Median()))},
                           {"cy", Fixed(Y(sum.LostShare()))},
                           {"r", certified ? "4.5" : "3"},
@@ -184,15 +193,16 @@ class Plot {
 };
 
 Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
-  Table table("Rungs on " + family, {{"method", "", false},
-                                     {"arithmetic", "", false},
-                                     {"microseconds", "median of the settings' medians"},
-                                     {"problems", "that its numbers hold"},
-                                     {"solved"},
-                                     {"undecided"},
-                                     {"wrong", "another end than over rationals; below: the share, with its interval at 95 %"},
-                                     {"silent", "called solved within a residual that it does not have"},
-                                     {"worst residual", "of what is called solved, over rationals"}});
+  Table table("Rungs on " + family,
+              {{"method", "", false},
+               {"arithmetic", "", false},
+               {"microseconds", "median of the settings' medians"},
+               {"problems", "that its numbers hold"},
+               {"solved"},
+               {"undecided"},
+               {"wrong", "another end than over rationals; below: the share, with its interval at 95 %"},
+               {"silent", "called solved within a residual that it does not have"},
+               {"worst residual", "of what is called solved, over rationals"}});
   for (const RungSum& sum : sums) {
     const Html share = Tag("small")(ShareText(sum.wrong, sum.asked));
     table.AddRow({{Text(sum.method)},
@@ -232,12 +242,14 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
     line.silent = cells.Count("silent");
     line.microseconds = cells.Measure("microseconds_median");
     line.worst_residual = cells.Measure("worst_residual");
-    if (line.solved + line.undecided + line.other + line.refused != line.problems || line.wrong > line.problems ||
-        line.silent > line.solved + line.other)
-      throw InputError(fmt::format("{}:{}: found counts that do not add up to {} problems", file.string(), i + 1, line.problems));
+    if (line.solved + line.undecided + line.other + line.refused != line.problems ||
+        line.wrong > line.problems || line.silent > line.solved + line.other)
+      throw InputError(fmt::format("{}:{}: found counts that do not add up to {} problems", file.string(),
+                                   i + 1, line.problems));
     lines.push_back(std::move(line));
   }
-  if (lines.empty()) throw InputError(fmt::format("{}: found no line, expected a file of bench --csv", file.string()));
+  if (lines.empty())
+    throw InputError(fmt::format("{}: found no line, expected a file of bench --csv", file.string()));
   return lines;
 }
 
@@ -251,13 +263,15 @@ Html RungsSection(const std::vector<RungLine>& lines) {
   Html plots, tables;
   for (const std::string& family : families) {
     const std::vector<RungSum> sums = SumsOf(by_family[family]);
-    plots += Tag("figure")(Tag("figcaption")(family) + Plot(sums).Draw("Time and lost answers on " + family)) + Html("\n");
+    plots += Tag("figure")(Tag("figcaption")(family) + Plot(sums).Draw("Time and lost answers on " + family)) +
+             Html("\n");
     tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
   }
-  return Section("rungs", "Speed against accuracy",
-                 Html("<p>Across: microseconds a problem, on a logarithmic scale. Up: the share that ends wrongly or "
-                      "undecided. A dot is a method over an arithmetic; filtered and exact ones are filled.</p>\n") +
-                     Tag("div", {{"class", "charts"}})(Html("\n") + plots) + Html("\n") + tables);
+  return Section(
+      "rungs", "Speed against accuracy",
+      Html("<p>Across: microseconds a problem, on a logarithmic scale. Up: the share that ends wrongly or "
+           "undecided. A dot is a method over an arithmetic; filtered and exact ones are filled.</p>\n") +
+          Tag("div", {{"class", "charts"}})(Html("\n") + plots) + Html("\n") + tables);
 }
 
 }  // namespace stiction

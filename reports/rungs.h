@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurements of rungs (bench --suite trade or extremes, --csv) in a report: a plot and a table for each family.
+// Measurements of rungs (bench --suite trade or extremes, --csv) in a report: a plot and a table for each
+// family.
 
 #ifndef STICTION_REPORTS_RUNGS_H_
 #define STICTION_REPORTS_RUNGS_H_

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The findings that wait to be finished: how many, and which comes next.
 //
-// Fewest contacts first: they are the quickest to minimize and the most wanted. Of one kind and number of contacts
-// at most so many are finished or wait; a grave one always waits. What has no room is left out until somebody asks
-// for all. None of this changes what a search finds.
+// Fewest contacts first: they are the quickest to minimize and the most wanted. Of one kind and number of
+// contacts at most so many are finished or wait; a grave one always waits. What has no room is left out until
+// somebody asks for all. None of this changes what a search finds.
 
 #ifndef STICTION_SEARCH_BACKLOG_H_
 #define STICTION_SEARCH_BACKLOG_H_

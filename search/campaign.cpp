@@ -103,9 +103,27 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"format", "version", "seed", "generators", "contacts", "mu", "policies", "unit_problems",
-                  "audit_every", "complete_every", "lemke_every", "enumerate_every", "representatives_per_unit",
-                  "max_drives", "max_pivots", "max_bits", "arithmetic", "gravity_only", "objective", "optimizer", "parents"});
+  root.AllowKeys({"format",
+                  "version",
+                  "seed",
+                  "generators",
+                  "contacts",
+                  "mu",
+                  "policies",
+                  "unit_problems",
+                  "audit_every",
+                  "complete_every",
+                  "lemke_every",
+                  "enumerate_every",
+                  "representatives_per_unit",
+                  "max_drives",
+                  "max_pivots",
+                  "max_bits",
+                  "arithmetic",
+                  "gravity_only",
+                  "objective",
+                  "optimizer",
+                  "parents"});
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
@@ -222,8 +240,8 @@ void RequireConsistent(const Campaign& campaign) {
     }
   }
   if (!campaign.objective.empty() && campaign.arithmetic != Arithmetic::kDouble)
-    throw InputError(fmt::format("arithmetic: found {} with an objective, expected double",
-                                 Name(campaign.arithmetic)));
+    throw InputError(
+        fmt::format("arithmetic: found {} with an objective, expected double", Name(campaign.arithmetic)));
   if (!campaign.objective.empty() && campaign.policies.size() != 1) {
     throw InputError(
         fmt::format("policies: found {}, expected one, for an objective", campaign.policies.size()));

@@ -18,8 +18,8 @@ namespace stiction {
 
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
 // "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "complete_every",
-// "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits", "arithmetic",
-// "gravity_only", "objective", "optimizer", "parents".
+// "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits",
+// "arithmetic", "gravity_only", "objective", "optimizer", "parents".
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all ordinary ones (generators.h)
@@ -28,11 +28,11 @@ struct Campaign {
   std::vector<Policy> policies = {Policy{}};
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
   std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
-  // Complete driving runs on all problems that are audited, on all that the published algorithm does not solve, and
-  // on one in so many, drawn by their seeds, of the suspicions that turn out to be solved. Of what it runs on, one
-  // in so many is run by Lemke's method too (audited problems: all); and of those of at most
-  // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes. Representatives
-  // are run by all when finished.
+  // Complete driving runs on all problems that are audited, on all that the published algorithm does not solve,
+  // and on one in so many, drawn by their seeds, of the suspicions that turn out to be solved. Of what it runs
+  // on, one in so many is run by Lemke's method too (audited problems: all); and of those of at most
+  // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes.
+  // Representatives are run by all when finished.
   std::int64_t complete_every = 100;
   std::int64_t lemke_every = 100;
   std::int64_t enumerate_every = 1000;

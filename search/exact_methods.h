@@ -22,7 +22,7 @@ struct IntervalSpaceRun;  // certify/published_space.h
 struct LemkeRun;          // certify/existence.h
 struct Limits;
 struct PublishedOptions;
-struct Rungs;             // certify/filtered.h
+struct Rungs;          // certify/filtered.h
 struct SpaceSolution;  // certify/space.h
 
 struct ExactMethods {

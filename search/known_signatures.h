@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signatures of the loops of the corpus, so that a search can tell what is new from what is known. With more than
-// two contacts a signature is only counts (signature.h), and so is what it is known by.
+// The signatures of the loops of the corpus, so that a search can tell what is new from what is known. With
+// more than two contacts a signature is only counts (signature.h), and so is what it is known by.
 
 #ifndef STICTION_SEARCH_KNOWN_SIGNATURES_H_
 #define STICTION_SEARCH_KNOWN_SIGNATURES_H_

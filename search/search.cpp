@@ -42,7 +42,8 @@ class Search {
         store_(options.store, identity),
         done_(store_.Units()),
         heritage_(campaign, options.shard),
-        share_(options.finishing.value_or(campaign.objective.empty() ? kFinishingShare : kFinishingShareOfObjective)),
+        share_(options.finishing.value_or(campaign.objective.empty() ? kFinishingShare
+                                                                     : kFinishingShareOfObjective)),
         backlog_(options.only_finish ? std::nullopt : std::optional(kMostFinished)) {
     RequireSound(store_, options.store.string());
     for (const auto& [unit, text] : store_.Elites())
@@ -208,8 +209,8 @@ class Search {
     lock.unlock();
     const double start = ThreadSeconds();
     const double until = start + allowed + kFirstTry * std::pow(4, entry->tries);
-    const auto finished = FinishFinding(entry->finding, campaign_.limits,
-                                        [&] { return Stopped() || ThreadSeconds() > until; });
+    const auto finished =
+        FinishFinding(entry->finding, campaign_.limits, [&] { return Stopped() || ThreadSeconds() > until; });
     ProcessorTime time;
     time.finishing = static_cast<std::int64_t>(1e6 * (ThreadSeconds() - start));
     lock.lock();
@@ -251,7 +252,7 @@ class Search {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::int64_t next_unit_ = 0;
-  std::set<std::string> known_;     // signatures that have a representative
+  std::set<std::string> known_;  // signatures that have a representative
   std::set<std::string> signatures_;
   SearchProgress progress_;
   int busy_ = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search: units and findings of a campaign, on all cores, into a store.
 //
-// Threads take the units of the shard in ascending order and, in turn, findings to finish (backlog.h), which take a
-// bounded share of their processor time as long as there are units. What the store holds in the end depends on which
-// units were run and on nothing else, but for which findings are finished already, and the work that it took.
+// Threads take the units of the shard in ascending order and, in turn, findings to finish (backlog.h), which
+// take a bounded share of their processor time as long as there are units. What the store holds in the end
+// depends on which units were run and on nothing else, but for which findings are finished already, and the
+// work that it took.
 
 #ifndef STICTION_SEARCH_SEARCH_H_
 #define STICTION_SEARCH_SEARCH_H_
@@ -20,9 +21,9 @@
 
 namespace stiction {
 
-inline constexpr double kFinishingShare = 0.2;             // of processor time
+inline constexpr double kFinishingShare = 0.2;              // of processor time
 inline constexpr double kFinishingShareOfObjective = 0.05;  // where what is sought is better candidates
-inline constexpr std::int64_t kMostFinished = 100;         // of one kind and number of contacts
+inline constexpr std::int64_t kMostFinished = 100;          // of one kind and number of contacts
 
 struct SearchOptions {
   std::filesystem::path store;
@@ -41,13 +42,14 @@ struct SearchProgress {
   std::int64_t problems = 0;    // in this call
   std::int64_t units_done = 0;  // of this shard, with those of earlier calls if --problems is given
   std::optional<std::int64_t> units_wanted;  // of this shard
-  std::int64_t groups = 0;    // signatures met in this call, in the store or new
-  std::int64_t findings = 0;  // in this call
-  std::int64_t finished = 0;  // likewise
-  std::int64_t pending = 0;   // representatives to finish
-  std::int64_t left_out = 0;  // for which there is no room (backlog.h)
-  ProcessorTime time;         // in this call
-  // Since the last report: representatives of groups that the store did not have, and what turned out to be grave.
+  std::int64_t groups = 0;                   // signatures met in this call, in the store or new
+  std::int64_t findings = 0;                 // in this call
+  std::int64_t finished = 0;                 // likewise
+  std::int64_t pending = 0;                  // representatives to finish
+  std::int64_t left_out = 0;                 // for which there is no room (backlog.h)
+  ProcessorTime time;                        // in this call
+  // Since the last report: representatives of groups that the store did not have, and what turned out to be
+  // grave.
   std::vector<Finding> news;
 };
 

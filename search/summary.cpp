@@ -140,7 +140,8 @@ std::string AuditText(const Digest& d) {
 // What other exact methods made of the problems; of those of space existence alone is counted.
 std::string ExistenceText(const Digest& digest) {
   std::string text = fmt::format(
-      "  existence: {} of {} problems run exactly were solved by complete driving ({} with folds)\n",
+      "  existence: {} of {} problems given to complete driving were solved, verified exactly ({} with "
+      "folds)\n",
       Grouped(digest.existence.solved), Grouped(digest.existence.problems),
       Grouped(digest.existence.with_folds));
   text += fmt::format(
@@ -170,7 +171,8 @@ std::string TimeText(const ProcessorTime& time) {
   std::string parts;
   ForEachPart(time, [&](const char* name, const char*, std::int64_t value) {
     const double share = 100 * static_cast<double>(value) / total;
-    if (value > 0) parts += fmt::format("{}{} {:.{}f} %", parts.empty() ? "" : ", ", name, share, share < 1 ? 1 : 0);
+    if (value > 0)
+      parts += fmt::format("{}{} {:.{}f} %", parts.empty() ? "" : ", ", name, share, share < 1 ? 1 : 0);
   });
   return fmt::format("  processor time: {:.4g} s: {}\n", total * 1e-6, parts);
 }
@@ -255,16 +257,11 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
     if (!elite.worth.value && objective.of_loops) row["distance"] = -elite.worth.nearness;
     best.push_back(std::move(row));
   }
-  return {{"seed", campaign.seed},
-          {"objective", objective.name},
-          {"optimizer", campaign.optimizer},
-          {"units", yield.units},
-          {"candidates", yield.evaluations},
-          {"confirmations", yield.confirmations},
-          {"denied", yield.denied},
-          {"best", best},
-          {"builds", work.builds},
-          {"processor_seconds", TimeToJson(work.time)}};
+  return {{"seed", campaign.seed},           {"objective", objective.name},
+          {"optimizer", campaign.optimizer}, {"units", yield.units},
+          {"candidates", yield.evaluations}, {"confirmations", yield.confirmations},
+          {"denied", yield.denied},          {"best", best},
+          {"builds", work.builds},           {"processor_seconds", TimeToJson(work.time)}};
 }
 
 }  // namespace

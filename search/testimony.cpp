@@ -20,8 +20,8 @@ bool IsOutcome(std::string_view text) {
 }
 
 bool IsKind(std::string_view text) {
-  return text == kSafeCycle || text == kDisagreementOfMethods || text == "wrong-answer" || text == "disagreement" ||
-         IsOutcome(text);
+  return text == kSafeCycle || text == kDisagreementOfMethods || text == "wrong-answer" ||
+         text == "disagreement" || IsOutcome(text);
 }
 
 // Refuses texts of one place.
@@ -64,12 +64,14 @@ void RequireCertificate(const Witness& witness, const char* what, const std::str
   root.RequireObject();
   root.AllowKeys({"format", "version", "claim", "problem", "witness"});
   const JsonPlace format = root.Required("format", "\"stiction-certificate\"");
-  if (format.Text("\"stiction-certificate\"") != "stiction-certificate") format.Refuse("\"stiction-certificate\"");
+  if (format.Text("\"stiction-certificate\"") != "stiction-certificate")
+    format.Refuse("\"stiction-certificate\"");
   root.Required("version", "1").Integer(1, 1, "1");
   root.Required("claim", "a claim").Text("a claim");
   root.Required("witness", "a witness");
   root.Required("problem", "a problem");
-  const std::string digest = ProblemDigest(ProblemFromJson(json["problem"], source, "problem", /*strict=*/true));
+  const std::string digest =
+      ProblemDigest(ProblemFromJson(json["problem"], source, "problem", /*strict=*/true));
   const std::string expected = ProblemDigest(problem);
   witness.Require(digest == expected, what, "the certificate of " + digest, expected);
 }
@@ -81,7 +83,8 @@ void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
   facts.Required("contacts", "a number of contacts").Integer(contacts, contacts, fmt::format("{}", contacts));
   const JsonPlace outcome = facts.Required("outcome", "an outcome");
   if (!IsOutcome(outcome.Text("an outcome"))) outcome.Refuse("an outcome");
-  for (const char* key : {"start", "period", "steps"}) facts.Required(key, "a count").Integer(0, kMost, "a count");
+  for (const char* key : {"start", "period", "steps"})
+    facts.Required(key, "a count").Integer(0, kMost, "a count");
   const JsonPlace grid = facts.Required("grid", "policies by outcome");
   grid.RequireObject();
   for (const auto& [name, count] : grid.json().items()) {
@@ -98,7 +101,8 @@ void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
 }
 
 void RequireFacts(const Witness& witness, const Finding& finding, const ExactProblem* minimized) {
-  if (finding.facts.empty()) return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
+  if (finding.facts.empty())
+    return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
   const std::string source = witness.place() + ": facts";
   const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
@@ -106,8 +110,10 @@ void RequireFacts(const Witness& witness, const Finding& finding, const ExactPro
   root.AllowKeys({"found", "minimized", "disagreement", "answers"});
   if (const auto reason = root.Optional("disagreement")) reason->Text("a reason");
   const auto found = root.Optional("found"), small = root.Optional("minimized");
-  if (finding.done || found) RequireRunFacts(root.Required("found", "facts of the problem as found"), finding.contacts);
-  witness.Require(small.has_value() == (minimized != nullptr), "facts", small ? "those of a minimized problem" : "none",
+  if (finding.done || found)
+    RequireRunFacts(root.Required("found", "facts of the problem as found"), finding.contacts);
+  witness.Require(small.has_value() == (minimized != nullptr), "facts",
+                  small ? "those of a minimized problem" : "none",
                   "those of a minimized problem where there is one, and only there");
   if (small) RequireRunFacts(*small, static_cast<std::int64_t>(minimized->contacts.size()));
 }
@@ -125,13 +131,15 @@ void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campa
   const auto generator = FindGenerator(key.generator);
   const auto& all = campaign.generators;
   witness.RequireOneOf("generator", key.generator,
-                       generator && std::find(all.begin(), all.end(), *generator) != all.end(), "one of the campaign's");
+                       generator && std::find(all.begin(), all.end(), *generator) != all.end(),
+                       "one of the campaign's");
   const auto& sizes = campaign.contacts;
   witness.Require(std::find(sizes.begin(), sizes.end(), key.contacts) != sizes.end(), "contacts",
                   std::to_string(key.contacts), "one of the campaign's");
   RequirePolicy(witness, key.policy, campaign);
   witness.RequireOneOf("method", key.method, key.method == "baraff", "baraff");
-  witness.RequireOneOf("arithmetic", key.arithmetic, key.arithmetic == Name(campaign.arithmetic), "the campaign's");
+  witness.RequireOneOf("arithmetic", key.arithmetic, key.arithmetic == Name(campaign.arithmetic),
+                       "the campaign's");
   const auto at_most = [&](const char* what, std::int64_t count, std::int64_t most) {
     witness.Require(count <= most, what, std::to_string(count), fmt::format("at most {}", most));
   };
@@ -153,7 +161,8 @@ void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campa
 void RequireSound(const Finding& finding, const Campaign& campaign, const std::string& file) {
   const Witness witness(fmt::format("{}: finding {}", file, Shortened(finding.signature, 100)));
   witness.RequireOneOf("kind", finding.kind, IsKind(finding.kind), "a kind of findings");
-  witness.RequireOneOf("signature", finding.signature, IsKind(KindOf(finding.signature)), "one that begins with a kind");
+  witness.RequireOneOf("signature", finding.signature, IsKind(KindOf(finding.signature)),
+                       "one that begins with a kind");
   const auto in_range = [&witness](const char* what, std::int64_t number) {
     witness.Require(number >= 0 && number < std::int64_t{1} << 62, what, std::to_string(number), "0 or more");
   };
@@ -165,7 +174,8 @@ void RequireSound(const Finding& finding, const Campaign& campaign, const std::s
   witness.Require(finding.contacts == task.contacts, "contacts", std::to_string(finding.contacts),
                   fmt::format("{}, as its unit has", task.contacts));
   RequirePolicy(witness, finding.policy, campaign);
-  witness.RequireOneOf("inexact_outcome", finding.inexact_outcome, IsOutcome(finding.inexact_outcome), "an outcome");
+  witness.RequireOneOf("inexact_outcome", finding.inexact_outcome, IsOutcome(finding.inexact_outcome),
+                       "an outcome");
   witness.RequireOneOf("exact_outcome", finding.exact_outcome, IsOutcome(finding.exact_outcome), "an outcome");
   const ExactProblem problem = ReadStored(witness, "problem", finding.problem);
   witness.Require(static_cast<int>(problem.contacts.size()) == finding.contacts, "problem",
@@ -186,25 +196,29 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
   for (const auto& [key, tally] : total.tallies) RequireTally(key, tally, campaign, file);
   const Witness witness(file);
   for (const auto& [signature, count] : total.signatures) {
-    witness.RequireOneOf("signatures", signature, IsKind(KindOf(signature)), "signatures that begin with a kind");
+    witness.RequireOneOf("signatures", signature, IsKind(KindOf(signature)),
+                         "signatures that begin with a kind");
   }
   const auto is_size = [&campaign](int contacts) {
     return std::find(campaign.contacts.begin(), campaign.contacts.end(), contacts) != campaign.contacts.end();
   };
   for (const auto& [contacts, tally] : total.existence) {
-    witness.Require(is_size(contacts), "existence", fmt::format("{} contacts", contacts), "a size of the campaign's");
+    witness.Require(is_size(contacts), "existence", fmt::format("{} contacts", contacts),
+                    "a size of the campaign's");
     witness.Require(tally.solved <= tally.problems, "existence", fmt::format("{} solved", tally.solved),
                     fmt::format("at most {}", tally.problems));
   }
   for (const auto& [contacts, tally] : total.agreement)
-    witness.Require(is_size(contacts), "agreement", fmt::format("{} contacts", contacts), "a size of the campaign's");
+    witness.Require(is_size(contacts), "agreement", fmt::format("{} contacts", contacts),
+                    "a size of the campaign's");
 }
 
 void RequireSound(const Store& store, const std::string& file) {
   const Campaign campaign = CampaignOf(store.identity(), file);
   RequireSound(store.Total(), campaign, file);
   for (const Finding& finding : store.Findings()) RequireSound(finding, campaign, file);
-  for (const auto& [unit, text] : store.Elites()) ElitesFromText(text, fmt::format("{}: elites of unit {}", file, unit));
+  for (const auto& [unit, text] : store.Elites())
+    ElitesFromText(text, fmt::format("{}: elites of unit {}", file, unit));
 }
 
 }  // namespace stiction

@@ -68,8 +68,9 @@ class Collector {
 
   Tally& tally(std::size_t policy) { return *tallies_[policy]; }
 
-  // A problem that is looked at again. `suspected`: the inexact run did not end in a verified solution. Certified
-  // signs decide; what they leave open, what is audited, and a few of the others are examined over rationals.
+  // A problem that is looked at again. `suspected`: the inexact run did not end in a verified solution.
+  // Certified signs decide; what they leave open, what is audited, and a few of the others are examined over
+  // rationals.
   void RunAgain(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
     const ExactProblem problem = Regenerate(index);
     const Place place = {index, policy, inexact};
@@ -197,8 +198,8 @@ class Collector {
     FindUnsolved(place, verdict.outcome, Signature(problem, verdict, run.pivots), problem);
   }
 
-  // Runs exactly, counts, compares; returns the exact outcome. `filtered`: what was said with certified signs, null
-  // if nothing. What is solved and not drawn, other methods do not see.
+  // Runs exactly, counts, compares; returns the exact outcome. `filtered`: what was said with certified signs,
+  // null if nothing. What is solved and not drawn, other methods do not see.
   Outcome Examine(const Place& place, const ExactProblem& problem, const Verdict* filtered, bool suspected,
                   bool drawn = true) {
     const ExactRun run = RunExactly(problem, place.policy);
@@ -213,23 +214,26 @@ class Collector {
     return exact;
   }
 
-  void FindUnsolved(const Place& place, Outcome outcome, const std::string& signature, const ExactProblem& problem) {
+  void FindUnsolved(const Place& place, Outcome outcome, const std::string& signature,
+                    const ExactProblem& problem) {
     const bool safe_cycle = outcome == Outcome::kCycle && IsSafe(problem);
-    Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), (safe_cycle ? "safe-" : "") + signature, problem);
+    Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), (safe_cycle ? "safe-" : "") + signature,
+         problem);
   }
 
   // Certified signs are those of rationals: the same end after the same steps.
   void CompareFiltered(const Place& place, const Verdict& filtered, const ExactRun& run,
                        const ExactProblem& problem) {
     const Verdict& exact = run.verdict;
-    if (filtered.outcome == exact.outcome && filtered.start == exact.start &&
-        filtered.period == exact.period && filtered.statistics == exact.statistics)
+    if (filtered.outcome == exact.outcome && filtered.start == exact.start && filtered.period == exact.period &&
+        filtered.statistics == exact.statistics)
       return;
     FindDisagreementOfMethods(
         place, exact.outcome,
-        {"filtered-baraff", fmt::format("filtered, the published algorithm ends {} after {} steps; over rationals {} after {}",
-                                        Name(filtered.outcome), filtered.statistics.steps, Name(exact.outcome),
-                                        exact.statistics.steps)},
+        {"filtered-baraff",
+         fmt::format("filtered, the published algorithm ends {} after {} steps; over rationals {} after {}",
+                     Name(filtered.outcome), filtered.statistics.steps, Name(exact.outcome),
+                     exact.statistics.steps)},
         problem, {{{"baraff", exact.outcome, run.state.f}}, {}});
   }
 
@@ -288,8 +292,7 @@ class Collector {
       answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
       tally.compared += promised;
     }
-    if (task_.contacts <= kMostContactsEnumerated &&
-        IsOneIn(draw, campaign_.enumerate_every)) {
+    if (task_.contacts <= kMostContactsEnumerated && IsOneIn(draw, campaign_.enumerate_every)) {
       answers.modes = methods_.modes(problem);
       if (promised) CountModes(tally, problem, *answers.modes);
     }
@@ -297,8 +300,8 @@ class Collector {
   }
 
   // The answer of complete driving is the first.
-  void CompareAnswers(const Place& place, Outcome published, const CompleteRun& complete, const ExactProblem& problem,
-                      const Answers& answers) {
+  void CompareAnswers(const Place& place, Outcome published, const CompleteRun& complete,
+                      const ExactProblem& problem, const Answers& answers) {
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
     if (PromisesSolution())
       CountExistence(complete.verdict.outcome, complete.verdict.statistics,
@@ -457,12 +460,13 @@ class Kernel final : public SizedKernel {
         if (reduced) problem_ = reduction.problem();
       }
     };
-    TryAll(campaign_, unit, task, collector.meter(), draw, [&](std::int64_t index, std::size_t policy, bool audit) {
-      if (reduced)
-        Try(index, policy, audit, collector);
-      else
-        Refuse(index, policy, collector);
-    });
+    TryAll(campaign_, unit, task, collector.meter(), draw,
+           [&](std::int64_t index, std::size_t policy, bool audit) {
+             if (reduced)
+               Try(index, policy, audit, collector);
+             else
+               Refuse(index, policy, collector);
+           });
   }
 
  private:
@@ -515,7 +519,9 @@ class CertifiedKernel final : public SizedKernel {
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
     TryAll(
         campaign_, unit, task, collector.meter(), [](Choices&) {},
-        [&](std::int64_t index, std::size_t policy, bool audit) { collector.RunCertified(index, policy, audit); });
+        [&](std::int64_t index, std::size_t policy, bool audit) {
+          collector.RunCertified(index, policy, audit);
+        });
   }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a thread spends the processor time of a unit on.
 //
-// The processor clock of a thread is slow to read, so it is read twice, and the parts between are measured on the
-// wall clock and scaled to it: time in which the thread did not run is spread over all parts.
+// The processor clock of a thread is slow to read, so it is read twice, and the parts between are measured on
+// the wall clock and scaled to it: time in which the thread did not run is spread over all parts.
 
 #ifndef STICTION_SEARCH_WORK_METER_H_
 #define STICTION_SEARCH_WORK_METER_H_
@@ -72,7 +72,8 @@ class Spending {
   WorkMeter::Part before_;
 };
 
-// Draws are quicker than a clock can tell of each: one in so many is measured, less what the clock itself takes.
+// Draws are quicker than a clock can tell of each: one in so many is measured, less what the clock itself
+// takes.
 class SampledDraws {
  public:
   static constexpr std::int64_t kOneIn = 64;

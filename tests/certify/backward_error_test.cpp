@@ -46,7 +46,8 @@ ExactProblem Nearby(const ExactProblem& problem, const ExactVector& f, const Bac
 
 TEST_CASE("backward error: the forces solve a problem so near exactly") {
   int bounded = 0, moved_mu = 0;
-  for (const GeneratorId id : {GeneratorId::kIntegers, GeneratorId::kConditioned, GeneratorId::kNearDegenerate, GeneratorId::kScenes}) {
+  for (const GeneratorId id : {GeneratorId::kIntegers, GeneratorId::kConditioned, GeneratorId::kNearDegenerate,
+                               GeneratorId::kScenes}) {
     for (int index = 0; index < Few(80); ++index) {
       const ContactProblem<double> problem = Rounded<double>(Random<Rational>(id, 1 + index % 4, index));
       for (const char* method : {"complete", "fast"}) {
@@ -70,7 +71,9 @@ TEST_CASE("backward error: the forces solve a problem so near exactly") {
 
 TEST_CASE("backward error: nothing helps where a force pulls, or friction stands alone") {
   const auto problem = As<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-2, 1}));
-  const auto of = [&problem](double fN, double fF) { return FindBackwardError(problem, Long(Eigen::Vector2d(fN, fF))); };
+  const auto of = [&problem](double fN, double fF) {
+    return FindBackwardError(problem, Long(Eigen::Vector2d(fN, fF)));
+  };
   CHECK_FALSE(of(-1, 0));
   CHECK_FALSE(of(0, 1));
   CHECK_FALSE(of(std::numeric_limits<double>::quiet_NaN(), 0));

@@ -80,7 +80,9 @@ int CheckFormulas(int reach, int formulas) {
       pool.push_back({x, BallAround<Number>(x)});
     }
     for (int step = 0; step < 8; ++step) {
-      const auto pick = [&]() -> const Known<Number>& { return pool[choices.Integer(0, static_cast<int>(pool.size()) - 1)]; };
+      const auto pick = [&]() -> const Known<Number>& {
+        return pool[choices.Integer(0, static_cast<int>(pool.size()) - 1)];
+      };
       const int operation = static_cast<int>(choices.Integer(0, 3));
       const Known<Number>&x = pick(), &y = pick();
       const auto result = Combined(operation, x, y);
@@ -96,8 +98,8 @@ int CheckFormulas(int reach, int formulas) {
   return told;
 }
 
-TEMPLATE_TEST_CASE("balls: they enclose what rationals compute, from the least to the largest doubles", "", double,
-                   dd_real) {
+TEMPLATE_TEST_CASE("balls: they enclose what rationals compute, from the least to the largest doubles", "",
+                   double, dd_real) {
   CHECK(CheckFormulas<TestType>(0, 3000) > 15000);
   CHECK(CheckFormulas<TestType>(60, 3000) > 10000);
   CHECK(CheckFormulas<TestType>(500, 3000) > 3000);

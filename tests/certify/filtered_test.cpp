@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The planar methods over balls: the pivots of rationals, and forces within their ends. Rung after rung they end
-// as runs over rationals do.
+// The planar methods over balls: the pivots of rationals, and forces within their ends. Rung after rung they
+// end as runs over rationals do.
 
 #include "certify/filtered.h"
 
@@ -119,8 +119,8 @@ TEST_CASE("filtered: a problem beyond the doubles is undecided on a rung, and de
         const InexactAnswer run = RunEnclosed(method, problem, {}, rung);
         CHECK((run.Solved() || run.outcome == Outcome::kUndecided));
       }
-      const Solution filtered = SolveIn(
-          problem, {.method = std::string(method), .arithmetic = Arithmetic::kFiltered});
+      const Solution filtered =
+          SolveIn(problem, {.method = std::string(method), .arithmetic = Arithmetic::kFiltered});
       CHECK(filtered.outcome() == Outcome::kSolved);
     }
   }
@@ -230,7 +230,8 @@ TEST_CASE("filtered: complete driving counts as over rationals, and its forces s
   CHECK(RunCompleteFiltered(GiveUpProblem(), {}).rung != Rung::kExact);
 }
 
-TEST_CASE("filtered: existence is decided by the end of a run, few rows or many, and its certificate is accepted") {
+TEST_CASE(
+    "filtered: existence is decided by the end of a run, few rows or many, and its certificate is accepted") {
   for (const auto& [contacts, method] : {std::pair{3, "complete"}, std::pair{14, "fast"}}) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       CAPTURE(contacts, seed);

@@ -19,6 +19,59 @@ def untimed(tables):
             for name in TABLES}
 
 
+class Silent(cli.TestCase):
+    """Wrong answers that say nothing of it."""
+
+    @staticmethod
+    def silent(*more):
+        return cli.run("bench", "--suite", "silent", "--json", "--families", "masses", "range", "near-loops", "stack",
+                       "--problems", 400, *more)
+
+    def test_there_is_none_and_threads_change_nothing(self):
+        first = self.silent()
+        self.assertEqual(first.code, 0, first.err)
+        rows = first.json()["rows"]
+        self.assertEqual(sorted({row["row"].split()[0] for row in rows}), ["baraff", "complete", "fast", "lemke"])
+        for method in ["baraff", "complete", "fast", "lemke"]:
+            asked = {row["row"]: row["problems"] for row in rows if row["row"].startswith(method)}
+            self.assertGreater(asked[f"{method} exact"], 60)
+        self.assertEqual(sum(row["problems"] for row in rows if row["row"].endswith("exact")), 400)
+        self.assertEqual([row["silent"] for row in rows], [0] * len(rows))
+        self.assertEqual(self.silent("--threads", 3).json(), first.json())
+        self.assertNotEqual(self.silent("--seed", 2).json(), first.json())
+
+    def test_large_problems_come_in_one_round_of_a_hundred(self):
+        for families, problems, large in (["masses", "stack"], 12, 5), (["masses"], 7, 0):
+            done = cli.run("bench", "--suite", "silent", "--json", "--families", *families, "--problems", problems)
+            # the first round, of `complete`, has six settings of masses and five stacks; the second begins after it
+            rows = {row["row"]: row["problems"] for row in done.json()["rows"]}
+            self.assertEqual((rows["complete exact"], rows["lemke exact"]), (6 + large, 1))
+
+
+class PeersExtremes(cli.TestCase):
+    """Packages along dials; those that are not installed are left out, our own are always there."""
+
+    def test_lines_are_consistent_and_our_gate_lets_nothing_wrong_through(self):
+        done = cli.run("bench", "--suite", "peers-extremes", "--json", "--problems", 2)
+        self.assertEqual(done.code, 0, done.err)
+        tables = {table["name"]: table["lines"] for table in done.json()["tables"]}
+        self.assertEqual(sorted(tables), ["extremes", "extremes-frictionless"])
+        for name, lines in tables.items():
+            self.assertGreater(len({(line["dial"], line["at"]) for line in lines}), 60)
+            for line in lines:
+                with self.subTest(table=name, line=line):
+                    if not line["installed"]:
+                        self.assertTrue(line["package"])
+                        continue
+                    self.assertLessEqual(line["solved"] + line["silent"] + line["crashed"], line["tried"])
+                    if not line["package"]:
+                        self.assertEqual(line["crashed"], 0)
+                    if line["name"] in ("fast", "auto"):
+                        self.assertEqual(line["silent"], 0)
+                    if line["dial"] == "tame" and not line["package"]:
+                        self.assertEqual(line["solved"], line["tried"])
+
+
 @unittest.skipIf(cli.SHORT, "long")
 class Methods(cli.TestCase):
     @classmethod

@@ -113,7 +113,8 @@ std::string Content(const fs::path& file) {
   };
   for (const char* query :
        {"SELECT * FROM campaign ORDER BY key", "SELECT * FROM units ORDER BY unit",
-        "SELECT * FROM blocks ORDER BY shards, shard, block", "SELECT * FROM findings ORDER BY signature", "SELECT * FROM elites ORDER BY unit"}) {
+        "SELECT * FROM blocks ORDER BY shards, shard, block", "SELECT * FROM findings ORDER BY signature",
+        "SELECT * FROM elites ORDER BY unit"}) {
     REQUIRE(sqlite3_exec(db, query, take, &text, nullptr) == SQLITE_OK);
   }
   sqlite3_close(db);
@@ -578,7 +579,8 @@ TEST_CASE("store: a row that is not as it was written is named, and nothing is r
   const Scratch scratch;
   const fs::path file = MakeFullStore(scratch, "a.store");
   const std::vector<std::pair<std::string, std::string>> damages = {
-      {"UPDATE blocks SET record = replace(record, '1', '2')", "block 0 of shard 0/1: found content of SHA-256"},
+      {"UPDATE blocks SET record = replace(record, '1', '2')",
+       "block 0 of shard 0/1: found content of SHA-256"},
       {"UPDATE blocks SET block = 1", "block 1 of shard 0/1"},
       {"UPDATE units SET record = record || ' ' WHERE unit = 1025", "unit 1025"},
       {"UPDATE units SET unit = 2000 WHERE unit = 1025", "unit 2000"},
@@ -687,7 +689,8 @@ TEST_CASE("work: a block has the builds and the time of its units, and of finish
 
 TEST_CASE("work: copies of a unit or block with other work are the same unit or block") {
   const Scratch scratch;
-  const auto make = [&](const std::string& name, std::int64_t units, const std::string& build, std::int64_t time) {
+  const auto make = [&](const std::string& name, std::int64_t units, const std::string& build,
+                        std::int64_t time) {
     Store store(scratch / name, Identity());
     for (std::int64_t unit = 0; unit < units; ++unit)
       store.AddUnit({}, unit, RecordOf(unit), CandidatesOf(unit), {}, WorkOf(build, time));

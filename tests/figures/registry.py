@@ -28,7 +28,8 @@ SEARCH = ("algorithm",)
 METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
 PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
          "bench/peers_tables.cpp")
-RUNGS = ("algorithm", "bench/ladder.cpp", "bench/rungs.cpp", "bench/dials.cpp", "certify/filtered.cpp")
+ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/filtered.cpp")
+RUNGS = (*ANSWERS, "bench/ladder.cpp")
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
 
 FIGURES = [
@@ -80,7 +81,9 @@ FIGURES = [
     Figure("same-tables", "reports/arithmetic.md", "long", rungs.same_tables, ("algorithm", "certify/filtered.cpp")),
     Figure("trade", "reports/arithmetic.md", "minutes", rungs.trade, RUNGS),
     Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
-    Figure("silent", "reports/arithmetic.md", "long", rungs.silent, RUNGS),
+    Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/silent.cpp")),
+    Figure("peers-extremes", "reports/peers.md", "minutes", rungs.peers_extremes,
+           ("algorithm", "bench/peers_rows.cpp", "bench/peers_extremes.cpp", "bench/dials.cpp")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
     Figure("structure", "reports/peers.md", "long", bench.structure, STRUCTURE),
     Figure("structure-large", "reports/peers.md", "long", bench.structure_large, STRUCTURE),

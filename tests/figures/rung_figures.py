@@ -74,7 +74,7 @@ def extremes(program):
 
 
 def silent(program):
-    result = program.bench("silent", "--problems", program.size(10_000_000), "--seed", 6)
+    result = program.bench("silent", "--problems", program.size(10_000_000), "--seed", 6, "--threads", 2)
     rows = [(f"`{row['row']}`", count(row["problems"]), count(row["solved"]), count(row["undecided"]),
              count(row["other"]), count(row["silent"]), f"{row['at most in a million']:.2g}") for row in result["rows"]]
     return table(["method and arithmetic", "problems", "solved", "undecided", "another end", "silently wrong",
@@ -96,3 +96,20 @@ def same_tables(program):
     return prose(f"{count(problems)} problems each. The same to the last number, but for the name of the arithmetic: "
                  f"{', '.join(f'`{name}`' for name in same) or 'none'}; different: "
                  f"{', '.join(f'`{name}`' for name in differ) or 'none'}.")
+
+
+def peers_extremes(program):
+    result = program.bench("peers-extremes", "--problems", 40)
+    parts = []
+    for block in result["tables"]:
+        sums = collections.defaultdict(collections.Counter)
+        for line in block["lines"]:
+            if not line["installed"]:
+                continue
+            for name in ("tried", "solved", "silent", "refused", "crashed"):
+                sums[line["name"]][name] += line[name]
+        rows = [(f"`{name}`", *(count(s[column]) for column in ("tried", "solved", "silent", "refused", "crashed")))
+                for name, s in sums.items()]
+        parts.append(table(["with friction" if block["name"] == "extremes" else "without friction", "problems", "solved",
+                            "silently wrong", "called failures", "crashed, or no answer in time"], rows))
+    return "\n\n".join(parts) + "\n\n" + prose("Judged over rationals, residual at most 1e-6" + machine())

@@ -6,14 +6,13 @@
 //
 // A text, a number or null is one of SQLite; any other value is written as JSON text; "hex:ff00" are bytes.
 
-#include "corpus/store_rows.h"
-
 #include <stdlib.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "corpus/store_rows.h"
 #include "reports/csv.h"
 #include "reports/page.h"
 #include "search/campaign.h"
@@ -112,7 +111,8 @@ class Database {
       for (int i = 0; i < table.keys; ++i)
         keys += (i > 0 ? " AND " : " WHERE ") + std::string(table.columns[i]) + " IS ?";
       std::vector<std::vector<std::string>> rows;
-      ForEachRow(SelectFrom(table.name, ""), [&](std::vector<std::string> row) { rows.push_back(std::move(row)); });
+      ForEachRow(SelectFrom(table.name, ""),
+                 [&](std::vector<std::string> row) { rows.push_back(std::move(row)); });
       for (std::vector<std::string>& row : rows) {
         row.pop_back();
         std::vector<std::string> values = {SealOf(table.name, row)};
@@ -121,9 +121,8 @@ class Database {
       }
     }
     std::vector<std::string> campaign;
-    ForEachRow("SELECT key, value FROM campaign WHERE key != 'seal' ORDER BY key", [&](const auto& row) {
-      campaign.insert(campaign.end(), row.begin(), row.end());
-    });
+    ForEachRow("SELECT key, value FROM campaign WHERE key != 'seal' ORDER BY key",
+               [&](const auto& row) { campaign.insert(campaign.end(), row.begin(), row.end()); });
     Update("UPDATE campaign SET value = ? WHERE key = 'seal'", {SealOf("campaign", campaign)});
   }
 
@@ -150,7 +149,8 @@ class Database {
       std::vector<std::string> row;
       for (int i = 0; i < sqlite3_column_count(statement); ++i) {
         const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, i));
-        row.emplace_back(text == nullptr ? "" : text, static_cast<std::size_t>(sqlite3_column_bytes(statement, i)));
+        row.emplace_back(text == nullptr ? "" : text,
+                         static_cast<std::size_t>(sqlite3_column_bytes(statement, i)));
       }
       visit(std::move(row));
     }

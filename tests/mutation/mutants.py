@@ -160,8 +160,8 @@ bug("polygon-negative-radius", "contact.mu * std::max<Scalar>(Scalar(0), f[row])
 # ---- solver/lemke ------------------------------------------------------------------
 
 bug = in_file("solver/lemke/lemke.ipp", "^solver: (lemke|equivalence)|^certify: (lemke|existence)|^program: existence")
-bug("first-row-tie", "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0",
-    "Sign(Scalar(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) < 0", "the first pivot is not lexicographic")
+bug("first-row-tie", "Sign(Entry(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) <= 0",
+    "Sign(Entry(T_(i, 0) * cover_[best] - T_(best, 0) * cover_[i])) < 0", "the first pivot is not lexicographic")
 bug("artificial-stays", "CompareQuotients(artificial, best, 0) <= 0 ? artificial : best",
     "CompareQuotients(artificial, best, 0) < 0 ? artificial : best", "z0 does not leave when it can")
 bug("multiplier-sign", "z.block == Block::kNormal ? problem_->contacts[w.contact].mu : Scalar(-1)",
@@ -170,6 +170,13 @@ bug("lemke-budget", "verdict_.statistics.pivots >= options_.limits.pivots",
     "verdict_.statistics.pivots > options_.limits.pivots", "a budget of pivots is one too large")
 bug("corner-force-sign", "f[z.row] -= value;", "f[z.row] += value;", "friction the other way has the same sign")
 bug("lemke-residual-not-read", "!(residual <= residual_tolerance_)", "false", "any answer over doubles is solved")
+bug("lemke-first-pivot", "pivot < 0", "pivot < -1", "the denominator is negative after z0 came in")
+bug("lemke-ray-unit", "if (entering < size_) change *= row_units_[entering];", "",
+    "a direction is per unit of the scaled row")
+bug("lemke-value-unit", "variable < size_ ? Entry(denominator_ * row_units_[variable]) : denominator_", "denominator_",
+    "an acceleration is told in units of its scaled row")
+bug("lemke-bits", "MayExceedBits(i) && BitLength<Scalar>::Of(Value(i)) > options_.limits.bits", "MayExceedBits(i)",
+    "bits are counted before common factors are found")
 bug("lemke-order", "if (const int order = CompareQuotients(i, k, c); order != 0) return order < 0;",
     "if (const int order = CompareQuotients(i, k, c); order != 0) return order > 0;", "the largest quotient leaves")
 

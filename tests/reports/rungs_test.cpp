@@ -15,13 +15,17 @@ namespace {
 using Catch::Matchers::Contains;
 
 const std::string kHead =
-    "family,setting,method,arithmetic,problems,solved,undecided,other,refused,wrong,wrong_share_low,wrong_share_high,"
-    "silent,silent_share_low,silent_share_high,microseconds_low,microseconds_median,microseconds_high,residual_low,"
-    "residual_median,residual_high,worst_residual,decided_on_double,decided_on_double-double,decided_on_exact\n";
+    "family,setting,method,arithmetic,problems,solved,undecided,other,refused,wrong,wrong_share_low,wrong_"
+    "share_high,"
+    "silent,silent_share_low,silent_share_high,microseconds_low,microseconds_median,microseconds_high,residual_"
+    "low,"
+    "residual_median,residual_high,worst_residual,decided_on_double,decided_on_double-double,decided_on_"
+    "exact\n";
 
 std::string Line(const std::string& family, const std::string& method, const std::string& arithmetic,
                  const std::string& counts = "25,20,3,1,1,2", const std::string& times = "1.5,2.5,3.5") {
-  return family + ",8," + method + "," + arithmetic + "," + counts + ",0,0.2,0,0,0.1," + times + ",0,1e-17,1e-16,2e-16,0,0,0\n";
+  return family + ",8," + method + "," + arithmetic + "," + counts + ",0,0.2,0,0,0.1," + times +
+         ",0,1e-17,1e-16,2e-16,0,0,0\n";
 }
 
 std::vector<RungLine> Read(const std::string& text) {
@@ -31,7 +35,8 @@ std::vector<RungLine> Read(const std::string& text) {
 }
 
 TEST_CASE("rungs: a line of every column") {
-  const auto lines = Read(kHead + Line("masses", "complete", "double") + Line("masses", "fast", "float", "25,0,0,0,25,0", ",,"));
+  const auto lines = Read(kHead + Line("masses", "complete", "double") +
+                          Line("masses", "fast", "float", "25,0,0,0,25,0", ",,"));
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].family == "masses");
   CHECK((lines[0].solved == 20 && lines[0].undecided == 3 && lines[0].refused == 1 && lines[0].wrong == 2));
@@ -44,23 +49,30 @@ TEST_CASE("rungs: a file that is none of bench is refused by its place") {
   CHECK_THROWS_WITH(Read(""), Contains("found no line"));
   CHECK_THROWS_WITH(Read("family,setting\nmasses,8\n"), Contains(":1: found no column method"));
   CHECK_THROWS_WITH(Read(kHead + "masses,8\n"), Contains(":2: found 2 cells, expected 25"));
-  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,x,3,1,1,2")), Contains(":2: solved: found 'x'"));
-  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,-4,27,1,1,2")), Contains("solved: found -4"));
-  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,0,2")), Contains("do not add up to 25"));
-  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,1,2", "1,nan,2")), Contains("microseconds_median"));
+  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,x,3,1,1,2")),
+                    Contains(":2: solved: found 'x'"));
+  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,-4,27,1,1,2")),
+                    Contains("solved: found -4"));
+  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,0,2")),
+                    Contains("do not add up to 25"));
+  CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,1,2", "1,nan,2")),
+                    Contains("microseconds_median"));
   CHECK_THROWS_AS(ReadRungs("/nowhere/rungs.csv"), InputError);
 }
 
 TEST_CASE("rungs: the section has a plot and a table for each family, escaped") {
-  const std::string markup = RungsSection(Read(kHead + Line("masses", "complete", "double") + Line("masses", "complete", "filtered") +
-                                               Line("<b>", "fast", "float", "25,0,0,0,25,0", ",,")))
-                                 .markup();
+  const std::string markup =
+      RungsSection(Read(kHead + Line("masses", "complete", "double") + Line("masses", "complete", "filtered") +
+                        Line("<b>", "fast", "float", "25,0,0,0,25,0", ",,")))
+          .markup();
   CHECK(markup.find("id=\"rungs\"") != std::string::npos);
   CHECK(markup.find("<b>") == std::string::npos);
   CHECK(markup.find("&lt;b&gt;") != std::string::npos);
-  CHECK(markup.find("complete filtered: 2.5 microseconds, 20 solved, 2 wrong, 3 undecided of 24") != std::string::npos);
+  CHECK(markup.find("complete filtered: 2.5 microseconds, 20 solved, 2 wrong, 3 undecided of 24") !=
+        std::string::npos);
   std::size_t dots = 0;
-  for (std::size_t at = markup.find("<circle"); at != std::string::npos; at = markup.find("<circle", at + 1)) ++dots;
+  for (std::size_t at = markup.find("<circle"); at != std::string::npos; at = markup.find("<circle", at + 1))
+    ++dots;
   CHECK(dots == 2);  // the third has no time
 }
 

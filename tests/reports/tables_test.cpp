@@ -112,7 +112,7 @@ TEST_CASE("tables: every policy loops if all of the grid do") {
 TEST_CASE("tables: what must be zero stands where it is not") {
   const Html section = ExistenceSection(SmallRecord());
   for (const char* row : {"2", "all"}) {
-    const Cells existence = RowOf(section, "Complete driving on the problems that were run exactly", row);
+    const Cells existence = RowOf(section, "Complete driving on the problems that were given to it", row);
     CHECK(Cells(existence.begin(), existence.begin() + 4) == Cells{row, "30", "19", "11"});
     const Cells agreement = RowOf(section, "Methods", row);
     CHECK(Cells(agreement.begin(), agreement.begin() + 4) == Cells{row, "23", "0", "9"});

@@ -14,8 +14,8 @@
 #include "certify/agreement.h"
 #include "certify/enumerate.h"
 #include "certify/exact.h"
-#include "certify/filtered.h"
 #include "certify/existence.h"
+#include "certify/filtered.h"
 #include "certify/published_space.h"
 #include "certify/space.h"
 #include "corpus/kinds.h"
@@ -162,8 +162,8 @@ TEST_CASE("alarms: complete driving with certified signs that does not solve a l
     };
     const UnitResult result = RunWith(campaign, solvers);
     CAPTURE(ray);
-    const std::int64_t alarms =
-        MetOf(result, ray ? "disagreement-of-methods-complete-ray-4c" : "disagreement-of-methods-complete-wrong-4c");
+    const std::int64_t alarms = MetOf(
+        result, ray ? "disagreement-of-methods-complete-ray-4c" : "disagreement-of-methods-complete-wrong-4c");
     CHECK(alarms > 0);
     CHECK(alarms + result.record.existence.at(4).solved == result.record.existence.at(4).problems);
     CHECK(std::any_of(result.candidates.begin(), result.candidates.end(),

@@ -11,7 +11,8 @@
 namespace stiction {
 namespace {
 
-Finding Unfinished(const std::string& signature, int contacts, std::int64_t unit, std::string_view kind = "cycle") {
+Finding Unfinished(const std::string& signature, int contacts, std::int64_t unit,
+                   std::string_view kind = "cycle") {
   Finding finding;
   finding.signature = signature;
   finding.kind = kind;

@@ -175,10 +175,11 @@ TEST_CASE("campaign: the definition is a campaign file of the same campaign") {
   Campaign campaign = Read(With(
       R"("generators": ["small"], "contacts": [3, 2], "mu": ["2/4", "7"], "unit_problems": 50, "max_bits": 99)"));
   const std::string definition = DefinitionToJson(campaign).dump();
-  CHECK(definition ==
-        R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
-        R"("unit_problems":50,"audit_every":5000,"lemke_every":100,"enumerate_every":1000,)"
-        R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99,"complete_every":100})");
+  CHECK(
+      definition ==
+      R"({"format":"stiction-campaign","version":1,"generators":["small"],"contacts":[3,2],"mu":["1/2","7"],)"
+      R"("unit_problems":50,"audit_every":5000,"lemke_every":100,"enumerate_every":1000,)"
+      R"("representatives_per_unit":4,"max_drives":1000,"max_pivots":10000,"max_bits":99,"complete_every":100})");
   CHECK(Read(definition) == campaign);
   CHECK(Read(DefinitionToJson(Campaign{}).dump()) == Campaign{});
 }
@@ -198,12 +199,11 @@ TEST_CASE("campaign: the identity is the same however the file is written, and d
   CHECK(identity(R"("policies": ["ties=contacts,give-up=second"])") ==
         identity(R"("policies": ["give-up=second,ties=contacts,scan=lowest"])"));
   CHECK(identity(R"("contacts": [2], "seed": 3)") == identity(R"("seed": 3, "contacts": [2])"));
-  for (const char* members :
-       {R"("seed": 2)", R"("generators": ["psd"])", R"("contacts": [2])", R"("mu": ["1"])",
-        R"("policies": ["ties=contacts"])", R"("unit_problems": 1)", R"("audit_every": 1)",
-        R"("lemke_every": 1)", R"("enumerate_every": 1)", R"("representatives_per_unit": 1)",
-        R"("max_drives": 1)", R"("max_pivots": 1)", R"("max_bits": 1)", R"("complete_every": 1)",
-        R"("arithmetic": "exact")"}) {
+  for (const char* members : {R"("seed": 2)", R"("generators": ["psd"])", R"("contacts": [2])",
+                              R"("mu": ["1"])", R"("policies": ["ties=contacts"])", R"("unit_problems": 1)",
+                              R"("audit_every": 1)", R"("lemke_every": 1)", R"("enumerate_every": 1)",
+                              R"("representatives_per_unit": 1)", R"("max_drives": 1)", R"("max_pivots": 1)",
+                              R"("max_bits": 1)", R"("complete_every": 1)", R"("arithmetic": "exact")"}) {
     CAPTURE(members);
     CHECK_FALSE(identity(members) == identity(""));
   }
@@ -226,7 +226,8 @@ TEST_CASE("campaign: certified signs are for the plane, without an objective") {
   const auto refused = [](const std::string& members, const char* says) {
     CHECK_THROWS_WITH(RequireConsistent(Read(With(members))), Contains(says));
   };
-  refused(R"("arithmetic": "exact", "generators": ["space"], "policies": ["slip=redirect"])", "expected double in space");
+  refused(R"("arithmetic": "exact", "generators": ["space"], "policies": ["slip=redirect"])",
+          "expected double in space");
   refused(R"("arithmetic": "filtered", "objective": "friction")", "expected double");
   CHECK_THROWS_WITH(Read(With(R"("arithmetic": "float")")), Contains("expected double, filtered or exact"));
 }

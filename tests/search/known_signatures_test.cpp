@@ -27,14 +27,16 @@ TEST_CASE("known signatures: the table has every loop of the corpus under paper,
       if (entry.path().extension() != ".json") continue;
       const ExactProblem problem = ReadProblem(entry.path()).problem;
       const ExactRun run = RunExact(problem, {});
-      if (IsLoop(run.verdict.outcome)) found.emplace_back(Signature(problem, run), entry.path().stem().string());
+      if (IsLoop(run.verdict.outcome))
+        found.emplace_back(Signature(problem, run), entry.path().stem().string());
     }
   }
   std::sort(found.begin(), found.end());
   std::vector<std::pair<std::string, std::string>> table;
   for (const KnownSignature& known : KnownSignatures()) table.emplace_back(known.signature, known.name);
   std::string expected;
-  for (const auto& [signature, name] : found) expected += fmt::format("    {{\"{}\", \"{}\"}},\n", signature, name);
+  for (const auto& [signature, name] : found)
+    expected += fmt::format("    {{\"{}\", \"{}\"}},\n", signature, name);
   INFO("the table for search/known_signatures.cpp, " << found.size() << " rows:\n" << expected);
   CHECK(table == found);
   REQUIRE(!found.empty());

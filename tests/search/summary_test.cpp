@@ -117,7 +117,9 @@ TEST_CASE("summary: grave findings are named, and stand before all others") {
   CHECK_THAT(text, Contains("GRAVE: safe-cycle: safe-cycle-2c-4d-10s-00"));
   CHECK_THAT(
       text, Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 wrong answers"));
-  CHECK_THAT(text, Contains("24 of 26 problems run exactly were solved by complete driving (12 with folds)"));
+  CHECK_THAT(
+      text,
+      Contains("24 of 26 problems given to complete driving were solved, verified exactly (12 with folds)"));
   CHECK_THAT(text, Contains("3 finished, 1 to go; 2 loop under the whole grid"));
 }
 

@@ -410,7 +410,8 @@ TEST_CASE("unit: what certified signs confirm is counted and signed as by ration
 }
 
 TEST_CASE("unit: with certified signs from the start all counts are those of rationals") {
-  for (const GeneratorId generator : {GeneratorId::kSmall, GeneratorId::kConditioned, GeneratorId::kBilateral}) {
+  for (const GeneratorId generator :
+       {GeneratorId::kSmall, GeneratorId::kConditioned, GeneratorId::kBilateral}) {
     Campaign campaign = Small(generator, 3, 120);
     campaign.audit_every = 1;
     campaign.policies = {Policy{}, ParsePolicy("give-up=second,ties=contacts")};

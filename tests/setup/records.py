@@ -40,7 +40,7 @@ class Search:
                       "--contacts", str(o.contacts), "--mu", *mu, *(["--gravity-only"] if o.gravity_only else []),
                       "--seed", str(o.seed), "--problems", str(problems)]
         before = children()
-        done = subprocess.run([program, *self.words, "--threads", str(o.threads), "--store", self.store],
+        done = subprocess.run([program, *self.words, "--threads", str(o.threads), "--finishing", "0", "--store", self.store],
                               capture_output=True, text=True)
         if done.returncode:
             sys.exit(f"{shlex.join(self.words)}: exit {done.returncode}\n{done.stderr}")
