@@ -2,12 +2,14 @@
 // bench --suite silent: wrong answers that say nothing of it, counted over all generators and dials.
 //
 // Problems come in rounds, one from each source; large ones in one round of kLargeEvery. Each is given to one
-// method, the methods in turn, over all rungs. A problem is a function of seed, source and round: threads share
-// the rounds, and the counts do not depend on them.
+// method, the methods in turn, over all rungs. A problem is a function of seed, source and round: threads take
+// the rounds as they come, and the counts do not depend on them.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -62,32 +64,34 @@ struct SilentCounts {
   }
 };
 
-// The rounds of thread `thread` of `threads`, of the first `problems` problems.
+// The rounds that `next` gives, of the first `problems` problems.
 SilentCounts CountRounds(const std::vector<Source>& sources, const RowsByMethod& methods, std::int64_t problems,
-                         std::uint64_t seed, int thread, int threads) {
+                         std::uint64_t seed, std::atomic<std::int64_t>& next) {
+  const std::int64_t large = std::count_if(sources.begin(), sources.end(), std::mem_fn(&Source::is_large));
+  const std::int64_t others = static_cast<std::int64_t>(sources.size()) - large;
   SilentCounts counts;
-  std::int64_t place = 0;
-  for (std::int64_t round = 0; place < problems; ++round) {
+  for (;;) {
+    const std::int64_t round = next++;
+    std::int64_t place = round * others + (round + kLargeEvery - 1) / kLargeEvery * large;
+    if (place >= problems) return counts;
     for (const Source& source : sources) {
       const std::int64_t every = source.is_large ? kLargeEvery : 1;
-      if (round % every != 0) continue;
-      if (place++ >= problems || round % threads != thread) continue;
+      if (round % every != 0 || place >= problems) continue;
       const std::size_t turn = static_cast<std::size_t>(round / every) % methods.size();
-      counts.Add(source, place - 1, round, seed, methods[turn]);
+      counts.Add(source, place++, round, seed, methods[turn]);
     }
   }
-  return counts;
 }
 
 SilentCounts CountSilent(const std::vector<Source>& sources, std::int64_t problems, std::uint64_t seed,
                          int threads) {
   const RowsByMethod methods = AllRows();
   std::vector<SilentCounts> parts(threads);
+  std::atomic<std::int64_t> next{0};
   {
     std::vector<std::jthread> running;
-    for (int thread = 0; thread < threads; ++thread)
-      running.emplace_back(
-          [&, thread] { parts[thread] = CountRounds(sources, methods, problems, seed, thread, threads); });
+    for (SilentCounts& part : parts)
+      running.emplace_back([&] { part = CountRounds(sources, methods, problems, seed, next); });
   }
   for (int thread = 1; thread < threads; ++thread) parts[0].Merge(parts[thread]);
   return std::move(parts[0]);
