@@ -457,14 +457,14 @@ void AddSearch(CommandLine& program) {
   verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
   verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i");
   verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
-  verb.Option("--finishing", o.finishing,
-              "most processor time for finishing findings, while there are units to run")
+  verb.Option("--finishing", o.finishing, "most processor time for finishing findings")
       .Unit("%")
       .Range(0, 100)
       .Details(
-          "By default 20, with an objective 5; 0 finishes none. Once the units of --problems are done, the "
-          "rest "
-          "is finished whatever it takes, but at most 100 of a kind and number of contacts");
+          "By default 20, with an objective 5; 0 finishes none, 100 leaves none unfinished. Of a kind and "
+          "number of "
+          "contacts at most 100 are finished. After the last unit of --problems half a minute of each thread "
+          "is used in any case; what waits then is left to --finish");
   verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
   verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
       .Details(

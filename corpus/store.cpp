@@ -413,6 +413,14 @@ std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
   return std::nullopt;
 }
 
+void AddWorkTo(sqlite3* db, std::int64_t unit, const Work& work) {
+  const auto key = WorkKeyOf(db, unit);
+  if (!key || work == Work{}) return;
+  Work sum = ReadWork(db, *key);
+  sum.Add(work);
+  WriteWork(db, *key, sum);
+}
+
 }  // namespace
 
 void Store::Finish(const Finding& finding, const Work& work) {
@@ -420,11 +428,13 @@ void Store::Finish(const Finding& finding, const Work& work) {
   Statement present(db_.get(), "SELECT 1 FROM findings WHERE signature = ? AND unit = ? AND idx = ?");
   present.Bind(finding.signature).Bind(finding.unit).Bind(finding.index);
   if (present.Step()) WriteFinding(db_.get(), finding);
-  if (const auto key = WorkKeyOf(db_.get(), finding.unit); key && work != Work{}) {
-    Work sum = ReadWork(db_.get(), *key);
-    sum.Add(work);
-    WriteWork(db_.get(), *key, sum);
-  }
+  AddWorkTo(db_.get(), finding.unit, work);
+  transaction.Commit();
+}
+
+void Store::AddWork(std::int64_t unit, const Work& work) {
+  Transaction transaction(db_.get());
+  AddWorkTo(db_.get(), unit, work);
   transaction.Commit();
 }
 

@@ -129,6 +129,8 @@ class Store {
   // Fills in a representative, unless a smaller one has taken its place meanwhile. `work` is added to that of
   // its unit or block.
   void Finish(const Finding& finding, const Work& work = {});
+  // What was spent on the findings of a unit that the store holds.
+  void AddWork(std::int64_t unit, const Work& work);
   // Representatives that are not done, fewest contacts first, then by (unit, index).
   std::vector<Finding> Pending() const;
   // All representatives in the order of signature.

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -18,6 +16,7 @@
 #include "search/adversary/optimized_unit.h"
 #include "search/backlog.h"
 #include "search/finish.h"
+#include "search/finishing_time.h"
 #include "search/testimony.h"
 #include "search/unit.h"
 #include "search/work_meter.h"
@@ -28,10 +27,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::duration;
 
-// Of a first try to finish a finding, beyond what the share allows; four times as much at each further try.
-constexpr double kFirstTry = 2;  // seconds of processor time
-
 double ThreadSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
+
+double ShareOf(const Campaign& campaign, const SearchOptions& options) {
+  if (options.only_finish) return 1;
+  return options.finishing.value_or(campaign.objective.empty() ? kFinishingShare : kFinishingShareOfObjective);
+}
 
 class Search {
  public:
@@ -42,8 +43,7 @@ class Search {
         store_(options.store, identity),
         done_(store_.Units()),
         heritage_(campaign, options.shard),
-        share_(options.finishing.value_or(campaign.objective.empty() ? kFinishingShare
-                                                                     : kFinishingShareOfObjective)),
+        share_(ShareOf(campaign, options)),
         backlog_(options.only_finish ? std::nullopt : std::optional(kMostFinished)) {
     RequireSound(store_, options.store.string());
     for (const auto& [unit, text] : store_.Elites())
@@ -92,8 +92,7 @@ class Search {
 
   SearchEnd End() const {
     if (Interrupted()) return SearchEnd::kInterrupted;
-    const bool unfinished =
-        abandoned_ || backlog_.waiting() > 0 || !wanted_units_ || next_unit_ < *wanted_units_;
+    const bool unfinished = abandoned_ || backlog_.waiting() > 0 || UnitsLeft();
     return unfinished ? SearchEnd::kTimeUp : SearchEnd::kDone;
   }
 
@@ -108,15 +107,14 @@ class Search {
   void RunThread() {
     try {
       UnitRunner runner(campaign_);
-      double searching = 0, finishing = 0;  // processor seconds of this thread
+      FinishingTime time{share_};
       while (!Stopped()) {
         const double before = ThreadSeconds();
-        const double allowed = share_ < 1 ? share_ / (1 - share_) * searching - finishing : kNoBound;
-        if (share_ > 0 && allowed >= 0 && FinishOne(allowed)) {
-          finishing += ThreadSeconds() - before;
+        if (FinishOne(time)) {
+          time.finishing += ThreadSeconds() - before;
         } else if (RunOneUnit(runner)) {
-          searching += ThreadSeconds() - before;
-        } else if (!(share_ > 0 && FinishOne(kNoBound)) && Idle()) {
+          time.searching += ThreadSeconds() - before;
+        } else if (Idle(time)) {
           break;
         }
       }
@@ -130,17 +128,19 @@ class Search {
     changed_.notify_all();
   }
 
-  // Whether no other thread can still bring something to finish. Otherwise waits a little.
-  bool Idle() {
+  bool UnitsLeft() const { return !wanted_units_ || next_unit_ < *wanted_units_; }  // under the mutex
+
+  // Whether no other thread can still bring something that there is time to finish. Otherwise waits a little.
+  bool Idle(const FinishingTime& time) {
     std::unique_lock lock(mutex_);
-    const bool finished = backlog_.waiting() == 0 || share_ == 0;
-    if (busy_ == 0 && finished) return wanted_units_ && next_unit_ >= *wanted_units_;
+    const bool finished = backlog_.waiting() == 0 || time.ForTry(0, UnitsLeft()) <= 0;
+    if (busy_ == 0 && finished) return !UnitsLeft();
     changed_.wait_for(lock, std::chrono::milliseconds(20));
     return false;
   }
 
   std::optional<std::int64_t> NextUnit() {  // under the mutex
-    while (!wanted_units_ || next_unit_ < *wanted_units_) {
+    while (UnitsLeft()) {
       const std::int64_t unit = next_unit_;
       const bool wanted = options_.shard.Owns(unit) && !done_.Contains(unit);
       if (wanted && IsWaiting(unit)) return std::nullopt;
@@ -200,15 +200,16 @@ class Search {
     return true;
   }
 
-  // `allowed`: processor seconds that are left of the share.
-  bool FinishOne(double allowed) {
+  bool FinishOne(const FinishingTime& share) {
     std::unique_lock lock(mutex_);
+    if (share.ForTry(0, UnitsLeft()) <= 0) return false;
     std::optional<Backlog::Entry> entry = backlog_.Take();
     if (!entry) return false;
     ++busy_;
+    const double allowed = share.ForTry(entry->tries, UnitsLeft());
     lock.unlock();
     const double start = ThreadSeconds();
-    const double until = start + allowed + kFirstTry * std::pow(4, entry->tries);
+    const double until = start + allowed;
     const auto finished =
         FinishFinding(entry->finding, campaign_.limits, [&] { return Stopped() || ThreadSeconds() > until; });
     ProcessorTime time;
@@ -216,11 +217,13 @@ class Search {
     lock.lock();
     --busy_;
     Spend(time);
+    const Work work{{options_.build}, time};
     if (finished) {
-      store_.Finish(*finished, {{options_.build}, time});
+      store_.Finish(*finished, work);
       ++progress_.finished;
       if (IsGrave(finished->kind) && !IsGrave(entry->finding.kind)) progress_.news.push_back(*finished);
     } else {
+      store_.AddWork(entry->finding.unit, work);
       entry->tries += !Stopped();
       backlog_.GiveBack(*std::move(entry));
     }
@@ -233,8 +236,6 @@ class Search {
     sum.Add({{}, time});
     progress_.time = sum.time;
   }
-
-  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
   const Campaign& campaign_;
   const SearchOptions& options_;

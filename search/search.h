@@ -2,7 +2,7 @@
 // The search: units and findings of a campaign, on all cores, into a store.
 //
 // Threads take the units of the shard in ascending order and, in turn, findings to finish (backlog.h), which
-// take a bounded share of their processor time as long as there are units. What the store holds in the end
+// take a bounded share of their processor time (finishing_time.h). What the store holds in the end
 // depends on which units were run and on nothing else, but for which findings are finished already, and the
 // work that it took.
 
@@ -32,7 +32,7 @@ struct SearchOptions {
   int threads = 1;
   std::optional<double> minutes;         // wall clock, everything counted
   std::optional<std::int64_t> problems;  // of the whole campaign, rounded up to whole units
-  std::optional<double> finishing;       // share of processor time, 0 to 1; by default as above; 0: none at all
+  std::optional<double> finishing;  // share of processor time, 0 to 1; by default as above; 0: none, 1: all
   bool only_finish = false;              // no units: all findings that are not finished
   const std::atomic<bool>* interrupted = nullptr;
 };

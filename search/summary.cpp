@@ -210,6 +210,21 @@ Yield YieldOf(const Store& store) {
   return yield;
 }
 
+// Representatives of loops.
+struct Kept {
+  std::int64_t finished = 0, pending = 0;
+};
+
+Kept KeptOf(const Store& store) {
+  Kept kept;
+  for (const Finding& finding : store.Findings()) ++(finding.done ? kept.finished : kept.pending);
+  return kept;
+}
+
+std::string HowToFinish(const std::string& file) {
+  return fmt::format("  what is to go is finished by: ./run search --store {} --finish\n", file);
+}
+
 std::string ValueText(const Objective& objective, const Worth& worth) {
   if (!worth.value && !objective.of_loops) return "no value";
   if (!worth.value) return fmt::format("no loop, the nearest at distance {:.3g}", -worth.nearness);
@@ -233,10 +248,10 @@ std::string OptimizedText(const Store& store, const Campaign& campaign, const st
         ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
         ValueText(objective, elite.worth));
   }
-  std::int64_t finished = 0, pending = 0;
-  for (const Finding& finding : store.Findings()) ++(finding.done ? finished : pending);
-  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n", finished + pending,
-                      finished);
+  const Kept kept = KeptOf(store);
+  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n",
+                      kept.finished + kept.pending, kept.finished);
+  if (kept.pending > 0) text += HowToFinish(file);
   text += TimeText(store.TotalWork().time);
   text += fmt::format(
       "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the "
@@ -249,6 +264,7 @@ std::string OptimizedText(const Store& store, const Campaign& campaign, const st
 Json OptimizedToJson(const Store& store, const Campaign& campaign) {
   const Objective& objective = *FindObjective(campaign.objective);
   const Yield yield = YieldOf(store);
+  const Kept kept = KeptOf(store);
   const Work work = store.TotalWork();
   Json best = Json::array();
   for (const Elite& elite : BestOf(store, 1)) {
@@ -261,6 +277,7 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
           {"optimizer", campaign.optimizer}, {"units", yield.units},
           {"candidates", yield.evaluations}, {"confirmations", yield.confirmations},
           {"denied", yield.denied},          {"best", best},
+          {"finished", kept.finished},       {"pending", kept.pending},
           {"builds", work.builds},           {"processor_seconds", TimeToJson(work.time)}};
 }
 
@@ -338,8 +355,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
   text += ExistenceText(digest);
   text += fmt::format("  representatives: {} finished, {} to go; {} loop under the whole grid of policies\n",
                       Grouped(digest.finished), Grouped(digest.pending), Grouped(digest.whole_grid));
-  if (digest.pending > 0)
-    text += fmt::format("  what is to go is finished by: ./run search --store {} --finish\n", file);
+  if (digest.pending > 0) text += HowToFinish(file);
   text += TimeText(digest.work.time);
   if (!digest.simplest.empty()) text += "Simplest, proved and minimized:\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(kShown, digest.simplest.size()); ++i) {

@@ -41,7 +41,8 @@ class Adversary(cli.TestCase):
 
     @unittest.skipIf(cli.SHORT, "long")
     def test_threads_and_pieces_leave_the_same_store(self):
-        options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt"]
+        options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt",
+                   "--finishing", 100]
         one, two = self.folder / "one", self.folder / "two"
         self.search(one, *options, "--problems", 90000, "--threads", 1)
         for problems in (30000, 60000, 90000):

@@ -72,6 +72,13 @@ class Night(cli.TestCase):
         self.assertGreater(time_spent["finishing"], 0)
         self.assertLessEqual(time_spent["finishing"], 0.2 * total + 8)  # one try beyond the share
 
+    def test_finishing_ends_after_the_last_unit(self):
+        self.succeeds("search", "--generator", "near-degenerate", "--contacts", 8, "--objective", "period", "--mu", 1,
+                      "--problems", 2000, "--store", self.store, "--threads", 1)
+        self.assertGreater(self.status()["pending"], 10)
+        self.assertLessEqual(self.status()["processor_seconds"]["finishing"], 40)
+        self.assertIn(f"--store {self.store} --finish", self.succeeds("status", self.store).out)
+
     def test_what_is_left_is_counted_and_finished_when_asked(self):
         self.search("--problems", 300000, "--seed", 3, "--finishing", 0)
         left = self.status()
@@ -86,7 +93,7 @@ class Night(cli.TestCase):
         self.assertNotIn("internal error", done.err)
         # The findings are those of a search that finished as it went.
         other = self.folder / "other.store"
-        self.succeeds("search", *SMALL, "--problems", 300000, "--seed", 3, "--store", other)
+        self.succeeds("search", *SMALL, "--problems", 300000, "--seed", 3, "--finishing", 100, "--store", other)
         self.assertSameContent(other, self.store)
 
     def test_finishing_alone_takes_no_options_of_a_campaign(self):
@@ -139,11 +146,12 @@ class Night(cli.TestCase):
             self.assertIn(kind, {row[1] for row in findings.values()})
 
     def test_a_command_that_fails_is_reported_and_ends_nothing(self):
-        done = self.search("--problems", 300000, "--seed", 3, "--on-finding", "exit 3")
+        done = self.search("--problems", 300000, "--seed", 3, "--finishing", 100, "--on-finding", "exit 3")
         count = len(cli.content(self.store)["findings"])
         self.assertEqual(done.err.count("ended with status 3"), count)
         reference = self.folder / "b.store"
-        self.succeeds("search", *SMALL, "--problems", 300000, "--seed", 3, "--store", reference)
+        self.succeeds("search", *SMALL, "--problems", 300000, "--seed", 3, "--finishing", 100, "--store",
+                      reference)
         self.assertSameContent(self.store, reference)
         self.store.unlink()
         done = self.search("--problems", 300000, "--seed", 3, "--on-finding", "kill -9 $$")

@@ -34,7 +34,7 @@ class Search(cli.TestCase):
 
     @classmethod
     def search(cls, store, *arguments, problems=PROBLEMS):
-        return cli.run("search", cls.campaign, "--store", store, "--problems", problems, *arguments)
+        return cli.run("search", cls.campaign, "--store", store, "--problems", problems, "--finishing", 100, *arguments)
 
     def completes(self, store, *arguments, **options):
         done = self.search(store, *arguments, **options)
@@ -82,7 +82,7 @@ class Search(cli.TestCase):
 
     def test_options_mean_the_same_as_a_campaign_file(self):
         by_options, by_file = self.folder / "o.store", self.folder / "f.store"
-        common = ["--problems", 5000, "--store"]
+        common = ["--problems", 5000, "--finishing", 100, "--store"]
         self.succeeds("search", *common, by_options, "--generator", "psd", "small", "--contacts", 2, 3, "--mu", "1/2",
                       "1", "--policy", "paper", "ties=contacts,scan=highest", "--seed", 9)
         file = self.file("c.json", {

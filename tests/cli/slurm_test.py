@@ -65,7 +65,7 @@ class Slurm(cli.TestCase):
                              sorted([".keep", *(f"{shard}.store" for shard in range(shards))]))
         # And it is what one search finds.
         plain = self.folder / "plain.store"
-        self.succeeds("search", self.folder / "c.json", "--store", plain, "--problems", PROBLEMS)
+        self.succeeds("search", self.folder / "c.json", "--store", plain, "--problems", PROBLEMS, "--finishing", 100)
         self.assertSameContent(plain, one / "merged.store", ["campaign", "findings", "blocks", "units"])
 
     def test_gnu_parallel_runs_the_same_tasks(self):

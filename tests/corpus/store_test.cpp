@@ -680,7 +680,8 @@ TEST_CASE("work: a block has the builds and the time of its units, and of finish
   REQUIRE(BlockCount(store) == 1);
   Work expected{{"first", "second", "finisher"}, {.doubles = kBlock, .exact = 2 * kBlock, .finishing = 5}};
   CHECK(store.TotalWork() == expected);
-  store.Finish(Finished(Candidate("all", 1, 3)), {{"later"}, {.finishing = 6}});
+  store.AddWork(1, {{"later"}, {.finishing = 1}});  // in vain
+  store.Finish(Finished(Candidate("all", 1, 3)), {{"later"}, {.finishing = 5}});
   expected.builds.insert("later");
   expected.time.finishing += 6;
   CHECK(store.TotalWork() == expected);

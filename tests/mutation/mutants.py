@@ -625,6 +625,10 @@ bug("no-bound", "size >= *most_", "false", "the backlog has no bound")
 bug("grave-waits-not", "!IsGrave(finding.kind) && ", "", "a grave finding may be left out")
 bug("outdated-back", "admitted->second.unit != entry.finding.unit", "false", "what was replaced meanwhile waits again")
 
+bug = in_file("search/finishing_time.h", "^search: finishing")
+bug("for-ever", "std::max(left, kAfterLastUnit - finishing)", "kNoBound", "after the last unit finishing has no end")
+bug("share-without-try", "left >= 0 ? left + one_try : 0", "left", "a finding longer than the share is never finished")
+
 bug = in_file("corpus/problem_file.cpp", "^corpus: (problem|formats)")
 bug("entry-twice", 'if (is_listed[flat(i, j)]) entry.Refuse("each entry once");', "", "an entry may stand twice")
 bug("entry-above", 'if (i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");', "",

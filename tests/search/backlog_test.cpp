@@ -7,6 +7,7 @@
 #include <string>
 
 #include "corpus/kinds.h"
+#include "search/finishing_time.h"
 
 namespace stiction {
 namespace {
@@ -89,6 +90,34 @@ TEST_CASE("backlog: what ran out of time comes after what was not tried") {
   ++entry->tries;
   backlog.GiveBack(*std::move(entry));
   CHECK(TakeAll(backlog) == "ba");
+}
+
+TEST_CASE("finishing: a thread spends its share on it, and a try more while there are units") {
+  FinishingTime time{0.2};
+  CHECK(time.ForTry(0, true) == 2);
+  CHECK(time.ForTry(2, true) == 32);
+  time.searching = 40;
+  CHECK(time.ForTry(1, true) == Approx(10 + 8));
+  time.finishing = 11;
+  CHECK(time.ForTry(0, true) == 0);
+  CHECK(FinishingTime{0, 1000}.ForTry(0, true) == 0);
+  CHECK(FinishingTime{1, 0, 1000}.ForTry(0, true) == FinishingTime::kNoBound);
+}
+
+TEST_CASE("finishing: after the last unit it ends with the share, or with half a minute") {
+  FinishingTime time{0.2};
+  CHECK(time.ForTry(0, false) == 2);
+  time.finishing = 29;
+  CHECK(time.ForTry(3, false) == Approx(1));
+  time.finishing = 30;
+  CHECK(time.ForTry(3, false) <= 0);
+  time.searching = 400;
+  CHECK(time.ForTry(1, false) == 8);
+  CHECK(time.ForTry(3, false) == Approx(70));
+  time.finishing = 100;
+  CHECK(time.ForTry(0, false) <= 0);
+  CHECK(FinishingTime{0}.ForTry(0, false) <= 0);
+  CHECK(FinishingTime{1, 0, 1000}.ForTry(5, false) == FinishingTime::kNoBound);
 }
 
 }  // namespace
