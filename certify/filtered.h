@@ -36,7 +36,7 @@ inline constexpr std::array<std::string_view, 3> kEnclosedMethods = {"baraff", "
 
 // One of them over balls: forces and accelerations with their ends, in the middle of them otherwise, as pivots;
 // undecided where a sign was unsure. Its forces are not judged. Lemke's method takes a covering vector of ones.
-// Requires dimension 2, and a rung other than exact.
+// Requires dimension 2, and a rung other than exact. The answer keeps METHOD, which has to outlive it.
 InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
                           Rung rung, KeepTrace keep = KeepTrace::kNo);
 

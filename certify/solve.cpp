@@ -217,8 +217,8 @@ void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, Inex
 }
 
 Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(request.method, problem, request.options,
-                                                              Rung::kDouble, request.trace)
+  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(FindMethodFacts(request.method)->name, problem,
+                                                              request.options, Rung::kDouble, request.trace)
                                                 : RunEnclosedInSpace(problem, request.options);
   answer.arithmetic = Arithmetic::kInterval;
   JudgeMiddles(problem, request, answer);
@@ -227,7 +227,8 @@ Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& req
 
 // Empty where the rung leaves a sign open, or knows forces too badly to call them a solution.
 std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const SolveRequest& request, Rung rung) {
-  InexactAnswer answer = RunEnclosed(request.method, problem, request.options, rung, request.trace);
+  InexactAnswer answer =
+      RunEnclosed(FindMethodFacts(request.method)->name, problem, request.options, rung, request.trace);
   try {
     JudgeMiddles(problem, request, answer);
   } catch (const RangeError&) {

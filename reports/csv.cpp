@@ -221,4 +221,16 @@ std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
   return csv.text();
 }
 
+std::string IpoptCsv(const std::vector<Discovery>& discoveries) {
+  Csv csv;
+  for (const char* column : {"signature", "kind", "outcome", "starts"}) csv.Add(column);
+  csv.EndRow();
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.ipopt) continue;
+    csv.Add(discovery.signature).Add(discovery.kind);
+    csv.Add(discovery.ipopt->outcome).Add(discovery.ipopt->starts).EndRow();
+  }
+  return csv.text();
+}
+
 }  // namespace stiction

@@ -39,6 +39,8 @@ std::string AgreementCsv(const Record& record);
 std::string SolutionsCsv(const Record& record);
 // One row per signature, in the order of signature.
 std::string FindingsCsv(const std::vector<Discovery>& discoveries);
+// A row per finding that Ipopt was asked about. Apart, since its answers depend on the machine's libraries.
+std::string IpoptCsv(const std::vector<Discovery>& discoveries);
 
 }  // namespace stiction
 

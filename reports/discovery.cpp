@@ -57,6 +57,10 @@ void AddFacts(Discovery& discovery, const Finding& finding) {
   root.RequireObject();
   if (const auto found = root.Optional("found")) discovery.found = ReadRun(*found);
   if (const auto minimized = root.Optional("minimized")) discovery.minimized = ReadRun(*minimized);
+  if (const auto ipopt = root.Optional("ipopt")) {
+    discovery.ipopt = {ipopt->Required("outcome", "an outcome of Ipopt").Text("an outcome of Ipopt"),
+                       ipopt->Required("starts", "a count").Integer(0, kMostCounted, "a count")};
+  }
 }
 
 FindingFiles FilesOf(const Finding& finding) {

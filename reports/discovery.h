@@ -35,6 +35,12 @@ struct RunFacts {
   std::optional<bool> safe;  // where it was decided
 };
 
+// What Ipopt made of the problem as found.
+struct FeasibilityFacts {
+  std::string outcome;
+  std::int64_t starts = 0;
+};
+
 struct LoopLength {
   std::int64_t drives = 0;
   std::int64_t steps = 0;
@@ -57,6 +63,7 @@ struct Discovery {
   std::optional<LoopLength> loop;
   std::optional<RunFacts> found;      // finished only
   std::optional<RunFacts> minimized;  // finished and minimized only
+  std::optional<FeasibilityFacts> ipopt;  // finished, in the plane
   FindingFiles files;
 
   bool Finished() const { return representative != nullptr && representative->done; }

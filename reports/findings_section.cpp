@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "reports/page.h"
@@ -241,6 +242,35 @@ Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
   return Tag("p")(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
 }
 
+Html IpoptText(const std::vector<Discovery>& discoveries) {
+  std::int64_t asked = 0, solved = 0, starts = 0, unavailable = 0;
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.ipopt) continue;
+    const FeasibilityFacts& facts = *discovery.ipopt;
+    if (facts.outcome == "unavailable") {
+      ++unavailable;
+      continue;
+    }
+    ++asked;
+    solved += facts.outcome == "solved";
+    starts += facts.outcome == "solved" ? facts.starts : 0;
+  }
+  if (asked + unavailable == 0) return Html();
+  std::string text = fmt::format("Ipopt could not be asked about {}.", Counted(unavailable, "finding"));
+  if (asked > 0) {
+    const Interval share = ShareInterval(solved, asked);
+    text = fmt::format(
+        "Ipopt’s feasibility solve led to a solution, verified over rationals, of {} of {} "
+        "finished findings ({:.1f} to {:.1f} %), after {} starts in the mean; ",
+        Grouped(solved), Grouped(asked), 100 * share.low, 100 * share.high, Mean(starts, solved));
+    text += unavailable > 0 ? fmt::format("it could not be asked about {}; each is in ", unavailable)
+                            : "each is in ";
+  }
+  Html html = Text(text);
+  if (asked > 0) html += Html("<a href=\"ipopt.csv\"><code>ipopt.csv</code></a>.");
+  return Tag("p")(html) + Html("\n");
+}
+
 }  // namespace
 
 Html FindingDetails(const Discovery& discovery) {
@@ -262,7 +292,7 @@ Html FindingsSection(const std::vector<Discovery>& discoveries) {
           Html("<p class=\"note\">Paths are relative to the directory of this page; <code>run</code> stands "
                "in stiction’s own directory. <code>replay</code> shows every pivot in exact numbers; "
                "<code>certify/check_certificate.py</code> is an independent check of a certificate.</p>\n") +
-          table.Done());
+          IpoptText(discoveries) + table.Done());
 }
 
 }  // namespace stiction

@@ -82,6 +82,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   folder.Write("agreement.csv", AgreementCsv(content.total));
   folder.Write("solutions.csv", SolutionsCsv(content.total));
   folder.Write("findings.csv", FindingsCsv(content.discoveries));
+  folder.Write("ipopt.csv", IpoptCsv(content.discoveries));
   folder.Write("index.html", Page(content));
   folder.WriteManifest();
   return whole.Commit();

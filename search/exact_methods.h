@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a search asks of exact arithmetic, in space of intervals. Tests put wrong answers in the place of these,
-// to see that every alarm of a search rings.
+// What a search asks of exact arithmetic, in space of intervals; and of Ipopt. Tests put wrong answers in the
+// place of these, to see that every alarm of a search rings.
 
 #ifndef STICTION_SEARCH_EXACT_METHODS_H_
 #define STICTION_SEARCH_EXACT_METHODS_H_
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "corpus/problem_file.h"
 
@@ -25,6 +26,14 @@ struct PublishedOptions;
 struct Rungs;          // certify/filtered.h
 struct SpaceSolution;  // certify/space.h
 
+// What Ipopt makes of a problem. It proposes, and rationals judge, so that a solution is one; its iterations
+// depend on the machine's libraries.
+struct FeasibilityAnswer {
+  std::string outcome;      // solved; undecided: no start led to a solution; unavailable: it cannot be asked
+  std::int64_t starts = 0;  // until it was solved, or all
+  double seconds = 0;       // of Ipopt's process
+};
+
 struct ExactMethods {
   ExactMethods();  // those of certify
 
@@ -35,6 +44,7 @@ struct ExactMethods {
   std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke;
   std::function<Enumeration(const ExactProblem&)> modes;
   std::function<std::optional<bool>(const ExactProblem&)> is_safe;
+  std::function<FeasibilityAnswer(const ExactProblem&)> ipopt;
   // In space: the published algorithm over intervals, complete driving on polygons until (21), (22) hold.
   std::function<IntervalSpaceRun(const ExactProblem&, const PublishedOptions&)> published_in_space;
   std::function<SpaceSolution(const ExactProblem&, const Limits&)> complete_in_space;

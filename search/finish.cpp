@@ -239,6 +239,10 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   CertifyFound(finished, facts, found, limits, cancelled);
   if (!cancelled()) CompareMethods(finished, facts, found, limits);
+  if (!cancelled()) {
+    const FeasibilityAnswer answer = methods.ipopt(found.problem);
+    facts["ipopt"] = {{"outcome", answer.outcome}, {"starts", answer.starts}};
+  }
   // What methods disagree about is kept as it is.
   const bool minimize =
       found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods;

@@ -109,10 +109,9 @@ class Search {
       UnitRunner runner(campaign_);
       FinishingTime time{share_};
       while (!Stopped()) {
+        if (FinishOne(time)) continue;
         const double before = ThreadSeconds();
-        if (FinishOne(time)) {
-          time.finishing += ThreadSeconds() - before;
-        } else if (RunOneUnit(runner)) {
+        if (RunOneUnit(runner)) {
           time.searching += ThreadSeconds() - before;
         } else if (Idle(time)) {
           break;
@@ -200,7 +199,7 @@ class Search {
     return true;
   }
 
-  bool FinishOne(const FinishingTime& share) {
+  bool FinishOne(FinishingTime& share) {
     std::unique_lock lock(mutex_);
     if (share.ForTry(0, UnitsLeft()) <= 0) return false;
     std::optional<Backlog::Entry> entry = backlog_.Take();
@@ -209,11 +208,19 @@ class Search {
     const double allowed = share.ForTry(entry->tries, UnitsLeft());
     lock.unlock();
     const double start = ThreadSeconds();
-    const double until = start + allowed;
-    const auto finished =
-        FinishFinding(entry->finding, campaign_.limits, [&] { return Stopped() || ThreadSeconds() > until; });
+    double seconds_of_ipopt = 0;  // in a process of its own
+    const auto spent = [&] { return ThreadSeconds() - start + seconds_of_ipopt; };
+    ExactMethods methods;
+    methods.ipopt = [&, ask = methods.ipopt](const ExactProblem& problem) {
+      const FeasibilityAnswer answer = ask(problem);
+      seconds_of_ipopt += answer.seconds;
+      return answer;
+    };
+    const auto finished = FinishFinding(
+        entry->finding, campaign_.limits, [&] { return Stopped() || spent() > allowed; }, methods);
+    share.finishing += spent();
     ProcessorTime time;
-    time.finishing = static_cast<std::int64_t>(1e6 * (ThreadSeconds() - start));
+    time.finishing = static_cast<std::int64_t>(1e6 * spent());
     lock.lock();
     --busy_;
     Spend(time);

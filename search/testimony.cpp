@@ -107,7 +107,13 @@ void RequireFacts(const Witness& witness, const Finding& finding, const ExactPro
   const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"found", "minimized", "disagreement", "answers"});
+  root.AllowKeys({"found", "minimized", "disagreement", "answers", "ipopt"});
+  if (const auto ipopt = root.Optional("ipopt")) {
+    ipopt->RequireObject();
+    ipopt->AllowKeys({"outcome", "starts"});
+    ipopt->Required("outcome", "an outcome of Ipopt").Text("an outcome of Ipopt");
+    ipopt->Required("starts", "a count").Integer(0, std::int64_t{1} << 53, "a count");
+  }
   if (const auto reason = root.Optional("disagreement")) reason->Text("a reason");
   const auto found = root.Optional("found"), small = root.Optional("minimized");
   if (finding.done || found)

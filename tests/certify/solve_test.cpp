@@ -154,6 +154,29 @@ TEST_CASE("solve: an exact answer after a suspicion has exact forces, and says w
   CHECK(exact->period == 4);
 }
 
+TEST_CASE("solve: the method that an answer names outlives the request") {
+  const ExactProblem planar = ReferenceProblem();
+  int named = 0;
+  for (const ExactProblem& problem : {planar, InSpace(planar, 1), Frictionless(planar)}) {
+    for (const MethodFacts& facts : AllMethods()) {
+      if (facts.name == "ipopt") continue;  // a process each: tests/cli
+      if (facts.name == "qp" && problem.contacts[0].kind != ContactKind::kFrictionless) continue;
+      for (int a = 0; a < kArithmeticCount; ++a) {
+        if (!facts.IsBuilt(problem.dimension, static_cast<Arithmetic>(a))) continue;
+        SolveRequest request{.method = std::string(facts.name), .arithmetic = static_cast<Arithmetic>(a)};
+        request.options.limits = {.drives = 200, .pivots = 400, .bits = 20000};
+        const Solution solution = SolveIn(problem, request);
+        request.method.assign(request.method.size(), '?');
+        INFO(facts.name << " " << kArithmeticNames[a] << " in dimension " << problem.dimension);
+        std::visit([](const auto& answer) { CHECK(FindMethodFacts(answer.method) != nullptr); },
+                   solution.answer);
+        ++named;
+      }
+    }
+  }
+  CHECK(named > 40);
+}
+
 TEST_CASE("solve: auto ends in a solution and names the method") {
   const ExactProblem problem = ReferenceProblem();
   for (const Arithmetic arithmetic :

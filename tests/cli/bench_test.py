@@ -48,6 +48,7 @@ class Silent(cli.TestCase):
             self.assertEqual((rows["complete exact"], rows["lemke exact"]), (6 + large, 1))
 
 
+@unittest.skipIf(cli.SHORT, "the packages are built in the first configuration")
 class PeersExtremes(cli.TestCase):
     """Packages along dials; those that are not installed are left out, our own are always there."""
 

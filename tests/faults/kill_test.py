@@ -26,7 +26,7 @@ CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 5, "generators"
 class Kill(cli.TestCase):
     def command(self, store):
         return [cli.program, "search", str(self.campaign), "--store", str(store), "--problems", str(PROBLEMS),
-                "--threads", "1"]
+                "--threads", "1", "--finishing", "100"]
 
     def run_to_the_end(self, store):
         start = time.monotonic()

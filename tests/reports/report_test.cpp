@@ -46,7 +46,7 @@ const std::string kSmaller =
 const std::string kFacts =
     R"({"found":{"contacts":2,"outcome":"cycle","start":3,"period":4,"steps":17,"grid":{"cycle":1536},"safe":false},)"
     R"("minimized":{"contacts":1,"outcome":"cycle","start":5,"period":6,"steps":21,)"
-    R"("grid":{"solved":36,"cycle":1500}}})";
+    R"("grid":{"solved":36,"cycle":1500}},"ipopt":{"outcome":"solved","starts":2}})";
 
 const CampaignIdentity kIdentity = {
     R"({"format":"stiction-campaign","version":1,"generators":["integers","psd"],)"
@@ -333,6 +333,26 @@ TEST_CASE("report: agreement.csv and solutions.csv hold every counter by contact
   }
 }
 
+TEST_CASE("report: what Ipopt made of each finished finding, and how often it led to a solution") {
+  const Scratch scratch;
+  Store store = SampleStore(scratch / "s");
+  Finding other = Finished(PendingFinding(kPending, 0)), absent = Finished(PendingFinding(kDone, 0));
+  const std::string solved = R"("outcome":"solved","starts":2)";
+  other.facts.replace(other.facts.find(solved), solved.size(), R"("outcome":"undecided","starts":20)");
+  store.Finish(other);
+  WriteReport(store, scratch / "out");
+  const auto table = ReadTable(scratch / "out/ipopt.csv");
+  REQUIRE(table.size() == 2);
+  std::map<std::string, std::string> answers;
+  for (const Row& row : table) answers[row.at("signature")] = row.at("outcome") + " " + row.at("starts");
+  CHECK(answers == std::map<std::string, std::string>{{kDone, "solved 2"}, {kPending, "undecided 20"}});
+  CHECK(Has(ReadText(scratch / "out/index.html"), "of 1 of 2 finished findings (1.3 to 98.7 %), after 2"));
+  absent.facts.replace(absent.facts.find(solved), solved.size(), R"("outcome":"unavailable","starts":0)");
+  store.Finish(absent);
+  WriteReport(store, scratch / "again");
+  CHECK(Has(ReadText(scratch / "again/index.html"), "it could not be asked about 1;"));
+}
+
 TEST_CASE("report: findings.csv holds every signature with its count and facts") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
@@ -455,7 +475,7 @@ TEST_CASE("report: every file that is named exists") {
   for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
   for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
   named.erase("");
-  CHECK(named.size() == 7 + 5 + 2);
+  CHECK(named.size() == 8 + 5 + 2);
   for (const std::string& file : named) {
     INFO(file);
     CHECK(fs::is_regular_file(scratch / "out" / file));
@@ -590,8 +610,8 @@ TEST_CASE("report: an empty store gives a page that says so, and tables of a hea
   RequireWellFormed(page);
   CHECK(Has(page, "The store holds no units"));
   CHECK(Has(page, "<dd>4711</dd>"));
-  for (const char* file :
-       {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv", "agreement.csv", "solutions.csv"}) {
+  for (const char* file : {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv", "agreement.csv",
+                           "solutions.csv", "ipopt.csv"}) {
     CHECK(ReadTable(scratch / "out" / file).empty());
   }
 }
@@ -784,7 +804,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 8 + 5 + 1);  // and the list of them
+  CHECK(contents.size() == 9 + 5 + 1);  // and the list of them
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));

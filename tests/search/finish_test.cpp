@@ -81,6 +81,23 @@ TEST_CASE("finish: a cycle is certified, minimized with its signature, and certi
   CHECK(facts.at("found").at("existence").at("method") == "complete");
   CHECK(facts.at("minimized").at("outcome") == "cycle");
   CHECK_FALSE(facts.contains("disagreement"));
+  CHECK(facts.at("ipopt").at("outcome") == "solved");
+  CHECK(facts.at("ipopt").at("starts") >= 1);
+}
+
+TEST_CASE("finish: what Ipopt says is written down, and decides nothing") {
+  const Finding found = FoundAs(ReferenceProblem(), "cycle");
+  ExactMethods methods;
+  methods.ipopt = [](const ExactProblem& problem) {
+    CHECK(problem.b == ReferenceProblem().b);
+    return FeasibilityAnswer{"undecided", 20, 0};
+  };
+  const auto finished = FinishFinding(
+      found, {}, [] { return false; }, methods);
+  REQUIRE(finished);
+  CHECK(Json::parse(finished->facts).at("ipopt") == Json{{"outcome", "undecided"}, {"starts", 20}});
+  CHECK(finished->kind == "cycle");
+  CHECK(ClaimIn(finished->existence) == "solution-exists");
 }
 
 TEST_CASE("finish: what the whole grid shows is minimized for the whole grid, and certified under all of it") {
