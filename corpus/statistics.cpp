@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <vector>
 
 namespace stiction {
@@ -54,7 +55,39 @@ void AddTo(std::array<std::int64_t, kOutcomeCount>& sums,
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
 }
 
+// A list, since there are many: ReadStratum says of what.
+Json ToJson(const StratumKey& key, const Stratum& stratum) {
+  return Json::array({key.friction, key.rank, stratum.problems, stratum.steps, stratum.zero_steps,
+                      stratum.audited, stratum.misjudged, Trimmed(stratum.outcomes), Trimmed(stratum.exact)});
+}
+
 }  // namespace
+
+void Stratum::Merge(const Stratum& other) {
+  problems += other.problems;
+  steps += other.steps;
+  zero_steps += other.zero_steps;
+  audited += other.audited;
+  misjudged += other.misjudged;
+  AddTo(outcomes, other.outcomes);
+  AddTo(exact, other.exact);
+}
+
+void WordSketch::Add(std::uint64_t hash) {
+  const auto place = std::lower_bound(hashes_.begin(), hashes_.end(), hash);
+  if (place != hashes_.end() && *place == hash) return;
+  hashes_.insert(place, hash);
+  if (hashes_.size() > kMost) hashes_.pop_back();
+}
+
+void WordSketch::Merge(const WordSketch& other) {
+  for (const std::uint64_t hash : other.hashes_) Add(hash);
+}
+
+double WordSketch::Count() const {
+  if (IsExact()) return static_cast<double>(hashes_.size());
+  return static_cast<double>(kMost - 1) * 0x1p64 / static_cast<double>(hashes_.back());
+}
 
 void Tally::Merge(const Tally& other) {
   problems += other.problems;
@@ -68,6 +101,7 @@ void Tally::Merge(const Tally& other) {
   with_give_ups += other.with_give_ups;
   Add(other.sums, other.maxima);
   for (int i = 0; i < kBins; ++i) steps[i] += other.steps[i];
+  for (const auto& [key, stratum] : other.strata) strata[key].Merge(stratum);
 }
 
 Json ToJson(const Tally& tally) {
@@ -84,8 +118,10 @@ Json ToJson(const Tally& tally) {
                {"sums", ToJson(tally.sums)},
                {"maxima", ToJson(tally.maxima)},
                {"steps", Trimmed(tally.steps)}};
-  // Not in records from before there were filtered runs.
   if (const Json rungs = Trimmed(tally.rungs); !rungs.empty()) json["rungs"] = rungs;
+  Json strata = Json::array();
+  for (const auto& [key, stratum] : tally.strata) strata.push_back(ToJson(key, stratum));
+  json["strata"] = std::move(strata);
   return json;
 }
 
@@ -99,6 +135,11 @@ void Record::Merge(const Record& other) {
     AddTo(mine.words, tally.words);
     AddTo(mine.solutions, tally.solutions);
   }
+  for (const auto& [contacts, tally] : other.loops) {
+    AddCounters(loops[contacts], tally);
+    AddTo(loops[contacts].by_zero_steps, tally.by_zero_steps);
+  }
+  for (const auto& [signature, sketch] : other.words) words[signature].Merge(sketch);
 }
 
 std::string Serialize(const Record& record) {
@@ -123,10 +164,20 @@ std::string Serialize(const Record& record) {
     entry["solutions"] = ToJson(tally.solutions);
     agreement.push_back(std::move(entry));
   }
-  return Json{{"tallies", std::move(tallies)},
-              {"signatures", std::move(signatures)},
-              {"existence", std::move(existence)},
-              {"agreement", std::move(agreement)}}
+  Json loops = Json::array();
+  for (const auto& [contacts, tally] : record.loops) {
+    Json entry = CountersToJson(contacts, tally);
+    entry["by_zero_steps"] = ToJson(tally.by_zero_steps);
+    loops.push_back(std::move(entry));
+  }
+  Json words = Json::object();
+  for (const auto& [signature, sketch] : record.words) {
+    Json& hashes = words[signature] = Json::array();
+    for (const std::uint64_t hash : sketch.hashes()) hashes.push_back(fmt::format("{:016x}", hash));
+  }
+  return Json{{"tallies", std::move(tallies)},     {"signatures", std::move(signatures)},
+              {"existence", std::move(existence)}, {"agreement", std::move(agreement)},
+              {"loops", std::move(loops)},         {"words", std::move(words)}}
       .dump();
 }
 
@@ -197,12 +248,43 @@ void ReadHistogram(const JsonPlace& place, std::map<int, std::int64_t>& histogra
   }
 }
 
+// visit(element) for every element of a list.
+template <class Visit>
+void ForEachIn(const JsonPlace& list, const Visit& visit) {
+  const std::size_t size = list.Size("a list");
+  for (std::size_t i = 0; i < size; ++i) visit(list[i]);
+}
+
+// A text that a person or a program may have written: 16 hexadecimal digits.
+std::uint64_t ReadHash(const JsonPlace& place) {
+  const std::string text = place.Text("16 hexadecimal digits");
+  std::uint64_t hash = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+  if (text.size() != 16 || read.ec != std::errc() || read.ptr != text.data() + text.size())
+    place.Refuse("16 hexadecimal digits");
+  return hash;
+}
+
+void ReadStratum(const JsonPlace& place, std::map<StratumKey, Stratum>& strata) {
+  const std::string expected =
+      "[friction, rank, problems, steps, zero steps, audited, misjudged, outcomes, exact outcomes]";
+  if (place.Size(expected) != 9) place.Refuse(expected);
+  Stratum& stratum = PlaceFor(strata, StratumKey{place[0].Text("a friction"), ReadSmall(place[1])}, place,
+                              "each friction and rank once");
+  int at = 2;
+  for (std::int64_t* count :
+       {&stratum.problems, &stratum.steps, &stratum.zero_steps, &stratum.audited, &stratum.misjudged})
+    *count = ReadCount(place[at++]);
+  ReadCounts(place[7], stratum.outcomes);
+  ReadCounts(place[8], stratum.exact);
+}
+
 Tally ReadTally(const JsonPlace& place) {
   Tally tally;
   place.RequireObject();
   place.AllowKeys({"generator", "contacts", "policy", "method", "arithmetic", "problems", "outcomes",
                    "verdicts", "audited", "misjudged", "rungs", "wrong", "with_zero_steps", "with_give_ups",
-                   "sums", "maxima", "steps"});
+                   "sums", "maxima", "steps", "strata"});
   tally.problems = ReadCount(place, "problems");
   ReadCounts(place.Required("outcomes", "counts"), tally.outcomes);
   const JsonPlace verdicts = place.Required("verdicts", "a list of counts for every outcome");
@@ -217,6 +299,8 @@ Tally ReadTally(const JsonPlace& place) {
   tally.maxima = ReadStatistics(place.Required("maxima", "counters"));
   ReadCounts(place.Required("steps", "counts"), tally.steps);
   if (const auto rungs = place.Optional("rungs")) ReadCounts(*rungs, tally.rungs);
+  ForEachIn(place.Required("strata", "a list"),
+            [&tally](const JsonPlace& stratum) { ReadStratum(stratum, tally.strata); });
   return tally;
 }
 
@@ -224,13 +308,6 @@ TallyKey ReadKey(const JsonPlace& place) {
   const auto text = [&place](const char* name) { return place.Required(name, "a text").Text("a text"); };
   return {text("generator"), ReadSmall(place.Required("contacts", "a number")), text("policy"), text("method"),
           text("arithmetic")};
-}
-
-// visit(element) for every element of a list.
-template <class Visit>
-void ForEachIn(const JsonPlace& list, const Visit& visit) {
-  const std::size_t size = list.Size("a list");
-  for (std::size_t i = 0; i < size; ++i) visit(list[i]);
 }
 
 }  // namespace
@@ -244,7 +321,7 @@ Record ParseRecord(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"tallies", "signatures", "existence", "agreement"});
+  root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words"});
   Record record;
   ForEachIn(root.Required("tallies", "a list"), [&record](const JsonPlace& entry) {
     PlaceFor(record.tallies, ReadKey(entry), entry, "each generator, size and policy once") = ReadTally(entry);
@@ -264,6 +341,21 @@ Record ParseRecord(const std::string& text, const std::string& source) {
     ReadHistogram(entry.Required("words", "a list"), tally.words);
     ReadHistogram(entry.Required("solutions", "a list"), tally.solutions);
   });
+  ForEachIn(root.Required("loops", "a list"), [&record](const JsonPlace& entry) {
+    const int contacts = ReadSmall(entry.Required("contacts", "a number"));
+    LoopTally& tally = PlaceFor(record.loops, contacts, entry, "each size once");
+    ReadCounters(entry, tally, {"contacts", "by_zero_steps"});
+    ReadHistogram(entry.Required("by_zero_steps", "a list"), tally.by_zero_steps);
+  });
+  const JsonPlace words = root.Required("words", "hashes by signature");
+  words.RequireObject();
+  for (const auto& [signature, hashes] : words.json().items()) {
+    const JsonPlace list = words.Child(signature, hashes);
+    WordSketch& sketch = record.words[signature];
+    ForEachIn(list, [&sketch](const JsonPlace& hash) { sketch.Add(ReadHash(hash)); });
+    if (sketch.hashes().size() != hashes.size())
+      list.Refuse(fmt::format("at most {} hashes, each once", WordSketch::kMost));
+  }
   return record;
 }
 

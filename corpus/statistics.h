@@ -12,6 +12,7 @@
 #include <map>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "corpus/problem_file.h"
 #include "solver/problem/answer.h"
@@ -40,6 +41,36 @@ void ForEachFieldOfTwo(Statistics& mine, const Statistics& theirs, const Visit& 
   ForEachField(theirs, [&](const char*, const char*, std::int64_t value) { visit(*left[n++], value); });
 }
 
+// The part of a tally with one friction coefficient and one rank.
+struct StratumKey {
+  std::string friction;  // of all contacts, "1/2"; kMixedFriction where they differ
+  int rank = 0;          // what rank(A) is at most, as the generator has it
+
+  auto operator<=>(const StratumKey&) const = default;
+};
+inline constexpr const char* kMixedFriction = "mixed";
+
+struct Stratum {
+  using Outcomes = std::array<std::int64_t, kOutcomeCount>;
+
+  std::int64_t problems = 0;
+  std::int64_t steps = 0;
+  std::int64_t zero_steps = 0;
+  std::int64_t audited = 0;
+  std::int64_t misjudged = 0;
+  Outcomes outcomes = {};  // as the inexact run ended
+  Outcomes exact = {};     // of those run again exactly on a suspicion
+
+  void Count(const Verdict& verdict) {
+    ++problems;
+    steps += verdict.statistics.steps;
+    zero_steps += verdict.statistics.zero_steps;
+    ++outcomes[static_cast<int>(verdict.outcome)];
+  }
+  void Merge(const Stratum& other);
+  bool operator==(const Stratum&) const = default;
+};
+
 // Runs of one method in one inexact arithmetic, and what exact runs of the same problems said.
 struct Tally {
   static constexpr int kBins = 64;  // of steps per problem: 0, 1, ..., 62, and 63 or more
@@ -57,6 +88,7 @@ struct Tally {
   Statistics sums;
   Statistics maxima;
   std::array<std::int64_t, kBins> steps = {};
+  std::map<StratumKey, Stratum> strata;  // counts of their own: Count leaves them alone
 
   // One run; inline because it stands on the search's hot path.
   void Count(const Verdict& verdict) {
@@ -113,6 +145,39 @@ struct AgreementTally {
   bool operator==(const AgreementTally&) const = default;
 };
 
+// Loops in exact arithmetic, with the steps of length zero in their periods, by number of contacts in the
+// period.
+struct LoopTally {
+  std::int64_t loops = 0;
+  std::int64_t drives = 0;
+  std::int64_t steps = 0;
+  std::int64_t zero_steps = 0;
+  std::int64_t without_zero_steps = 0;
+  std::int64_t of_zero_steps_alone = 0;
+  std::map<int, std::int64_t> by_zero_steps;  // loops by how many zero steps their period has
+
+  bool operator==(const LoopTally&) const = default;
+};
+
+// How many different words (search/signature.h) the loops of a group have. Of their hashes the smallest
+// kMost are kept, in order: up to there the number is exact, beyond it follows from how dense they are (the k
+// smallest of N uniform numbers). What a union keeps does not depend on the order in which it was made.
+class WordSketch {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  void Add(std::uint64_t hash);
+  void Merge(const WordSketch& other);
+  bool IsExact() const { return hashes_.size() < kMost; }
+  double Count() const;  // standard error beyond kMost: a factor of 1 +- 1 / sqrt(kMost - 2)
+  const std::vector<std::uint64_t>& hashes() const { return hashes_; }
+
+  bool operator==(const WordSketch&) const = default;
+
+ private:
+  std::vector<std::uint64_t> hashes_;  // ascending
+};
+
 template <class T, class Tally>
 concept TallyOf = std::same_as<std::remove_cvref_t<T>, Tally>;
 
@@ -141,12 +206,24 @@ void ForEachCounter(Tally&& tally, Visit visit) {
   visit("safe_gave_up_no_ties", tally.safe_gave_up_no_ties);
 }
 
+template <TallyOf<LoopTally> Tally, class Visit>
+void ForEachCounter(Tally&& tally, Visit visit) {
+  visit("loops", tally.loops);
+  visit("drives", tally.drives);
+  visit("steps", tally.steps);
+  visit("zero_steps", tally.zero_steps);
+  visit("without_zero_steps", tally.without_zero_steps);
+  visit("of_zero_steps_alone", tally.of_zero_steps_alone);
+}
+
 // All that a unit, a block or a whole campaign counts.
 struct Record {
   std::map<TallyKey, Tally> tallies;
   std::map<std::string, std::int64_t> signatures;  // findings by signature
   std::map<int, ExistenceTally> existence;         // by contacts
   std::map<int, AgreementTally> agreement;         // by contacts
+  std::map<int, LoopTally> loops;                  // by contacts in the period
+  std::map<std::string, WordSketch> words;         // of groups whose signature has no word, by signature
 
   void Merge(const Record& other);
   bool operator==(const Record&) const = default;

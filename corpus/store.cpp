@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "stiction-store";
-constexpr int kVersion = 3;  // 2: with existence; 3: with seals and work
+constexpr int kVersion = 4;  // 2: with existence; 3: with seals and work; 4: by friction and rank
 constexpr const char* kTables = R"sql(
 CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE blocks (

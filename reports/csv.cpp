@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/csv.h"
 
+#include <cmath>
+
 namespace stiction {
 namespace {
 
@@ -50,7 +52,7 @@ void AddFindingColumns(Csv& csv) {
   }
   AddOutcomeColumns(csv, "minimized_grid_");
   for (const char* column : {"problem_file", "original_file", "certificate_file", "existence_file",
-                             "original_existence_file", "safe", "minimized_safe"}) {
+                             "original_existence_file", "safe", "minimized_safe", "words", "words_exact"}) {
     csv.Add(column);
   }
   csv.EndRow();
@@ -87,6 +89,13 @@ void AddFound(Csv& csv, const Discovery& discovery) {
 void AddSafe(Csv& csv, const std::optional<RunFacts>& run) {
   if (run && run->safe) return AddYesNo(csv, *run->safe);
   csv.Add("");
+}
+
+// How many different words its loops have; empty where the signature is one.
+void AddWords(Csv& csv, const std::optional<WordSketch>& words) {
+  if (!words) return AddEmpty(csv, 2);
+  csv.Add(static_cast<std::int64_t>(std::llround(words->Count())));
+  AddYesNo(csv, words->IsExact());
 }
 
 void AddMinimized(Csv& csv, const std::optional<RunFacts>& run) {
@@ -173,6 +182,51 @@ std::string StepsCsv(const Record& record) {
   return csv.text();
 }
 
+std::string StrataCsv(const Record& record) {
+  Csv csv;
+  AddKeyColumns(csv);
+  for (const char* column : {"friction", "rank", "problems", "steps", "zero_steps", "audited", "misjudged"})
+    csv.Add(column);
+  AddOutcomeColumns(csv, "");
+  AddOutcomeColumns(csv, "exact_");
+  csv.EndRow();
+  for (const auto& [key, tally] : record.tallies) {
+    for (const auto& [stratum_key, stratum] : tally.strata) {
+      AddKey(csv, key);
+      csv.Add(stratum_key.friction).Add(stratum_key.rank);
+      csv.Add(stratum.problems).Add(stratum.steps).Add(stratum.zero_steps);
+      csv.Add(stratum.audited).Add(stratum.misjudged);
+      AddCounts(csv, stratum.outcomes);
+      AddCounts(csv, stratum.exact);
+      csv.EndRow();
+    }
+  }
+  return csv.text();
+}
+
+std::string LoopsCsv(const Record& record) {
+  Csv csv;
+  csv.Add("contacts");
+  ForEachCounter(LoopTally{}, [&csv](const char* name, std::int64_t) { csv.Add(name); });
+  csv.EndRow();
+  for (const auto& [contacts, tally] : record.loops) {
+    csv.Add(contacts);
+    ForEachCounter(tally, [&csv](const char*, std::int64_t value) { csv.Add(value); });
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string ZeroStepsCsv(const Record& record) {
+  Csv csv;
+  csv.Add("contacts").Add("zero_steps").Add("loops").EndRow();
+  for (const auto& [contacts, tally] : record.loops) {
+    for (const auto& [zero_steps, loops] : tally.by_zero_steps)
+      csv.Add(contacts).Add(zero_steps).Add(loops).EndRow();
+  }
+  return csv.text();
+}
+
 std::string AgreementCsv(const Record& record) {
   Csv csv;
   csv.Add("contacts");
@@ -216,6 +270,7 @@ std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
     csv.Add(files.existence).Add(files.original_existence);
     AddSafe(csv, discovery.found);
     AddSafe(csv, discovery.minimized);
+    AddWords(csv, discovery.words);
     csv.EndRow();
   }
   return csv.text();

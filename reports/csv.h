@@ -30,8 +30,15 @@ class Csv {
 std::string StatisticsCsv(const Record& record);
 // One row per tally, double outcome and exact outcome that occurred, of the runs repeated exactly on suspicion.
 std::string VerdictsCsv(const Record& record);
+// One row per tally, friction and rank: problems, steps, audits, and the outcomes of doubles and of exact runs
+// apart.
+std::string StrataCsv(const Record& record);
 // One row per tally and number of steps that occurred; the last bin holds everything above, too.
 std::string StepsCsv(const Record& record);
+// One row per number of contacts in the period of a loop: sums over the loops of exact arithmetic.
+std::string LoopsCsv(const Record& record);
+// The same by how many zero steps the period has.
+std::string ZeroStepsCsv(const Record& record);
 // One row per number of contacts: existence decided by complete driving, methods compared, safe problems.
 std::string AgreementCsv(const Record& record);
 // One row per number of contacts and count that occurred: problems with so many mode words that have solutions

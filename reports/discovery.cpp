@@ -128,6 +128,7 @@ std::vector<Discovery> Discoveries(const Record& record, const std::vector<Findi
     by_signature[signature].kind = KindOf(signature);
     by_signature[signature].met = count;
   }
+  for (const auto& [signature, sketch] : record.words) by_signature[signature].words = sketch;
   for (const Finding& finding : findings) Represent(by_signature[finding.signature], finding);
   std::vector<Discovery> discoveries;
   for (auto& [signature, discovery] : by_signature) {

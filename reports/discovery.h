@@ -61,9 +61,10 @@ struct Discovery {
   std::int64_t met = 0;
   const Finding* representative = nullptr;  // none was kept: a unit keeps a bounded number of them
   std::optional<LoopLength> loop;
-  std::optional<RunFacts> found;      // finished only
-  std::optional<RunFacts> minimized;  // finished and minimized only
+  std::optional<RunFacts> found;          // finished only
+  std::optional<RunFacts> minimized;      // finished and minimized only
   std::optional<FeasibilityFacts> ipopt;  // finished, in the plane
+  std::optional<WordSketch> words;        // of its loops, where the signature is counts alone
   FindingFiles files;
 
   bool Finished() const { return representative != nullptr && representative->done; }

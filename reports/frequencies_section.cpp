@@ -4,10 +4,16 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <functional>
+#include <map>
+#include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "corpus/intervals.h"
+#include "corpus/rational.h"
 #include "reports/page.h"
 
 namespace stiction {
@@ -66,6 +72,53 @@ Html FrequencyTable(const Record& total) {
   return table.Done();
 }
 
+// "1/10" < "1/2" < "mixed".
+struct ByFriction {
+  bool operator()(const std::string& left, const std::string& right) const {
+    const bool left_mixed = left == kMixedFriction, right_mixed = right == kMixedFriction;
+    if (left_mixed || right_mixed) return !left_mixed && right_mixed;
+    return ParseRational(left) < ParseRational(right);
+  }
+};
+
+struct LoopCount {
+  std::int64_t runs = 0, loops = 0;
+};
+
+// Generators and contacts down, what `column_of` makes of a stratum across: loops that exact arithmetic
+// confirmed.
+template <class Order, class ColumnOf>
+Html StrataTable(const Record& total, const std::string& caption, ColumnOf column_of) {
+  using Label = std::decay_t<decltype(column_of(StratumKey{}))>;
+  std::map<std::pair<std::string, int>, std::map<Label, LoopCount, Order>> rows;
+  std::set<Label, Order> labels;
+  for (const auto& [key, tally] : total.tallies) {
+    for (const auto& [stratum_key, stratum] : tally.strata) {
+      LoopCount& count = rows[{key.generator, key.contacts}][column_of(stratum_key)];
+      count.runs += stratum.problems;
+      count.loops += stratum.exact[static_cast<int>(Outcome::kCycle)];
+      labels.insert(column_of(stratum_key));
+    }
+  }
+  std::vector<Column> columns = {{"generator", "", false}, {"contacts"}};
+  for (const Label& label : labels) columns.push_back({fmt::format("{}", label)});
+  Table table(caption, columns);
+  for (const auto& [key, counts] : rows) {
+    std::vector<HtmlCell> cells = {{Text(key.first)}, {Text(Grouped(key.second))}};
+    for (const Label& label : labels) {
+      const auto found = counts.find(label);
+      if (found == counts.end()) {
+        cells.push_back({Text("–")});
+      } else {
+        cells.push_back(
+            CountWithInterval(found->second.loops, RateText(found->second.loops, found->second.runs)));
+      }
+    }
+    table.AddRow(cells, 2);
+  }
+  return table.Done();
+}
+
 // What the rates are worth.
 Html RateBounds(const Record& total) {
   ExactFailures all;
@@ -86,8 +139,16 @@ Html FrequenciesSection(const Record& total) {
       "Suspicious runs whose failure exact arithmetic confirmed, and below each count its rate in a million "
       "runs "
       "with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).");
-  return Section("frequencies", "How often it fails exactly",
-                 Tag("p")(explained + RateBounds(total)) + FrequencyTable(total));
+  return Section(
+      "frequencies", "How often it fails exactly",
+      Tag("p")(explained + RateBounds(total)) + FrequencyTable(total) +
+          Html("<h3>By friction</h3>\n<p>Cycles confirmed exactly, where all contacts have the same "
+               "coefficient, or different ones (mixed); below, in a million runs:</p>\n") +
+          StrataTable<ByFriction>(total, "Cycles by friction coefficient",
+                                  [](const StratumKey& key) { return key.friction; }) +
+          Html("<h3>By rank</h3>\n<p>The same by the rank that A has at most by construction: that of "
+               "its factor J. By chance it is lower.</p>\n") +
+          StrataTable<std::less<>>(total, "Cycles by rank", [](const StratumKey& key) { return key.rank; }));
 }
 
 }  // namespace stiction

@@ -236,7 +236,10 @@ Html FilesSection() {
   for (const auto& [file, meaning] : std::initializer_list<std::pair<const char*, const char*>>{
            {"statistics.csv", "all counters, sums and maxima per generator, contacts and policy"},
            {"verdicts.csv", "runs repeated exactly on suspicion: what doubles said, what is exact"},
+           {"strata.csv", "outcomes of doubles and of exact runs by friction coefficient and rank"},
            {"steps.csv", "histograms of steps per problem"},
+           {"loops.csv", "loops by number of contacts: drives, steps and zero steps of their periods"},
+           {"zero_steps.csv", "histograms of zero steps per period"},
            {"agreement.csv", "existence, agreement of methods and safe problems per number of contacts"},
            {"solutions.csv", "histograms of solutions per number of contacts"},
            {"findings.csv", "every signature, with its counts, facts and files"},

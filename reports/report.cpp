@@ -78,7 +78,10 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   }
   folder.Write("statistics.csv", StatisticsCsv(content.total));
   folder.Write("verdicts.csv", VerdictsCsv(content.total));
+  folder.Write("strata.csv", StrataCsv(content.total));
   folder.Write("steps.csv", StepsCsv(content.total));
+  folder.Write("loops.csv", LoopsCsv(content.total));
+  folder.Write("zero_steps.csv", ZeroStepsCsv(content.total));
   folder.Write("agreement.csv", AgreementCsv(content.total));
   folder.Write("solutions.csv", SolutionsCsv(content.total));
   folder.Write("findings.csv", FindingsCsv(content.discoveries));

@@ -251,6 +251,34 @@ Html PivotTable(const Record& total) {
   return table.Done();
 }
 
+// ---- Loops ----
+
+HtmlCell LoopsAndShare(std::int64_t count, const LoopTally& tally) {
+  return {Text(Grouped(count)) + Tag("small")(ShareText(count, tally.loops)), count == 0 ? "zero" : ""};
+}
+
+Html LoopTable(const Record& total) {
+  if (total.loops.empty()) return Html("<p class=\"note\">No loop was met.</p>\n");
+  Table table("Loops in exact arithmetic, by number of contacts in the period",
+              {{"contacts"},
+               {"loops"},
+               {"drives", "of a period: mean"},
+               {"steps", "of a period: mean"},
+               {"zero steps", "of a period: mean"},
+               {"none", "loops without a step of length zero in the period; below: their share"},
+               {"nothing else", "loops whose period has no other steps; below: their share"}});
+  for (const auto& [contacts, t] : total.loops) {
+    table.AddRow({{Text(Grouped(contacts))},
+                  Count(t.loops),
+                  {Text(Mean(t.drives, t.loops))},
+                  {Text(Mean(t.steps, t.loops))},
+                  {Text(Mean(t.zero_steps, t.loops))},
+                  LoopsAndShare(t.without_zero_steps, t),
+                  LoopsAndShare(t.of_zero_steps_alone, t)});
+  }
+  return table.Done();
+}
+
 }  // namespace
 
 Html OutcomesSection(const Record& total) {
@@ -277,7 +305,10 @@ Html PivotsSection(const Record& total) {
       "pivots", "Pivots per problem",
       Html("<p>Of the runs in doubles: the mean, and below it the maximum. A loop counts up to where it "
            "was noticed.</p>\n") +
-          PivotTable(total));
+          PivotTable(total) +
+          Html("<h3>Zero steps of loops</h3>\n<p>What one period of a loop consists of, in exact "
+               "arithmetic:</p>\n") +
+          LoopTable(total));
 }
 
 }  // namespace stiction

@@ -101,9 +101,9 @@ std::optional<GeneratorId> FindGenerator(std::string_view name) {
   return row->id;
 }
 
-#define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                     \
-  template void Generate<Scalar, Rows>(GeneratorId, int, const Surroundings&, Choices&, \
-                                       ContactProblem<Scalar, Rows>&)
+#define STICTION_INSTANTIATE_GENERATE(Scalar, Rows)                                      \
+  template Drawn Generate<Scalar, Rows>(GeneratorId, int, const Surroundings&, Choices&, \
+                                        ContactProblem<Scalar, Rows>&)
 
 STICTION_INSTANTIATE_GENERATE(double, 2);
 STICTION_INSTANTIATE_GENERATE(double, 4);

@@ -107,6 +107,13 @@ struct Surroundings {
   bool gravity_only = false;  // no applied forces; of generators with `has_gravity`
 };
 
+// What is told of a problem beside its numbers, for statistics.
+struct Drawn {
+  static constexpr int kMixed = -1;
+  int friction = kMixed;  // of all contacts, its number in the palette; kMixed where they differ
+  int rank = 0;           // what rank(A) is at most: columns of J, and no more than its different rows
+};
+
 // Empty if no generator has this name.
 std::optional<GeneratorId> FindGenerator(std::string_view name);
 
@@ -114,8 +121,8 @@ std::optional<GeneratorId> FindGenerator(std::string_view name);
 // of the palette for all contacts with probability 1/2, otherwise one per contact, uniformly; contacts of two
 // bodies of `scenes` share that of their first.
 template <class Scalar, int Rows>
-void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
-              ContactProblem<Scalar, Rows>& problem);
+Drawn Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
+               ContactProblem<Scalar, Rows>& problem);
 
 }  // namespace stiction
 

@@ -139,15 +139,16 @@ void SetFromIntegers(const Jacobian<Scalar, Rows>& J, int columns, Choices& choi
 }
 
 template <class Scalar, int Rows>
-void Integers(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Integers(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int columns = static_cast<int>(choices.Integer(1, problem.rows()));
   const auto J = DrawIntegers<Scalar, Rows, -5, 5>(problem.rows(), columns, choices);
   SetFromIntegers(J, columns, choices, problem);
+  return columns;
 }
 
 // Of which one contact at least, and each other with probability 1/2, is of another kind.
 template <class Scalar, int Rows>
-void WithOtherKinds(ContactKind kind, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int WithOtherKinds(ContactKind kind, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   if constexpr (Rows == Eigen::Dynamic) {
     const auto contacts = static_cast<std::int64_t>(problem.contacts.size());
     const std::int64_t certain = choices.Integer(0, contacts - 1);
@@ -161,9 +162,10 @@ void WithOtherKinds(ContactKind kind, Choices& choices, ContactProblem<Scalar, R
     const int rows = RowCount(problem.contacts, 2);
     problem.A.resize(rows, rows);
     problem.b.resize(rows);
-    Integers(choices, problem);
+    return Integers(choices, problem);
   } else {
     STICTION_CHECK(false, "fixed sizes hold static contacts only");
+    return 0;
   }
 }
 
@@ -177,18 +179,21 @@ void CopyContact(int from, int to, int sign, int columns, Jacobian<Scalar, Rows>
 }
 
 template <class Scalar, int Rows>
-void Duplicates(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Duplicates(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int contacts = problem.rows() / 2;
   const int columns = static_cast<int>(choices.Integer(1, problem.rows()));
   auto J = DrawIntegers<Scalar, Rows, -5, 5>(problem.rows(), columns, choices);
   const int certain = contacts > 1 ? static_cast<int>(choices.Integer(1, contacts - 1)) : 0;
+  int copies = 0;
   for (int to = 1; to < contacts; ++to) {
     if (to != certain && choices.Integer(0, 3) != 3) continue;
+    ++copies;
     const int from = static_cast<int>(choices.Integer(0, to - 1));
     const int sign = choices.Integer(0, 1) == 0 ? 1 : -1;
     CopyContact<Scalar, Rows>(from, to, sign, columns, J);
   }
   SetFromIntegers(J, columns, choices, problem);
+  return std::min(columns, 2 * (contacts - copies));
 }
 
 // ---- psd --------------------------------------------------------------------------------------
@@ -196,7 +201,7 @@ void Duplicates(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
 // Entries of J are multiples of 2^-15 in [-1, 1), x multiples of 2^-11 in [-1, 1). In units of 2^-30
 // abs(A) <= 16 * 2^30 = 2^34, in units of 2^-41 abs(A x) <= 16 * 2^34 * 2^11 = 2^49.
 template <class Scalar, int Rows>
-void Psd(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Psd(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const int columns = static_cast<int>(choices.Integer(1, rows));
   auto J = MakeJacobian<Scalar, Rows>(rows, columns);
@@ -208,13 +213,14 @@ void Psd(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   choices.ForEach<-2048, 2047>(rows, [&x](int i, int value) { x[i] = value; });
   SetImage(
       problem.A, rows, [&x](int k) { return Scalar(x[k] * 0x1p-11); }, problem);
+  return columns;
 }
 
 // ---- small ------------------------------------------------------------------------------------
 
 // Values are -2 ... 2 with weights 1 1 5 1 1. Bound: abs(A) <= 16 * 2^2, abs(J y) <= 16 * 2 * 2.
 template <class Scalar, int Rows>
-void Small(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Small(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int columns = static_cast<int>(choices.Integer(1, problem.rows()));
   auto J = MakeJacobian<Scalar, Rows>(problem.rows(), columns);
   Scalar* entries = J.data();
@@ -223,6 +229,7 @@ void Small(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   });
   SetGram(J, columns, problem);
   DrawImage<Scalar, Rows, -2, 2>(J, columns, choices, problem);
+  return columns;
 }
 
 // ---- near-degenerate --------------------------------------------------------------------------
@@ -249,8 +256,8 @@ inline std::array<int, kMaxRows> DrawBoundaryForces(int contacts, const std::arr
 // Bounds: abs(J) <= 3 * 2^k + 3 <= 2^(k + 2), abs(A) <= 2^(2k + 8) <= 2^40, abs(J' f0) <= 16 * 2^(k + 2) *
 // 2^8 = 2^(k + 14), abs(b) <= 16 * 2^(k + 2) * (2^(k + 14) + 1) <= 2^52 + 2^22.
 template <class Scalar, int Rows>
-void NearDegenerate(const std::array<MuChoice, kMaxContacts>& mu, Choices& choices,
-                    ContactProblem<Scalar, Rows>& problem) {
+int NearDegenerate(const std::array<MuChoice, kMaxContacts>& mu, Choices& choices,
+                   ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const int columns = static_cast<int>(choices.Integer(1, rows));
   const int coarse_columns = static_cast<int>(choices.Integer(1, columns));
@@ -275,6 +282,7 @@ void NearDegenerate(const std::array<MuChoice, kMaxContacts>& mu, Choices& choic
     return sum;
   };
   SetImage(J, columns, y, problem);
+  return columns;
 }
 
 // ---- conditioned ------------------------------------------------------------------------------
@@ -335,7 +343,7 @@ void DrawReflection(int rows, int columns, int size, Choices& choices, Jacobian<
 // J = U diag(sigma) rounded to double, taken exactly from there on. U: reflections of 2, 3, ..., 2n rows,
 // their vectors uniform in a cube.
 template <class Scalar, int Rows>
-void Conditioned(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Conditioned(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const int exponent = static_cast<int>(choices.Integer(0, 8));
   const bool full = choices.Integer(0, 1) == 0;
@@ -348,6 +356,7 @@ void Conditioned(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   }
   SetGram(J, columns, problem);
   DrawImage<Scalar, Rows, -5, 5>(J, columns, choices, problem);
+  return columns;
 }
 
 // ---- bodies -----------------------------------------------------------------------------------
@@ -470,7 +479,7 @@ void SetFromBodies(const BodyJacobian<Scalar, Rows>& J, int bodies, const std::a
 // Not modelled: shapes. Bodies may overlap each other and
 // the world, and lie on either side of a contact.
 template <class Scalar, int Rows>
-void Bodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Bodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const int bodies = static_cast<int>(choices.Integer(1, std::min(kMaxBodies, rows / 2)));
   const int load = gravity_only ? 0 : static_cast<int>(choices.Integer(0, 2));
@@ -478,6 +487,7 @@ void Bodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& p
   for (int i = 0; i < bodies; ++i) body[i] = DrawBody<Scalar>(load != 1, load != 0, choices);
   const BodyJacobian<Scalar, Rows> J = DrawContacts<Scalar, Rows>(rows, bodies, body, choices);
   SetFromBodies(J, bodies, body, problem);
+  return 3 * bodies;
 }
 
 // The rows of one contact in the columns of one body, as SetContactRows.
@@ -497,7 +507,7 @@ void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int
 
 // The centre of mass is the origin; points in millimetres.
 template <class Scalar, int Rows>
-void OneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int OneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
   std::array<Body<Scalar>, kMaxBodies> body;
@@ -523,6 +533,7 @@ void OneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& 
     SetSceneRows<Scalar>(normal, MakeVector2<Scalar>(x, y), contact, 0, 1, J);
   }
   SetFromBodies(J, 1, body, problem);
+  return 3;
 }
 
 // ---- exponential ------------------------------------------------------------------------------
@@ -562,7 +573,7 @@ inline double DrawSmall(int least, int most, Choices& choices) {
 // 2^24 + 2^44 < 2^50. The moves of J are less than 1/2 beside its inverse, so that the normals stay
 // independent.
 template <class Scalar, int Rows>
-void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+int Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows(), contacts = rows / 2;
   const bool scaled = choices.Integer(0, 1) == 1;
   const std::array<int, kMaxContacts> place = DrawPlaces(contacts, choices);
@@ -593,13 +604,14 @@ void Exponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
     return Scalar(k < contacts ? static_cast<double>(of_normals[k]) / unit : 0.25 * of_friction[k - contacts]);
   };
   SetImage(J, rows, y, problem);
+  return rows - missing;  // columns of friction that are zero
 }
 
 // ---- scenes -----------------------------------------------------------------------------------
 
 template <class Scalar, int Rows>
-void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices,
-            ContactProblem<Scalar, Rows>& problem) {
+int Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices,
+           ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   const SceneDesign design = DrawSceneDesign(rows / 2, grain, gravity_only, choices);
   std::array<SceneBody<Scalar>, kMaxBodies> body;
@@ -620,13 +632,67 @@ void Scenes(const SceneGrain& grain, bool gravity_only, Choices& choices,
     }
   }
   SetFromBodies(J, design.cells, body, problem);
+  return 3 * design.cells;
+}
+
+// ---- What a problem is counted by --------------------------------------------------------------
+
+// The number in the palette of the coefficient that all contacts with friction have.
+template <class Scalar, int Rows>
+int CommonFriction(std::span<const MuChoice> palette, const std::array<MuChoice, kMaxContacts>& chosen,
+                   const ContactProblem<Scalar, Rows>& problem) {
+  int first = -1;
+  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+    const Contact<Scalar>& contact = problem.contacts[i];
+    if (contact.kind == ContactKind::kBilateral) continue;
+    if (first < 0) first = i;
+    if (contact.mu != problem.contacts[first].mu) return Drawn::kMixed;
+  }
+  if (first < 0) return Drawn::kMixed;
+  return static_cast<int>(std::find(palette.begin(), palette.end(), chosen[first]) - palette.begin());
+}
+
+// All but friction; returns what rank(A) is at most, by construction.
+template <class Scalar, int Rows>
+int Fill(GeneratorId id, const std::array<MuChoice, kMaxContacts>& mu, const Surroundings& surroundings,
+         Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  switch (id) {
+    case GeneratorId::kIntegers:
+    case GeneratorId::kSpace:
+      return Integers(choices, problem);
+    case GeneratorId::kPsd:
+      return Psd(choices, problem);
+    case GeneratorId::kSmall:
+      return Small(choices, problem);
+    case GeneratorId::kNearDegenerate:
+      return NearDegenerate(mu, choices, problem);
+    case GeneratorId::kDuplicates:
+      return Duplicates(choices, problem);
+    case GeneratorId::kConditioned:
+      return Conditioned(choices, problem);
+    case GeneratorId::kBodies:
+      return Bodies(surroundings.gravity_only, choices, problem);
+    case GeneratorId::kExponential:
+      return Exponential(choices, problem);
+    case GeneratorId::kScenes:
+      return Scenes(kCoarseScenes, surroundings.gravity_only, choices, problem);
+    case GeneratorId::kOneBody:
+      return OneBody(surroundings.gravity_only, choices, problem);
+    case GeneratorId::kFineScenes:
+      return Scenes(kFineScenes, surroundings.gravity_only, choices, problem);
+    case GeneratorId::kBilateral:
+    case GeneratorId::kSliding:
+      return WithOtherKinds(Row(id).other_kind, choices, problem);
+  }
+  STICTION_CHECK(false, "all generators are above");
+  return 0;
 }
 
 }  // namespace generators
 
 template <class Scalar, int Rows>
-void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
-              ContactProblem<Scalar, Rows>& problem) {
+Drawn Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Choices& choices,
+               ContactProblem<Scalar, Rows>& problem) {
   STICTION_CHECK(contacts >= 1 && contacts <= kMaxContacts, "generators make 1 to 8 contacts");
   STICTION_CHECK(Rows == Eigen::Dynamic || (Rows == 2 * contacts && !Row(id).InSpace()),
                  "two rows per contact");
@@ -634,34 +700,8 @@ void Generate(GeneratorId id, int contacts, const Surroundings& surroundings, Ch
   STICTION_CHECK(!surroundings.gravity_only || Row(id).has_gravity, "gravity is for bodies");
   generators::Resize(contacts, Row(id).dimension, problem);
   const auto mu = generators::DrawFriction(surroundings.palette, choices, problem);
-  switch (id) {
-    case GeneratorId::kIntegers:
-    case GeneratorId::kSpace:
-      return generators::Integers(choices, problem);
-    case GeneratorId::kPsd:
-      return generators::Psd(choices, problem);
-    case GeneratorId::kSmall:
-      return generators::Small(choices, problem);
-    case GeneratorId::kNearDegenerate:
-      return generators::NearDegenerate(mu, choices, problem);
-    case GeneratorId::kDuplicates:
-      return generators::Duplicates(choices, problem);
-    case GeneratorId::kConditioned:
-      return generators::Conditioned(choices, problem);
-    case GeneratorId::kBodies:
-      return generators::Bodies(surroundings.gravity_only, choices, problem);
-    case GeneratorId::kExponential:
-      return generators::Exponential(choices, problem);
-    case GeneratorId::kScenes:
-      return generators::Scenes(kCoarseScenes, surroundings.gravity_only, choices, problem);
-    case GeneratorId::kOneBody:
-      return generators::OneBody(surroundings.gravity_only, choices, problem);
-    case GeneratorId::kFineScenes:
-      return generators::Scenes(kFineScenes, surroundings.gravity_only, choices, problem);
-    case GeneratorId::kBilateral:
-    case GeneratorId::kSliding:
-      return generators::WithOtherKinds(Row(id).other_kind, choices, problem);
-  }
+  const int columns = generators::Fill(id, mu, surroundings, choices, problem);
+  return {generators::CommonFriction(surroundings.palette, mu, problem), std::min(columns, problem.rows())};
 }
 
 }  // namespace stiction

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <span>
+#include <set>
 #include <vector>
 
 #include "solver/problem/check.h"
@@ -104,25 +104,56 @@ std::string CountsSignature(std::size_t contacts, const Verdict& verdict) {
   return fmt::format("{}-{}c-{}d", Name(verdict.outcome), contacts, verdict.period);
 }
 
+namespace {
+
+template <class Scalar>
+LoopFacts CountsOf(const Verdict& verdict, const Steps<Scalar>& period,
+                   const RowLayout<Eigen::Dynamic>& layout) {
+  LoopFacts facts;
+  std::set<int> contacts;
+  for (const Pivot<Scalar>* step : period) {
+    contacts.insert({layout.ContactOf(step->driven), layout.ContactOf(step->limiting)});
+    facts.zero_steps += step->s == 0;
+  }
+  facts.contacts = static_cast<int>(contacts.size());
+  facts.drives = verdict.outcome == Outcome::kCycle ? verdict.period : 1;
+  facts.steps = static_cast<std::int64_t>(period.size());
+  facts.named = contacts.size() <= kMostContactsWithWord;
+  facts.signature =
+      fmt::format("{}-{}c-{}d-{}s", Name(verdict.outcome), facts.contacts, facts.drives, facts.steps);
+  return facts;
+}
+
+// The words of many contacts are long: only where they are asked for.
+template <class Scalar>
+LoopFacts FactsOf(const ExactProblem& problem, const Verdict& verdict, const std::vector<Pivot<Scalar>>& pivots,
+                  bool always_with_word) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  const Steps<Scalar> period = Period(verdict, pivots);
+  LoopFacts facts = CountsOf(verdict, period, layout);
+  if (facts.named || always_with_word) facts.word = Hash(SmallestWord(verdict, period, layout));
+  if (facts.named) facts.signature += fmt::format("-{:016x}", facts.word);
+  return facts;
+}
+
+}  // namespace
+
+template <class Scalar>
+LoopFacts FactsOfLoop(const ExactProblem& problem, const Verdict& verdict,
+                      const std::vector<Pivot<Scalar>>& pivots) {
+  STICTION_CHECK(IsLoop(verdict.outcome), "only loops have a period");
+  return FactsOf(problem, verdict, pivots, /*always_with_word=*/true);
+}
+
+template LoopFacts FactsOfLoop(const ExactProblem&, const Verdict&, const std::vector<Pivot<Rational>>&);
+template LoopFacts FactsOfLoop(const ExactProblem&, const Verdict&, const std::vector<Pivot<double>>&);
+
 template <class Scalar>
 std::string Signature(const ExactProblem& problem, const Verdict& verdict,
                       const std::vector<Pivot<Scalar>>& pivots) {
   if (!IsLoop(verdict.outcome)) return CountsSignature(problem.contacts.size(), verdict);
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
-  const Steps<Scalar> period = Period(verdict, pivots);
-  std::vector<int> contacts;
-  for (const Pivot<Scalar>* step : period) {
-    contacts.push_back(layout.ContactOf(step->driven));
-    contacts.push_back(layout.ContactOf(step->limiting));
-  }
-  std::sort(contacts.begin(), contacts.end());
-  contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
-  const std::int64_t drives = verdict.outcome == Outcome::kCycle ? verdict.period : 1;
-  const std::string counts =
-      fmt::format("{}-{}c-{}d-{}s", Name(verdict.outcome), contacts.size(), drives, period.size());
-  if (contacts.size() > kMostContactsWithWord) return counts;
-  return fmt::format("{}-{:016x}", counts, Hash(SmallestWord(verdict, period, layout)));
+  return FactsOf(problem, verdict, pivots, /*always_with_word=*/false).signature;
 }
 
 template std::string Signature(const ExactProblem&, const Verdict&, const std::vector<Pivot<Rational>>&);

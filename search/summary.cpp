@@ -54,6 +54,7 @@ struct Digest {
   std::map<std::string, std::int64_t, ByGravity> groups;    // by label
   ExistenceTally existence;
   AgreementTally agreement;
+  LoopTally loops;
   std::vector<Finding> grave;
   std::int64_t finished = 0, pending = 0, whole_grid = 0;
   std::vector<Finding> simplest;
@@ -94,6 +95,11 @@ Digest DigestOf(const Store& store) {
     digest.agreement.safety_decided += tally.safety_decided;
     digest.agreement.safe += tally.safe;
     digest.agreement.safe_gave_up += tally.safe_gave_up;
+  }
+  for (const auto& [contacts, tally] : total.loops) {
+    digest.loops.loops += tally.loops;
+    digest.loops.without_zero_steps += tally.without_zero_steps;
+    digest.loops.of_zero_steps_alone += tally.of_zero_steps_alone;
   }
   for (const auto& [signature, count] : total.signatures) {
     digest.findings[LabelOf(signature)] += count;
@@ -323,6 +329,9 @@ Json SummaryToJson(const Store& store) {
                   {"safety_decided", digest.agreement.safety_decided},
                   {"safe", digest.agreement.safe},
                   {"safe_gave_up", digest.agreement.safe_gave_up},
+                  {"loops", digest.loops.loops},
+                  {"loops_without_zero_steps", digest.loops.without_zero_steps},
+                  {"loops_of_zero_steps_alone", digest.loops.of_zero_steps_alone},
                   {"grave", grave},
                   {"minimized", simplest}};
   try {

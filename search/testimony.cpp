@@ -9,6 +9,7 @@
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
+#include "corpus/rational.h"
 #include "search/adversary/optimized_unit.h"
 #include "solver/problem/solution.h"
 
@@ -131,6 +132,35 @@ std::int64_t Sum(const Counts& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
 }
 
+bool IsFriction(const std::string& name, const Campaign& campaign) {
+  return name == kMixedFriction ||
+         std::any_of(campaign.palette.begin(), campaign.palette.end(), [&name](const MuChoice& mu) {
+           return ToString(Rational(mu.numerator) / Rational(mu.denominator)) == name;
+         });
+}
+
+// What strata count adds up to what the tally counts.
+void RequireStrata(const Witness& witness, const TallyKey& key, const Tally& tally, const Campaign& campaign) {
+  Stratum sum;
+  for (const auto& [stratum_key, stratum] : tally.strata) {
+    witness.RequireOneOf("friction", stratum_key.friction, IsFriction(stratum_key.friction, campaign),
+                         "one of the campaign's");
+    const int rows =
+        (FindGenerator(key.generator) && Row(*FindGenerator(key.generator)).InSpace() ? 3 : 2) * key.contacts;
+    witness.Require(stratum_key.rank <= rows, "rank", std::to_string(stratum_key.rank),
+                    fmt::format("at most {}", rows));
+    sum.Merge(stratum);
+  }
+  Tally::Outcomes exact = {};
+  for (const auto& row : tally.verdicts) {
+    for (std::size_t i = 0; i < row.size(); ++i) exact[i] += row[i];
+  }
+  const bool adds_up = sum.problems == tally.problems && sum.outcomes == tally.outcomes && sum.exact == exact &&
+                       sum.audited == tally.audited && sum.misjudged == tally.misjudged &&
+                       sum.steps == tally.sums.steps && sum.zero_steps == tally.sums.zero_steps;
+  witness.Require(adds_up, "strata", "other sums", "counts that add up to those of all problems");
+}
+
 void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campaign, const std::string& file) {
   const Witness witness(fmt::format("{}: statistics of {} of {} contacts, {}", file, Shortened(key.generator),
                                     key.contacts, Shortened(key.policy)));
@@ -160,6 +190,21 @@ void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campa
   at_most("with_zero_steps", tally.with_zero_steps, tally.problems);
   at_most("with_give_ups", tally.with_give_ups, tally.problems);
   at_most("audited", tally.audited, tally.problems);
+  RequireStrata(witness, key, tally, campaign);
+}
+
+void RequireLoops(const Witness& witness, int contacts, const LoopTally& tally) {
+  const auto at_most = [&](const char* what, std::int64_t count, std::int64_t most) {
+    witness.Require(count <= most, "loops", fmt::format("{} {} of {} contacts", count, what, contacts),
+                    fmt::format("at most {}", most));
+  };
+  at_most("without zero steps", tally.without_zero_steps, tally.loops);
+  at_most("of zero steps alone", tally.of_zero_steps_alone, tally.loops);
+  at_most("zero steps", tally.zero_steps, tally.steps);
+  std::int64_t loops = 0;
+  for (const auto& [zero_steps, count] : tally.by_zero_steps) loops += count;
+  witness.Require(loops == tally.loops, "loops", fmt::format("{} by their zero steps", loops),
+                  fmt::format("{} of {} contacts", tally.loops, contacts));
 }
 
 }  // namespace
@@ -213,6 +258,10 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
                     "a size of the campaign's");
     witness.Require(tally.solved <= tally.problems, "existence", fmt::format("{} solved", tally.solved),
                     fmt::format("at most {}", tally.problems));
+  }
+  for (const auto& [contacts, tally] : total.loops) RequireLoops(witness, contacts, tally);
+  for (const auto& [signature, sketch] : total.words) {
+    witness.RequireOneOf("words", signature, total.signatures.contains(signature), "signatures that were met");
   }
   for (const auto& [contacts, tally] : total.agreement)
     witness.Require(is_size(contacts), "agreement", fmt::format("{} contacts", contacts),

@@ -53,11 +53,62 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
   return file;
 }
 
+// The problem with this number, over rationals.
+struct Regenerated {
+  ExactProblem problem;
+  Drawn drawn;
+};
+
+Regenerated RegenerateDrawn(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
+  const Task task = TaskOf(Schedule(campaign), unit);
+  Choices choices(
+      ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+  Regenerated made;
+  made.drawn = Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, SurroundingsOf(campaign),
+                                                  choices, made.problem);
+  return made;
+}
+
+// The strata of a tally, by numbers instead of names.
+class Strata {
+ public:
+  Strata(const Campaign& campaign, const Task& task)
+      : campaign_(campaign),
+        ranks_(Row(task.generator).dimension * task.contacts + 1),
+        strata_((campaign.palette.size() + 1) * static_cast<std::size_t>(ranks_)) {}
+
+  Stratum& At(const Drawn& drawn) {
+    return strata_[static_cast<std::size_t>((drawn.friction - Drawn::kMixed) * ranks_ + drawn.rank)];
+  }
+  void AddTo(Tally& tally) const {
+    for (std::size_t i = 0; i < strata_.size(); ++i) {
+      if (strata_[i].problems == 0) continue;
+      const int friction = static_cast<int>(i) / ranks_ + Drawn::kMixed;
+      tally.strata[{NameOf(friction), static_cast<int>(i) % ranks_}].Merge(strata_[i]);
+    }
+  }
+
+ private:
+  std::string NameOf(int friction) const {
+    if (friction == Drawn::kMixed) return kMixedFriction;
+    const MuChoice& mu = campaign_.palette[static_cast<std::size_t>(friction)];
+    return ToString(Rational(mu.numerator) / Rational(mu.denominator));
+  }
+
+  const Campaign& campaign_;
+  int ranks_;
+  std::vector<Stratum> strata_;  // rank by rank of the mixed, then of each friction of the palette
+};
+
 // What one unit collects while it runs.
 class Collector {
  public:
   Collector(const Campaign& campaign, const ExactMethods& methods, const Task& task, std::int64_t unit)
-      : campaign_(campaign), methods_(methods), task_(task), unit_(unit) {
+      : campaign_(campaign),
+        methods_(methods),
+        task_(task),
+        unit_(unit),
+        strata_(campaign.policies.size(), Strata(campaign, task)) {
     result_.problems = UnitProblems(campaign, task);
     for (const Policy& policy : campaign.policies) {
       const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy), "baraff",
@@ -67,13 +118,17 @@ class Collector {
   }
 
   Tally& tally(std::size_t policy) { return *tallies_[policy]; }
+  void Count(std::size_t policy, const Drawn& drawn, const Verdict& verdict) {
+    tallies_[policy]->Count(verdict);
+    strata_[policy].At(drawn).Count(verdict);
+  }
 
   // A problem that is looked at again. `suspected`: the inexact run did not end in a verified solution.
   // Certified signs decide; what they leave open, what is audited, and a few of the others are examined over
   // rationals.
   void RunAgain(std::int64_t index, std::size_t policy, Outcome inexact, bool wrong, bool suspected) {
-    const ExactProblem problem = Regenerate(index);
-    const Place place = {index, policy, inexact};
+    const auto [problem, drawn] = Regenerate(index);
+    const Place place = {index, policy, inexact, drawn};
     // The first rung seldom tells what rounding did not.
     const Rung first = suspected ? Rung::kDoubleDouble : Rung::kDouble;
     if (Decide(place, problem, Filter(problem, policy, {first, Rung::kDoubleDouble}), suspected) ==
@@ -84,13 +139,13 @@ class Collector {
   // Problem `index` where the campaign asks for certified signs from the start.
   void RunCertified(std::int64_t index, std::size_t policy, bool audit) {
     const bool exact = campaign_.arithmetic == Arithmetic::kExact;
-    const ExactProblem problem = Regenerate(index);
+    const auto [problem, drawn] = Regenerate(index);
     const FilteredVerdict filtered =
         Filter(problem, policy, {exact ? Rung::kExact : Rung::kDouble, Rung::kExact});
     const Verdict& verdict = filtered.verdict;
-    tallies_[policy]->Count(verdict);
+    Count(policy, drawn, verdict);
     const bool suspected = verdict.outcome != Outcome::kSolved;
-    const Place place = {index, policy, verdict.outcome};
+    const Place place = {index, policy, verdict.outcome, drawn};
     if (audit || (exact && suspected)) {
       Examine(place, problem, exact ? nullptr : &verdict, suspected);
     } else if (suspected) {
@@ -102,11 +157,11 @@ class Collector {
   // a loop.
   void RunOverIntervals(std::int64_t index, std::size_t policy, const Verdict& inexact, bool wrong,
                         bool suspected) {
-    const ExactProblem problem = Regenerate(index);
+    const auto [problem, drawn] = Regenerate(index);
     const Verdict verdict = RunInSpace(problem, policy);
     const Outcome proved = verdict.outcome;
-    const Place place = {index, policy, inexact.outcome};
-    CountVerdict(*tallies_[policy], inexact.outcome, proved, suspected);
+    const Place place = {index, policy, inexact.outcome, drawn};
+    CountVerdict(place, proved, suspected);
     CompareInSpace(place, proved, problem);
     if (proved == Outcome::kSolved) {
       FindOfDoubles(place, wrong, problem);
@@ -119,6 +174,7 @@ class Collector {
 
   WorkMeter& meter() { return meter_; }
   UnitResult Take() {
+    for (std::size_t policy = 0; policy < tallies_.size(); ++policy) strata_[policy].AddTo(*tallies_[policy]);
     result_.time = meter_.Read();
     return std::move(result_);
   }
@@ -129,11 +185,12 @@ class Collector {
     std::int64_t index;
     std::size_t policy;
     Outcome inexact;
+    Drawn drawn;
   };
 
-  ExactProblem Regenerate(std::int64_t index) {
+  Regenerated Regenerate(std::int64_t index) {
     const Spending spending(meter_, &ProcessorTime::generation);
-    return RegenerateExactly(campaign_, unit_, index);
+    return RegenerateDrawn(campaign_, unit_, index);
   }
 
   Verdict RunInSpace(const ExactProblem& problem, std::size_t policy) {
@@ -181,7 +238,7 @@ class Collector {
     const bool certified = filtered.rung != Rung::kExact && verdict.outcome != Outcome::kUndecided;
     const bool drawn = !suspected || IsDrawn(DrawOf(place.index));
     if (drawn || !certified) return Examine(place, problem, certified ? &verdict : nullptr, suspected, drawn);
-    CountVerdict(*tallies_[place.policy], place.inexact, verdict.outcome, suspected);
+    CountVerdict(place, verdict.outcome, suspected);
     if (verdict.outcome != Outcome::kSolved) Confirm(place, problem, filtered);
     return verdict.outcome;
   }
@@ -195,7 +252,7 @@ class Collector {
                    {{{"complete", complete.verdict.outcome, complete.f}, {"baraff", verdict.outcome, {}}}, {}});
     const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
     const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
-    FindUnsolved(place, verdict.outcome, Signature(problem, verdict, run.pivots), problem);
+    FindUnsolved(place, verdict, run.pivots, problem);
   }
 
   // Runs exactly, counts, compares; returns the exact outcome. `filtered`: what was said with certified signs,
@@ -204,21 +261,42 @@ class Collector {
                   bool drawn = true) {
     const ExactRun run = RunExactly(problem, place.policy);
     const Outcome exact = run.verdict.outcome;
-    CountVerdict(*tallies_[place.policy], place.inexact, exact, suspected);
+    CountVerdict(place, exact, suspected);
     if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);
     if (exact == Outcome::kSolved && !drawn) return exact;
     Compare(place, run, problem, /*with_lemke=*/!suspected && campaign_.arithmetic == Arithmetic::kDouble);
     if (!suspected && !Row(task_.generator).HasOtherKinds()) CheckSafety(place, run, problem);
     if (exact == Outcome::kSolved) return exact;
-    FindUnsolved(place, exact, Signature(problem, run), problem);
+    FindUnsolved(place, run.verdict, run.trace.pivots, problem);
     return exact;
   }
 
-  void FindUnsolved(const Place& place, Outcome outcome, const std::string& signature,
+  template <class Scalar>
+  void FindUnsolved(const Place& place, const Verdict& verdict, const std::vector<Pivot<Scalar>>& pivots,
                     const ExactProblem& problem) {
+    const Outcome outcome = verdict.outcome;
     const bool safe_cycle = outcome == Outcome::kCycle && IsSafe(problem);
-    Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), (safe_cycle ? "safe-" : "") + signature,
-         problem);
+    std::string signature = safe_cycle ? "safe-" : "";
+    if (IsLoop(outcome)) {
+      const LoopFacts loop = FactsOfLoop(problem, verdict, pivots);
+      signature += loop.signature;
+      CountLoop(loop, Named(signature, place.policy));
+    } else {
+      signature += Signature(problem, verdict, pivots);
+    }
+    Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), std::move(signature), problem);
+  }
+
+  void CountLoop(const LoopFacts& loop, const std::string& signature) {
+    LoopTally& tally = result_.record.loops[loop.contacts];
+    ++tally.loops;
+    tally.drives += loop.drives;
+    tally.steps += loop.steps;
+    tally.zero_steps += loop.zero_steps;
+    tally.without_zero_steps += loop.zero_steps == 0;
+    tally.of_zero_steps_alone += loop.zero_steps == loop.steps;
+    ++tally.by_zero_steps[static_cast<int>(loop.zero_steps)];
+    if (!loop.named) result_.record.words[signature].Add(Mix(loop.word));
   }
 
   // Certified signs are those of rationals: the same end after the same steps.
@@ -252,15 +330,20 @@ class Collector {
         problem, {{{"complete", complete.outcome, complete.f}}, {}});
   }
 
-  static void CountVerdict(Tally& tally, Outcome inexact, Outcome exact, bool suspected) {
+  void CountVerdict(const Place& place, Outcome exact, bool suspected) {
+    Tally& tally = *tallies_[place.policy];
+    Stratum& stratum = strata_[place.policy].At(place.drawn);
     if (suspected) {
-      ++tally.verdicts[static_cast<int>(inexact)][static_cast<int>(exact)];
-    } else {
-      const bool decided = exact != Outcome::kUndecided;
-      if (!decided) return;
-      ++tally.audited;
-      tally.misjudged += exact != inexact;
+      ++tally.verdicts[static_cast<int>(place.inexact)][static_cast<int>(exact)];
+      ++stratum.exact[static_cast<int>(exact)];
+      return;
     }
+    if (exact == Outcome::kUndecided) return;
+    const bool misjudged = exact != place.inexact;
+    ++tally.audited;
+    ++stratum.audited;
+    tally.misjudged += misjudged;
+    stratum.misjudged += misjudged;
   }
 
   // Of a problem that is solved exactly.
@@ -366,10 +449,16 @@ class Collector {
         problem, {{{"baraff", run.verdict.outcome, run.state.f}}, {}});
   }
 
+  // A signature as the store has it.
+  std::string Named(std::string signature, std::size_t policy) const {
+    const Policy& its = campaign_.policies[policy];
+    return its == Policy{} ? std::move(signature) : std::move(signature) + "@" + PolicyName(its);
+  }
+
   void Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
             const ExactProblem& problem, const Json& facts = nullptr) {
     const Policy& policy = campaign_.policies[place.policy];
-    if (!(policy == Policy{})) signature += "@" + PolicyName(policy);
+    signature = Named(std::move(signature), place.policy);
     if (++result_.record.signatures[signature] > 1) return;
     const bool full =
         static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
@@ -396,6 +485,7 @@ class Collector {
   WorkMeter meter_;
   UnitResult result_;
   std::vector<Tally*> tallies_;
+  std::vector<Strata> strata_;  // of each policy
 };
 
 // draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
@@ -423,11 +513,12 @@ struct Judgement {
 
 // Counts a run over doubles. residual() is that of its forces.
 template <class Residual>
-Judgement Judge(const Verdict& verdict, Tally& tally, Residual residual) {
-  tally.Count(verdict);
+Judgement Judge(Collector& collector, std::size_t policy, const Drawn& drawn, const Verdict& verdict,
+                Residual residual) {
+  collector.Count(policy, drawn, verdict);
   const bool solved = verdict.outcome == Outcome::kSolved;
   const bool wrong = solved && !(residual() <= kWrongAnswer);
-  tally.wrong += wrong;
+  collector.tally(policy).wrong += wrong;
   return {wrong, !solved || wrong};
 }
 
@@ -453,7 +544,7 @@ class Kernel final : public SizedKernel {
     const Surroundings surroundings = SurroundingsOf(campaign_);
     bool reduced = true;
     const auto draw = [&](Choices& choices) {
-      Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      drawn_ = Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
       if constexpr (Rows == Eigen::Dynamic) {
         const Reduction<double> reduction(problem_);
         reduced = reduction.end() == ReductionEnd::kReduced;
@@ -476,7 +567,7 @@ class Kernel final : public SizedKernel {
   void Refuse(std::int64_t index, std::size_t policy, Collector& collector) {
     Verdict verdict;
     verdict.outcome = Outcome::kSingular;
-    collector.tally(policy).Count(verdict);
+    collector.Count(policy, drawn_, verdict);
     collector.RunAgain(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
   }
 
@@ -489,7 +580,7 @@ class Kernel final : public SizedKernel {
       solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
       f = &distorted;
     }
-    const auto [wrong, suspected] = Judge(verdict, collector.tally(policy), [&] { return Residual(*f); });
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] { return Residual(*f); });
     if (suspected || audit) collector.RunAgain(index, policy, verdict.outcome, wrong, suspected);
   }
 
@@ -509,6 +600,7 @@ class Kernel final : public SizedKernel {
   const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double, Rows> problem_;
+  Drawn drawn_;
 };
 
 // Problems that are decided with certified signs from the start.
@@ -535,7 +627,7 @@ class SpaceKernel final : public SizedKernel {
 
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
     const auto draw = [&](Choices& choices) {
-      Generate(task.generator, task.contacts, SurroundingsOf(campaign_), choices, problem_);
+      drawn_ = Generate(task.generator, task.contacts, SurroundingsOf(campaign_), choices, problem_);
     };
     TryAll(campaign_, unit, task, collector.meter(), draw,
            [&](std::int64_t index, std::size_t policy, bool audit) { Try(index, policy, audit, collector); });
@@ -547,7 +639,7 @@ class SpaceKernel final : public SizedKernel {
     Verdict verdict = algorithm_.Run(problem_);
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
-    const auto [wrong, suspected] = Judge(verdict, collector.tally(policy), [&] {
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {
       return ResidualBound(problem_, FrictionLaw::kBaraff, f.cast<long double>());
     });
     if (suspected || audit) collector.RunOverIntervals(index, policy, verdict, wrong, suspected);
@@ -557,6 +649,7 @@ class SpaceKernel final : public SizedKernel {
   const UnitSolvers& solvers_;
   PublishedInSpace<double> algorithm_;
   ContactProblem<double> problem_;
+  Drawn drawn_;
 };
 
 std::unique_ptr<SizedKernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers,
@@ -619,12 +712,7 @@ ProblemFile RegenerateFile(const Campaign& campaign, std::int64_t unit, std::int
 }
 
 ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
-  const Task task = TaskOf(Schedule(campaign), unit);
-  Choices choices(
-      ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
-  ExactProblem problem;
-  Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, SurroundingsOf(campaign), choices, problem);
-  return problem;
+  return RegenerateDrawn(campaign, unit, index).problem;
 }
 
 }  // namespace stiction

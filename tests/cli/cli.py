@@ -111,6 +111,7 @@ def total(store):
         record = json.loads(text)
         for tally in record["tallies"]:
             key = tuple(tally.pop(name) for name in ("generator", "contacts", "policy", "method", "arithmetic"))
+            tally["strata"] = {tuple(stratum[:2]): stratum[2:] for stratum in tally["strata"]}
             tallies[key] = add(tallies[key], tally) if key in tallies else tally
         for signature, count in record["signatures"].items():
             signatures[signature] = signatures.get(signature, 0) + count
@@ -120,7 +121,8 @@ def total(store):
 
 def add(left, right, plus=lambda a, b: a + b):
     if isinstance(left, dict):
-        return {key: add(left[key], right[key], max if key == "maxima" else plus) for key in left}
+        both = {key: add(left[key], right[key], max if key == "maxima" else plus) for key in left.keys() & right.keys()}
+        return {**left, **right, **both}
     if isinstance(left, list):
         longer, shorter = sorted((left, right), key=len, reverse=True)
         return [add(a, b, plus) for a, b in zip(longer, shorter)] + longer[len(shorter):]

@@ -304,7 +304,7 @@ class Search(cli.TestCase):
                               ("merge", self.folder / "out.store", store), ("problem", store, 0, 0),
                               ("merge", "--salvage", self.folder / "out.store", store),
                               ("search", self.campaign, "--store", store, "--problems", 1)):
-                self.refuses(*arguments, says=["old.store", f"version {version}", "version 3", "--store NEW_FILE", says])
+                self.refuses(*arguments, says=["old.store", f"version {version}", "version 4", "--store NEW_FILE", says])
             self.assertEqual(cli.content(store), before)
             self.assertFalse((self.folder / "out.store").exists())
 

@@ -45,7 +45,12 @@ Record RecordOf(std::int64_t unit) {
     verdict.statistics.steps = unit % 70 + i;
     verdict.statistics.give_ups = i;
     tally.Count(verdict);
+    tally.strata[{i == 0 ? "1/2" : kMixedFriction, static_cast<int>(unit % 3) + 1}].Count(verdict);
   }
+  LoopTally& loops = record.loops[3];
+  loops.loops += unit % 3;
+  loops.by_zero_steps[static_cast<int>(unit % 5)] += unit % 3;
+  record.words["cycle-3c-4d-14s"].Add(static_cast<std::uint64_t>(unit) * 0x9e3779b97f4a7c15u);
   AgreementTally& agreement = record.agreement[static_cast<int>(unit % 2) + 1];
   agreement.compared = unit % 11;
   ++agreement.words[static_cast<int>(unit % 4)];
@@ -553,11 +558,11 @@ TEST_CASE("store: what is no store is refused by name and left as it is") {
     refused_to_read(file);
     refused_to_write(file);
     CHECK_THROWS_WITH(Store::OpenToRead(file),
-                      Contains("found format stiction-store version 1, expected stiction-store version 3") &&
+                      Contains("found format stiction-store version 1, expected stiction-store version 4") &&
                           Contains("of an older stiction") && Contains("search anew with --store NEW_FILE"));
-    Execute(file, "UPDATE campaign SET value = '4' WHERE key = 'version'");
+    Execute(file, "UPDATE campaign SET value = '5' WHERE key = 'version'");
     CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("of a newer stiction"));
-    Execute(file, "UPDATE campaign SET value = '3' WHERE key = 'version'");
+    Execute(file, "UPDATE campaign SET value = '4' WHERE key = 'version'");
     Store::OpenToRead(file);
     Execute(file, "UPDATE campaign SET value = '8' WHERE key = 'seed'");
     CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("campaign: found content of SHA-256"));
@@ -759,6 +764,13 @@ Tally FullTally() {
     ForEachField(*s, [&next](const char*, const char*, std::int64_t& value) { value = next++; });
   }
   for (auto& count : tally.steps) count = (std::int64_t{1} << 47) + next++;
+  for (const StratumKey& key : {StratumKey{"1/3", 1}, StratumKey{"1/3", 4}, StratumKey{kMixedFriction, 4}}) {
+    Stratum& stratum = tally.strata[key];
+    for (std::int64_t* count :
+         {&stratum.problems, &stratum.steps, &stratum.zero_steps, &stratum.audited, &stratum.misjudged,
+          &stratum.outcomes[0], &stratum.outcomes[5], &stratum.exact[6]})
+      *count = next++;
+  }
   return tally;
 }
 
@@ -773,6 +785,8 @@ Record FullByContacts() {
     ForEachCounter(agreement, fill);
     agreement.words = {{1, next++}, {64, next++}};
     agreement.solutions = {{3, next++}};
+    ForEachCounter(record.loops[contacts], fill);
+    record.loops[contacts].by_zero_steps = {{0, next++}, {9, next++}};
   }
   return record;
 }
@@ -795,6 +809,14 @@ TEST_CASE("record: existence and agreement add up by contacts, and survive as te
   CHECK(sum.agreement.at(2).compared == 9);
   CHECK(sum.agreement.at(1) == record.agreement.at(1));
   CHECK(sum.existence.at(7).with_ties == record.existence.at(7).with_ties + 3);
+  other = {};
+  other.loops[7].zero_steps = 5;
+  other.loops[7].by_zero_steps = {{9, 2}, {10, 1}};
+  sum.Merge(other);
+  CHECK(sum.loops.at(7).zero_steps == record.loops.at(7).zero_steps + 5);
+  CHECK(sum.loops.at(7).by_zero_steps.at(9) == record.loops.at(7).by_zero_steps.at(9) + 2);
+  CHECK(sum.loops.at(7).by_zero_steps.at(10) == 1);
+  CHECK(sum.loops.at(1) == record.loops.at(1));
   CHECK(ParseRecord(Serialize(sum)) == sum);
 }
 
@@ -810,6 +832,60 @@ TEST_CASE("record: text and back is the same, to the byte") {
   CHECK(Serialize(ParseRecord(text)) == text);
   CHECK(TallyFromJson(ToJson(FullTally())) == FullTally());
   CHECK(ParseRecord(Serialize(Record{})) == Record{});
+}
+
+TEST_CASE("record: words are counted exactly up to what a sketch keeps, beyond it nearly") {
+  std::uint64_t state = 1;
+  const auto next = [&state] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return state ^ (state >> 29);
+  };
+  for (const std::size_t words : {std::size_t{0}, std::size_t{1}, WordSketch::kMost - 1, std::size_t{5000}}) {
+    std::vector<std::uint64_t> hashes(words);
+    for (auto& hash : hashes) hash = next();
+    WordSketch whole, odd, even;
+    for (std::size_t i = 0; i < words; ++i) {
+      whole.Add(hashes[i]);
+      whole.Add(hashes[i / 2]);
+      (i % 2 == 0 ? even : odd).Add(hashes[words - 1 - i]);
+    }
+    even.Merge(odd);
+    CHECK(even == whole);
+    if (words < WordSketch::kMost) {
+      CHECK(whole.IsExact());
+      CHECK(whole.Count() == static_cast<double>(words));
+    } else {
+      CHECK_FALSE(whole.IsExact());
+      CHECK(whole.Count() > 0.6 * static_cast<double>(words));  // three standard errors
+      CHECK(whole.Count() < 1.4 * static_cast<double>(words));
+    }
+    Record record;
+    record.words["cycle-3c-4d-14s"] = whole;
+    CHECK(ParseRecord(Serialize(record)) == record);
+  }
+}
+
+TEST_CASE("record: strata and words that none writes are refused by their place") {
+  const auto with = [](auto change) {
+    Json json = ParseJson(Serialize(RecordOf(9)), "record");
+    change(json);
+    return json.dump();
+  };
+  CHECK_THROWS_WITH(ParseRecord(with([](Json& r) { r["tallies"][0]["strata"][0].push_back(1); })),
+                    Contains("strata[0]") && Contains("friction, rank"));
+  CHECK_THROWS_WITH(ParseRecord(with([](Json& r) {
+                      auto& strata = r["tallies"][0]["strata"];
+                      strata.push_back(strata[0]);
+                    })),
+                    Contains("once"));
+  CHECK_THROWS_WITH(ParseRecord(with([](Json& r) { r["words"]["cycle-3c-4d-14s"][0] = "00"; })),
+                    Contains("16 hexadecimal digits"));
+  CHECK_THROWS_WITH(ParseRecord(with([](Json& r) {
+                      auto& hashes = r["words"]["cycle-3c-4d-14s"];
+                      hashes.push_back(hashes[0]);
+                    })),
+                    Contains("each once"));
+  CHECK_THROWS_WITH(ParseRecord(with([](Json& r) { r["loops"][0]["loop"] = 1; })), Contains("loop"));
 }
 
 TEST_CASE("record: sums are the same in any order and grouping") {

@@ -57,8 +57,11 @@ Record SomeRecord() {
   Verdict verdict;
   verdict.outcome = Outcome::kCycle;
   verdict.statistics = {.drives = 9, .steps = 14, .pivots = 13, .zero_steps = 3, .give_ups = 2};
-  record.tallies[{"psd", 2, "paper"}].Count(verdict);
+  Tally& tally = record.tallies[{"psd", 2, "paper"}];
+  tally.Count(verdict);
+  tally.strata[{"1/2", 3}].Count(verdict);
   record.signatures["cycle-2c-4d-14s-0123456789abcdef"] = 1;
+  record.loops[2] = {.loops = 1, .drives = 4, .steps = 14, .zero_steps = 3, .by_zero_steps = {{3, 1}}};
   record.existence[2] = {.problems = 1, .solved = 1, .pieces = 6};
   record.agreement[2].compared = 1;
   record.agreement[2].words[1] = 1;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "corpus/input_error.h"
+#include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/problem_file.h"
 #include "reports/csv.h"
@@ -125,6 +126,21 @@ Record SampleRecord() {
   record.tallies[{"integers", 2, "paper"}] = SampleTally(100);
   record.tallies[{"psd", 3, "scan=highest,ties=contacts"}] = SampleTally(5000);
   record.signatures = {{kDone, 1234}, {kPending, 5}, {kCounted, 6}};
+  std::int64_t next = 1;
+  for (auto& [key, tally] : record.tallies) {
+    for (const StratumKey& stratum_key : {StratumKey{"1/2", 3}, StratumKey{kMixedFriction, 4}}) {
+      Stratum& stratum = tally.strata[stratum_key];
+      for (std::int64_t* count : {&stratum.problems, &stratum.steps, &stratum.zero_steps, &stratum.audited,
+                                  &stratum.misjudged, &stratum.outcomes[0], &stratum.exact[1]})
+        *count = next++;
+    }
+  }
+  for (const int contacts : {2, 3}) {
+    ForEachCounter(record.loops[contacts], [&next](const char*, std::int64_t& value) { value = next++; });
+    record.loops[contacts].by_zero_steps = {{2, next++}, {5, next++}};
+  }
+  record.words[kCounted].Add(5);
+  record.words[kCounted].Add(6);
   return record;
 }
 
@@ -289,6 +305,76 @@ TEST_CASE("report: verdicts.csv holds every pair of outcomes that occurred, and 
       }
     }
     CHECK(found == expected);
+  }
+}
+
+TEST_CASE("report: strata.csv holds every counter of every friction and rank") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const auto table = ReadTable(scratch / "out/strata.csv");
+  std::size_t strata = 0;
+  for (const auto& [key, tally] : SampleRecord().tallies) {
+    const auto rows = RowsOf(table, key);
+    CHECK(rows.size() == tally.strata.size());
+    strata += rows.size();
+    for (const Row& row : rows) {
+      const Stratum& s = tally.strata.at({row.at("friction"), std::stoi(row.at("rank"))});
+      CHECK(row.at("problems") == std::to_string(s.problems));
+      CHECK(row.at("steps") == std::to_string(s.steps));
+      CHECK(row.at("zero_steps") == std::to_string(s.zero_steps));
+      CHECK(row.at("audited") == std::to_string(s.audited));
+      CHECK(row.at("misjudged") == std::to_string(s.misjudged));
+      for (int i = 0; i < kOutcomeCount; ++i) {
+        const std::string name(kOutcomeNames[i]);
+        CHECK(row.at(name) == std::to_string(s.outcomes[i]));
+        CHECK(row.at("exact_" + name) == std::to_string(s.exact[i]));
+      }
+    }
+  }
+  CHECK(strata == 4);
+}
+
+TEST_CASE("report: rates by friction stand in the order of the coefficients, the mixed last") {
+  Record record;
+  Tally& tally = record.tallies[{"scenes", 4, "paper"}];
+  tally.problems = 3000;
+  for (const char* friction : {"mixed", "1/2", "1/10", "2"}) {
+    Stratum& stratum = tally.strata[{friction, 3}];
+    stratum.problems = 1000;
+    stratum.exact[static_cast<int>(Outcome::kCycle)] = 7;
+  }
+  const std::string page = FrequenciesSection(record).text();
+  const auto at = [&page](const char* head) { return page.find(head, page.find("By friction")); };
+  CHECK(at(">1/10<") < at(">1/2<"));
+  CHECK(at(">1/2<") < at(">2<"));
+  CHECK(at(">2<") < at(">mixed<"));
+  CHECK(Has(page, RateText(7, 1000)));
+}
+
+TEST_CASE("report: loops.csv and zero_steps.csv hold every counter of loops") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const Record record = SampleRecord();
+  const auto table = ReadTable(scratch / "out/loops.csv");
+  REQUIRE(table.size() == record.loops.size());
+  for (const Row& row : table) {
+    ForEachCounter(
+        record.loops.at(std::stoi(row.at("contacts"))),
+        [&row](const char* name, std::int64_t value) { CHECK(row.at(name) == std::to_string(value)); });
+  }
+  std::map<int, std::map<int, std::int64_t>> histograms;
+  for (const Row& row : ReadTable(scratch / "out/zero_steps.csv"))
+    histograms[std::stoi(row.at("contacts"))][std::stoi(row.at("zero_steps"))] = std::stoll(row.at("loops"));
+  for (const auto& [contacts, tally] : record.loops) CHECK(histograms[contacts] == tally.by_zero_steps);
+}
+
+TEST_CASE("report: findings.csv says how many words the loops of a group have, where its signature has none") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  for (const Row& row : ReadTable(scratch / "out/findings.csv")) {
+    const bool counted = row.at("signature") == kCounted;
+    CHECK(row.at("words") == (counted ? "2" : ""));
+    CHECK(row.at("words_exact") == (counted ? "yes" : ""));
   }
 }
 
@@ -725,6 +811,8 @@ TEST_CASE("report: findings of interest come first") {
                        {other.signature, 10},
                        {large.signature, 100},
                        {"cycle-1c-1d-1s-counted", 7}},
+                      {},
+                      {},
                       {},
                       {}};
   const std::vector<Finding> findings = {large, often, other, rare, small, whole};

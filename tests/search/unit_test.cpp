@@ -167,6 +167,19 @@ TEST_CASE("unit: the counts add up") {
       CHECK(tally.with_zero_steps <= tally.sums.zero_steps);
       CHECK(tally.with_give_ups <= tally.sums.give_ups);
       CHECK(tally.maxima.steps <= tally.sums.steps);
+      // By friction and rank, all of it again.
+      Stratum sum;
+      for (const auto& [stratum_key, stratum] : tally.strata) {
+        CHECK(stratum_key.rank <= 2 * key.contacts);
+        sum.Merge(stratum);
+      }
+      CHECK(sum.problems == tally.problems);
+      CHECK(sum.outcomes == tally.outcomes);
+      CHECK(Sum(sum.exact) == suspicions);
+      CHECK(sum.audited == tally.audited);
+      CHECK(sum.misjudged == tally.misjudged);
+      CHECK(sum.steps == tally.sums.steps);
+      CHECK(sum.zero_steps == tally.sums.zero_steps);
     }
   }
   // A finding is an exact outcome other than solved, or a wrong answer, or a disagreement.
@@ -180,6 +193,61 @@ TEST_CASE("unit: the counts add up") {
   }
   CHECK(findings >= unsolved);
   CHECK(findings <= suspicions);
+}
+
+// Counted here from the problems themselves.
+TEST_CASE("unit: strata have the friction and the rank of their problems") {
+  Campaign campaign = Small(GeneratorId::kIntegers, 2, 500);
+  campaign.palette = {{1, 3}, {2, 6}, {2, 1}};  // the first two are one coefficient
+  const UnitResult result = UnitRunner(campaign).Run(0);
+  const Tally& tally = result.record.tallies.begin()->second;
+  std::map<std::string, std::int64_t> found, expected;
+  for (const auto& [key, stratum] : tally.strata) found[key.friction] += stratum.problems;
+  for (std::int64_t index = 0; index < result.problems; ++index) {
+    const ExactProblem problem = RegenerateExactly(campaign, 0, index);
+    const Rational &mu = problem.contacts[0].mu, &other = problem.contacts[1].mu;
+    ++expected[mu == other ? ToString(mu) : kMixedFriction];
+  }
+  CHECK(found == expected);
+  CHECK(found.size() == 3);
+}
+
+TEST_CASE("unit: loops are counted with the zero steps of their periods, and the words of their groups") {
+  Campaign campaign = Small(GeneratorId::kNearDegenerate, 3, 20000);
+  campaign.representatives_per_unit = 1000;
+  const UnitResult result = UnitRunner(campaign).Run(0);
+  std::int64_t cycles = 0, loops = 0;
+  for (const auto& row : result.record.tallies.begin()->second.verdicts)
+    cycles += row[static_cast<int>(Outcome::kCycle)];
+  for (const auto& [contacts, tally] : result.record.loops) {
+    loops += tally.loops;
+    CHECK(tally.zero_steps <= tally.steps);
+    CHECK(tally.drives <= tally.steps);
+    std::int64_t by_zero_steps = 0;
+    for (const auto& [zero_steps, count] : tally.by_zero_steps) by_zero_steps += count;
+    CHECK(by_zero_steps == tally.loops);
+  }
+  CHECK(loops == cycles);
+  REQUIRE(loops > 3);
+  // A group has no more words than loops; one that was met once has one.
+  REQUIRE_FALSE(result.record.words.empty());
+  for (const auto& [signature, sketch] : result.record.words) {
+    const std::int64_t met = result.record.signatures.at(signature);
+    CHECK(sketch.Count() >= 1);
+    CHECK(sketch.Count() <= static_cast<double>(met));
+  }
+  for (const Finding& finding : result.candidates) {
+    if (finding.kind != "cycle") continue;
+    const ExactProblem problem = RegenerateExactly(campaign, finding.unit, finding.index);
+    const ExactRun run = RunExact(problem, {{}, {}, campaign.limits});
+    const LoopFacts loop = FactsOfLoop(problem, run.verdict, run.trace.pivots);
+    std::int64_t zero_steps = 0;
+    for (const auto& step : run.trace.pivots) zero_steps += step.drive > run.verdict.start && step.s == 0;
+    CHECK(loop.zero_steps == zero_steps);
+    CHECK(loop.signature == finding.signature);
+    CHECK(result.record.loops.at(loop.contacts).by_zero_steps.contains(static_cast<int>(zero_steps)));
+    CHECK(result.record.words.contains(finding.signature) == !loop.named);
+  }
 }
 
 TEST_CASE("unit: an exact run of a finding's problem gives what the finding says") {
@@ -470,7 +538,8 @@ TEST_CASE("unit: a method that does not solve is a grave finding with all answer
 
 // Of the unit, with a runner that has its workspace already. -1: it had a suspicion.
 std::int64_t AllocationsOf(GeneratorId generator, int contacts, std::int64_t problems, std::int64_t unit) {
-  const Campaign campaign = Small(generator, contacts, problems);
+  Campaign campaign = Small(generator, contacts, problems);
+  campaign.palette = {{1, 2}};  // few strata, each of which is met
   UnitRunner runner(campaign);
   runner.Run(unit);
   const std::int64_t before = allocations;
@@ -492,7 +561,7 @@ TEST_CASE("unit: the path of a problem without suspicion allocates nothing") {
     for (const int contacts : {1, 2, 3, 8}) {
       if (contacts == 8 && !row.exact_in_double) continue;  // exact runs of their suspicions take seconds
       for (std::int64_t unit = 0; unit < 3; ++unit) {
-        const std::int64_t problems = contacts == 8 ? 100 : 1000;
+        const std::int64_t problems = contacts == 8 ? 400 : 1000;
         const std::int64_t many = AllocationsOf(row.id, contacts, 4 * problems, unit);
         if (many < 0) continue;
         CAPTURE(row.name, contacts, unit);
