@@ -487,7 +487,10 @@ bug("backward-opposes", "within && opposes && change < at_rest", "within && chan
 
 bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
 bug("wrong-answer-threshold", "!(residual() <= kWrongAnswer)", "!(residual() <= 1)", "wrong is above 1, not 1e-6")
-bug("misjudged-not-counted", "tally.misjudged += exact != inexact;", "", "misjudged runs are not counted")
+bug("misjudged-not-counted", "tally.misjudged += misjudged;", "", "misjudged runs are not counted")
+bug("misjudged-stratum-not-counted", "stratum.misjudged += misjudged;", "", "misjudged runs are not counted by friction and rank")
+bug("exact-stratum-not-counted", "++stratum.exact[static_cast<int>(exact)];", "", "exact outcomes are not counted by friction and rank")
+bug("loop-words-unkept", "if (!loop.named) result_.record.words", "if (loop.named) result_.record.words", "words are kept where the signature has one")
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
 bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
     "wrong solutions are counted as solved")
@@ -503,7 +506,7 @@ bug("certified-unaudited", "audit || (exact && suspected)", "exact && suspected"
 bug("safety-without-switch", "policy.apex = Apex::kSuspended;", "", "the check of safe problems lacks its switch")
 bug("wrong-not-suspected", "!solved || wrong", "!solved", "wrong answers raise no suspicion")
 bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
-bug("wrong-not-counted", "tally.wrong += wrong;", "", "wrong answers are not counted")
+bug("wrong-not-counted", "collector.tally(policy).wrong += wrong;", "", "wrong answers are not counted")
 bug("of-rounded", "if (!Row(task_.generator).exact_in_double || Row(task_.generator).HasOtherKinds()) return;", "",
     "a rounded problem's answer or outcome is a finding")
 bug("undecided-misjudged", "exact != Outcome::kUndecided", "true",
