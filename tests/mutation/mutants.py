@@ -509,7 +509,7 @@ bug("audited-not-counted", "++tally.audited;", "", "audits are not counted")
 bug("wrong-not-counted", "collector.tally(policy).wrong += wrong;", "", "wrong answers are not counted")
 bug("of-rounded", "if (!Row(task_.generator).exact_in_double || Row(task_.generator).HasOtherKinds()) return;", "",
     "a rounded problem's answer or outcome is a finding")
-bug("undecided-misjudged", "exact != Outcome::kUndecided", "true",
+bug("undecided-misjudged", "if (exact == Outcome::kUndecided) return;", "",
     "what intervals cannot decide counts against doubles")
 bug("space-existence-unasked", "if (!wrong && complete.outcome != Outcome::kRay) return;", "return;",
     "no solution in space is no finding")
