@@ -69,6 +69,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    if (o.full) problem.scene = ToJson(file);
     const std::string name = NumberedFile(o.output, i, model.islands.size());
     WriteText(name, Print(problem));
     out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
