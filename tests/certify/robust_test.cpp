@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robust loops: the radius is that of a box in which every problem loops alike, and is not claimed where some
-// do not.
+// Robust loops: the radius is that of a box in which every problem, or scene, loops alike, and is not claimed where
+// some do not.
 
 #include "certify/robust.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
 
+#include "certify/robust_scene.h"
+#include "corpus/scene_file.h"
 #include "search/choices.h"
 #include "tests/support.h"
 
@@ -103,6 +107,163 @@ TEST_CASE("robust: a loop beside another keeps its radius or a part of it") {
   const auto radius = RadiusOfLoop(two, {{}, {}, kLimits});
   CHECK(radius.value_or(0) > 0);
   CHECK(radius.value_or(1) <= RadiusOfLoop(one, {{}, {}, kLimits}).value_or(0));
+}
+
+// ---- Scenes --------------------------------------------------------------------------------------
+
+Scene<Rational> SceneNamed(const std::string& name) {
+  return ReadScene(STICTION_SOURCES "/corpus/scenes/" + name + ".json").scene;
+}
+
+// Of the record of the lowest friction with three contacts: two of them hold a body at rest, so that there are ties.
+Scene<Rational> SceneOfRecord() {
+  const Json record = ParseJson(ReadText(STICTION_SOURCES "/corpus/records/friction-gravity-3-contacts.json"), "");
+  return ParseScene(record["problem"]["scene"].dump(), "record").scene;
+}
+
+// Draws from the box about a scene, its faces and corners more often than its inside.
+class SceneDraw {
+ public:
+  SceneDraw(const TouchingScene& scene, const Rational& radius, Choices& random)
+      : scene_(scene), radius_(radius), random_(random) {
+    double square = 0;
+    for (const auto& contact : scene.contacts) {
+      for (const int body : {contact.a, contact.b}) {
+        if (scene.scene.bodies[body].fixed) continue;
+        const Vector2<Rational> arm = contact.point - scene.scene.bodies[body].position;
+        square = std::max(square, Dot<Rational>(arm, arm).get_d());
+      }
+    }
+    reach_ = radius * Rational(std::sqrt(square) * (1 - 1e-9));
+  }
+
+  ExactProblem Problem() {
+    Scene<Rational> scene = scene_.scene;
+    Turn(scene.gravity);
+    for (auto& body : scene.bodies) {
+      if (body.fixed) continue;
+      for (Rational* x : {&body.mass, &body.inertia, &body.force[0], &body.force[1], &body.torque}) *x *= 1 + radius_ * Part();
+      Move(body.position);
+    }
+    auto contacts = scene_.contacts;
+    for (auto& contact : contacts) {
+      Move(contact.point);
+      Turn(contact.normal);
+      contact.mu *= 1 + radius_ * Part();
+    }
+    AssembleOptions<Rational> full;
+    full.minimal = false;
+    return Assemble(scene, contacts, full).Problem(0);
+  }
+
+ private:
+  Rational Part() {
+    const auto k = random_.Integer(-8, 8);
+    return k < -4 ? Rational(-1) : k > 4 ? Rational(1) : Rational(k, 4);
+  }
+  void Move(Vector2<Rational>& point) {
+    for (Rational& x : point) x += reach_ * Part();
+  }
+  void Turn(Vector2<Rational>& v) {  // by 2 atan(t) <= 2 t
+    const Rational t = radius_ * Part() / 2, scale = 1 + t * t;
+    v = Rotate<Rational>(MakeVector2<Rational>(Rational((1 - t * t) / scale), Rational(2 * t / scale)), v);
+  }
+
+  const TouchingScene& scene_;
+  Rational radius_, reach_;
+  Choices& random_;
+};
+
+bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options) {
+  const ExactRun near = RunExact(problem, options);
+  return near.verdict.outcome == Outcome::kCycle && near.verdict.start == run.verdict.start &&
+         near.verdict.period == run.verdict.period && near.state.sets == run.state.sets;
+}
+
+TEST_CASE("robust: every scene of the box loops with the same start and period") {
+  const PublishedOptions options{{}, {}, kLimits};
+  Choices random(7);
+  const auto check = [&](const Scene<Rational>& scene, const Rational& least, int draws) {
+    const TouchingScene touching = Touching(scene);
+    const ExactRun run = RunExact(touching.problem, options);
+    const auto radius = RadiusOfSceneLoop(touching, options);
+    REQUIRE(radius.has_value());
+    CHECK(*radius > least);
+    SceneDraw draw(touching, *radius, random);
+    for (int k = 0; k < draws; ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
+  };
+  check(SceneNamed("weight-on-two-pegs"), Rational(1, 10000), Few(200));
+  check(SceneNamed("block-in-a-valley"), Rational(1, 10000), Few(200));
+  check(SceneOfRecord(), Rational(1, 1000000000), Few(20));
+}
+
+TEST_CASE("robust: the radius of a scene takes in given forces and moments") {
+  Scene<Rational> scene = SceneNamed("weight-on-two-pegs");
+  auto& weight = scene.bodies[1];
+  weight.force = MakeVector2<Rational>(Rational(1, 10), Rational(-1, 10));
+  weight.torque = Rational(1, 100);
+  const PublishedOptions options{{}, {}, kLimits};
+  const TouchingScene touching = Touching(scene);
+  const ExactRun run = RunExact(touching.problem, options);
+  REQUIRE(run.verdict.outcome == Outcome::kCycle);
+  const auto radius = RadiusOfSceneLoop(touching, options);
+  REQUIRE(radius.value_or(0) > 0);
+  Choices random(9);
+  SceneDraw draw(touching, *radius, random);
+  for (int k = 0; k < Few(100); ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
+}
+
+TEST_CASE("robust: a box that holds a scene without the loop is not proved") {
+  const PublishedOptions options{{}, {}, kLimits};
+  Choices random(8);
+  for (const char* name : {"weight-on-two-pegs", "block-in-a-valley"}) {
+    const TouchingScene touching = Touching(SceneNamed(name));
+    const ExactRun run = RunExact(touching.problem, options);
+    int others = 0;
+    for (int k = 2; k <= 256; k *= 2) {
+      SceneDraw draw(touching, Rational(1, k), random);
+      bool other = false;
+      for (int i = 0; i < 50 && !other; ++i) other = !LoopsAlike(draw.Problem(), run, options);
+      if (!other) continue;
+      ++others;
+      CHECK_FALSE(SceneLoopsWithin(touching, run, options, Rational(1, k)));
+    }
+    CHECK(others > 0);
+  }
+}
+
+TEST_CASE("robust: a scene knows ties that a body at rest explains, the matrix alone does not") {
+  const TouchingScene touching = Touching(SceneOfRecord());
+  const PublishedOptions options{{}, {}, kLimits};
+  CHECK_FALSE(RadiusOfLoop(touching.problem, options).has_value());
+  CHECK(RadiusOfSceneLoop(touching, options).value_or(0) > 0);
+}
+
+TEST_CASE("robust: no radius of a scene that is solved") {
+  Scene<Rational> scene = SceneNamed("weight-on-two-pegs");
+  scene.mu = Rational(1, 10);
+  const TouchingScene touching = Touching(scene);
+  const PublishedOptions options{{}, {}, kLimits};
+  REQUIRE(RunExact(touching.problem, options).verdict.outcome == Outcome::kSolved);
+  CHECK_FALSE(RadiusOfSceneLoop(touching, options).has_value());
+}
+
+TEST_CASE("robust: scenes that move, are joined or do not touch have no box") {
+  const Scene<Rational> fit = SceneNamed("weight-on-two-pegs");
+  CHECK_FALSE(UnfitForBox(fit).has_value());
+  const auto path = [&](const std::function<void(Scene<Rational>&)>& change) {
+    Scene<Rational> scene = fit;
+    change(scene);
+    return UnfitForBox(scene).value_or(UnfitScene{}).path;
+  };
+  CHECK(path([](auto& scene) { scene.bodies[1].velocity[0] = 1; }) == "bodies[1]");
+  CHECK(path([](auto& scene) { scene.bodies[0].spin = 1; }) == "bodies[0]");
+  CHECK(path([](auto& scene) { scene.bodies[0].acceleration[1] = 1; }) == "bodies[0].acceleration");
+  CHECK(path([](auto& scene) { scene.joints.push_back({}); }) == "joints");
+  CHECK(path([](auto& scene) {
+          scene.contacts.clear();
+          scene.bodies[1].position[1] = 5;
+        }) == "contacts");
 }
 
 }  // namespace
