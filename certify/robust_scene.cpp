@@ -69,8 +69,7 @@ class Box {
     const Interval factor(-half_square.sup(), half_square.sup());
     const int angle = parameters_++;
     const Slope cosine = Slope(1) + Slope::Along(angle, factor, {-half_square.sup(), 0});
-    const Slope sine =
-        Slope::Along(angle, {of_sine.inf(), radius_.sup()}, {-radius_.sup(), radius_.sup()});
+    const Slope sine = Slope::Along(angle, {of_sine.inf(), radius_.sup()}, {-radius_.sup(), radius_.sup()});
     const Vector given = MakeVector2<Slope>(Number(v[0]), Number(v[1]));
     return Rotate<Slope>(MakeVector2<Slope>(cosine, sine), given);
   }
@@ -119,8 +118,8 @@ class Box {
   Rows constraints_;
 };
 
-// What rows know of others in all scenes of a box: three independent rows that do not accelerate hold a body, if
-// what is on their other side is held; between bodies that are held nothing accelerates.
+// What rows know of others in all scenes of a box: three independent rows that do not accelerate hold a body,
+// if what is on their other side is held; between bodies that are held nothing accelerates.
 class HeldBodies final : public DependentRows {
  public:
   explicit HeldBodies(const Box& box) : bodies_(box.bodies()), constraints_(box.constraints()) {}
@@ -177,7 +176,8 @@ bool IsZero(const Vector2<Rational>& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 
 
 std::optional<UnfitScene> UnfitForBox(const Scene<Rational>& scene) {
   if (!scene.joints.empty())
-    return UnfitScene{"joints", fmt::format("{} joints", scene.joints.size()), "none: no box is defined for them"};
+    return UnfitScene{"joints", fmt::format("{} joints", scene.joints.size()),
+                      "none: no box is defined for them"};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& body = scene.bodies[i];
     const std::string path = fmt::format("bodies[{}]", i);

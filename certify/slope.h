@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slope: a number that depends on parameters e_1, e_2, ..., each anywhere in [-1, 1], enclosed together with how
-// it depends on them. An enclosure (solver/problem/enclosure.h); a comparison that it leaves open throws, as
-// those of intervals do.
+// Slope: a number that depends on parameters e_1, e_2, ..., each anywhere in [-1, 1], enclosed together with
+// how it depends on them. An enclosure (solver/problem/enclosure.h); a comparison that it leaves open throws,
+// as those of intervals do.
 //
 // Of x it has three things, over all e:
 //
@@ -74,7 +74,8 @@ class Slope {
   }
   friend Slope operator*(const Slope& x, const Slope& y) {
     if (x.IsZero() || y.IsZero()) return {};
-    return {x.centre_ * y.centre_, x.range_ * y.range_, Combined(x, y, [&](const Interval& s, const Interval& t) {
+    return {x.centre_ * y.centre_, x.range_ * y.range_,
+            Combined(x, y, [&](const Interval& s, const Interval& t) {
               return Interval(x.range_ * t + y.centre_ * s);
             })};
   }
@@ -104,7 +105,8 @@ class Slope {
     static const Interval kZero(0);
     Slopes slopes(std::max(x.slopes_.size(), y.slopes_.size()));
     for (std::size_t k = 0; k < slopes.size(); ++k) {
-      slopes[k] = rule(k < x.slopes_.size() ? x.slopes_[k] : kZero, k < y.slopes_.size() ? y.slopes_[k] : kZero);
+      slopes[k] =
+          rule(k < x.slopes_.size() ? x.slopes_[k] : kZero, k < y.slopes_.size() ? y.slopes_[k] : kZero);
     }
     return slopes;
   }

@@ -204,7 +204,8 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
 
 // ---- Robustness ----
 
-// The scene that a problem file carries, if it does. The problem must be that of the scene, all contacts in one.
+// The scene that a problem file carries, if it does. The problem must be that of the scene, all contacts in
+// one.
 std::optional<TouchingScene> ReadTouchingScene(const CertifyOptions& o, const ProblemFile& file) {
   if (!file.scene) return std::nullopt;
   const Scene<Rational> scene = ParseScene(file.scene->dump(), o.file + ": scene").scene;
@@ -222,7 +223,8 @@ Json RadiusToJson(const std::optional<Rational>& radius) { return radius ? Json(
 void ShowRadiusOf(const std::string& policy, const std::optional<Rational>& radius, std::string_view what,
                   std::string_view measure) {
   if (radius)
-    fmt::print("{}: loops for all {} within {} of these, proved ({})\n", policy, what, ToString(*radius), measure);
+    fmt::print("{}: loops for all {} within {} of these, proved ({})\n", policy, what, ToString(*radius),
+               measure);
   else
     fmt::print("{}: no loop of {} that is proved\n", policy, what);
 }
@@ -360,8 +362,9 @@ void AddCertify(CommandLine& program) {
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
   verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one")
-      .Details("A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
-               "the scene is built of may be off at once. Writes no certificate");
+      .Details(
+          "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
+          "the scene is built of may be off at once. Writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

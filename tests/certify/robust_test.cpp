@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robust loops: the radius is that of a box in which every problem, or scene, loops alike, and is not claimed where
-// some do not.
+// Robust loops: the radius is that of a box in which every problem, or scene, loops alike, and is not claimed
+// where some do not.
 
 #include "certify/robust.h"
 
@@ -115,9 +115,11 @@ Scene<Rational> SceneNamed(const std::string& name) {
   return ReadScene(STICTION_SOURCES "/corpus/scenes/" + name + ".json").scene;
 }
 
-// Of the record of the lowest friction with three contacts: two of them hold a body at rest, so that there are ties.
+// Of the record of the lowest friction with three contacts: two of them hold a body at rest, so that there are
+// ties.
 Scene<Rational> SceneOfRecord() {
-  const Json record = ParseJson(ReadText(STICTION_SOURCES "/corpus/records/friction-gravity-3-contacts.json"), "");
+  const Json record =
+      ParseJson(ReadText(STICTION_SOURCES "/corpus/records/friction-gravity-3-contacts.json"), "");
   return ParseScene(record["problem"]["scene"].dump(), "record").scene;
 }
 
@@ -142,7 +144,8 @@ class SceneDraw {
     Turn(scene.gravity);
     for (auto& body : scene.bodies) {
       if (body.fixed) continue;
-      for (Rational* x : {&body.mass, &body.inertia, &body.force[0], &body.force[1], &body.torque}) *x *= 1 + radius_ * Part();
+      for (Rational* x : {&body.mass, &body.inertia, &body.force[0], &body.force[1], &body.torque})
+        *x *= 1 + radius_ * Part();
       Move(body.position);
     }
     auto contacts = scene_.contacts;

@@ -24,9 +24,7 @@ bool IsIn(const Rational& x, const Interval& interval) {
 }
 
 // The slopes say of the difference to the centre what they should.
-bool Holds(const Told& x) {
-  return IsIn(x.at, x.slope.range()) && IsIn(x.centre, x.slope.centre());
-}
+bool Holds(const Told& x) { return IsIn(x.at, x.slope.range()) && IsIn(x.centre, x.slope.centre()); }
 
 Told Parameter(int k, const Rational& e) { return {Slope::Along(k, Interval(1), Interval(-1, 1)), e, 0}; }
 
@@ -79,7 +77,8 @@ TEST_CASE("slope: what the same parameter does to two numbers cancels") {
 }
 
 TEST_CASE("slope: what is not told throws") {
-  const Slope e = Slope::Along(0, Interval(1), Interval(-1, 1)), other = Slope::Along(1, Interval(1), Interval(-1, 1));
+  const Slope e = Slope::Along(0, Interval(1), Interval(-1, 1)),
+              other = Slope::Along(1, Interval(1), Interval(-1, 1));
   CHECK_THROWS(e > other);
   CHECK_THROWS(Slope(1) / e);
   CHECK_THROWS(e == Slope(0));

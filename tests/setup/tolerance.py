@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Would somebody who builds this scene see the loop? Draws scenes like it, every dimension a little off, and counts how
-often the published algorithm still loops, exactly. A sample, and no proof: `certify --robust` proves a smaller radius of
-the same box (certify/robust_scene.h).
+often the published algorithm still loops, exactly. A sample, and no proof: `certify --robust` proves less.
 
     tests/setup/tolerance.py build/release/stiction SCENE.json [--percent 1] [--draws 1000] [--policy paper]
 
