@@ -170,6 +170,10 @@ class HeldBodies final : public DependentRows {
   const Rows& constraints_;
 };
 
+bool Holds(const Slope& slope, const Rational& x) {
+  return x >= Rational(slope.range().inf()) && x <= Rational(slope.range().sup());
+}
+
 bool IsZero(const Vector2<Rational>& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0; }
 
 }  // namespace
@@ -211,6 +215,19 @@ bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const Pub
   } catch (const CGAL::Uncertain_conversion_exception&) {
     return false;  // a mass may vanish
   }
+}
+
+bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProblem& problem) {
+  const ContactProblem<Slope> box = Box(scene, radius).Problem();
+  STICTION_CHECK(box.rows() == problem.rows(), "a problem of the same contacts");
+  for (int i = 0; i < box.rows(); ++i) {
+    if (!Holds(box.b[i], problem.b[i])) return false;
+    for (int j = 0; j < box.rows(); ++j) {
+      if (!Holds(box.A(i, j), problem.A(i, j))) return false;
+    }
+  }
+  return std::equal(box.contacts.begin(), box.contacts.end(), problem.contacts.begin(),
+                    [](const auto& wide, const auto& exact) { return Holds(wide.mu, exact.mu); });
 }
 
 std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const PublishedOptions& options) {

@@ -59,6 +59,9 @@ std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const Publ
 bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const PublishedOptions& options,
                       const Rational& radius);
 
+// Whether A, b and mu of a problem are among those that enclose the box: so they are for all scenes of the box.
+bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProblem& problem);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_ROBUST_SCENE_H_

@@ -16,6 +16,7 @@
 namespace stiction {
 namespace {
 
+using testing::Few;
 using testing::MakeProblem;
 using testing::ReferenceProblem;
 
@@ -123,11 +124,14 @@ Scene<Rational> SceneOfRecord() {
   return ParseScene(record["problem"]["scene"].dump(), "record").scene;
 }
 
-// Draws from the box about a scene, its faces and corners more often than its inside.
-class SceneDraw {
+using Part = std::function<Rational()>;
+
+// A scene of the box about another: `part` says of each of its numbers, one after the other, how far off it is,
+// in [-1, 1].
+class Off {
  public:
-  SceneDraw(const TouchingScene& scene, const Rational& radius, Choices& random)
-      : scene_(scene), radius_(radius), random_(random) {
+  Off(const TouchingScene& scene, const Rational& radius, Part part)
+      : scene_(scene), radius_(radius), part_(std::move(part)) {
     double square = 0;
     for (const auto& contact : scene.contacts) {
       for (const int body : {contact.a, contact.b}) {
@@ -145,14 +149,14 @@ class SceneDraw {
     for (auto& body : scene.bodies) {
       if (body.fixed) continue;
       for (Rational* x : {&body.mass, &body.inertia, &body.force[0], &body.force[1], &body.torque})
-        *x *= 1 + radius_ * Part();
+        *x *= 1 + radius_ * part_();
       Move(body.position);
     }
     auto contacts = scene_.contacts;
     for (auto& contact : contacts) {
       Move(contact.point);
       Turn(contact.normal);
-      contact.mu *= 1 + radius_ * Part();
+      contact.mu *= 1 + radius_ * part_();
     }
     AssembleOptions<Rational> full;
     full.minimal = false;
@@ -160,22 +164,44 @@ class SceneDraw {
   }
 
  private:
-  Rational Part() {
-    const auto k = random_.Integer(-8, 8);
-    return k < -4 ? Rational(-1) : k > 4 ? Rational(1) : Rational(k, 4);
-  }
   void Move(Vector2<Rational>& point) {
-    for (Rational& x : point) x += reach_ * Part();
+    for (Rational& x : point) x += reach_ * part_();
   }
   void Turn(Vector2<Rational>& v) {  // by 2 atan(t) <= 2 t
-    const Rational t = radius_ * Part() / 2, scale = 1 + t * t;
+    const Rational t = radius_ * part_() / 2, scale = 1 + t * t;
     v = Rotate<Rational>(MakeVector2<Rational>(Rational((1 - t * t) / scale), Rational(2 * t / scale)), v);
   }
 
   const TouchingScene& scene_;
   Rational radius_, reach_;
-  Choices& random_;
+  Part part_;
 };
+
+// At the ends more often than between them.
+Part Random(Choices& random) {
+  return [&random] {
+    const auto k = random.Integer(-8, 8);
+    return k < -4 ? Rational(-1) : k > 4 ? Rational(1) : Rational(k, 4);
+  };
+}
+
+ExactProblem OffBy(const TouchingScene& scene, const Rational& radius, const std::vector<int>& parts) {
+  std::size_t next = 0;
+  return Off(scene, radius, [&] { return Rational(parts.at(next++)); }).Problem();
+}
+
+std::vector<Rational> NumbersOf(const ExactProblem& problem) {
+  std::vector<Rational> numbers(problem.A.reshaped().begin(), problem.A.reshaped().end());
+  numbers.insert(numbers.end(), problem.b.begin(), problem.b.end());
+  for (const auto& contact : problem.contacts) numbers.push_back(contact.mu);
+  return numbers;
+}
+
+int PartsOf(const TouchingScene& scene) {
+  int parts = 0;
+  Off(scene, 0, [&] { return ++parts, Rational(0); }).Problem();
+  return parts;
+}
 
 bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options) {
   const ExactRun near = RunExact(problem, options);
@@ -192,7 +218,7 @@ TEST_CASE("robust: every scene of the box loops with the same start and period")
     const auto radius = RadiusOfSceneLoop(touching, options);
     REQUIRE(radius.has_value());
     CHECK(*radius > least);
-    SceneDraw draw(touching, *radius, random);
+    Off draw(touching, *radius, Random(random));
     for (int k = 0; k < draws; ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
   };
   check(SceneNamed("weight-on-two-pegs"), Rational(1, 10000), Few(200));
@@ -200,19 +226,54 @@ TEST_CASE("robust: every scene of the box loops with the same start and period")
   check(SceneOfRecord(), Rational(1, 1000000000), Few(20));
 }
 
-TEST_CASE("robust: the radius of a scene takes in given forces and moments") {
+// With given forces and a given moment.
+Scene<Rational> Loaded() {
   Scene<Rational> scene = SceneNamed("weight-on-two-pegs");
-  auto& weight = scene.bodies[1];
-  weight.force = MakeVector2<Rational>(Rational(1, 10), Rational(-1, 10));
-  weight.torque = Rational(1, 100);
+  scene.bodies[1].force = MakeVector2<Rational>(Rational(1, 10), Rational(-1, 10));
+  scene.bodies[1].torque = Rational(1, 100);
+  return scene;
+}
+
+// The scene in which a number of its problem is greatest or least is in the box, and not in a smaller one:
+// every part of a scene that moves the number has its parameter, in its right size.
+TEST_CASE("robust: the box of a scene is as large as it is said to be, and no larger") {
+  const Rational radius(1, 10000);
+  for (const auto& scene :
+       {Touching(Loaded()), Touching(SceneNamed("block-in-a-valley")), Touching(SceneOfRecord())}) {
+    const int parts = PartsOf(scene);
+    std::vector<std::vector<Rational>> rates;  // of each number, by part
+    for (int k = 0; k < parts; ++k) {
+      std::vector<int> one(parts, 0);
+      one[k] = 1;
+      const auto there = NumbersOf(OffBy(scene, radius, one));
+      one[k] = -1;
+      const auto back = NumbersOf(OffBy(scene, radius, one));
+      auto& rate = rates.emplace_back();
+      for (std::size_t i = 0; i < there.size(); ++i) rate.push_back(there[i] - back[i]);
+    }
+    for (std::size_t i = 0; i < rates[0].size(); ++i) {
+      for (const int side : {-1, 1}) {
+        std::vector<int> corner;
+        for (const auto& rate : rates) corner.push_back(side * sgn(rate[i]));
+        const ExactProblem farthest = OffBy(scene, radius, corner);
+        CAPTURE(i, side);
+        CHECK(IsInBox(scene, radius, farthest));
+        if (std::any_of(corner.begin(), corner.end(), [](int x) { return x != 0; }))
+          CHECK_FALSE(IsInBox(scene, radius * Rational(98, 100), farthest));
+      }
+    }
+  }
+}
+
+TEST_CASE("robust: every scene of the box loops where forces and moments are given, too") {
+  const TouchingScene touching = Touching(Loaded());
   const PublishedOptions options{{}, {}, kLimits};
-  const TouchingScene touching = Touching(scene);
   const ExactRun run = RunExact(touching.problem, options);
   REQUIRE(run.verdict.outcome == Outcome::kCycle);
   const auto radius = RadiusOfSceneLoop(touching, options);
   REQUIRE(radius.value_or(0) > 0);
   Choices random(9);
-  SceneDraw draw(touching, *radius, random);
+  Off draw(touching, *radius, Random(random));
   for (int k = 0; k < Few(100); ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
 }
 
@@ -224,7 +285,7 @@ TEST_CASE("robust: a box that holds a scene without the loop is not proved") {
     const ExactRun run = RunExact(touching.problem, options);
     int others = 0;
     for (int k = 2; k <= 256; k *= 2) {
-      SceneDraw draw(touching, Rational(1, k), random);
+      Off draw(touching, Rational(1, k), Random(random));
       bool other = false;
       for (int i = 0; i < 50 && !other; ++i) other = !LoopsAlike(draw.Problem(), run, options);
       if (!other) continue;
