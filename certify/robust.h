@@ -22,6 +22,7 @@
 #ifndef STICTION_CERTIFY_ROBUST_H_
 #define STICTION_CERTIFY_ROBUST_H_
 
+#include <functional>
 #include <optional>
 
 #include "certify/exact.h"
@@ -32,6 +33,9 @@ namespace stiction {
 // problem itself is. A lower bound of what the loop survives: intervals grow from step to step, and a tie is
 // one word of several. Empty unless the run loops in the outer loop and intervals prove that.
 std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const PublishedOptions& options);
+
+// The largest of these radii that holds; empty if not even zero does.
+std::optional<Rational> LargestRadius(const std::function<bool(const Rational&)>& holds);
 
 // Whether the theorem holds for this radius >= 0.
 bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options,

@@ -11,6 +11,7 @@
 #include "certify/condition.h"
 #include "certify/existence.h"
 #include "certify/robust.h"
+#include "certify/robust_scene.h"
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
 #include "certify/space.h"
@@ -18,6 +19,7 @@
 #include "cli/verbs.h"
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "corpus/scene_file.h"
 
 namespace stiction {
 namespace {
@@ -202,19 +204,47 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
 
 // ---- Robustness ----
 
+// The scene that a problem file carries, if it does. The problem must be that of the scene, all contacts in
+// one.
+std::optional<TouchingScene> ReadTouchingScene(const CertifyOptions& o, const ProblemFile& file) {
+  if (!file.scene) return std::nullopt;
+  const Scene<Rational> scene = ParseScene(file.scene->dump(), o.file + ": scene").scene;
+  if (const auto unfit = UnfitForBox(scene))
+    throw InputError(o.file, "scene." + unfit->path, unfit->found, unfit->expected + " (--robust)");
+  TouchingScene touching = Touching(scene);
+  if (ProblemDigest(touching.problem) != ProblemDigest(file.problem))
+    throw InputError(o.file, "scene", "one of another problem",
+                     "one that 'assemble --full' makes this problem of (--robust)");
+  return touching;
+}
+
+Json RadiusToJson(const std::optional<Rational>& radius) { return radius ? Json(ToString(*radius)) : Json(); }
+
+void ShowRadiusOf(const std::string& policy, const std::optional<Rational>& radius, std::string_view what,
+                  std::string_view measure) {
+  if (radius)
+    fmt::print("{}: loops for all {} within {} of these, proved ({})\n", policy, what, ToString(*radius),
+               measure);
+  else
+    fmt::print("{}: no loop of {} that is proved\n", policy, what);
+}
+
 int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
+  const auto scene = ReadTouchingScene(o, file);
   Json rows = Json::array();
   bool all = true;
   for (const Policy& policy : PoliciesNamed(o.policy)) {
-    const auto radius = RadiusOfLoop(file.problem, {policy, {}, o.limits});
-    all = all && radius.has_value();
-    rows.push_back({{"policy", PolicyName(policy)}, {"radius", radius ? Json(ToString(*radius)) : Json()}});
-    if (o.json) continue;
-    if (radius)
-      fmt::print("{}: loops for all A, b, mu within {} of these, proved (A, b: of the largest entry)\n",
-                 PolicyName(policy), ToString(*radius));
-    else
-      fmt::print("{}: no loop that intervals prove\n", PolicyName(policy));
+    const PublishedOptions options = {policy, {}, o.limits};
+    const std::string name = PolicyName(policy);
+    const auto radius = RadiusOfLoop(file.problem, options);
+    Json& row = rows.emplace_back(Json{{"policy", name}, {"radius", RadiusToJson(radius)}});
+    all = all && radius;
+    if (!o.json) ShowRadiusOf(name, radius, "A, b, mu", "A, b: of the largest entry");
+    if (!scene) continue;
+    const auto of_scene = RadiusOfSceneLoop(*scene, options);
+    row["scene_radius"] = RadiusToJson(of_scene);
+    all = all && of_scene;
+    if (!o.json) ShowRadiusOf(name, of_scene, "scenes", "lengths: of the largest arm; angles in radians");
   }
   if (o.json) std::cout << JsonText(rows) << "\n";
   return all ? kExitDone : kExitUndecided;
@@ -332,7 +362,9 @@ void AddCertify(CommandLine& program) {
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
   verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one")
-      .Details("A lower bound, proved over intervals; writes no certificate");
+      .Details(
+          "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
+          "the scene is built of may be off at once. Writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

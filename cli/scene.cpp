@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 // ---- assemble --------------------------------------------------------------------------------
 
 struct AssembleCommand {
-  std::string scene, output, level = "forces";
+  std::string scene, output, given, level = "forces";
   bool explain = false, full = false;
 };
 
@@ -43,6 +43,31 @@ std::string NumberedFile(const std::string& file, std::size_t number, std::size_
   return numbered.string();
 }
 
+// The file with these contacts given, and found no more.
+template <class Kind>
+SceneFileIn<Kind> WithGivenContacts(SceneFileIn<Kind> file,
+                                    const std::vector<TouchPointIn<Kind, Rational>>& contacts) {
+  auto& scene = file.scene;
+  scene.contacts.clear();
+  for (const auto& contact : contacts) {
+    const auto &a = scene.bodies[contact.a], &b = scene.bodies[contact.b];
+    const typename Kind::template Vector<Rational> above = contact.point + contact.gap * contact.normal;
+    scene.contacts.push_back({contact.a, contact.b, a.Local(above), b.Local(contact.point),
+                              RotateBack(TurnOf(b.rotation), contact.normal)});
+  }
+  std::set<std::pair<int, int>> ruled;
+  for (auto& rule : scene.pairs) {
+    rule.collide = false;
+    ruled.insert(std::minmax(rule.a, rule.b));
+  }
+  for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
+    for (int a = 0; a < b; ++a) {
+      if (!ruled.contains({a, b})) scene.pairs.push_back({a, b, std::nullopt, false});
+    }
+  }
+  return file;
+}
+
 template <class Kind>
 int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto contacts = FindContacts(file.scene);
@@ -50,6 +75,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
   options.minimal = !o.full;
   const auto model = Assemble(file.scene, contacts, options);
+  if (!o.given.empty()) WriteText(o.given, Print(WithGivenContacts(file, contacts)));
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
   for (const int i : model.colliding) {
     if (options.level == Level::kForces) {
@@ -69,6 +95,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    if (o.full) problem.scene = ToJson(file);
     const std::string name = NumberedFile(o.output, i, model.islands.size());
     WriteText(name, Print(problem));
     out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
@@ -402,6 +429,7 @@ void AddAssemble(CommandLine& program) {
       .Details("NAME-1.json, NAME-2.json, ... where there are independent problems");
   verb.Option("--level", o.level, "forces at this instant, or impulses of a collision")
       .OneOf({"forces", "impulses"});
+  verb.Option("--given", o.given, "stiction-scene to write: this one with its contacts given, not found");
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
 }

@@ -153,7 +153,7 @@ def word(found):
 
 
 def crosses(found):
-    """Whether friction goes from one limit through CF to the other within a drive: the one thing that differs in space."""
+    """Whether friction goes from one limit through CF to the other within a drive: that can differ in space."""
     left = {}
     for step in found.pivots:
         place = step["drive"], step["limiting"]
@@ -162,6 +162,17 @@ def crosses(found):
         if step["to"] in ("NC-", "NC+") and left.get(place, step["to"]) != step["to"]:
             return True
     return False
+
+
+def mirrored(A, b, mu):
+    """With every tangent reversed."""
+    sign = lambda i, k=0: -1 if (i + k) % 2 else 1
+    return [[sign(i, k) * x for k, x in enumerate(row)] for i, row in enumerate(A)], [sign(i) * x for i, x in enumerate(b)], mu
+
+
+def word_mirrored(found):
+    other = {"NC-": "NC+", "NC+": "NC-"}
+    return [(*step[:3], *(other.get(place, place) for place in step[3:])) for step in word(found)]
 
 
 def near_the_bound(mu, e):
@@ -186,6 +197,7 @@ class Families(unittest.TestCase):
         symbolic = run(*problem(E))
         self.assertEqual((symbolic.outcome, symbolic.start, symbolic.period), ("cycle", start, period))
         self.assertFalse(crosses(symbolic))
+        self.assertEqual(word_mirrored(run(*mirrored(*problem(E)))), word(symbolic))  # no tie of NC- with NC+
         for k in (8, 12, 40):  # and at numbers
             e = Fraction(1, 10 ** k)
             A, b, mu = problem(E)

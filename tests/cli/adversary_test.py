@@ -78,6 +78,29 @@ class Adversary(cli.TestCase):
         sliding = cli.ROOT / "corpus/sliding/cycle-of-sliding-contacts.json"
         self.refuses("certify", sliding, "--robust", says=["kind", "robustness"])
 
+    def test_how_far_all_that_a_scene_is_built_of_may_be_off(self):
+        problem = self.folder / "p.json"
+        self.succeeds("assemble", cli.ROOT / "corpus/scenes/block-in-a-valley.json", "--full", "-o", problem)
+        row, = self.succeeds("certify", problem, "--robust", "--json").json()
+        self.assertGreater(Fraction(row["scene_radius"]), Fraction(1, 10000))
+        self.assertGreater(Fraction(row["scene_radius"]), Fraction(row["radius"]))
+        told = self.succeeds("certify", problem, "--robust").out.splitlines()
+        self.assertIn(f"loops for all scenes within {row['scene_radius']} of these", told[1])
+        solved = self.succeeds("certify", problem, "--robust", "--json", "--policy", "scan=highest", code=3).json()[0]
+        self.assertEqual((solved["radius"], solved["scene_radius"]), (None, None))
+
+        def changed(change):
+            content = json.loads(problem.read_text())
+            change(content)
+            return self.file("changed.json", content)
+
+        moving = changed(lambda p: p["scene"]["bodies"][2].update(velocity=["1", "0"]))
+        self.refuses("certify", moving, "--robust", says=["scene.bodies[2]", "velocity", "at rest"])
+        other = changed(lambda p: p["scene"]["bodies"][2].update(mass="2"))
+        self.refuses("certify", other, "--robust", says=["scene", "another problem"])
+        unread = changed(lambda p: p.update(scene={"format": "mine"}))
+        self.refuses("certify", unread, "--robust", says=["scene", "stiction-scene"])
+
     def test_what_cannot_be_is_refused(self):
         store = self.folder / "s"
         self.refuses("search", "--objective", "nothing", "--store", store, says=["--objective", "friction"])

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction solve and bench in space: the readings of section 5.6, and what is said of runs that find nothing."""
 
+import copy
 import json
 import math
+import subprocess
+import sys
 import unittest
 from pathlib import Path
 
@@ -11,6 +14,12 @@ import cli
 SOURCES = Path(__file__).resolve().parents[2]
 RAY = SOURCES / "corpus/space/ray-under-slip-literal.json"
 CYCLE = SOURCES / "corpus/space/cycle-under-both-slips.json"
+IN_SPACE = {SOURCES / "corpus/scenes/block-in-a-valley.json": "cycle-of-a-scene-2-contacts",
+            SOURCES / "corpus/records/friction-gravity-3-contacts.json": "cycle-of-a-scene-3-contacts",
+            SOURCES / "corpus/records/friction-gravity-4-contacts.json": "cycle-of-a-scene-4-contacts"}
+
+sys.path.insert(0, str(SOURCES / "tests/setup"))
+import into_space  # noqa: E402
 
 # x to 1, where ax = 0; y until 1 + fy^2 = (5/4)^2.
 CIRCLE = {
@@ -18,6 +27,65 @@ CIRCLE = {
     "contacts": [{"kind": "static", "mu": "5/4"}],
     "A": [["2", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "b": ["-2", "-1", "-1"],
 }
+
+
+class ScenesOfThePlane(cli.TestCase):
+    def test_the_corpus_has_them_as_the_script_makes_them(self):
+        for scene, name in IN_SPACE.items():
+            with self.subTest(scene=scene.name):
+                made = self.folder / "made.json"
+                done = subprocess.run([sys.executable, SOURCES / "tests/setup/into_space.py", cli.program, scene, "--name",
+                                       name, "-o", made], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(made.read_text(), (SOURCES / f"corpus/space/{name}.json").read_text())
+
+    def test_the_problem_is_that_of_its_scene_and_the_plane_is_in_it(self):
+        for scene, name in IN_SPACE.items():
+            with self.subTest(scene=scene.name):
+                problem = json.loads((SOURCES / f"corpus/space/{name}.json").read_text())
+                again = self.folder / "again.json"
+                self.succeeds("assemble", self.file("scene.json", problem["scene"]), "--full", "-o", again)
+                self.assertEqual(*(p["A"] for p in (problem, json.loads(again.read_text()))))
+                plane = self.folder / "plane.json"
+                content = json.loads(scene.read_text())
+                self.succeeds("assemble", self.file("plane.json", content.get("problem", content)), "--full", "-o", plane)
+                expected = into_space.mirrored(json.loads(plane.read_text()))
+                planar = into_space.planar_part(problem)
+                for key in ("A", "b", "contacts"):
+                    self.assertEqual(planar[key], expected[key])
+
+    def test_they_loop_and_intervals_never_say_otherwise(self):
+        for name in IN_SPACE.values():
+            file = SOURCES / f"corpus/space/{name}.json"
+            start, period = into_space.loop_by_the_plane(cli.program, json.loads(file.read_text()))
+            for policy in into_space.READINGS:
+                with self.subTest(file=name, policy=policy):
+                    found = into_space.ends(cli.program, file, policy, "interval")
+                    self.assertIn(found["outcome"], ("cycle", "undecided"))
+                    if found["outcome"] == "cycle":
+                        self.assertEqual(found["period"], period)
+                        self.assertGreaterEqual(found["start"], start)
+        self.assertEqual(into_space.ends(cli.program, SOURCES / "corpus/space/cycle-of-a-scene-2-contacts.json", "slip=redirect",
+                                         "interval")["outcome"], "cycle")
+
+    def test_where_the_plane_does_not_tell_nothing_is_said(self):
+        problem = json.loads((SOURCES / "corpus/space/cycle-of-a-scene-2-contacts.json").read_text())
+        self.assertIsNotNone(into_space.loop_by_the_plane(cli.program, problem))
+        for key, at, value in (("b", 2, "1"), ("A", (2, 0), "1"), ("A", (0, 5), "1"), ("b", 0, "8")):
+            other = copy.deepcopy(problem)
+            if key == "b":
+                other["b"][at] = value
+            else:
+                other["A"][at[0]][at[1]] = value
+            self.assertIsNone(into_space.loop_by_the_plane(cli.program, other), (key, at))
+
+        def step(drive, source, to, length):
+            return {"drive": drive, "limiting": "F1", "from": source, "to": to, "step": length}
+
+        to_sticking = step(3, "NC-", "CF", "1")
+        self.assertTrue(into_space.jumps({"pivots": [to_sticking, step(3, "CF", "NC+", "0")]}))
+        for other in (step(3, "CF", "NC+", "1/2"), step(3, "CF", "NC-", "0"), step(4, "CF", "NC+", "0")):
+            self.assertFalse(into_space.jumps({"pivots": [to_sticking, other]}), other)
 
 
 class Solve(cli.TestCase):

@@ -2,6 +2,7 @@
 """Figures of the problems of the corpus, of their certificates and of single runs."""
 
 import collections
+import decimal
 import json
 import subprocess
 import sys
@@ -9,6 +10,9 @@ from fractions import Fraction
 
 from markdown import count, prose, table, three
 from program import ROOT
+
+sys.path.insert(0, str(ROOT / "tests/setup"))
+from into_space import loop_by_the_plane  # noqa: E402
 
 
 HEADLINE = "corpus/cycle-every-policy-mu-1.json"
@@ -69,6 +73,56 @@ def endless(program):
         rows.append((f"`{scan}`", "`resume=round`" if resume else "`resume=restart`", *ends_of))
     return prose(f"Of {len(runs)} policies: {ends(runs)}.") + "\n\n" + table(
         ["scan", "it begins", "solved", "cycle", "neither, 300 drives"], rows)
+
+
+ROBUST = (("block-in-a-valley", "corpus/scenes/block-in-a-valley.json"),
+          ("weight-on-two-pegs", "corpus/scenes/weight-on-two-pegs.json"),
+          ("friction-gravity-3-contacts", "corpus/records/friction-gravity-3-contacts.json"),
+          ("friction-gravity-4-contacts", "corpus/records/friction-gravity-4-contacts.json"))
+
+
+def at_least(value):
+    """A decimal number of two digits, not above the value."""
+    down = decimal.Context(prec=2, rounding=decimal.ROUND_DOWN)
+    return f"{down.divide(value.numerator, value.denominator):.1e}"
+
+
+def robust_scenes(program):
+    """How far everything may move at once, and the loop is proved to stay."""
+    rows = []
+    program.show("./run assemble SCENE --full -o P.json && ./run certify P.json --robust")
+    for name, file in ROBUST:
+        content = json.loads((ROOT / file).read_text())
+        scene, problem = program.folder / "scene.json", program.folder / "P.json"
+        scene.write_text(json.dumps(content.get("problem", content)))
+        program.text("assemble", scene, "--full", "-o", problem, shown=False)
+        row, = program.json("certify", problem, "--robust", codes=(0, 3), shown=False)
+        radius = lambda key: "none proved" if row[key] is None else at_least(Fraction(row[key]))
+        mu = max(Fraction(contact["mu"]) for contact in json.loads(problem.read_text())["contacts"])
+        rows.append((f"`{name}`", mu, radius("radius"), radius("scene_radius")))
+    return table(["scene", "mu", "A, b, mu", "all that the scene is built of"], rows)
+
+
+def scenes_in_space(program):
+    """Scenes of the plane in space: what loops there, and what proves it."""
+    rows = []
+    program.show("./run solve corpus/space/NAME.json --method baraff --policy slip=redirect")
+    program.show("./run solve corpus/space/NAME.json --method baraff --policy slip=redirect --arithmetic double")
+    program.show("tests/setup/into_space.py build/release/stiction SCENE -o corpus/space/NAME.json")
+    for file in sorted((ROOT / "corpus/space").glob("cycle-of-a-scene-*.json")):
+        content = json.loads(file.read_text())
+        by_the_plane = loop_by_the_plane(program.path, content)
+        ends_of = []
+        for arithmetic in ("interval", "double"):
+            for policy in ("paper", "slip=redirect"):
+                run = program.json("solve", file, "--method", "baraff", "--policy", policy, "--arithmetic", arithmetic,
+                                   codes=(0, 1, 3), shown=False)
+                loop = run["outcome"] == "cycle"
+                ends_of.append(f"{run['start']}, {run['period']}" if loop else run["outcome"])
+        rows.append((f"`{file.stem}`", len(content["contacts"]), content["contacts"][0]["mu"],
+                     "{}, {}".format(*by_the_plane) if by_the_plane else "-", *ends_of))
+    return table(["file", "contacts", "mu", "proved by the plane, both readings", "over intervals, proved: literal", "redirect",
+                  "over doubles, no proof: literal", "redirect"], rows)
 
 
 def corpus_table(program, folder):

@@ -42,6 +42,8 @@ FIGURES = [
     Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
     Figure("endless", "search/adversary/frontiers.md", "cheap", corpus.endless),
     Figure("smallest", "search/adversary/frontiers.md", "minutes", bench.smallest, ("algorithm", "bench/smallest.cpp")),
+    Figure("scenes-in-space", "search/adversary/frontiers.md", "cheap", corpus.scenes_in_space),
+    Figure("robust-scenes", "search/adversary/frontiers.md", "cheap", corpus.robust_scenes),
     Figure("longest-runs", "search/adversary/frontiers.md", "cheap", corpus.longest_runs),
     Figure("sliding-corpus", "corpus/README.md", "cheap", corpus.sliding_corpus),
     Figure("wrong-in-doubles", "corpus/README.md", "cheap", corpus.wrong_in_doubles),

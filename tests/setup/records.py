@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Looks for worse problems than the records have: optimized searches, and, if the best of them beats the record that
-stands, random ones of the same size beside it.
+stands, random ones of the same size beside it. The record is the best of all of these.
 
     tests/setup/records.py build/release/stiction --objective steps pieces --contacts 3 4 5 \\
         --generator psd integers exponential --problems 300000
@@ -100,6 +100,7 @@ def look(o):
         equal = o.problems * len(o.optimizer)
         random = [Search(o.program, o, generator, "random", folder, equal) for generator in o.generator]
         values = [search.value for search in random if search.value is not None]
+        best = better([best, *(search for search in random if search.value is not None)], key=lambda search: search.value)
         more = ["--random-evaluations", str(equal * len(o.generator)),
                 "--random-command", "; ".join(search.command() for search in random)]
         if values:
