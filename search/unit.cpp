@@ -450,9 +450,10 @@ class Collector {
   }
 
   // A signature as the store has it.
-  std::string Named(std::string signature, std::size_t policy) const {
-    const Policy& its = campaign_.policies[policy];
-    return its == Policy{} ? std::move(signature) : std::move(signature) + "@" + PolicyName(its);
+  std::string Named(std::string signature, std::size_t number) const {
+    const Policy& policy = campaign_.policies[number];
+    if (!(policy == Policy{})) signature += "@" + PolicyName(policy);
+    return signature;
   }
 
   void Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,

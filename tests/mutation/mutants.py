@@ -568,7 +568,7 @@ bug("friction-row-kept", "if (k != contact) rows.push_back(row);", "rows.push_ba
 bug = in_file("search/signature.cpp", "^search: (signature|unit|finish)")
 bug("tangents-not-turned", 'sign * turn > 0 ? "+" : "-"', 'sign > 0 ? "+" : "-"', "a turned tangent is another loop")
 bug("period-too-long", "pivots[k].drive > verdict.start", "pivots[k].drive >= verdict.start", "a drive before the period")
-bug("no-word-of-two", "contacts.size() > kMostContactsWithWord", "contacts.size() >= kMostContactsWithWord",
+bug("no-word-of-two", "contacts.size() <= kMostContactsWithWord", "contacts.size() < kMostContactsWithWord",
     "loops of two contacts have no word")
 bug("all-steps-zero", "step.s == 0", "step.s >= 0", "words do not tell zero steps from others")
 
