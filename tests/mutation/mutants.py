@@ -677,7 +677,13 @@ bug("zero-denominator", "if (x.get_den() == 0) return std::nullopt;", "", "a den
 bug("empty-fraction", "if (fraction.empty()) return std::nullopt;", "", "1. is a number")
 
 bug = in_file("corpus/statistics.cpp", "^corpus: (record|tally|store|merge)")
-bug("misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs are lost in sums")
+bug("misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs are lost in sums",
+    context="misjudged += other.misjudged;\n  for (std::size_t i = 0; i < rungs.size(); ++i)")
+bug("stratum-misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs of a stratum are lost in sums",
+    context="misjudged += other.misjudged;\n  AddTo(outcomes, other.outcomes);")
+bug("zero-steps-not-merged", "AddTo(loops[contacts].by_zero_steps, tally.by_zero_steps);", "",
+    "loops by zero steps are lost in sums")
+bug("sketch-never-full", "if (hashes_.size() > kMost) hashes_.pop_back();", "", "a sketch keeps all words")
 bug("words-not-merged", "AddTo(mine.words, tally.words);", "", "mode words are lost in sums")
 
 bug = in_file("corpus/statistics.h", "^corpus: (record|tally)|^search: unit")
