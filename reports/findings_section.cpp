@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
@@ -178,7 +179,8 @@ Table EmptyTable() {
        {"contacts", "of the problem as found → of the minimized problem", false},
        {"drives", "of one period of the loop"},
        {"steps", "of one period of the loop"},
-       {"met", "runs of the campaign with this signature"},
+       {"met", "runs of the campaign with this signature; below: different words of their loops, where the "
+               "signature is counts alone"},
        {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
        {"policies, as found", "outcomes over the planar grid of policies", false},
        {"policies, minimized", "likewise, of the minimized problem", false},
@@ -196,6 +198,14 @@ Html KindBadge(const Discovery& discovery) {
 Html ContactsText(const Discovery& discovery) {
   const int found = discovery.representative->contacts, smallest = discovery.SmallestContacts();
   return found == smallest ? Text(std::to_string(found)) : Text(fmt::format("{} → {}", found, smallest));
+}
+
+// "about" beyond what is counted exactly.
+Html MetText(const Discovery& discovery) {
+  Html met = Text(Grouped(discovery.met));
+  if (!discovery.words) return met;
+  const auto words = static_cast<std::int64_t>(std::llround(discovery.words->Count()));
+  return met + Tag("small")((discovery.words->IsExact() ? "" : "about ") + Counted(words, "word"));
 }
 
 Html RepresentativeText(const Finding& finding) {
@@ -220,7 +230,7 @@ void AddFinding(Table& table, const Discovery& discovery) {
                 {ContactsText(discovery)},
                 {period(&LoopLength::drives)},
                 {period(&LoopLength::steps)},
-                {Text(Grouped(discovery.met))},
+                {MetText(discovery)},
                 {RepresentativeText(*discovery.representative)},
                 {discovery.found ? Text(GridText(discovery.found->grid)) : Html()},
                 {discovery.minimized ? Text(GridText(discovery.minimized->grid)) : Html()},

@@ -368,6 +368,17 @@ TEST_CASE("report: loops.csv and zero_steps.csv hold every counter of loops") {
   for (const auto& [contacts, tally] : record.loops) CHECK(histograms[contacts] == tally.by_zero_steps);
 }
 
+TEST_CASE("report: the page says of a group of counts how many words its loops have") {
+  Finding finding = PendingFinding("cycle-3c-4d-14s", 0);
+  Record record;
+  record.signatures = {{finding.signature, 900}};
+  for (std::uint64_t i = 1; i <= 5; ++i) record.words[finding.signature].Add(i << 40);
+  const std::vector<Finding> findings = {finding};
+  CHECK(Has(FindingsSection(Discoveries(record, findings)).text(), "900<small>5 words</small>"));
+  for (std::uint64_t i = 6; i <= 100; ++i) record.words[finding.signature].Add(i << 40);
+  CHECK(Has(FindingsSection(Discoveries(record, findings)).text(), "900<small>about "));
+}
+
 TEST_CASE("report: findings.csv says how many words the loops of a group have, where its signature has none") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
