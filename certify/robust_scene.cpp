@@ -217,6 +217,11 @@ bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const Pub
   }
 }
 
+bool Follows(const TouchingScene& scene, const Rational& radius, const std::vector<bool>& zero, int row) {
+  const Box box(scene, radius);
+  return HeldBodies(box).Follows(zero, row);
+}
+
 bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProblem& problem) {
   const ContactProblem<Slope> box = Box(scene, radius).Problem();
   STICTION_CHECK(box.rows() == problem.rows(), "a problem of the same contacts");

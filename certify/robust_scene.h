@@ -28,6 +28,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certify/exact.h"
 #include "scene/assemble.h"
@@ -58,6 +59,9 @@ std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const Publ
 // Whether the theorem holds for this radius, 0 <= radius < 1. `run`: that of the scene's problem.
 bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const PublishedOptions& options,
                       const Rational& radius);
+
+// Whether in every scene of the box row `row` of the problem does not accelerate where the marked ones do not.
+bool Follows(const TouchingScene& scene, const Rational& radius, const std::vector<bool>& zero, int row);
 
 // Whether A, b and mu of a problem are among those that enclose the box: so they are for all scenes of the box.
 bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProblem& problem);

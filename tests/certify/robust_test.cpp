@@ -178,7 +178,7 @@ class Off {
 };
 
 // At the ends more often than between them.
-Part Random(Choices& random) {
+Part AnyPart(Choices& random) {
   return [&random] {
     const auto k = random.Integer(-8, 8);
     return k < -4 ? Rational(-1) : k > 4 ? Rational(1) : Rational(k, 4);
@@ -218,7 +218,7 @@ TEST_CASE("robust: every scene of the box loops with the same start and period")
     const auto radius = RadiusOfSceneLoop(touching, options);
     REQUIRE(radius.has_value());
     CHECK(*radius > least);
-    Off draw(touching, *radius, Random(random));
+    Off draw(touching, *radius, AnyPart(random));
     for (int k = 0; k < draws; ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
   };
   check(SceneNamed("weight-on-two-pegs"), Rational(1, 10000), Few(200));
@@ -273,7 +273,7 @@ TEST_CASE("robust: every scene of the box loops where forces and moments are giv
   const auto radius = RadiusOfSceneLoop(touching, options);
   REQUIRE(radius.value_or(0) > 0);
   Choices random(9);
-  Off draw(touching, *radius, Random(random));
+  Off draw(touching, *radius, AnyPart(random));
   for (int k = 0; k < Few(100); ++k) REQUIRE(LoopsAlike(draw.Problem(), run, options));
 }
 
@@ -285,7 +285,7 @@ TEST_CASE("robust: a box that holds a scene without the loop is not proved") {
     const ExactRun run = RunExact(touching.problem, options);
     int others = 0;
     for (int k = 2; k <= 256; k *= 2) {
-      Off draw(touching, Rational(1, k), Random(random));
+      Off draw(touching, Rational(1, k), AnyPart(random));
       bool other = false;
       for (int i = 0; i < 50 && !other; ++i) other = !LoopsAlike(draw.Problem(), run, options);
       if (!other) continue;
@@ -301,6 +301,36 @@ TEST_CASE("robust: a scene knows ties that a body at rest explains, the matrix a
   const PublishedOptions options{{}, {}, kLimits};
   CHECK_FALSE(RadiusOfLoop(touching.problem, options).has_value());
   CHECK(RadiusOfSceneLoop(touching, options).value_or(0) > 0);
+}
+
+TEST_CASE("robust: three independent rows hold a body, dependent ones and a body that moves do not") {
+  const Rational radius(1, 1000);
+  const auto follow = [&](const Scene<Rational>& scene, const std::vector<int>& zero) {
+    const TouchingScene touching = Touching(scene);
+    std::vector<bool> marked(touching.problem.rows(), false);
+    for (const int row : zero) marked[row] = true;
+    std::vector<int> found;
+    for (int row = 0; row < touching.problem.rows(); ++row) {
+      if (Follows(touching, radius, marked, row)) found.push_back(row);
+    }
+    return found;
+  };
+  Scene<Rational> flat = SceneNamed("weight-on-two-pegs");  // its weight on three points of a level floor
+  GivenContact<Rational> contact = flat.contacts[0];
+  flat.contacts.clear();
+  contact.normal = MakeVector2<Rational>(0, 1);
+  for (const int x : {-1, 0, 1}) {
+    contact.at_a = contact.at_b = MakeVector2<Rational>(x, -1);
+    flat.contacts.push_back(contact);
+  }
+  const std::vector<int> all = {0, 1, 2, 3, 4, 5};
+  CHECK(follow(flat, {0, 2}).empty());
+  CHECK(follow(flat, {0, 2, 4}).empty());  // free to slide
+  CHECK(follow(flat, {0, 1, 2}) == all);
+  // Two contacts of body 1 with what is fixed, one with body 2.
+  const Scene<Rational> record = SceneOfRecord();
+  CHECK(follow(record, {0, 1, 2}) == std::vector<int>{0, 1, 2, 3});
+  CHECK(follow(record, {0, 2, 4}).empty());
 }
 
 TEST_CASE("robust: no radius of a scene that is solved") {

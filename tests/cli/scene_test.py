@@ -243,6 +243,28 @@ class Scenes(cli.TestCase):
         for key in ("contacts", "A", "b"):
             self.assertEqual(json.loads(output.read_text())[key], stored[key])
 
+    def test_contacts_given_instead_of_found_make_the_same_problem(self):
+        for name, contacts in (("block-in-a-valley", 2), ("weight-on-two-pegs", 2), ("stack", 10), ("space/tripod", 3)):
+            with self.subTest(scene=name):
+                given, again = self.folder / "given.json", self.folder / "again.json"
+                _, problem = self.assemble(name, "--full", "--given", given)
+                self.assertEqual(len(json.loads(given.read_text())["contacts"]), contacts)
+                done = cli.run("assemble", given, "--full", "-o", again)
+                self.assertEqual(done.code, 0, done.err)
+                first, second = (json.loads(file.read_text()) for file in (problem, again))
+                for key in ("contacts", "A", "b"):
+                    self.assertEqual(first[key], second[key])
+
+    def test_a_problem_of_the_whole_scene_carries_it(self):
+        for name in ("block-in-a-valley", "space/tripod"):
+            with self.subTest(scene=name):
+                _, problem = self.assemble(name, "--full")
+                again = self.folder / "again.json"
+                self.assertEqual(cli.run("assemble", problem, "--full", "-o", again).code, 0)
+                self.assertEqual(again.read_text(), problem.read_text())
+        _, part = self.assemble("block-in-a-valley")
+        self.assertNotIn("scene", json.loads(part.read_text()))
+
     def test_scenes_in_space(self):
         out, output = self.assemble("space/ball-slides-then-rolls", "--explain")
         self.assertIn("sliding, slip (0, -1)", out)

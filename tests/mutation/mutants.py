@@ -434,6 +434,17 @@ bug("regular-on-boundary", "modes.distinct_witnesses == count.words", "true", "s
 bug("incomplete-counts", "!answers.modes || answers.modes->end != EnumerationEnd::kComplete", "!answers.modes",
     "an enumeration that was stopped claims to be complete")
 
+bug = in_file("certify/slope.h", "^certify: (slope|robust)")
+bug("slope-of-a-product", "x.range_ * t + y.centre_ * s", "x.centre_ * t + y.centre_ * s", "a slope at the centre alone")
+bug("slope-of-a-quotient", "s - quotient * t", "s", "a denominator that does not change")
+
+bug = in_file("certify/robust_scene.cpp", "^certify: robust")
+bug("contact-not-moved", "Number(point[1]) + Off(reach_)", "Number(point[1])", "heights are known exactly")
+bug("rows-not-independent", "Unsure<Slope>::TellsSign(determinant) && !IsSurelyZero(determinant)", "true",
+    "any three rows hold a body")
+bug("gravity-between-bodies", "if (bodies_[contact.a].fixed == bodies_[contact.b].fixed) return {};", "",
+    "gravity accelerates bodies that fall together relative to each other")
+
 bug = in_file("certify/safety_threshold.cpp", "^certify: safe")
 bug("sturm-variations", "sign * last < 0", "sign * last <= 0", "roots that are none")
 bug("threshold-of-the-last", "if (smallest && !IsSmaller(root, *smallest)) continue;", "", "not the smallest root")
