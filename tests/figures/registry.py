@@ -59,6 +59,7 @@ FIGURES = [
     Figure("generators-by-mu", "search/README.md", "minutes", search.generators_by_mu, SEARCH),
     Figure("missed-by-doubles", "search/README.md", "long", search.missed_by_doubles, SEARCH),
     Figure("existence", "search/README.md", "minutes", search.existence, SEARCH),
+    Figure("night", "search/README.md", "long", search.night, ("algorithm", "tests/setup/memory.py")),
     Figure("methods-built", "solver/README.md", "cheap", corpus.methods_built),
     Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers_growth.cpp")),
     Figure("safe-loops", "solver/published/readings.md", "minutes", search.safe_loops, SEARCH),

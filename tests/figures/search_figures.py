@@ -4,10 +4,11 @@
 import collections
 import concurrent.futures
 import csv
+import json
 import os
 import tempfile
 
-from markdown import count, prose, rate, share, table
+from markdown import count, machine, prose, rate, share, table, three
 
 SEEDS = (1, 2, 3, 4)
 
@@ -174,3 +175,20 @@ def safe_loops(program):
                   ("loops, confirmed exactly", count(findings["cycle"] + findings["safe-cycle"])),
                   ("of these in safe problems", count(findings["safe-cycle"])),
                   ("audited runs, and those of safe problems", f"{count(decided)}, {count(safe)}: {low_high}")])
+
+
+# ---- Nights --------------------------------------------------------------------------------------------------
+
+
+def night(program):
+    """How the memory and the store of a search grow, and what a night comes to."""
+    measured = json.loads(program.script("tests/setup/memory.py", "--minutes", 1, 5, 10, 20, 40, "--json"))
+    rows = [night_row(str(round(sample["minutes"])), sample) for sample in measured["samples"]]
+    rows.append(night_row(f"{measured['night']['minutes']:.0f}, told", measured["night"]))
+    head = ["minutes", "million problems", "groups", "memory, MB", "at most", "store, MB"]
+    return table(head, rows) + "\n\nMeasured" + machine()
+
+
+def night_row(minutes, sample):
+    return (minutes, three(sample["problems"] / 1e6), count(round(sample["groups"])),
+            *(three(sample[key] / 1e6) for key in ("resident", "most", "store")))
