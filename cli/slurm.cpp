@@ -57,10 +57,10 @@ submit_tasks() {
   local jobs= job first list from to
   while (($#)); do
     first=$(($1 / 1000 * 1000)) list=
-    while (($# && $1 < first + 1000)); do
+    while (($# && ${1:-0} < first + 1000)); do
       from=$(($1 - first)) to=$from
       shift
-      while (($# && to < 999 && $1 == first + to + 1)); do
+      while (($# && to < 999 && ${1:-0} == first + to + 1)); do
         ((++to))
         shift
       done

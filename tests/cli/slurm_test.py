@@ -119,7 +119,7 @@ class Slurm(cli.TestCase):
         calls = self.folder / "calls"
         path = self.tools(sbatch=f'for word; do echo "$word"; done >>{calls}; echo "7;cluster"', seq='exec /usr/bin/seq "$@"')
         done = self.script(folder, "submit.sh", "--comment=two words", path=path)
-        self.assertEqual((done.returncode, done.stdout), (0, "tasks 7, 7, 7, merge 7\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "tasks 7, 7, 7, merge 7\n", ""))
         words = calls.read_text().splitlines()
         self.assertEqual(words.count("--comment=two words"), 4)
         self.assertEqual([word for word in words if "FIRST" in word], [f"--export=ALL,STICTION_FIRST={i}" for i in (0, 1000, 2000)])
