@@ -137,13 +137,13 @@ Campaign CampaignToFinish(const SearchVerb& o) {
   const Campaign campaign = CampaignOf(Store::OpenToRead(o.store).identity(), o.store);
   const bool asks_for_more = !o.campaign.empty() || !o.generators.empty() || !o.mu.empty() ||
                              !o.policies.empty() || !o.contacts.empty() || o.seed || o.problems ||
-                             o.audit_every || o.enumerate_every || !o.arithmetic.empty() || o.shard != "0/1" ||
+                             o.audit_every || o.enumerate_every || !o.arithmetic.empty() ||
                              !o.objective.empty() || !o.optimizer.empty() || !o.parents.empty() ||
                              o.gravity_only || o.finishing;
   if (asks_for_more)
     throw InputError(
-        "--finish: found options of a campaign or of its size, expected --store, --minutes, --threads, "
-        "--on-finding and --json alone: the campaign is that of the store");
+        "--finish: found options of a campaign or of its size, expected --store, --shard, --minutes, "
+        "--threads, --on-finding and --json alone: the campaign is that of the store");
   return campaign;
 }
 
@@ -455,7 +455,7 @@ void AddSearch(CommandLine& program) {
   verb.Option("--minutes", o.minutes, "wall clock, everything counted; by default 1 without --problems")
       .Check(MinutesError);
   verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
-  verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i");
+  verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i; with --finish, only their findings");
   verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
   verb.Option("--finishing", o.finishing, "most processor time for finishing findings")
       .Unit("%")

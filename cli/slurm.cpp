@@ -46,17 +46,52 @@ units_of() { "$stiction" status "$1" --json | tr ',' '\n' | sed -n 's/^{*"units"
 units_wanted() { echo $(((units - $1 + shards - 1) / shards)); }
 )sh";
 
+// Slurm takes indices of an array up to 1000, unless its MaxArraySize says otherwise.
+constexpr const char* kArrays = R"sh(
+# sbatch's options, which submit.sh was given, one a line.
+options=()
+[[ ! -e options ]] || mapfile -t options <options
+
+# Submits tasks for shards, in ascending order; prints the jobs with colons between them.
+submit_tasks() {
+  local jobs= job first list from to
+  while (($#)); do
+    first=$(($1 / 1000 * 1000)) list=
+    while (($# && ${1:-0} < first + 1000)); do
+      from=$(($1 - first)) to=$from
+      shift
+      while (($# && to < 999 && ${1:-0} == first + to + 1)); do
+        ((++to))
+        shift
+      done
+      list+=,$from
+      ((from == to)) || list+=-$to
+    done
+    job=$(sbatch --parsable "${options[@]}" --array="${list:1}" --export=ALL,STICTION_FIRST="$first" task.sh) || return
+    jobs+=:${job%%;*}
+  done
+  echo "${jobs:1}"
+}
+
+# submit_merge JOBS ROUND: the merge, once these jobs have ended.
+submit_merge() {
+  local job
+  job=$(sbatch --parsable "${options[@]}" --export=ALL,STICTION_ROUND="$2" --dependency="afterany:$1" merge.sh) || return
+  echo "${job%%;*}"
+}
+)sh";
+
 constexpr const char* kTask = R"sh(#!/bin/bash
-# One shard of a campaign: task NUMBER, or SLURM_ARRAY_TASK_ID. Leaves shards/NUMBER.store, or nothing.
+# One shard of a campaign: task NUMBER, or STICTION_FIRST + SLURM_ARRAY_TASK_ID. Leaves shards/NUMBER.store, or nothing.
 #SBATCH --job-name=stiction
-#SBATCH --array=0-@LAST@
 #SBATCH --cpus-per-task=@CPUS@
 #SBATCH --time=@TIME@
 #SBATCH --requeue
 #SBATCH --open-mode=append
-#SBATCH --output="@LOGS@/task-%a.log"
+#SBATCH --output="@LOGS@/task-%A-%a.log"
 @COMMON@
-shard=${SLURM_ARRAY_TASK_ID:-${1-}}
+shard=${1-}
+[[ -z ${SLURM_ARRAY_TASK_ID-} ]] || shard=$((${STICTION_FIRST:-0} + SLURM_ARRAY_TASK_ID))
 [[ $shard =~ ^[0-9]+$ ]] && ((shard < shards)) || { note "task: found shard '$shard', expected 0 to $((shards - 1))"; exit 2; }
 whole=shards/$shard.store
 [[ ! -e $whole ]] || exit 0
@@ -100,7 +135,7 @@ constexpr const char* kMerge = R"sh(#!/bin/bash
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output="@LOGS@/merge.log"
-@COMMON@
+@COMMON@@ARRAYS@
 round=${STICTION_ROUND:-1}
 missing=() stores=()
 for ((shard = 0; shard < shards; ++shard)); do
@@ -119,28 +154,28 @@ for ((shard = 0; shard < shards; ++shard)); do
   fi
 done
 if ((${#missing[@]})); then
-  list=$(IFS=,; echo "${missing[*]}")
-  note "${#missing[@]} of $shards shards are missing: $list"
+  note "${#missing[@]} of $shards shards are missing: $(IFS=,; echo "${missing[*]}")"
   if ((round >= 5)) || ! command -v sbatch >/dev/null; then
     note "run them with task.sh, then merge.sh again"
     exit 75
   fi
-  job=$(sbatch --parsable --array="$list" task.sh) || exit 75
-  STICTION_ROUND=$((round + 1)) sbatch --parsable --export=ALL,STICTION_ROUND=$((round + 1)) \
-    --dependency="afterany:${job%%;*}" merge.sh >/dev/null || exit 75
+  jobs=$(submit_tasks "${missing[@]}") && submit_merge "$jobs" $((round + 1)) >/dev/null || exit 75
   exit 0
 fi
 
 merged=.merged.${SLURM_JOB_ID:-$$}.store
 trap 'rm -f -- "$merged" "$merged"-wal "$merged"-shm "$merged".lock' EXIT
-"$stiction" merge "$merged" "${stores[@]}" >/dev/null
-status=$?
-[[ $status == 0 || $status == 4 ]] || exit "$status"
+for ((first = 0; first < ${#stores[@]}; first += 1000)); do  # a command line has an end
+  "$stiction" merge "$merged" "${stores[@]:first:1000}" >/dev/null
+  status=$?
+  [[ $status == 0 || $status == 4 ]] || exit "$status"
+done
 [[ $(units_of "$merged") == "$units" ]] || { note "the merged store has $(units_of "$merged") units, expected $units"; exit 70; }
 "$stiction" search --store "$merged" --finish --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >/dev/null
 status=$?
 [[ $status == 0 || $status == 4 ]] || exit "$status"
 mv -f -- "$merged" merged.store || exit 74
+rm -f -- shards/.[0-9]*  # of tasks whose nodes died
 "$stiction" report merged.store -o report || exit
 "$stiction" status merged.store
 exit "$status"
@@ -149,9 +184,11 @@ exit "$status"
 constexpr const char* kSubmit = R"sh(#!/bin/bash
 # Submits the shards, and the merge after them. Options are sbatch's, for both: --partition=... --account=...
 cd -- @DIR@ || exit 2
-job=$(sbatch --parsable "$@" task.sh) || exit
-merge=$(sbatch --parsable "$@" --dependency="afterany:${job%%;*}" merge.sh) || exit
-echo "tasks ${job%%;*}, merge ${merge%%;*}"
+rm -f -- options
+for option; do printf '%s\n' "$option"; done >options || exit 74
+@ARRAYS@
+jobs=$(submit_tasks $(seq 0 @LAST@)) && merge=$(submit_merge "$jobs" 1) || exit
+echo "tasks ${jobs//:/, }, merge $merge"
 )sh";
 
 // As one word of a shell.
@@ -203,6 +240,7 @@ int RunSlurm(const SlurmVerb& o) {
       {"LOGS", (folder / "logs").string()},
       {"STICTION", ShellWord(fs::read_symlink("/proc/self/exe").string())}};
   values["COMMON"] = Filled(kCommon, values);
+  values["ARRAYS"] = kArrays;
   WholeFolder whole(folder, "slurm", OccupiedIf(o.replace));
   whole.Write("campaign.json", JsonText(CampaignToJson(campaign), 1) + "\n");
   for (const auto& [name, text] : {std::pair("task.sh", kTask), {"merge.sh", kMerge}, {"submit.sh", kSubmit}}) {
@@ -222,10 +260,10 @@ void AddSlurm(CommandLine& program) {
   auto [verb, o] =
       program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
   verb.footer =
-      "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json. Tasks that are killed "
-      "are queued "
+      "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json; options of submit.sh "
+      "(--partition, --account, ...) are sbatch's, of tasks and merge. Tasks that are killed are queued "
       "again; the merge has what is missing run again, finishes all findings and writes merged.store and "
-      "report/. "
+      "report/. A thousand tasks make an array. "
       "Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then FOLDER/merge.sh. How many shards there are "
       "changes "
       "nothing, unless the campaign has an objective: a shard learns from its own units. STICTION names "

@@ -372,12 +372,19 @@ bool Store::Represent(const Finding& candidate) {
   return true;
 }
 
+// Units of a block that stand alone, looked up one by one: the table may hold those of a thousand shards.
+std::int64_t Store::CountUnits(const Shard& shard, std::int64_t block) const {
+  Statement count(db_.get(), fmt::format("{} SELECT COUNT(*) FROM of_block JOIN units USING (unit) WHERE shards = ?",
+                                         kUnitsOfBlock));
+  const std::int64_t shards = shard.count;
+  count.Bind(FirstUnit(shard, block)).Bind(shards).Bind(kUnitsPerBlock).Bind(shards).Step();
+  return count.Integer(0);
+}
+
 void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
+  if (CountUnits(shard, block) < kUnitsPerBlock) return;
   const std::string of_block = " WHERE shards = ? AND shard = ? AND block = ?";
   const auto bind = [&](Statement& statement) -> Statement& { return statement.Bind(shard).Bind(block); };
-  Statement count(db_.get(), "SELECT COUNT(*) FROM units" + of_block);
-  bind(count).Step();
-  if (count.Integer(0) < kUnitsPerBlock) return;
   Record sum;
   Statement records(db_.get(), "SELECT record FROM units" + of_block);
   bind(records);

@@ -170,16 +170,17 @@ class Store {
   std::optional<CampaignIdentity> ReadIdentity() const;
   void RequireSound() const;
   void InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record);
-  void MergeBlock(const Shard& shard, std::int64_t block, const std::string& record, const UnitSet& before);
+  bool Holds(std::int64_t unit) const;
+  std::int64_t CountUnits(const Shard& shard, std::int64_t block) const;
+  void MergeBlock(const Shard& shard, std::int64_t block, const std::string& record);
   void MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record);
   void MergeFinding(const Finding& finding);
   void MergeElites(std::int64_t unit, const std::string& elites);
   void MergeWork(const Statement& row);
-  void MergeRow(std::string_view table, const Statement& row, const UnitSet& before);
+  void MergeRow(std::string_view table, const Statement& row);
   void SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out);
-  std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row,
-                         const UnitSet& before);
-  void CloseBlocks();
+  std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row);
+  void CloseBlocksOf(const Store& other);
   void CloseBlockIfComplete(const Shard& shard, std::int64_t block);
   bool Represent(const Finding& candidate);
   std::vector<Finding> SelectFindings(const std::string& where_and_order) const;

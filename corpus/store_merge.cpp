@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "corpus/store_rows.h"
 #include "solver/problem/check.h"
@@ -15,19 +17,18 @@ void Store::MergeFrom(const Store& other) {
     throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
   }
   Transaction transaction(db_.get());
-  const UnitSet before = Units();
   for (const StoreTable& table : StoreTables()) {
     Statement rows(other.db_.get(), SelectFrom(table.name, ""));
-    while (rows.Step()) MergeRow(table.name, rows, before);
+    while (rows.Step()) MergeRow(table.name, rows);
   }
-  CloseBlocks();
+  CloseBlocksOf(other);
   transaction.Commit();
 }
 
 // Blocks come before units, and both before their work.
-void Store::MergeRow(std::string_view table, const Statement& row, const UnitSet& before) {
+void Store::MergeRow(std::string_view table, const Statement& row) {
   if (table == "blocks") {
-    MergeBlock(ReadShard(row), ReadBlock(row, 2), row.Text(3), before);
+    MergeBlock(ReadShard(row), ReadBlock(row, 2), row.Text(3));
   } else if (table == "units") {
     const Shard shard{static_cast<int>(row.Integer(2)), static_cast<int>(row.Integer(1))};
     MergeUnit(shard, ReadUnit(row, 0), row.Text(4));
@@ -40,9 +41,60 @@ void Store::MergeRow(std::string_view table, const Statement& row, const UnitSet
   }
 }
 
+namespace {
+
+// Numbers of shards that blocks have: mostly one.
+std::vector<int> ShardCounts(sqlite3* db) {
+  std::vector<int> counts;
+  for (int last = 0;; last = counts.back()) {
+    Statement next(db, "SELECT shards FROM blocks WHERE shards > ? ORDER BY shards LIMIT 1");
+    if (!next.Bind(std::int64_t{last}).Step()) return counts;
+    counts.push_back(static_cast<int>(next.Integer(0)));
+  }
+}
+
+bool HoldsBlock(sqlite3* db, const Shard& shard, std::int64_t block) {
+  Statement present(db, "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  return present.Bind(shard).Bind(block).Step();
+}
+
+// Whether a block of so many shards has a unit.
+bool HoldsIn(sqlite3* db, std::int64_t unit, int shards) {
+  const Shard shard{static_cast<int>(unit % shards), shards};
+  return HoldsBlock(db, shard, BlockOf(shard, unit));
+}
+
+void RefuseTwice(std::int64_t unit) {
+  throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
+}
+
+// The units of a block that is not here. Blocks of the same number of shards share none.
+void RequireNoneOf(sqlite3* db, const Shard& shard, std::int64_t block) {
+  Statement alone(db, fmt::format("{} SELECT unit FROM of_block JOIN units USING (unit) LIMIT 1", kUnitsOfBlock));
+  const std::int64_t first = FirstUnit(shard, block);
+  if (alone.Bind(first).Bind(std::int64_t{shard.count}).Bind(std::int64_t{Store::kUnitsPerBlock}).Step()) RefuseTwice(alone.Integer(0));
+  for (const int shards : ShardCounts(db)) {
+    if (shards == shard.count) continue;
+    for (std::int64_t k = 0; k < Store::kUnitsPerBlock; ++k) {
+      const std::int64_t unit = first + k * shard.count;
+      if (HoldsIn(db, unit, shards)) RefuseTwice(unit);
+    }
+  }
+}
+
+}  // namespace
+
+// Looked up, for a merge asks it of every unit.
+bool Store::Holds(std::int64_t unit) const {
+  Statement alone(db_.get(), "SELECT 1 FROM units WHERE unit = ?");
+  if (alone.Bind(unit).Step()) return true;
+  const std::vector<int> counts = ShardCounts(db_.get());
+  return std::any_of(counts.begin(), counts.end(),
+                     [&](int shards) { return HoldsIn(db_.get(), unit, shards); });
+}
+
 // A finished block takes the place of an unfinished copy of itself.
-void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record,
-                       const UnitSet& before) {
+void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string& record) {
   Statement same(db_.get(), "SELECT record FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
   if (same.Bind(shard).Bind(block).Step()) {
     STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of block {} of shard {}/{} differ", block,
@@ -54,18 +106,12 @@ void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string
                      fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table));
     remove.Bind(shard).Bind(block).Step();
   }
-  const UnitSet rest = Units();
-  for (std::int64_t k = 0; k < kUnitsPerBlock; ++k) {
-    const std::int64_t unit = (block * kUnitsPerBlock + k) * shard.count + shard.index;
-    if (before.Contains(unit) && rest.Contains(unit)) {
-      throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
-    }
-  }
+  RequireNoneOf(db_.get(), shard, block);
   PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, record});
 }
 
 void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
-  if (Units().Contains(unit)) {
+  if (Holds(unit)) {
     // As part of the same block, finished here or not; otherwise it was counted for different shards.
     Statement same(db_.get(), "SELECT record FROM units WHERE unit = ? AND shards = ? AND shard = ?");
     if (same.Bind(unit).Bind(shard).Step()) {
@@ -110,13 +156,10 @@ void Store::MergeWork(const Statement& row) {
   WriteWork(db_.get(), key, work);
 }
 
-void Store::CloseBlocks() {
-  std::vector<BlockInfo> open;
-  {
-    Statement blocks(db_.get(), "SELECT DISTINCT shards, shard, block FROM units");
-    while (blocks.Step()) open.push_back({ReadShard(blocks), ReadBlock(blocks, 2)});
-  }
-  for (const BlockInfo& info : open) CloseBlockIfComplete(info.shard, info.block);
+// Those that units of the other store may have completed.
+void Store::CloseBlocksOf(const Store& other) {
+  Statement blocks(other.db_.get(), "SELECT DISTINCT shards, shard, block FROM units");
+  while (blocks.Step()) CloseBlockIfComplete(ReadShard(blocks), ReadBlock(blocks, 2));
 }
 
 // ---- What is sound of a damaged store ---------------------------------------------------------
@@ -129,14 +172,13 @@ std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
   std::vector<std::string> left_out;
   Transaction transaction(db_.get());
   for (const StoreTable& table : StoreTables()) SalvageTable(table, other, left_out);
-  CloseBlocks();
+  CloseBlocksOf(other);
   transaction.Commit();
   return left_out;
 }
 
 // From both ends: a page that cannot be read ends a walk.
 void Store::SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out) {
-  const UnitSet before = Units();
   bool whole = true;
   const auto walk = [&](const char* direction) {
     std::string order;
@@ -146,7 +188,7 @@ void Store::SalvageTable(const StoreTable& table, const Store& other, std::vecto
     try {
       Statement rows(other.db_.get(), SelectFrom(table.name, "ORDER BY " + order));
       for (; rows.Step(); ++rows_read) {
-        if (auto reason = SalvageRow(table, other, rows, before); !reason.empty() && (whole || rows_read == 0))
+        if (auto reason = SalvageRow(table, other, rows); !reason.empty() && (whole || rows_read == 0))
           left_out.push_back(std::move(reason));
       }
     } catch (const InputError& error) {
@@ -160,12 +202,11 @@ void Store::SalvageTable(const StoreTable& table, const Store& other, std::vecto
 }
 
 // Empty if the row was taken in, otherwise why it was not.
-std::string Store::SalvageRow(const StoreTable& table, const Store& other, const Statement& row,
-                              const UnitSet& before) {
+std::string Store::SalvageRow(const StoreTable& table, const Store& other, const Statement& row) {
   Execute("SAVEPOINT of_row");
   try {
     RequireSoundRow(other.db_.get(), table, row);
-    MergeRow(table.name, row, before);
+    MergeRow(table.name, row);
     Execute("RELEASE of_row");
     return {};
   } catch (const InputError& error) {

@@ -245,6 +245,10 @@ std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {
   return (unit - shard.index) / shard.count / Store::kUnitsPerBlock;
 }
 
+std::int64_t FirstUnit(const Shard& shard, std::int64_t block) {
+  return block * Store::kUnitsPerBlock * shard.count + shard.index;
+}
+
 std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted) {
   const auto differ = [](const char* what, const std::string& there, const std::string& here) {
     return fmt::format("its {} is {}, this campaign's is {}", what, there, here);

@@ -111,6 +111,10 @@ void WriteWork(sqlite3* db, const WorkKey& key, const Work& work);
 
 // The block of a shard that has this unit.
 std::int64_t BlockOf(const Shard& shard, std::int64_t unit);
+std::int64_t FirstUnit(const Shard& shard, std::int64_t block);
+// The table `of_block` of its units. To bind: the first of them, how many shards there are, units of a block.
+inline constexpr const char* kUnitsOfBlock =
+    "WITH RECURSIVE of_block(unit) AS (SELECT ? UNION ALL SELECT unit + ? FROM of_block LIMIT ?)";
 
 // "its seed is 7, this campaign's is 8"; of campaigns that differ.
 std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted);

@@ -51,6 +51,7 @@ class Search {
     for (const bool done : {true, false}) {  // what is finished takes its place first
       for (Finding& finding : store_.Findings()) {
         if (finding.done != done) continue;
+        if (options.only_finish && !done && !options.shard.Owns(finding.unit)) continue;
         known_.insert(finding.signature);
         backlog_.Add(std::move(finding));
       }

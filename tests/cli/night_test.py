@@ -99,11 +99,26 @@ class Night(cli.TestCase):
 
     def test_finishing_alone_takes_no_options_of_a_campaign(self):
         self.search("--problems", 2000)
-        for option in (("--seed", 1), ("--problems", 1), ("--generator", "psd"), ("--shard", "0/2")):
+        for option in (("--seed", 1), ("--problems", 1), ("--generator", "psd"), ("--gravity-only",)):
             self.refuses("search", "--store", self.store, "--finish", *option, says="--finish")
         self.refuses("search", "--store", self.folder / "none.store", "--finish", says="none.store")
         for share in ("-1", "101", "x"):
             self.refuses("search", "--store", self.store, "--finishing", share, says="--finishing")
+
+    def test_copies_of_a_store_are_finished_in_shards_and_merged(self):
+        self.search("--problems", 300000, "--seed", 3, "--finishing", 0)
+        parts = [shutil.copy(self.store, self.folder / f"part-{i}") for i in range(2)]
+        finished = []
+        for i, part in enumerate(parts):
+            self.succeeds("search", "--store", part, "--finish", "--shard", f"{i}/2")
+            rows = cli.content(part)["findings"]
+            finished.append({row[0] for row in rows if row[10]})
+            self.assertEqual(finished[-1], {row[0] for row in rows if row[2] % 2 == i})
+        self.assertTrue(all(finished), finished)
+        merged = self.folder / "merged.store"
+        self.succeeds("merge", merged, *parts)
+        self.succeeds("search", "--store", self.store, "--finish")
+        self.assertSameContent(merged, self.store)
 
     def test_time_is_split_and_adds_up(self):
         self.search("--problems", 400000, "--threads", 1)

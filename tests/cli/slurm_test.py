@@ -103,15 +103,39 @@ class Slurm(cli.TestCase):
         self.assertIn("missing: 1,2", done.stderr)
         self.assertFalse((folder / "merged.store").exists())
         self.assertTrue((folder / "shards/2.store.damaged").exists())
-        # With Slurm they run again, and the merge after them.
+        # With Slurm they run again, and the merge after them, with the options of the first time.
         calls = self.folder / "calls"
-        path = self.tools(sbatch=f'echo "$@" >>{calls}; echo 77')
+        path = self.tools(sbatch=f'echo "$@" >>{calls}; echo 77', scontrol="exit 1")
+        (folder / "options").write_text("--account=a b\n")
         done = self.script(folder, "merge.sh", path=path)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(calls.read_text().splitlines(),
-                         ["--parsable --array=1,2 task.sh",
-                          "--parsable --export=ALL,STICTION_ROUND=2 --dependency=afterany:77 merge.sh"])
+                         ["--parsable --account=a b --array=1-2 --export=ALL,STICTION_FIRST=0 task.sh",
+                          "--parsable --account=a b --export=ALL,STICTION_ROUND=2 --dependency=afterany:77 merge.sh"])
         self.assertEqual(self.script(folder, "merge.sh", path=path, STICTION_ROUND=5).returncode, 75)
+
+    def test_a_thousand_tasks_make_an_array(self):
+        folder = self.make(2500, problems=10**8)
+        calls = self.folder / "calls"
+        path = self.tools(sbatch=f'for word; do echo "$word"; done >>{calls}; echo "7;cluster"', seq='exec /usr/bin/seq "$@"')
+        done = self.script(folder, "submit.sh", "--comment=two words", path=path)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "tasks 7, 7, 7, merge 7\n", ""))
+        words = calls.read_text().splitlines()
+        self.assertEqual(words.count("--comment=two words"), 4)
+        self.assertEqual([word for word in words if "FIRST" in word], [f"--export=ALL,STICTION_FIRST={i}" for i in (0, 1000, 2000)])
+        self.assertEqual([word for word in words if "--array" in word], [f"--array=0-{last}" for last in (999, 999, 499)])
+        self.assertIn("--dependency=afterany:7:7:7", words)
+        # A task knows its shard from both.
+        done = self.script(folder, "task.sh", SLURM_ARRAY_TASK_ID=500, STICTION_FIRST=2000)
+        self.assertIn("found shard '2500', expected 0 to 2499", done.stderr)
+
+    def test_what_a_dead_node_leaves_goes_with_the_merge(self):
+        folder = self.make(1, problems=20000)
+        self.script(folder, "task.sh", 0)
+        for name in (".0.99.0", ".0.99.0-wal"):
+            (folder / "shards" / name).write_text("torn")
+        self.assertEqual(self.script(folder, "merge.sh").returncode, 0)
+        self.assertEqual({path.name for path in (folder / "shards").iterdir()}, {".keep", "0.store"})
 
     def start_task(self, folder, **variables):
         environment = {**os.environ, "PATH": self.tools(), **variables}

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A search that is killed again and again leaves, in the end, the store of one that was not.
+"""Searches, finishing, merges and reports that are killed again and again leave, in the end, what undisturbed ones do.
 
-kill_test.py PATH_TO_STICTION
+kill_test.py PATH_TO_STICTION [SOURCES] [--kills N]     N kills of each of the four
 """
 
-import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,70 +16,152 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 import cli  # noqa: E402
 
-KILLS = 10
+KILLS = 4
 UNIT = 300 if cli.SHORT else 1200
 PROBLEMS = 880 * UNIT  # 1056 units: one block and some
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 5, "generators": ["small", "duplicates"],
             "contacts": [2, 3], "unit_problems": UNIT}
+SHARDS = 3
+
+
+def tree(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 class Kill(cli.TestCase):
-    def command(self, store):
-        return [cli.program, "search", str(self.campaign), "--store", str(store), "--problems", str(PROBLEMS),
-                "--threads", "1", "--finishing", "100"]
+    def setUp(self):
+        super().setUp()
+        self.campaign = self.file("campaign.json", CAMPAIGN)
+        self.moments = random.Random(1994)
 
-    def run_to_the_end(self, store):
+    def search(self, store, *options):
+        return ["search", self.campaign, "--store", store, "--problems", PROBLEMS, "--threads", 1, *options]
+
+    def to_the_end(self, arguments):
+        """How long it takes."""
         start = time.monotonic()
-        done = subprocess.run(self.command(store), capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeeds(*arguments, timeout=1200)
         return time.monotonic() - start
 
-    def run_and_kill(self, store, seconds):
-        """Whether the search was still running."""
-        search = subprocess.Popen(self.command(store), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    def killed(self, arguments, seconds):
+        """Whether it was still running when it was to be killed."""
+        process = subprocess.Popen([cli.program, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
-            _, err = search.communicate(timeout=seconds)
-            self.assertEqual(search.returncode, 0, err)
+            _, err = process.communicate(timeout=seconds)
+            self.assertEqual(process.returncode, 0, err)
             return False
         except subprocess.TimeoutExpired:
-            os.kill(search.pid, signal.SIGKILL)
-            search.communicate()
-            self.assertEqual(search.returncode, -signal.SIGKILL)
+            os.kill(process.pid, signal.SIGKILL)
+            process.communicate()
+            self.assertEqual(process.returncode, -signal.SIGKILL)
             return True
 
+    def kill_often(self, arguments, stretch, look, begin_anew):
+        """Kills after random parts of a stretch of time, as often as was asked for; what has ended begins anew."""
+        kills, looks = 0, []
+        while kills < KILLS:
+            if self.killed(arguments, max(0.01, stretch * self.moments.uniform(0.1, 1.3))):
+                kills += 1
+            else:
+                begin_anew()
+            looks.append(look())
+        print(f"{arguments[0]}: {kills} kills, {len(looks) - kills} ends, at {looks}", file=sys.stderr)
+        return looks
+
     def progress(self, store):
-        rows = cli.content(store)
-        done = sum(row[10] for row in rows["findings"])
-        return len(rows["units"]) + 1024 * len(rows["blocks"]), done
+        """Units and finished findings; none of a store that is not there yet."""
+        try:
+            rows = cli.content(store)
+        except Exception:  # killed before there was a store
+            return 0, 0
+        return len(rows["units"]) + 1024 * len(rows["blocks"]), sum(row[10] for row in rows["findings"])
+
+    def assertNothingLost(self, looks, end):
+        for before, now in zip(looks, looks[1:]):
+            if before != end:  # that one was deleted
+                self.assertGreaterEqual(now, before)
+        self.assertGreater(len(set(looks) - {end, (0, 0)}), 1, "nothing was killed on its way")
 
     def test_a_killed_search_loses_nothing(self):
-        self.campaign = self.file("campaign.json", CAMPAIGN)
         reference, killed = self.folder / "reference.store", self.folder / "killed.store"
-        seconds = self.run_to_the_end(reference)
-        units, findings = self.progress(reference)
-        self.assertGreater(units, 1024)
-        self.assertGreater(findings, 2 if cli.SHORT else 10)
+        command = self.search(killed, "--finishing", 100)
+        seconds = self.to_the_end(self.search(reference, "--finishing", 100))
+        end = self.progress(reference)
+        self.assertGreater(end[0], 1024)
+        self.assertGreater(end[1], 2 if cli.SHORT else 10)
 
-        # Ten stretches that together are about as long as the whole search.
-        moments = random.Random(1994)
-        last, kills, between = (0, 0), 0, set()
-        for _ in range(KILLS):
-            kills += self.run_and_kill(killed, seconds * moments.uniform(0.5, 1.4) / KILLS)
-            try:
-                now = self.progress(killed)
-            except Exception:  # killed before there was a store
-                now = last
-            self.assertGreaterEqual(now[0], last[0], "units were lost")
-            last = now
-            between.add(now)
-        print(f"{seconds:.1f} s to the end; {kills} kills, at {sorted(between)} units and findings", file=sys.stderr)
-        self.assertGreaterEqual(kills, KILLS // 2)
-        self.assertGreater(len(between), 1)  # the search got on between the kills
+        def begin_anew():
+            self.assertSameContent(killed, reference)
+            killed.unlink()
 
-        self.run_to_the_end(killed)
+        looks = self.kill_often(command, min(seconds / 4, 2 * seconds / KILLS), lambda: self.progress(killed), begin_anew)
+        units = [look[:1] for look in looks]
+        self.assertNothingLost(units, end[:1])
+        self.to_the_end(command)
         self.assertSameContent(killed, reference)
-        self.assertEqual(self.progress(killed), (units, findings))
+
+    def test_finishing_that_is_killed_goes_on(self):
+        raw, reference, killed = (self.folder / f"{name}.store" for name in ("raw", "reference", "killed"))
+        self.to_the_end(self.search(raw, "--finishing", 0))
+        for copy in (reference, killed):
+            shutil.copy(raw, copy)
+        command = ["search", "--store", killed, "--finish", "--threads", 1]
+        seconds = self.to_the_end(["search", "--store", reference, "--finish", "--threads", 1])
+
+        def begin_anew():
+            self.assertSameContent(killed, reference)
+            shutil.copy(raw, killed)
+
+        looks = self.kill_often(command, seconds / 3, lambda: self.progress(killed), begin_anew)
+        self.assertNothingLost(looks, self.progress(reference))
+        self.to_the_end(command)
+        self.assertSameContent(killed, reference)
+
+    def test_a_killed_merge_leaves_a_store_that_the_same_merge_completes(self):
+        shards = [self.folder / f"{shard}.store" for shard in range(SHARDS)]
+        for shard, store in enumerate(shards):
+            self.to_the_end(self.search(store, "--shard", f"{shard}/{SHARDS}", "--finishing", 0))
+        reference, killed = self.folder / "reference.store", self.folder / "killed.store"
+        seconds = self.to_the_end(["merge", reference, *shards])
+        command = ["merge", killed, *shards]
+
+        def begin_anew():
+            self.assertSameContent(killed, reference)
+            killed.unlink()
+
+        for look in self.kill_often(command, seconds, lambda: self.progress(killed), begin_anew):
+            self.assertLessEqual(look, self.progress(reference))
+        self.to_the_end(command)
+        self.assertSameContent(killed, reference)
+        for shard in shards:  # nothing was taken from them
+            self.succeeds("status", shard)
+
+    def test_a_killed_report_leaves_the_old_folder_or_the_new_one(self):
+        old, new, out = self.folder / "old", self.folder / "new", self.folder / "out"
+        stores = [self.folder / name for name in ("a.store", "b.store")]
+        for store, seed in zip(stores, (1, 2)):
+            self.to_the_end(["search", "--store", store, "--generator", "small", "--contacts", 2, "--seed", seed,
+                             "--problems", 100000, "--threads", 1])
+        for store, folder in zip(stores, (old, new)):
+            seconds = self.to_the_end(["report", store, "-o", folder])
+        shutil.copytree(old, out)
+        allowed = [tree(old), tree(new)]
+        self.assertNotEqual(*allowed)
+
+        def which():
+            self.assertIn(tree(out), allowed)
+            return ("old", "new")[allowed.index(tree(out))]
+
+        self.kill_often(["report", stores[1], "-o", out], seconds, which,
+                        lambda: self.to_the_end(["report", stores[0], "-o", out]))
+        self.to_the_end(["report", stores[1], "-o", out])
+        self.assertEqual(which(), "new")
+        self.assertEqual([path for path in self.folder.iterdir() if path.name.startswith(".")], [])
 
 
 if __name__ == "__main__":
+    if "--kills" in sys.argv:
+        at = sys.argv.index("--kills")
+        KILLS = int(sys.argv[at + 1])
+        del sys.argv[at:at + 2]
     cli.main()

@@ -61,6 +61,9 @@ FIGURES = [
     Figure("generators-by-mu", "search/README.md", "minutes", search.generators_by_mu, SEARCH),
     Figure("missed-by-doubles", "search/README.md", "long", search.missed_by_doubles, SEARCH),
     Figure("existence", "search/README.md", "minutes", search.existence, SEARCH),
+    Figure("night", "search/README.md", "long", search.night, ("algorithm", "tests/setup/memory.py")),
+    Figure("scaling", "search/SCALING.md", "minutes", search.scaling,
+           ("algorithm", "tests/setup/scaling.py", "corpus/store_merge.cpp")),
     Figure("methods-built", "solver/README.md", "cheap", corpus.methods_built),
     Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers_growth.cpp")),
     Figure("safe-loops", "solver/published/readings.md", "minutes", search.safe_loops, SEARCH),
@@ -101,6 +104,7 @@ DOCUMENTS = sorted({
 DEFINITIONS = {
     "certify/README.md": ("64 MB", "2,000 contacts", "20,000 characters"),
     "reports/README.md": ("at 95 %",),
+    "search/SCALING.md": ("10^13 problems", "1,000 nodes", "10^10 problems", "1,024 units", "1,000 to 100,000"),
     "tests/fuzz/README.md": ("no hang (20 s)", "no flood (2.5 GB)"),
     "corpus/scenes/README.md": ("4 of 6 contacts", "the first 600 frames"),
 }

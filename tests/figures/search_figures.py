@@ -4,10 +4,13 @@
 import collections
 import concurrent.futures
 import csv
+import json
+import math
 import os
+import sqlite3
 import tempfile
 
-from markdown import count, prose, rate, share, table
+from markdown import count, machine, prose, rate, share, table, three
 
 SEEDS = (1, 2, 3, 4)
 
@@ -174,3 +177,77 @@ def safe_loops(program):
                   ("loops, confirmed exactly", count(findings["cycle"] + findings["safe-cycle"])),
                   ("of these in safe problems", count(findings["safe-cycle"])),
                   ("audited runs, and those of safe problems", f"{count(decided)}, {count(safe)}: {low_high}")])
+
+
+# ---- Nights --------------------------------------------------------------------------------------------------
+
+
+def night(program):
+    """How the memory and the store of a search grow, and what a night comes to."""
+    measured = json.loads(program.script("tests/setup/memory.py", "--minutes", 1, 5, 10, 20, 40, "--json"))
+    rows = [night_row(str(round(sample["minutes"])), sample) for sample in measured["samples"]]
+    rows.append(night_row(f"{measured['night']['minutes']:.0f}, told", measured["night"]))
+    head = ["minutes", "million problems", "groups", "memory, MB", "at most", "store, MB"]
+    return table(head, rows) + "\n\nMeasured" + machine()
+
+
+def night_row(minutes, sample):
+    return (minutes, three(sample["problems"] / 1e6), count(round(sample["groups"])),
+            *(three(sample[key] / 1e6) for key in ("resident", "most", "store")))
+
+
+# ---- Many machines -------------------------------------------------------------------------------------------
+
+PLAN = {"problems": 10**13, "nodes": 1000, "shards": 1000}
+
+
+def scaling(program):
+    """Merges of so many shards, at once and as a tree; and a plan for many machines, from what was measured."""
+    measured = json.loads(program.script("tests/setup/scaling.py", "--shards", 1, 10, 100, 1000, "--json"))
+    rows = [(count(merge["shards"]), count(merge["units"]), three(merge["seconds"]), three(merge["memory"] / 1e6),
+             three(merge["store"] / 1e6), three(merge["tree_seconds"]), three(merge["tree_path"]))
+            for merge in measured["merges"]]
+    head = ["shards", "units", "one merge, s", "memory, MB", "store, MB", f"tree of {measured['fan']}, s in all", "one path, s"]
+    return table(head, rows) + "\n\n" + plan(program, measured["merges"][-1]) + "\n\nMeasured" + machine()
+
+
+def plan(program, merge):
+    """What 10^13 problems come to: groups and bytes of statistics by the power of two sizes, the rest in proportion."""
+    small, large = (of_a_search(program, problems) for problems in (program.size(4_000_000) // 4, program.size(4_000_000)))
+    power = math.log(large["groups"] / small["groups"]) / math.log(large["problems"] / small["problems"])
+
+    def groups(problems):
+        return large["groups"] * (problems / large["problems"]) ** power
+
+    shard = PLAN["problems"] / PLAN["shards"]
+    statistics = PLAN["shards"] * (large["frame"] + large["a signature"] * groups(shard))
+    rows = [("problems a processor second, `night.json`", count(round(large["rate"], -3))),
+            ("all problems on one core of each node, hours", three(PLAN["problems"] / large["rate"] / PLAN["nodes"] / 3600)),
+            ("groups, as a power of the problems", three(power)),
+            ("groups in a shard; in all", f"{three(groups(shard))}; {three(groups(PLAN['problems']))}"),
+            ("statistics, MB", three(statistics / 1e6)),
+            ("a group's finding in the store, kB", three(large["a group"] / 1e3)),
+            ("findings, MB", three(groups(PLAN["problems"]) * large["a group"] / 1e6)),
+            ("finishing a group, s, of those finished first", three(large["finishing"])),
+            ("finishing all of them on one core of each node, minutes",
+             three(groups(PLAN["problems"]) * large["finishing"] / PLAN["nodes"] / 60)),
+            ("one merge, s a thousand shards of that size", three(1000 * merge["seconds"] / merge["shards"]))]
+    return table([f"10^{round(math.log10(PLAN['problems']))} problems, {count(PLAN['nodes'])} nodes, {count(PLAN['shards'])} shards", ""],
+                 rows)
+
+
+def of_a_search(program, problems):
+    """What a search leaves: rates, and bytes of its rows."""
+    store = program.folder / f"{problems}.store"
+    summary = program.json("search", "search/campaigns/night.json", "--problems", problems, "--store", store)
+    times, db = summary["processor_seconds"], sqlite3.connect(store)
+    records = [json.loads(row[0]) for row in db.execute("SELECT record FROM units UNION ALL SELECT record FROM blocks")]
+    largest = max(records, key=lambda record: len(json.dumps(record)))
+    signatures = len(json.dumps(largest["signatures"]))
+    size = sum(len(value) for row in db.execute("SELECT * FROM findings") for value in row if isinstance(value, str))
+    db.close()
+    groups, finished = sum(summary["groups"].values()), summary["finished"]
+    return {"problems": summary["problems"], "groups": groups, "a group": size / groups,
+            "rate": summary["problems"] / (sum(times.values()) - times["finishing"]),
+            "finishing": times["finishing"] / max(1, finished), "frame": len(json.dumps(largest)) - signatures,
+            "a signature": signatures / max(1, len(largest["signatures"]))}

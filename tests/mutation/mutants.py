@@ -608,7 +608,7 @@ bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here",
 bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: store")
 bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
     "the largest problem represents its group")
-bug("block-too-early", "count.Integer(0) < kUnitsPerBlock", "count.Integer(0) < kUnitsPerBlock - 1",
+bug("block-too-early", "CountUnits(shard, block) < kUnitsPerBlock", "CountUnits(shard, block) < kUnitsPerBlock - 1",
     "a block closes one unit too early")
 bug("finish-overwrites", "if (present.Step()) WriteFinding(db_.get(), finding);", "WriteFinding(db_.get(), finding);",
     "what was replaced meanwhile is finished all the same")
@@ -630,7 +630,9 @@ bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -st
 bug("merge-any-campaign", "other.identity_ != identity_", "false", "stores of different campaigns are merged",
     context="""void Store::MergeFrom(const Store& other) {
   if (other.identity_ != identity_) {""")
-bug("merge-twice", "before.Contains(unit) && rest.Contains(unit)", "false", "a unit counts for two shards")
+bug("merge-twice", "if (HoldsIn(db, unit, shards)) RefuseTwice(unit);", "", "a unit counts for two shards")
+bug("merge-twice-alone", "RefuseTwice(alone.Integer(0));", ";", "a unit alone and in a block counts for two shards")
+bug("merge-unheld", "HoldsIn(db_.get(), unit, shards)", "false", "a unit of a block is taken in once more")
 bug("salvage-unsound", "RequireSoundRow(other.db_.get(), table, row);", "", "damaged rows are saved")
 bug("work-added", "work.Unite(ReadWorkRow(row));", "work.Add(ReadWorkRow(row));", "a merge with itself doubles the time")
 
