@@ -18,12 +18,15 @@ const LaneCode* CodeOf(InstructionSet set) {
   switch (set) {
     case InstructionSet::kNone:
       break;
-    case InstructionSet::kBaseline:
-      return &kBaselineLanes;
+#ifdef STICTION_LANES
     case InstructionSet::kAvx2:
       return &kAvx2Lanes;
     case InstructionSet::kAvx512:
       return &kAvx512Lanes;
+#else
+    default:
+      break;
+#endif
   }
   STICTION_CHECK(false, "a batch has an instruction set");
   return nullptr;
@@ -48,13 +51,13 @@ double Tolerance(double asked) { return std::max(asked, 8 * std::numeric_limits<
 }  // namespace
 
 std::string_view Name(InstructionSet set) {
-  constexpr std::array<std::string_view, 4> kNames = {"none", "baseline", "AVX2", "AVX-512"};
+  constexpr std::array<std::string_view, 3> kNames = {"none", "AVX2", "AVX-512"};
   return kNames[static_cast<std::size_t>(set)];
 }
 
 std::vector<InstructionSet> InstructionSets() {
-  std::vector<InstructionSet> sets = {InstructionSet::kNone, InstructionSet::kBaseline};
-#if defined(__x86_64__)
+  std::vector<InstructionSet> sets = {InstructionSet::kNone};
+#ifdef STICTION_LANES
   if (__builtin_cpu_supports("avx2")) sets.push_back(InstructionSet::kAvx2);
   if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     sets.push_back(InstructionSet::kAvx512);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many problems of two contacts at once: one to a lane of the processor's vectors.
 //
-// A lane does what PublishedAlgorithm<double, 4> does under the policy `paper`, operation by operation in the same
-// order, without contractions: what it ends with is equal to the bit. It does so only on the common path, on
-// which every drive puts its variable into a set, nothing is given up, and the end is a solution. A problem that
-// leaves this path is *left*: the caller runs it by the algorithm itself.
+// A lane does what PublishedAlgorithm<double, 4> does under the policy `paper`, operation by operation in the
+// same order, without contractions: what it ends with is equal to the bit. It does so only on the common path,
+// on which every drive puts its variable into a set, nothing is given up, and the end is a solution. A problem
+// that leaves this path is *left*: the caller runs it by the algorithm itself.
 //
 // Shapes      two static contacts of the plane, rows 0 to 3: fN1, fF1, fN2, fF2.
-// Exactness   lanes do not touch each other: results do not depend on the instruction set, nor on what is beside.
+// Exactness   lanes do not touch each other: results do not depend on the instruction set, nor on what is
+// beside.
 
 #ifndef STICTION_SEARCH_BATCH_BATCH_H_
 #define STICTION_SEARCH_BATCH_BATCH_H_
@@ -34,7 +35,7 @@ class Batch {
  public:
   using Problem = ContactProblem<double, kBatchRows>;
 
-  // Requires set != kNone and IsBatched(options).
+  // Requires one of InstructionSets() other than kNone, and IsBatched(options).
   Batch(InstructionSet set, const PublishedOptions& options);
 
   // Makes `problem` number i of the block, and back: static contacts.

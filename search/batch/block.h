@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the code for one instruction set is given, and gives back: plain numbers. This header has no functions,
-// since a function that is compiled for several instruction sets under one name may end up in the wrong program.
+// since a function that is compiled for several instruction sets under one name may end up in the wrong
+// program.
 
 #ifndef STICTION_SEARCH_BATCH_BLOCK_H_
 #define STICTION_SEARCH_BATCH_BLOCK_H_
@@ -53,7 +54,7 @@ struct LaneCode {
   void (*draw)(Block& block, const LaneDraw& draw);
 };
 
-extern const LaneCode kBaselineLanes, kAvx2Lanes, kAvx512Lanes;
+extern const LaneCode kAvx2Lanes, kAvx512Lanes;
 
 }  // namespace stiction
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems drawn in lanes: those of search/generators.ipp and search/choices.h, word by word; included once by the
-// file of each instruction set.
+// Problems drawn in lanes: those of search/generators.ipp and search/choices.h, word by word; included once by
+// the file of each instruction set.
 
 #include "search/batch/lanes.h"
 
@@ -21,9 +21,7 @@ inline Word HighWord(Word x, std::uint64_t y) {
 }
 
 // Of integers below 2^52.
-inline Real RealOf(Word x) {
-  return (Real)(x | AllWords(0x4330000000000000u)) - 0x1p52;
-}
+inline Real RealOf(Word x) { return (Real)(x | AllWords(0x4330000000000000u)) - 0x1p52; }
 
 // Choices, a sequence to each lane.
 class LaneChoices {
@@ -97,7 +95,8 @@ class LaneDraws {
  private:
   Word Seeds(int i) const {
     Word index;
-    for (int lane = 0; lane < kLanes; ++lane) index[lane] = static_cast<std::uint64_t>(draw_.first + i + lane + 1);
+    for (int lane = 0; lane < kLanes; ++lane)
+      index[lane] = static_cast<std::uint64_t>(draw_.first + i + lane + 1);
     return MixWords(AllWords(draw_.unit_seed) + index * draw_.odd);
   }
 

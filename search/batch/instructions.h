@@ -10,8 +10,8 @@
 
 namespace stiction {
 
-// kNone: every problem is run by itself.
-enum class InstructionSet : std::uint8_t { kNone, kBaseline, kAvx2, kAvx512 };
+// kNone: every problem is run by itself, which is quicker than lanes of two, as every processor has them.
+enum class InstructionSet : std::uint8_t { kNone, kAvx2, kAvx512 };
 
 std::string_view Name(InstructionSet set);
 // Those of this processor, kNone first, the best last.

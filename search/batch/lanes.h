@@ -5,20 +5,17 @@
 #ifndef STICTION_SEARCH_BATCH_LANES_H_
 #define STICTION_SEARCH_BATCH_LANES_H_
 
-#include <cstdint>
-#if defined(__x86_64__)
 #include <immintrin.h>
-#endif
+
+#include <cstdint>
 
 namespace stiction {
 namespace {
 
 #if defined(__AVX512DQ__) && defined(__AVX512VL__)
 constexpr int kLanes = 8;
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
 #else
-constexpr int kLanes = 2;
+constexpr int kLanes = 4;
 #endif
 
 using Real = double __attribute__((vector_size(8 * kLanes)));
@@ -44,12 +41,8 @@ inline void Store(Real x, double* to) { __builtin_memcpy(to, &x, sizeof x); }
 inline unsigned BitsOf(Mask m) {
 #if defined(__AVX512DQ__) && defined(__AVX512VL__)
   return _mm512_movepi64_mask((__m512i)m);
-#elif defined(__AVX2__)
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
 #else
-  unsigned bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= (m[i] != 0 ? 1u : 0u) << i;
-  return bits;
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
 #endif
 }
 inline bool Any(Mask m) { return BitsOf(m) != 0; }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published algorithm in lanes; included once by the file of each instruction set. Names and order are those
-// of solver/published/published.ipp, solver/linear/direction.ipp and solver/published/step_size.ipp, which say
-// why; a condition there is a mask here.
+// The published algorithm in lanes; included once by the file of each instruction set. Names and order are
+// those of solver/published/published.ipp, solver/linear/direction.ipp and solver/published/step_size.ipp,
+// which say why; a condition there is a mask here.
 //
 // Why no state is compared with earlier ones: a drive that gives nothing up puts its variable into a set and
-// takes none out of one, so that the sets of a run grow, and inside a drive a variable moves in a step of length
-// zero only if it has not moved before. Lanes that give up, drive a variable that has a set, or drive a force
-// to zero are left.
+// takes none out of one, so that the sets of a run grow, and inside a drive a variable moves in a step of
+// length zero only if it has not moved before. Lanes that give up, drive a variable that has a set, or drive a
+// force to zero are left.
 
 #include "search/batch/lanes.h"
 #include "solver/problem/index_sets.h"
@@ -43,7 +43,7 @@ class LaneRuns {
   }
 
  private:
-  static constexpr int kRefillFrom = kLanes > 2 ? kLanes / 4 : 1;
+  static constexpr int kRefillFrom = kLanes / 4;  // lanes without a problem
 
   // ---- Lanes take problems and give them back ----
 
@@ -282,8 +282,7 @@ class LaneRuns {
       df_[column] = All(0);
       if (!Any(has_pivot[column])) continue;
       Real x = pivot_right[column];
-      for (int k = column + 1; k < 4; ++k)
-        x = Select(has_pivot[k], x - pivot_row[column][k] * df_[k], x);
+      for (int k = column + 1; k < 4; ++k) x = Select(has_pivot[k], x - pivot_row[column][k] * df_[k], x);
       df_[column] = Select(has_pivot[column], x / pivot_row[column][column], All(0));
     }
   }
@@ -337,14 +336,14 @@ class LaneRuns {
     const Real to_upper = bound - f_[row], to_lower = bound + f_[row];
     const Real gap_a = Select(driven, Abs(a_[row]), Select(upper, -a_[row], a_[row]));
     const Real rate_a = Select((driven & forward) | (~driven & upper), da_[row], -da_[row]);
-    Limit first = Offer(driven | upper | lower | sticks, Select(sticks, to_upper, gap_a),
-                        Select(sticks, df_[row] - growth, rate_a), Select(sticks, All(kAtUpper), All(kSticking)),
-                        Select(sticks, All(tolerances_.pivot), rate_tolerance_));
+    Limit first =
+        Offer(driven | upper | lower | sticks, Select(sticks, to_upper, gap_a),
+              Select(sticks, df_[row] - growth, rate_a), Select(sticks, All(kAtUpper), All(kSticking)),
+              Select(sticks, All(tolerances_.pivot), rate_tolerance_));
     const Mask up = driven & forward;
     const Limit second =
-        Offer(driven | sticks, Select(up, to_upper, to_lower),
-              Select(driven, 1 - growth, -df_[row] - growth), Select(up, All(kAtUpper), All(kAtLower)),
-              All(tolerances_.pivot));
+        Offer(driven | sticks, Select(up, to_upper, to_lower), Select(driven, 1 - growth, -df_[row] - growth),
+              Select(up, All(kAtUpper), All(kAtLower)), All(tolerances_.pivot));
     const Mask sooner = second.exists & ~(first.exists & ~(second.s < first.s));
     first.exists |= sooner;
     first.s = Select(sooner, second.s, first.s);
@@ -352,7 +351,7 @@ class LaneRuns {
     return first;
   }
 
-  // The driven variable first, then by sets, then by rows.
+  // The driven variable first, which has no set, then by sets, then by rows.
   void FindStep() {
     const Limit limits[4] = {LimitNormal(0), LimitFriction(0), LimitNormal(2), LimitFriction(1)};
     Mask exists = Never();
@@ -366,9 +365,8 @@ class LaneRuns {
     const Real reach = nearest + force_tolerance_;
     Real first = All(10);  // more than any set
     for (int row = 0; row < 4; ++row) {
-      const Real order = Select(is_driven_[row], All(-1), set_[row]);
-      const Mask before = limits[row].exists & ~(limits[row].s > reach) & (order < first);
-      first = Select(before, order, first);
+      const Mask before = limits[row].exists & ~(limits[row].s > reach) & (set_[row] < first);
+      first = Select(before, set_[row], first);
       for (int k = 0; k < row; ++k) is_limiting_[k] &= ~before;
       is_limiting_[row] = before;
       s_ = Select(before, limits[row].s, s_);
