@@ -42,6 +42,29 @@ int SolverId(SiconosMethod method) {
   }
 }
 
+// Static friction of the plane as a complementarity problem w = M z + q, three unknowns a contact:
+//   z = (fN, fF + mu fN, aF-)   w = (aN, aF+, mu fN - fF),   aF = aF+ - aF-
+PeerProblem PlanarLcp(const PeerProblem& problem) {
+  const int contacts = static_cast<int>(problem.contacts.size());
+  PeerProblem lcp;
+  lcp.A = Eigen::MatrixXd::Zero(3 * contacts, 3 * contacts);
+  lcp.b = Eigen::VectorXd::Zero(3 * contacts);
+  for (int i = 0; i < contacts; ++i) {
+    for (int row = 0; row < 2; ++row) {
+      lcp.b[3 * i + row] = problem.b[2 * i + row];
+      for (int j = 0; j < contacts; ++j) {
+        const double along = problem.A(2 * i + row, 2 * j + 1);
+        lcp.A(3 * i + row, 3 * j) = problem.A(2 * i + row, 2 * j) - problem.contacts[j].mu * along;
+        lcp.A(3 * i + row, 3 * j + 1) = along;
+      }
+    }
+    lcp.A(3 * i + 1, 3 * i + 2) = 1;
+    lcp.A(3 * i + 2, 3 * i) = 2 * problem.contacts[i].mu;
+    lcp.A(3 * i + 2, 3 * i + 1) = -1;
+  }
+  return lcp;
+}
+
 class SiconosContender : public Contender {
  public:
   explicit SiconosContender(SiconosMethod method)
@@ -49,7 +72,7 @@ class SiconosContender : public Contender {
     const bool is_newton =
         method == SiconosMethod::kFriction3dNewton || method == SiconosMethod::kFriction3dHybrid;
     numerics_set_verbose(0);
-    if (method == SiconosMethod::kLcpLemke || method == SiconosMethod::kFriction2dLemke) return;
+    if (IsLcp() || method == SiconosMethod::kFriction2dLemke) return;
     options_->dparam[SICONOS_DPARAM_TOL] = kTolerance;
     if (method == SiconosMethod::kFriction3dHybrid)
       options_->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
@@ -60,23 +83,25 @@ class SiconosContender : public Contender {
   void Load(const std::vector<PeerProblem>& problems) override {
     loaded_ = std::vector<Loaded>(problems.size());
     for (std::size_t k = 0; k < problems.size(); ++k) {
-      loaded_[k].A = problems[k].A;
-      loaded_[k].b = problems[k].b;
+      const bool made = method_ == SiconosMethod::kPlanarLcp;
+      loaded_[k].A = made ? PlanarLcp(problems[k]).A : problems[k].A;
+      loaded_[k].b = made ? PlanarLcp(problems[k]).b : problems[k].b;
       for (const auto& contact : problems[k].contacts) loaded_[k].mu.push_back(contact.mu);
-      const int rows = problems[k].rows();
+      const int rows = static_cast<int>(loaded_[k].b.size());
       loaded_[k].matrix.reset(NM_create_from_data(NM_DENSE, rows, rows, loaded_[k].A.data()));
     }
-    rows_ = problems.front().rows();
+    rows_ = static_cast<int>(loaded_.front().b.size());
     f_.resize(rows_);
     a_.resize(rows_);
   }
 
   bool Solve(int k) override {
     Loaded& of = loaded_[k];
+    solved_ = k;
     f_.setZero();
     a_.setZero();
     int info = 0;
-    if (method_ == SiconosMethod::kLcpLemke) {
+    if (IsLcp()) {
       LinearComplementarityProblem lcp = {rows_, of.matrix.get(), of.b.data()};
       lcp_lexicolemke(&lcp, f_.data(), a_.data(), &info, options_.get());
     } else {
@@ -91,9 +116,20 @@ class SiconosContender : public Contender {
     return info == 0;
   }
 
-  Eigen::VectorXd Forces() const override { return f_; }
+  Eigen::VectorXd Forces() const override {
+    if (method_ != SiconosMethod::kPlanarLcp) return f_;
+    const std::vector<double>& mu = loaded_[solved_].mu;
+    Eigen::VectorXd f(2 * mu.size());
+    for (std::size_t i = 0; i < mu.size(); ++i) {
+      f[2 * i] = f_[3 * i];
+      f[2 * i + 1] = f_[3 * i + 1] - mu[i] * f_[3 * i];
+    }
+    return f;
+  }
 
  private:
+  bool IsLcp() const { return method_ == SiconosMethod::kLcpLemke || method_ == SiconosMethod::kPlanarLcp; }
+
   struct Release {
     void operator()(NumericsMatrix* matrix) const { std::free(NM_free_not_dense(matrix)); }
   };
@@ -107,7 +143,7 @@ class SiconosContender : public Contender {
   SiconosMethod method_;
   std::unique_ptr<SolverOptions, void (*)(SolverOptions*)> options_;
   std::vector<Loaded> loaded_;
-  int rows_ = 0;
+  int rows_ = 0, solved_ = 0;
   Eigen::VectorXd f_, a_;
 };
 

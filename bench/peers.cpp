@@ -70,6 +70,7 @@ void PrintHead() {
 
 Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   if (name == "structure") return MeasureStructure(o);
+  if (name == "search") return MeasureSearch(o);
   if (name == "growth-frictionless") return MeasureGrowth(false, o);
   if (name == "growth-planar") return MeasureGrowth(true, o);
   if (name == "extremes") return MeasureExtremes(true, o);
@@ -138,7 +139,7 @@ std::vector<std::string> UsualTables() {
 
 std::vector<std::string> AllTables() {
   std::vector<std::string> tables = UsualTables();
-  tables.insert(tables.end(), {"extremes-frictionless", "extremes"});
+  tables.insert(tables.end(), {"extremes-frictionless", "extremes", "search"});
   return tables;
 }
 

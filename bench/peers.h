@@ -37,6 +37,7 @@ enum class SiconosMethod {
   kLcpLemke,
   kFriction2dNsgs,
   kFriction2dLemke,
+  kPlanarLcp,  // Lemke's method on the complementarity problem of planar friction, made beforehand
   kFriction3dNsgs,
   kFriction3dNewton,
   kFriction3dHybrid,  // Newton's method from where extragradient steps end

@@ -53,6 +53,9 @@ Json MeasureStructure(const PeersOptions& o);
 // Along dials (peers_extremes.cpp): without friction, where all packages mean the same law, and with it.
 Json MeasureExtremes(bool friction, const PeersOptions& o);
 
+// A search beside Siconos's Lemke (peers_search.cpp): {"rows": [...]}.
+Json MeasureSearch(const PeersOptions& o);
+
 // Time, memory and counts by the number of contacts (peers_growth.cpp).
 Json MeasureGrowth(bool friction, const PeersOptions& o);
 

@@ -3,8 +3,10 @@
 // beside this one.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -14,9 +16,13 @@
 namespace stiction {
 namespace {
 
+std::filesystem::path PeersProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
+}
+
 // `tables`: options that name them.
 int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tables) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "stiction-peers";
+  const auto program = PeersProgram();
   std::vector<std::string> words = {program.string(),
                                     "--seed",
                                     std::to_string(options.seed),
@@ -40,6 +46,23 @@ int BecomePeers(const BenchOptions& options, const std::vector<std::string>& tab
 }
 
 }  // namespace
+
+Json AskPeers(const BenchOptions& options, const std::string& table) {
+  const auto program = PeersProgram();
+  std::string command = fmt::format("'{}' --json --table {} --seed {}", program.string(), table, options.seed);
+  if (!options.contacts.empty()) command += fmt::format(" --contacts {}", fmt::join(options.contacts, " "));
+  const auto refuse = [&](const std::string& found) {
+    throw InputError(
+        fmt::format("{}: found {}, expected tables of the program stiction-peers", command, found));
+  };
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) refuse(std::strerror(errno));
+  std::string text;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  const int status = pclose(pipe);
+  if (status != 0) refuse(fmt::format("status {}", status));
+  return Json::parse(text).at("tables").at(0);
+}
 
 int BenchPeers(const BenchOptions& options) { return BecomePeers(options, {}); }
 

@@ -1,65 +1,261 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench --suite search: problems a second of the search's hot path.
+// bench --suite search: problems a second of a search, what its time goes to, and how far the limit is.
+//
+// Rates     of one thread, a second of its processor time: generation, solving over doubles, classification,
+// exact
+//           runs of suspicions. By generator and number of contacts; of two contacts by instruction set; of a
+//           campaign that names nothing, one round of its schedule, without finishing.
+// Threads   one and two over the same units, in wall-clock time.
+// Roofline  operations of one problem, counted, beside the most that one core can do of them in the best
+//           instruction set: each kind alone, as if all else were free.
+// Lemke     Siconos's on the same problems in the same run, by stiction-peers (peers_search.cpp).
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iostream>
+#include <thread>
 
+#include "bench/counted.h"
 #include "bench/measure.h"
+#include "bench/peak.h"
 #include "bench/suite.h"
+#include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
 #include "corpus/stopwatch.h"
+#include "search/batch/batch.h"
+#include "search/generators.ipp"
 #include "search/unit.h"
+#include "solver/problem/residual.h"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 namespace {
 
-// Problems a second of one thread: generation, solving over doubles, classification, exact runs of suspicions.
-Spread SearchRate(GeneratorId generator, int contacts, const BenchOptions& o) {
+constexpr std::int64_t kProblems = 200'000;  // of a run at two contacts
+
+double OwnSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
+
+Json ToJson(const Spread& s) { return {s.least, s.median, s.most}; }
+
+// ---- Rates -----------------------------------------------------------------------------------
+
+Spread SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, const BenchOptions& o) {
   Campaign campaign;
   campaign.seed = o.seed;
   campaign.generators = {generator};
   campaign.contacts = {contacts};
   const std::int64_t problems =
-      std::max<std::int64_t>(50, o.problems.value_or(200000) >> (2 * std::max(0, contacts - 2)));
+      std::max<std::int64_t>(50, o.problems.value_or(kProblems) >> (2 * std::max(0, contacts - 2)));
   campaign.unit_problems = problems << std::max(0, contacts - 2);  // UnitProblems takes it back
-  UnitRunner runner(campaign);
+  UnitRunner runner(campaign, {.lanes = lanes});
   std::vector<double> rates;
   for (int run = 0; run <= o.repeat; ++run) {
-    const Stopwatch watch;
+    const double start = OwnSeconds();
     runner.Run(run);
-    const double seconds = watch.Seconds();
+    const double seconds = OwnSeconds() - start;
     if (run > 0) rates.push_back(static_cast<double>(problems) / seconds);  // the first run warms up
   }
   return SpreadOf(rates);
 }
 
+BenchTable MeasureRates(const BenchOptions& o) {
+  const std::vector<int> sizes = o.contacts.empty() ? std::vector<int>{2, 3, 5} : o.contacts;
+  BenchTable table{"rates", "Problems a second of processor time, one thread: median (least - most)",
+                   Json::array()};
+  for (const GeneratorRow& row : Generators()) {
+    if (o.generator && row.id != *o.generator) continue;
+    for (const int contacts : sizes)
+      table.rows.push_back(
+          {{"generator", row.name},
+           {"contacts", contacts},
+           {"problems a second", ToJson(SearchRate(row.id, contacts, BestInstructionSet(), o))}});
+  }
+  return table;
+}
+
+BenchTable MeasureLanes(const BenchOptions& o) {
+  BenchTable table{"lanes", "The same at two contacts, by instruction set; none: one problem after the other",
+                   Json::array()};
+  for (const GeneratorRow& row : Generators()) {
+    if (!row.IsPlain() || static_cast<int>(row.id) >= kOrdinaryGeneratorCount) continue;
+    if (o.generator && row.id != *o.generator) continue;
+    Json line = {{"generator", row.name}};
+    for (const InstructionSet set : InstructionSets())
+      line[std::string(Name(set))] = ToJson(SearchRate(row.id, 2, set, o));
+    table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+// ---- The default mix, and threads ------------------------------------------------------------
+
+Campaign DefaultMix(const BenchOptions& o) {
+  Campaign campaign;
+  campaign.seed = o.seed;
+  campaign.unit_problems = std::max<std::int64_t>(50, o.problems.value_or(kProblems) / 20);
+  return campaign;
+}
+
+struct MixRun {
+  std::int64_t problems = 0;
+  ProcessorTime time;
+  double wall = 0, processor = 0;  // s
+};
+
+// One round of the schedule, whose units the threads share.
+MixRun RunMix(const Campaign& campaign, int threads) {
+  const auto units = static_cast<std::int64_t>(Schedule(campaign).size());
+  std::atomic<std::int64_t> next = 0;
+  std::vector<MixRun> parts(static_cast<std::size_t>(threads));
+  const auto work = [&](MixRun& part) {
+    const double start = OwnSeconds();
+    UnitRunner runner(campaign);
+    for (std::int64_t unit = next++; unit < units; unit = next++) {
+      const UnitResult result = runner.Run(unit);
+      part.problems += result.problems;
+      auto of_unit = PartsOf(result.time);
+      auto value = of_unit.begin();
+      ForEachPart(part.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
+    }
+    part.processor = OwnSeconds() - start;
+  };
+  const double start = ReadSeconds(CLOCK_MONOTONIC);
+  {
+    std::vector<std::jthread> others;
+    for (int k = 0; k < threads; ++k) others.emplace_back(work, std::ref(parts[static_cast<std::size_t>(k)]));
+  }
+  MixRun all;
+  all.wall = ReadSeconds(CLOCK_MONOTONIC) - start;
+  for (const MixRun& part : parts) {
+    all.problems += part.problems;
+    all.processor += part.processor;
+    auto of_part = PartsOf(part.time);
+    auto value = of_part.begin();
+    ForEachPart(all.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
+  }
+  return all;
+}
+
+Json SplitJson(const ProcessorTime& time) {
+  Json split = Json::object();
+  const double all = static_cast<double>(std::max<std::int64_t>(1, time.Total()));
+  ForEachPart(time, [&](const char* name, const char*, std::int64_t part) {
+    split[name] = static_cast<double>(part) / all;
+  });
+  return split;
+}
+
+Json MixRow(const char* generators, const MixRun& run) {
+  Json row = {{"generators", generators},
+              {"problems", run.problems},
+              {"problems a second", static_cast<double>(run.problems) / run.processor}};
+  row.update(SplitJson(run.time));
+  return row;
+}
+
+std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
+  const Campaign campaign = DefaultMix(o);
+  const MixRun one = RunMix(campaign, 1), two = RunMix(campaign, 2);
+  BenchTable mix{"mix",
+                 "A campaign that names nothing, without finishing, and integers at two contacts: shares of "
+                 "the processor time",
+                 Json::array()};
+  Campaign integers = campaign;
+  integers.generators = {GeneratorId::kIntegers};
+  integers.contacts = {2};
+  integers.unit_problems = o.problems.value_or(kProblems);
+  mix.rows.push_back(MixRow("all", one));
+  mix.rows.push_back(MixRow("integers", RunMix(integers, 1)));
+  BenchTable threads{"threads", "Its units shared by threads, in wall-clock time", Json::array()};
+  for (const auto& [count, run] : {std::pair{1, one}, {2, two}})
+    threads.rows.push_back(
+        {{"threads", count},
+         {"problems a second", static_cast<double>(run.problems) / run.wall},
+         {"times one", one.wall / run.wall},
+         {"processors busy", run.processor / run.wall},
+         {"problems a processor second", static_cast<double>(run.problems) / run.processor}});
+  return {mix, threads};
+}
+
+// ---- Roofline --------------------------------------------------------------------------------
+
+// Of one problem of `integers` at two contacts: drawing it, the run, the residual of its forces.
+OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, double& steps) {
+  ContactProblem<Counted, kBatchRows> problem;
+  PublishedAlgorithm<Counted, kBatchRows> algorithm;
+  Counted::counts() = {};
+  for (std::int64_t index = 0; index < problems; ++index) {
+    Choices choices(ProblemSeed(o.seed, 1, static_cast<std::uint64_t>(index)));
+    generators::DrawFriction(kDefaultPalette, choices, problem);
+    generators::Integers(choices, problem);
+    steps += static_cast<double>(algorithm.Run(problem).statistics.steps);
+    const auto& f = algorithm.state().f;
+    auto a = problem.b;
+    for (int i = 0; i < kBatchRows; ++i) {
+      for (int j = 0; j < kBatchRows; ++j) a[i] += problem.A(i, j) * f[j];
+    }
+    NaturalResidual(problem, f, a);
+  }
+  return Counted::counts();
+}
+
+BenchTable MeasureRoofline(const BenchOptions& o) {
+  constexpr std::int64_t kCounted = 20'000;
+  double steps = 0;
+  const OperationCounts counts = CountOperations(o, kCounted, steps);
+  const auto each = [](std::int64_t count) { return static_cast<double>(count) / kCounted; };
+  // A block is written and read once.
+  constexpr double kBytes = 2.0 * sizeof(Block) / kBlockProblems;
+  const Peak peak = MeasurePeak(BestInstructionSet());
+  const double measured = SearchRate(GeneratorId::kIntegers, 2, BestInstructionSet(), o).median;
+  BenchTable table{"roofline",
+                   fmt::format("One problem of integers, two contacts: what {} allows, and what is reached",
+                               Name(BestInstructionSet())),
+                   Json::array()};
+  const auto add = [&](const char* what, double of_one, double most) {
+    table.rows.push_back({{"what", what},
+                          {"steps", steps / kCounted},
+                          {"of a problem", of_one},
+                          {"most a second", most},
+                          {"problems a second at most", most / of_one},
+                          {"problems a second", measured},
+                          {"reached, %", 100 * measured * of_one / most}});
+  };
+  add("sums, products, comparisons", each(counts.sums + counts.products + counts.comparisons), peak.operations);
+  add("quotients", each(counts.quotients), peak.quotients);
+  add("bytes of blocks", kBytes, peak.bytes);
+  return table;
+}
+
 }  // namespace
 
 int BenchSearch(const BenchOptions& o) {
-  const std::vector<int> sizes = o.contacts.empty() ? std::vector<int>{2, 3, 4, 8} : o.contacts;
-  Json rows = Json::array();
-  if (!o.json)
-    fmt::print("{:16} {:>8} {:>14} {:>14} {:>14}   problems a second, one thread\n", "generator", "contacts",
-               "least", "median", "most");
-  for (const GeneratorRow& row : Generators()) {
-    if (o.generator && row.id != *o.generator) continue;
-    for (const int contacts : sizes) {
-      const Spread rate = SearchRate(row.id, contacts, o);
-      rows.push_back({{"generator", row.name},
-                      {"contacts", contacts},
-                      {"least", rate.least},
-                      {"median", rate.median},
-                      {"most", rate.most}});
-      if (!o.json)
-        fmt::print("{:16} {:>8} {:>14.0f} {:>14.0f} {:>14.0f}\n", row.name, contacts, rate.least, rate.median,
-                   rate.most);
-      std::fflush(stdout);
-    }
+  std::vector<BenchTable> tables = {MeasureRates(o)};
+  if (!o.json) Print(tables.back());
+  const auto take = [&](BenchTable table) {
+    if (!o.json) Print(table);
+    std::fflush(stdout);
+    tables.push_back(std::move(table));
+  };
+  take(MeasureLanes(o));
+  if (!o.generator) {
+    for (BenchTable& table : MeasureMix(o)) take(std::move(table));
+    take(MeasureRoofline(o));
+    BenchTable lemke{
+        "lemke",
+        "Siconos's Lemke and the published algorithm on the same problems of integers: times as many solved",
+        {}};
+    lemke.rows = AskPeers(o, "search").at("rows");
+    take(std::move(lemke));
   }
-  if (o.json) std::cout << JsonText(rows) << "\n";
+  if (o.json) {
+    Json json = Json::object();
+    for (const BenchTable& table : tables) json[table.name] = table.rows;
+    std::cout << JsonText(json) << "\n";
+  }
   return kExitDone;
 }
 

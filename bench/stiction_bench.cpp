@@ -31,7 +31,7 @@ constexpr std::array kSuites = {
           BenchAdversary},
     Suite{"patches", "ways to change the published algorithm, and how often each still fails", kMaxContacts,
           BenchPatches},
-    Suite{"search", "problems a second of the search's hot path", kMaxContacts, BenchSearch},
+    Suite{"search", "problems a second of a search, the split of its time, threads, a roofline, Siconos's Lemke", kMaxContacts, BenchSearch},
     Suite{"trade", "speed against accuracy: every method over every arithmetic, on the generators",
           kMaxContacts, BenchTrade},
     Suite{"extremes", "the same along dials: masses, levers, units, conditioning, friction, ...", kMaxContacts,
@@ -95,7 +95,7 @@ void AddOptions(CLI::App& verb, const std::shared_ptr<BenchOptions>& o) {
           "--problems", o->problems,
           "adversary: candidates of a row, at most its own 300 to 60000; search: problems per run at two "
           "contacts, a "
-          "quarter for each contact more (default 200000); "
+          "quarter for each contact more, and a twentieth for a unit of the default mix (default 200000); "
           "methods, peers, random: problems of each number of contacts (default 800, 400, 400); structure: at "
           "most "
           "so many of a family; frictionless: at most so many of each number (default 48); linear-algebra: "

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/json_text.h"
 #include "search/generators.h"
 
 namespace stiction {
@@ -47,7 +48,7 @@ int BenchSilent(const BenchOptions& options);
 // (ratios.cpp).
 int BenchRatios(const BenchOptions& options);
 
-// Problems a second of the search's hot path, one thread (search_rate.cpp).
+// Problems a second of a search, the split of its time, threads, a roofline, Siconos's Lemke (search_rate.cpp).
 int BenchSearch(const BenchOptions& options);
 
 // The methods side by side on the same problems (methods.cpp).
@@ -58,6 +59,9 @@ int BenchFrictionless(const BenchOptions& options);
 // stiction beside the solvers of other packages (run_peers.cpp, peers.cpp). Does not return. InputError if the
 // program stiction-peers is missing.
 int BenchPeers(const BenchOptions& options);
+
+// One of its tables, in a process of its own. InputError if it cannot be had.
+Json AskPeers(const BenchOptions& options, const std::string& table);
 
 // Of it, random problems by the number of contacts (peers_tables.cpp).
 int BenchRandom(const BenchOptions& options);

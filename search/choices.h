@@ -30,10 +30,13 @@ constexpr std::uint64_t Mix(std::uint64_t word) {
 }
 
 // The seed of problem `index` in unit `unit` of a campaign. Within a unit no two seeds are equal.
+inline constexpr std::uint64_t kSeedStep = 0xd1342543de82ef95u;  // odd, and not the increment of Choices
+constexpr std::uint64_t UnitSeed(std::uint64_t campaign_seed, std::uint64_t unit) {
+  const std::uint64_t campaign = Mix(campaign_seed + kSeedStep);
+  return Mix(campaign + kSeedStep * (unit + 1));
+}
 constexpr std::uint64_t ProblemSeed(std::uint64_t campaign_seed, std::uint64_t unit, std::uint64_t index) {
-  constexpr std::uint64_t kOdd = 0xd1342543de82ef95u;  // not the increment of Choices
-  const std::uint64_t campaign = Mix(campaign_seed + kOdd);
-  return Mix(Mix(campaign + kOdd * (unit + 1)) + kOdd * (index + 1));
+  return Mix(UnitSeed(campaign_seed, unit) + kSeedStep * (index + 1));
 }
 
 // A choice that was made, and the range that was asked for.

@@ -16,6 +16,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/kinds.h"
 #include "corpus/scene_file.h"
+#include "search/batch/batch.h"
 #include "search/generators.ipp"
 #include "search/scenes.h"
 #include "search/signature.h"
@@ -539,10 +540,17 @@ class Kernel final : public SizedKernel {
     for (const Policy& policy : campaign.policies) {
       algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
     }
+    const bool batched = Rows == kBatchRows && campaign.policies.size() == 1 && !solvers.distort &&
+                         IsBatched(algorithms_.front().options());
+    if (batched && solvers.lanes != InstructionSet::kNone)
+      batch_ = std::make_unique<Batch>(solvers.lanes, algorithms_.front().options());
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector) override {
     const Surroundings surroundings = SurroundingsOf(campaign_);
+    if constexpr (Rows == kBatchRows) {
+      if (batch_ != nullptr) return RunBatched(unit, task, surroundings, collector);
+    }
     bool reduced = true;
     const auto draw = [&](Choices& choices) {
       drawn_ = Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
@@ -564,6 +572,41 @@ class Kernel final : public SizedKernel {
  private:
   using Vector = typename ContactProblem<double, Rows>::Vector;
 
+  // The same, many problems at once; what leaves the lanes is run by itself.
+  void RunBatched(std::int64_t unit, const Task& task, const Surroundings& surroundings, Collector& collector) {
+    const std::int64_t problems = UnitProblems(campaign_, task);
+    for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
+      const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
+      DrawBlock(unit, task, surroundings, first, count, collector);
+      batch_->Run(count);
+      for (int i = 0; i < count; ++i) {
+        const std::int64_t index = first + i;
+        const bool audit = index % campaign_.audit_every == 0;
+        drawn_ = batch_->DrawnOf(i);
+        if (batch_->IsLeft(i)) {
+          batch_->Get(i, problem_);
+          Try(index, 0, audit, collector);
+        } else {
+          Conclude(batch_->VerdictOf(i), index, 0, audit, collector, [&] { return batch_->Residual(i); });
+        }
+      }
+    }
+  }
+
+  void DrawBlock(std::int64_t unit, const Task& task, const Surroundings& surroundings, std::int64_t first,
+                 int count, Collector& collector) {
+    const Spending spending(collector.meter(), &ProcessorTime::generation);
+    const auto u = static_cast<std::uint64_t>(unit);
+    if (IsDrawnInLanes(task.generator))
+      return batch_->Draw(task.generator, surroundings.palette, campaign_.seed, u, first, count);
+    for (int i = 0; i < count; ++i) {
+      Choices choices(ProblemSeed(campaign_.seed, u, static_cast<std::uint64_t>(first + i)));
+      const Drawn drawn =
+          Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      batch_->Put(i, problem_, drawn);
+    }
+  }
+
   // A problem that bilateral and sliding contacts cannot leave over doubles: exact arithmetic decides.
   void Refuse(std::int64_t index, std::size_t policy, Collector& collector) {
     Verdict verdict;
@@ -581,7 +624,13 @@ class Kernel final : public SizedKernel {
       solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
       f = &distorted;
     }
-    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] { return Residual(*f); });
+    Conclude(verdict, index, policy, audit, collector, [&] { return Residual(*f); });
+  }
+
+  template <class ResidualOf>
+  void Conclude(const Verdict& verdict, std::int64_t index, std::size_t policy, bool audit,
+                Collector& collector, ResidualOf residual) {
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, residual);
     if (suspected || audit) collector.RunAgain(index, policy, verdict.outcome, wrong, suspected);
   }
 
@@ -602,6 +651,7 @@ class Kernel final : public SizedKernel {
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double, Rows> problem_;
   Drawn drawn_;
+  std::unique_ptr<Batch> batch_;  // null: problems are run one by one
 };
 
 // Problems that are decided with certified signs from the start.

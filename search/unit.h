@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "search/batch/instructions.h"
 #include "search/campaign.h"
 #include "search/exact_methods.h"
 
@@ -39,6 +40,8 @@ struct UnitSolvers {
   ExactMethods exact = {};
   // Changes what a run over doubles says, and its forces; not called where it is empty.
   std::function<void(Verdict&, std::span<double> f)> distort = {};
+  // What problems of two contacts are batched with. Results do not depend on it.
+  InstructionSet lanes = BestInstructionSet();
 };
 
 // Keeps its workspaces between units. One per thread.

@@ -174,13 +174,44 @@ def sliding(program):
 
 
 def search_speed(program):
-    result = program.bench("search", "--contacts", 2, 3, 4)
-    cells = {(row["generator"], row["contacts"]): row for row in result}
-    sizes = sorted({row["contacts"] for row in result})
-    generators = sorted({row["generator"] for row in result}, key=lambda name: -cells[name, sizes[0]]["median"])
-    rows = [(f"`{name}`", *(median_of(cells[name, n]) for n in sizes)) for name in generators]
-    return table(["problems a second", *(f"{n} contacts" for n in sizes)], rows) + "\n\n" + prose(
-        "One thread, median (least - most) of 5 runs" + machine())
+    result = program.bench("search")
+    cells = {(row["generator"], row["contacts"]): row["problems a second"] for row in result["rates"]}
+    sizes = sorted({row["contacts"] for row in result["rates"]})
+    generators = sorted({row["generator"] for row in result["rates"]}, key=lambda name: -cells[name, sizes[0]][1])
+    rates = table(["problems a second", *(f"{n} contacts" for n in sizes)],
+                  [(f"`{name}`", *(spread(cells[name, n]) for n in sizes)) for name in generators])
+    beside = table(["contacts", "beside", "wrong of it", "it solves a second", "`baraff` in a search solves a second",
+                    "times as many", "whole search, problems a second"],
+                   [(row["contacts"], row["peer"], f"{row['wrong of the peer']:,} of {row['problems']:,}",
+                     spread(row["peer, problems a second"]), spread(row["solved a second"]),
+                     spread(row["times as many"]), spread(row["whole search"])) for row in result["lemke"] if "problems" in row])
+    return "\n\n".join((rates, mix_in_words(result), beside, prose(
+        "Processor time of one thread, median (least - most) of 5 runs" + machine())))
+
+
+def mix_in_words(result):
+    """The default campaign, and two threads."""
+    mix, threads = result["mix"][0], result["threads"]
+    parts = ", ".join(f"{name} {three(100 * part)} %" for name, part in mix.items()
+                      if part and name not in ("generators", "problems", "problems a second"))
+    return prose(f"A campaign that names nothing: {three(mix['problems a second'])} problems a second of processor time "
+                 f"({parts}). Two threads are {threads[1]['times one']:.2f} times as fast as one, with "
+                 f"{threads[1]['processors busy']:.2f} processors at their disposal.")
+
+
+def lanes(program):
+    result = program.bench("search")
+    sets = [name for name in result["lanes"][0] if name != "generator"]
+    rates = table(["two contacts, problems a second", "one by one", *(f"lanes of {name}" for name in sets[1:]),
+                   "times as many"],
+                  [(f"`{row['generator']}`", *(spread(row[name]) for name in sets),
+                    f"{row[sets[-1]][1] / row['none'][1]:.2f}") for row in result["lanes"]])
+    roof = table(["of one problem of `integers`", "how many", "most a second", "allows problems a second",
+                  "reached, problems a second", "of what it allows"],
+                 [(row["what"], three(row["of a problem"]), three(row["most a second"]),
+                   three(row["problems a second at most"]), three(row["problems a second"]),
+                   f"{row['reached, %']:.0f} %") for row in result["roofline"]])
+    return "\n\n".join((rates, roof, prose(f"{three(result['roofline'][0]['steps'])} steps a problem" + machine())))
 
 
 def growth(program):

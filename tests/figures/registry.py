@@ -30,6 +30,7 @@ PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/
          "bench/peers_tables.cpp")
 ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/filtered.cpp")
 RUNGS = (*ANSWERS, "bench/ladder.cpp")
+SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers_search.cpp", "bench/peak.cpp")
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
 
 FIGURES = [
@@ -37,7 +38,8 @@ FIGURES = [
     Figure("readings", "README.md", "cheap", corpus.readings),
     Figure("certificates", "README.md", "cheap", corpus.certificates),
     Figure("records", "README.md", "cheap", corpus.records),
-    Figure("search-speed", "README.md", "minutes", bench.search_speed, ("algorithm", "bench/search_rate.cpp")),
+    Figure("search-speed", "README.md", "minutes", bench.search_speed, SPEED),
+    Figure("lanes", "search/README.md", "minutes", bench.lanes, SPEED),
     Figure("peers-in-short", "README.md", "long", bench.peers_in_short, PEERS),
     Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
     Figure("endless", "search/adversary/frontiers.md", "cheap", corpus.endless),
