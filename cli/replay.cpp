@@ -149,6 +149,12 @@ std::optional<Verdict> OverIntervals(const ReplayOptions& o, const ProblemFile& 
   return RunIntervalsInSpace(file.problem, {policy, {}, o.limits}).verdict;
 }
 
+// "over intervals, proved: cycle: ..."
+std::string OverIntervalsText(const Verdict& verdict) {
+  const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(verdict));
+}
+
 int ExitOf(Outcome outcome, const std::string& expected) {
   if (Name(outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
     return kExitDone;
@@ -190,10 +196,12 @@ FollowedRun Followed(ReplayOptions o, const ProblemFile& file, const Solution& s
   return run;
 }
 
-// The run itself, and beside it complete driving.
-void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
+// The run itself, with what intervals say of it, and beside it complete driving.
+void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
+               const std::optional<Verdict>& over_intervals) {
   const ProblemFile& file = replay.file;
   std::vector<FollowedRun> runs = {Followed(o, file, solution)};
+  if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
   ReplayOptions beside = o;
   beside.method = "complete";
   beside.arithmetic = "";
@@ -209,7 +217,7 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
   Narration narration = Narrate(o, file, solution);
   const auto proved = OverIntervals(o, file, policy, solution.outcome());
-  if (!o.html.empty()) WritePage(o, replay, solution);
+  if (!o.html.empty()) WritePage(o, replay, solution, proved);
   if (o.html == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
     Json json = ReplayToJson(o, file, solution, std::move(narration));
@@ -218,10 +226,7 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     std::cout << JsonText(json) << "\n";
   } else {
     PrintForPeople(o, file, solution, narration);
-    if (proved) {
-      const bool open = proved->outcome == Outcome::kUndecided || proved->outcome == Outcome::kLimit;
-      fmt::print("over intervals, {}: {}\n", open ? "which do not decide it" : "proved", Describe(*proved));
-    }
+    if (proved) fmt::print("{}\n", OverIntervalsText(*proved));
     if (!expected.empty() && expected != Name(solution.outcome())) fmt::print("expected: {}\n", expected);
   }
   return ExitOf(solution.outcome(), expected);

@@ -9,7 +9,7 @@ function typeset(text) {
     if (part === 'mu') return element('i', {}, 'μ');
     if (part.startsWith('`')) return element('code', {}, part.slice(1, -1));
     const found = part.match(/^([adf]+)_(\w+)$/);
-    if (found === null) return part.replace(/(^|[\s(=,])-(?=\d)/g, '$1−');
+    if (found === null) return part.replace(/(^|[\s(=,])-(?=\d|$)/g, '$1−');
     return element('span', {class: 'symbol'}, element('i', {}, found[1]), element('span', {class: 'away'}, '_'), element('sub', {}, found[2]));
   });
 }

@@ -10,7 +10,7 @@ import {Values, equation} from './values.js';
 
 const kTick = 1100;       // ms of a step that is played
 const kSwipe = 45;        // pixels
-const kLargestShown = 8;  // rows of A that are shown as a matrix
+const kNarrow = 4;  // rows of A that leave room for a picture beside it
 
 const data = JSON.parse(byId('data').textContent);
 const runs = data.runs.map(run => new Run(run));
@@ -167,7 +167,7 @@ function build() {
   byId('cones-note').append(...runs.map((run, i) => element('span', {class: `key run-${i}`}, run.title)),
       cones.areToScale ? '' : ' The axes have scales of their own.');
   const problem = document.querySelector('.problem');
-  problem.classList.toggle('large', data.rows.length > kLargestShown);
+  problem.classList.toggle('large', data.rows.length > kNarrow);
   problem.classList.toggle('with-picture', picture !== null);
   if (picture !== null) {
     byId('picture').append(picture.node, element('figcaption', {}, 'The scene, and the force of each contact at this step'));
