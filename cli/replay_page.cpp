@@ -25,11 +25,29 @@ Json PartingToJson(const Parting& parting, const Policy& policy) {
           {"there", there.name},  {"other", there.meaning}, {"outcome", Name(parting.outcome)}};
 }
 
+// The readings by which a step gives a variable up: when it is, and what a normal takes along.
+Json ReadingsOf(const Json& told, const Policy& policy) {
+  Json readings = Json::array();
+  for (const PolicySwitchRow& row : PolicySwitches()) {
+    const bool on_normal = told["moved"].get<std::string>().front() == 'N';
+    if (row.id != PolicySwitch::kGiveUp && (row.id != PolicySwitch::kDrop || !on_normal)) continue;
+    const PolicyValue& value = row.values[static_cast<std::size_t>(row.get(policy))];
+    readings.push_back(
+        {{"switch", row.name}, {"question", row.question}, {"here", value.name}, {"meaning", value.meaning}});
+  }
+  return readings;
+}
+
 Json RunToJson(const FollowedRun& run) {
-  Json partings = Json::array();
-  for (const Parting& parting : run.partings)
-    partings.push_back(PartingToJson(parting, ParsePolicy(run.replay["policy"].get<std::string>())));
-  return {{"title", run.title},  {"before", run.narration.before}, {"told", run.narration.told},
+  Json partings = Json::array(), told = run.narration.told;
+  if (run.replay.contains("policy")) {
+    const Policy policy = ParsePolicy(run.replay["policy"].get<std::string>());
+    for (const Parting& parting : run.partings) partings.push_back(PartingToJson(parting, policy));
+    for (Json& step : told) {
+      if (step["mark"] == "given up") step["readings"] = ReadingsOf(step, policy);
+    }
+  }
+  return {{"title", run.title},  {"before", run.narration.before}, {"told", std::move(told)},
           {"end", run.end},      {"loop", LoopToJson(run.replay)}, {"partings", std::move(partings)},
           {"replay", run.replay}};
 }

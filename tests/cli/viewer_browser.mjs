@@ -169,6 +169,10 @@ test('where the policy decides, the page says so', async () => {
     assert.match(text, /give-up: when a variable that wants back/);
     assert.match(text, /The paper: 5\.5/);
     assert.match(text, /first.*\(here\)/);
+    for (const given of await page.$$('section.run-0 .timeline .given-up')) {
+      await given.click();
+      assert.match(await page.textContent('section.run-0 .reading'), /^Reading give-up=first \(.*: if the present step/);
+    }
   }, {hash: '#step-5'});
 });
 

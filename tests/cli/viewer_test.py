@@ -90,6 +90,17 @@ class Data(cli.TestCase):
             self.assertEqual(len(drives), run["replay"]["period"])
         self.assertIsNone(self.page("corpus/smallest-integers.json", "--method", "complete")["runs"][0]["loop"])
 
+    def test_every_step_that_gives_up_names_the_reading(self):
+        policy = "give-up=second,drop=variable"
+        told = self.page("corpus/two-contact-cycle.json", "--policy", policy)["runs"][0]["told"]
+        given_up = [step for step in told if step["mark"] == "given up"]
+        self.assertGreater(len(given_up), 0)
+        for step in told:
+            named = [(reading["switch"], reading["here"]) for reading in step.get("readings", [])]
+            when, along = [("give-up", "second")], [("drop", "variable")]
+            expected = when + along * step["moved"].startswith("N") if step["mark"] == "given up" else []
+            self.assertEqual(named, expected)
+
     def test_other_readings_part_where_it_says(self):
         run = self.page("corpus/two-contact-cycle.json")["runs"][0]
         self.assertGreater(len(run["partings"]), 3)

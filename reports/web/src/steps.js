@@ -65,6 +65,8 @@ export function tellStep(run, state, link) {
     why === '' ? null : element('p', {class: 'why'}, element('b', {}, step.entering === undefined ? `${stage} ${step.group} ` : ''), ...typeset(why)),
     element('p', {class: step.mark === '' ? 'event' : `event ${step.mark.replace(' ', '-')}`},
         element('span', {class: 's'}, element('i', {}, 's'), ' = ', number(step.step)), ' ', ...typeset(step.event)),
+    ...(step.readings ?? []).map(reading => element('p', {class: 'reading'}, 'Reading ', element('code', {}, `${reading.switch}=${reading.here}`),
+        ` (${reading.question}): ${reading.meaning}.`)),
     sets(run, state), recurrence(run, state, link),
   ].filter(Boolean);
 }
