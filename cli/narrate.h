@@ -12,9 +12,11 @@
 namespace stiction {
 
 struct Narration {
-  std::string table;  // a line for each step
-  std::string steps;  // directions, forces, accelerations and sets as well
-  Json pivots;        // an object for each step
+  std::string table;   // a line for each step
+  std::string steps;   // directions, forces, accelerations and sets as well
+  Json pivots;         // an object for each step
+  std::string before;  // how things stand before the first step
+  Json told;           // an object for each step, what a page shows of it (reports/web/README.md)
 };
 
 // `file` must outlive the call. Scalar: Rational or double. `vectors`: whether the objects have them, too.

@@ -39,10 +39,12 @@ class BaraffNarrator {
     Narration narration;
     narration.table = kinds + fmt::format("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven",
                                           "goal", "length", "what happens");
-    narration.steps = kinds + Beginning(kinds.empty());
-    narration.pivots = Json::array();
+    narration.before = kinds + Beginning(kinds.empty());
+    narration.steps = narration.before;
+    narration.pivots = narration.told = Json::array();
     for (std::size_t k = 0; k < answer_.pivots.size(); ++k) {
       narration.pivots.push_back(ToJson(answer_.pivots[k], vectors));
+      if (vectors) narration.told.push_back(ToldToJson(k));
       narration.table += Line(k);
       narration.steps += Told(k);
     }
@@ -70,11 +72,14 @@ class BaraffNarrator {
 
   std::string Told(std::size_t k) const {
     const Step& step = answer_.pivots[k];
-    const bool first = k == 0 || answer_.pivots[k - 1].drive != step.drive;
-    return (first ? Start(k) : "") +
-           fmt::format("  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n    {}\n", ListText(step.df),
-                       ListText(step.da), Text(step.s), Event(step), ListText(step.f), ListText(step.a),
-                       Sets(step));
+    const std::string start = BeginsDrive(k) ? fmt::format("\nDrive {}: {}\n", step.drive, Start(k)) : "";
+    return start + fmt::format("  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n    {}\n",
+                               ListText(step.df), ListText(step.da), Text(step.s), Event(step),
+                               ListText(step.f), ListText(step.a), Sets(step));
+  }
+
+  bool BeginsDrive(std::size_t k) const {
+    return k == 0 || answer_.pivots[k - 1].drive != answer_.pivots[k].drive;
   }
 
   // The direction without an end; with sliding contacts the impulsive direction of section 6.
@@ -102,18 +107,18 @@ class BaraffNarrator {
     const int row = step.driven;
     const std::string name = names_.Component(row);
     const Scalar a = k == 0 ? FirstA()[row] : answer_.pivots[k - 1].a[row];
-    std::string text = fmt::format("\nDrive {}: {}", step.drive, Driven(step));
+    const std::string driven = Driven(step);
     if (names_.IsNormal(row))
-      return text + fmt::format(". a_{0} = {1} < 0: increase f_{0} until it is 0 (4.1).\n", name, Text(a));
+      return driven + fmt::format(". a_{0} = {1} < 0: increase f_{0} until it is 0 (4.1).", name, Text(a));
     if (step.goal == DriveGoal::kZero)
-      return text + fmt::format(". Its friction was given up earlier: first drive f_{} to zero (5.5).\n",
-                                names_.Variable(row));
-    return text + (names_.in_space() ? AlongDirection(step) : TowardLimit(step, a));
+      return driven + fmt::format(". Its friction was given up earlier: first drive f_{} to zero (5.5).",
+                                  names_.Variable(row));
+    return driven + (names_.in_space() ? AlongDirection(step) : TowardLimit(step, a));
   }
 
   std::string TowardLimit(const Step& step, const Scalar& a) const {
     const bool up = step.df[step.driven] > 0;
-    return fmt::format(". a_{0} = {1}: {2} f_{0} until a_{0} = 0 or f_{0} = {3}mu f_{4} (5.2).\n",
+    return fmt::format(". a_{0} = {1}: {2} f_{0} until a_{0} = 0 or f_{0} = {3}mu f_{4} (5.2).",
                        names_.Variable(step.driven), Text(a), up ? "increase" : "decrease", up ? "" : "-",
                        names_.Variable(step.driven - 1));
   }
@@ -121,7 +126,7 @@ class BaraffNarrator {
   std::string AlongDirection(const Step& step) const {
     const int normal = names_.Normal(step.driven);
     const std::array<Scalar, 2> along = {step.df[normal + 1], step.df[normal + 2]};
-    return fmt::format(". Until a_{0} = 0 or abs(f_{1}) = mu f_{2} (5.6); f_{1} changes along {3}.\n",
+    return fmt::format(". Until a_{0} = 0 or abs(f_{1}) = mu f_{2} (5.6); f_{1} changes along {3}.",
                        names_.Component(step.driven), names_.Variable(step.driven), names_.Variable(normal),
                        ListText(along));
   }
@@ -179,25 +184,51 @@ class BaraffNarrator {
     return slips ? name + " along " + ListText(step.recorded[names_.layout().ContactOf(row)]) : name;
   }
 
+  struct SetMembers {
+    std::string set;
+    std::vector<std::string> members;
+  };
+
   // Sets in the paper's names, with their members; the program's own only where they have any.
-  std::string Sets(const Step& step) const {
+  std::vector<SetMembers> SetsOf(const Step& step) const {
     using Names = std::vector<const char*>;
     static const Names plane = {"C", "NC", "CF", "NC-", "NC+", "suspended"},
                        space = {"C", "NC", "CF", "NCF", "half"};
-    std::vector<std::string> texts;
+    std::vector<SetMembers> sets;
     for (const std::string set : names_.in_space() ? space : plane) {
       std::vector<std::string> members;
       for (int row = 0; row < static_cast<int>(step.sets.size()); ++row) {
         if (names_.IsVariable(row) && SetOf(step, row) == set) members.push_back(Member(step, row));
       }
       const bool own = set == "half" || set == "suspended";
-      if (own && members.empty()) continue;
-      texts.push_back(fmt::format("{} = {{{}}}", set, fmt::join(members, names_.in_space() ? ", " : " ")));
+      if (!own || !members.empty()) sets.push_back({set, std::move(members)});
     }
+    return sets;
+  }
+
+  std::string Sets(const Step& step) const {
+    std::vector<std::string> texts;
+    for (const auto& [set, members] : SetsOf(step))
+      texts.push_back(fmt::format("{} = {{{}}}", set, fmt::join(members, names_.in_space() ? ", " : " ")));
     return fmt::format("{}", fmt::join(texts, "  "));
   }
 
   // ---- JSON ----
+
+  // What a page shows beside the numbers of ToJson.
+  Json ToldToJson(std::size_t k) const {
+    const Step& step = answer_.pivots[k];
+    Json sets = Json::array();
+    for (const auto& [set, members] : SetsOf(step)) sets.push_back({set, members});
+    return {{"group", step.drive},
+            {"label", Driven(step)},
+            {"why", BeginsDrive(k) ? Start(k) : ""},
+            {"event", Event(step)},
+            {"mark", step.gave_up ? "given up" : ""},
+            {"moved", names_.Variable(step.limiting)},
+            {"da", ListJson(step.da)},
+            {"sets", std::move(sets)}};
+  }
 
   Json ToJson(const Step& step, bool vectors) const {
     Json json = {{"drive", step.drive},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complete driving and Lemke's method, piece by piece.
 
+#include <algorithm>
 #include <sstream>
 
 #include "certify/exact.h"
@@ -44,8 +45,9 @@ class CompleteNarrator {
     Narration narration;
     narration.table = fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", "piece", "driven", "det", "length",
                                   "cells", "what happens");
-    narration.steps = fmt::format("Before the first piece f = {}.\n", ListText(answer_.first_f));
-    narration.pivots = Json::array();
+    narration.before = fmt::format("Before the first piece f = {}.\n", ListText(answer_.first_f));
+    narration.steps = narration.before;
+    narration.pivots = narration.told = Json::array();
     for (std::size_t k = 0; k < answer_.pivots.size(); ++k) Add(k, vectors, narration);
     return narration;
   }
@@ -55,13 +57,17 @@ class CompleteNarrator {
     const Step& step = answer_.pivots[k];
     const std::string event = Event(k), driven = names_.Variable(step.driven);
     narration.pivots.push_back(ToJson(step, event, vectors));
+    if (vectors) narration.told.push_back(ToldToJson(k, event));
     narration.table += fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", k + 1, driven, step.determinant,
                                    Text(step.s), step.word, event);
-    narration.steps += fmt::format(
-        "\nPiece {}: {} is driven{}, cells {}, determinant {}\n  df = {}   da = {}\n  s = {}: {}\n"
-        "    f = {}   a = {}\n",
-        k + 1, driven, step.determinant < 0 ? " backward" : "", step.word, SignText(step.determinant),
-        ListText(step.df), ListText(step.da), Text(step.s), event, ListText(step.f), ListText(step.a));
+    narration.steps += fmt::format("\nPiece {}: {}\n  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n",
+                                   k + 1, Why(step), ListText(step.df), ListText(step.da), Text(step.s), event,
+                                   ListText(step.f), ListText(step.a));
+  }
+
+  std::string Why(const Step& step) const {
+    return fmt::format("{} is driven{}, cells {}, determinant {}", names_.Variable(step.driven),
+                       step.determinant < 0 ? " backward" : "", step.word, SignText(step.determinant));
   }
 
   std::string Event(std::size_t k) const {
@@ -94,13 +100,25 @@ class CompleteNarrator {
 
   // Where the published algorithm, under `paper`, gives a variable up at the very forces of a fold.
   std::string GivenUpAt(const Step& fold) const {
-    for (std::size_t k = 0; k < published_.size(); ++k) {
-      const Step& step = published_[k];
-      if (step.gave_up && step.f == fold.f)
-        return fmt::format(". Here, at step {}, the published algorithm gives {} up under `paper` (5.4, 5.5)",
-                           k + 1, names_.Variable(step.limiting));
-    }
-    return "";
+    const auto given_up = std::find_if(published_.begin(), published_.end(),
+                                       [&fold](const Step& step) { return step.gave_up && step.f == fold.f; });
+    if (given_up == published_.end()) return "";
+    return fmt::format(". Here, at step {}, the published algorithm gives {} up under `paper` (5.4, 5.5)",
+                       given_up - published_.begin() + 1, names_.Variable(given_up->limiting));
+  }
+
+  // How the path goes on after a piece, where not forward.
+  const char* Mark(std::size_t k) const {
+    const PathTurn turn = k + 1 < answer_.pivots.size() ? answer_.pivots[k + 1].turn : PathTurn::kNone;
+    return turn == PathTurn::kFold ? "fold" : turn == PathTurn::kDescent ? "descent" : "";
+  }
+
+  // What a page shows beside the numbers of ToJson.
+  Json ToldToJson(std::size_t k, const std::string& event) const {
+    const Step& step = answer_.pivots[k];
+    return {{"group", step.drive}, {"label", names_.Variable(step.driven)},
+            {"why", Why(step)},    {"event", event},
+            {"mark", Mark(k)},     {"da", ListJson(step.da)}};
   }
 
   Json ToJson(const Step& step, const std::string& event, bool vectors) const {
@@ -134,6 +152,13 @@ Json LemkePivotToJson(const Pivot<Scalar>& pivot, bool vectors) {
   return json;
 }
 
+template <class Scalar>
+Json LemkeToldToJson(const Pivot<Scalar>& pivot, const std::string& leaving) {
+  const std::string event =
+      fmt::format("{} enters, {} leaves; z0 = {}", pivot.entering, leaving, Text(pivot.cover));
+  return {{"group", pivot.drive}, {"label", pivot.entering}, {"why", ""}, {"event", event}, {"mark", ""}};
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -146,10 +171,11 @@ Narration NarrateLemke(const ProblemFile&, const TracedAnswer<Scalar>& answer, b
   Narration narration;
   narration.table =
       fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", "pivot", "enters", "leaves", "length", "z0");
-  narration.pivots = Json::array();
+  narration.pivots = narration.told = Json::array();
   for (const Pivot<Scalar>& pivot : answer.pivots) {
     const std::string leaving = pivot.leaving.empty() ? "(ray)" : pivot.leaving;
     narration.pivots.push_back(LemkePivotToJson(pivot, vectors));
+    if (vectors) narration.told.push_back(LemkeToldToJson(pivot, leaving));
     narration.table += fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", pivot.drive, pivot.entering, leaving,
                                    Text(pivot.s), Text(pivot.cover));
     narration.steps += fmt::format("\nPivot {}: {} enters, by {}; {} leaves\n    z0 = {}   f = {}   a = {}\n",

@@ -13,10 +13,13 @@
 #include "cli/answer_text.h"
 #include "cli/narrate.h"
 #include "cli/narrate_text.h"
+#include "cli/replay_file.h"
+#include "cli/replay_page.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
+#include "reports/viewer.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {
@@ -31,7 +34,7 @@ struct ReplayOptions {
   bool all_policies = false;
   bool step = false;
   bool json = false;
-  std::string record;
+  std::string record, html;
   Limits limits;
 };
 
@@ -146,6 +149,12 @@ std::optional<Verdict> OverIntervals(const ReplayOptions& o, const ProblemFile& 
   return RunIntervalsInSpace(file.problem, {policy, {}, o.limits}).verdict;
 }
 
+// "over intervals, proved: cycle: ..."
+std::string OverIntervalsText(const Verdict& verdict) {
+  const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(verdict));
+}
+
 int ExitOf(Outcome outcome, const std::string& expected) {
   if (Name(outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
     return kExitDone;
@@ -153,12 +162,63 @@ int ExitOf(Outcome outcome, const std::string& expected) {
   return open ? kExitUndecided : kExitNotSo;
 }
 
-int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
+// ---- The page ----------------------------------------------------------------------------------
+
+// How a run ended, as PrintEnd says it.
+std::string EndOf(const Solution& solution) {
+  return std::visit(
+      [](const auto& answer) {
+        const bool proved = answer.arithmetic == Arithmetic::kExact;
+        std::string text = EndText(answer, proved);
+        if (!proved && answer.outcome == Outcome::kCycle) text += fmt::format(" ({})", kNoProof);
+        if (answer.ray.size() > 0)
+          text += fmt::format("; no limit to the step along df = {}", ListText(answer.ray));
+        return text;
+      },
+      solution.answer);
+}
+
+std::string TitleOf(const ReplayOptions& o) {
+  if (o.method == "baraff") return "The published algorithm, policy " + PolicyName(ParsePolicy(o.policy));
+  return o.method == "complete" ? "Complete driving" : "Lemke's method";
+}
+
+FollowedRun Followed(ReplayOptions o, const ProblemFile& file, const Solution& solution) {
+  o.step = o.json = true;
+  FollowedRun run;
+  run.title = TitleOf(o);
+  run.narration = Narrate(o, file, solution);
+  run.end = EndOf(solution);
+  run.replay = ReplayToJson(o, file, solution, run.narration);
+  const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
+  if (o.method == "baraff" && exact != nullptr)
+    run.partings = PartingsOf(file.problem, ParsePolicy(o.policy), o.limits, exact->pivots);
+  return run;
+}
+
+// The run itself, with what intervals say of it, and beside it complete driving.
+void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
+               const std::optional<Verdict>& over_intervals) {
+  const ProblemFile& file = replay.file;
+  std::vector<FollowedRun> runs = {Followed(o, file, solution)};
+  if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
+  ReplayOptions beside = o;
+  beside.method = "complete";
+  beside.arithmetic = "";
+  if (o.method != beside.method)
+    runs.push_back(Followed(beside, file, SolveFile(beside, file, RequestOf(beside, file, {}))));
+  WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs)));
+}
+
+int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
+  const ProblemFile& file = replay.file;
   const Policy policy = ParsePolicy(o.policy);
   const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
   const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
   Narration narration = Narrate(o, file, solution);
   const auto proved = OverIntervals(o, file, policy, solution.outcome());
+  if (!o.html.empty()) WritePage(o, replay, solution, proved);
+  if (o.html == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
     Json json = ReplayToJson(o, file, solution, std::move(narration));
     if (proved) json["over_intervals"] = EndToJson(*proved);
@@ -166,10 +226,7 @@ int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
     std::cout << JsonText(json) << "\n";
   } else {
     PrintForPeople(o, file, solution, narration);
-    if (proved) {
-      const bool open = proved->outcome == Outcome::kUndecided || proved->outcome == Outcome::kLimit;
-      fmt::print("over intervals, {}: {}\n", open ? "which do not decide it" : "proved", Describe(*proved));
-    }
+    if (proved) fmt::print("{}\n", OverIntervalsText(*proved));
     if (!expected.empty() && expected != Name(solution.outcome())) fmt::print("expected: {}\n", expected);
   }
   return ExitOf(solution.outcome(), expected);
@@ -266,8 +323,10 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
 }
 
 int Replay(const ReplayOptions& o) {
-  const ProblemFile file = ReadProblem(o.file);
-  if (!o.all_policies) return ReplayOne(o, file);
+  const ReplayFile replay = ReadReplayFile(o.file);
+  const ProblemFile& file = replay.file;
+  if (!o.all_policies) return ReplayOne(o, replay);
+  if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
   if (o.method != "baraff") throw InputError("--all-policies: expected --method baraff");
   const bool exact = o.arithmetic.empty() || o.arithmetic == "exact";
   if (file.problem.dimension == 2 && !exact)
@@ -288,7 +347,7 @@ std::vector<AllowedValue> PathMethodChoices() {
 
 void AddReplay(CommandLine& program) {
   auto [verb, o] = program.Add("replay", "Follow a path method step by step, exactly where it can be", Replay);
-  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Positional("FILE", o.file, "stiction-problem file, or stiction-scene file of one problem").Required();
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("--all-policies", o.all_policies,
             "the outcome under every policy of the planar grid, or of those that are built for space");
@@ -299,6 +358,8 @@ void AddReplay(CommandLine& program) {
       .OneOf({"exact", "float", "double", "long-double", "quad", "filtered"});
   verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4").Check(CheckSides);
   verb.Flag("--step", o.step, "directions, forces and sets at every step");
+  verb.Option("--html", o.html,
+              "write a page to step through the run, beside complete driving; - is standard output");
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }

@@ -13,6 +13,7 @@
 #include <iostream>
 #include <set>
 
+#include "cli/rounded_scene.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
@@ -146,46 +147,6 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
   const Json origin = {
       {"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
-}
-
-double SumOf(double x) { return x; }
-template <class Numbers>
-double SumOf(const Numbers& numbers) {
-  return numbers.sum();
-}
-double SumOfInertia(double inertia) { return inertia + 1 / inertia; }
-double SumOfInertia(const Matrix3<double>& inertia) { return inertia.sum() + Inverse3<double>(inertia).sum(); }
-
-template <class Kind>
-double SumOfNumbers(const BodyIn<Kind, double>& body) {
-  return body.mass + 1 / body.mass + SumOfInertia(body.inertia) + body.position.sum() + body.rotation.sum() +
-         body.velocity.sum() + SumOf(body.spin) + body.acceleration.sum() + body.force.sum() +
-         SumOf(body.torque);
-}
-
-// The finite scene of a file.
-template <class Kind>
-SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::string& source) {
-  SceneIn<Kind, double> scene = Round(file.scene);
-  const auto require = [&source](double sum, const std::string& place) {
-    if (!std::isfinite(sum)) {
-      throw InputError(
-          fmt::format("{}: {}: found a number beyond the range of doubles, expected none", source, place));
-    }
-  };
-  for (const auto& body : scene.bodies) {
-    double sum = SumOfNumbers(body);
-    for (const auto& shape : body.shapes) {
-      sum += shape.center.sum() + shape.radius;
-      for (const auto& corner : shape.corners) sum += corner.sum();
-    }
-    require(sum, "body " + body.name);
-  }
-  require(scene.gravity.sum() + scene.mu + scene.gap, "gravity, mu, gap");
-  for (const auto& pair : scene.pairs) require(pair.mu.value_or(0), "pairs");
-  for (const auto& joint : scene.joints) require(joint.at_a.sum() + joint.at_b.sum(), "joints");
-  for (const auto& contact : scene.contacts) require(contact.at_a.sum() + contact.at_b.sum(), "contacts");
-  return scene;
 }
 
 // A number of a file that is within what the option of its name takes.

@@ -337,17 +337,19 @@ std::string Print(const SceneFileIn<Kind>& file) {
 template std::string Print(const SceneFile&);
 template std::string Print(const SceneFileInSpace&);
 
-std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
-  std::string text = ReadText(file), source = file.string();
-  Json json = ParseJson(text, source);
-  if (json.is_object() && json.value("format", Json()) == "stiction-problem") {
-    const Json scene = JsonPlace(json, source, "").Required("scene", "the scene of the problem").json();
-    json = scene;
-    text = JsonText(json);
-    source += ": scene";
+std::variant<SceneFile, SceneFileInSpace> ParseAnyScene(std::string_view text, const std::string& source) {
+  const Json json = ParseJson(text, source);
+  const bool inside = json.is_object() && json.value("format", Json()) == "stiction-problem";
+  if (inside) {
+    const Json& scene = JsonPlace(json, source, "").Required("scene", "the scene of the problem").json();
+    return ParseAnyScene(JsonText(scene), source + ": scene");
   }
   if (ReadHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseScene<Space>(text, source);
   return ParseScene(text, source);
+}
+
+std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file) {
+  return ParseAnyScene(ReadText(file), file.string());
 }
 
 }  // namespace stiction

@@ -33,6 +33,7 @@ using SceneFileInSpace = SceneFileIn<Space>;
 template <class Kind = Plane>
 SceneFileIn<Kind> ParseScene(std::string_view text, const std::string& source);
 SceneFile ReadScene(const std::filesystem::path& file);
+std::variant<SceneFile, SceneFileInSpace> ParseAnyScene(std::string_view text, const std::string& source);
 std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::path& file);
 
 // What the reader reads back to the same scene: anchors of joints and contacts in the bodies' coordinates.

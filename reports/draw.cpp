@@ -115,9 +115,7 @@ Html Arrow(const Screen& screen, const Vector2<double>& from, Vector2<double> al
 // The force as a picture shows it (draw.h); `force.force` acts on the first body.
 template <class Kind>
 Vector2<double> ShownForce(const SceneIn<Kind, double>& scene, const AppliedForceIn<Kind>& force) {
-  const auto [first, second] = force.bodies;
-  const bool on_first = scene.bodies[first].fixed ? false : scene.bodies[second].fixed || first > second;
-  return (on_first ? 1.0 : -1.0) * Seen(force.force);
+  return (ShownSide(scene, force.bodies) == 0 ? 1.0 : -1.0) * Seen(force.force);
 }
 
 template <class Kind>

@@ -4,6 +4,7 @@
 #ifndef STICTION_REPORTS_DRAW_BODIES_H_
 #define STICTION_REPORTS_DRAW_BODIES_H_
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,6 +33,14 @@ struct Screen {
 // Where a point of the world, or a vector, is in the picture's plane.
 inline Vector2<double> Seen(const Vector2<double>& p) { return p; }
 Vector2<double> Seen(const Vector3<double>& p);
+
+// Which of two bodies a force between them is shown on: the one that moves, or the later one (draw.h).
+template <class Kind>
+int ShownSide(const SceneIn<Kind, double>& scene, const std::array<int, 2>& bodies) {
+  const auto [first, second] = bodies;
+  const bool on_first = scene.bodies[first].fixed ? false : scene.bodies[second].fixed || first > second;
+  return on_first ? 0 : 1;
+}
 
 // The colour of a level, of those that a kind has.
 template <class Colours>

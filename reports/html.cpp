@@ -75,8 +75,11 @@ Html Text(std::string_view text) {
 Html ScriptData(std::string_view json) {
   Html html;
   for (const char c : json) {
-    if ((c == '/' || c == '!') && !html.markup_.empty() && html.markup_.back() == '<') html.markup_ += '\\';
-    html.markup_ += c;
+    if (c == '<') {
+      html.markup_ += "\\u003c";
+    } else {
+      html.markup_ += c;
+    }
   }
   return html;
 }

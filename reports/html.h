@@ -39,7 +39,7 @@ class Html {
 // Control characters that HTML does not allow become U+FFFD.
 Html Text(std::string_view text);
 
-// JSON text as a script may hold it: no end of a script or start of a comment stands in it.
+// JSON text as a script may hold it, still JSON: "<" stands in it as \u003c, so no end of a script does.
 Html ScriptData(std::string_view json);
 
 // One that is empty is left out.

@@ -17,7 +17,7 @@ from collections import namedtuple
 LABELS = ("solver", "corpus", "certify", "search", "reports")
 PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test",
             "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
-            "usage_test")
+            "usage_test", "viewer_data_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
 MUTANTS = []
@@ -748,9 +748,28 @@ bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disag
 
 bug = in_file("reports/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
-bug("comment-in-script", "(c == '/' || c == '!') && !html.markup_.empty() && html.markup_.back() == '<'",
-    "c == '/' && !html.markup_.empty() && html.markup_.back() == '<'", "script data can begin a comment")
+bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
 
 bug = in_file("reports/findings_section.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
+
+# ---- cli ---------------------------------------------------------------------------
+
+VIEWER = "^program: viewer_data"
+
+bug = in_file("cli/partings.cpp", VIEWER)
+bug("parting-without-sets", "left.sets == right.sets", "true", "runs that differ in their sets part a step late")
+bug("parting-own-value", "value == row.get(policy)", "false", "a run is compared with itself alone",
+    equivalent="a run that is compared with itself parts nowhere")
+bug("parting-at-the-end", "step < both", "true", "a run that is the same is said to part")
+
+bug = in_file("cli/replay_page.cpp", VIEWER)
+bug("loop-from", 'pivots[from]["drive"] <= replay["start"]', 'pivots[from]["drive"] < replay["start"]',
+    "the state that stands again is marked a drive early")
+bug("reading-of-friction", "row.id != PolicySwitch::kDrop || !on_normal", "row.id != PolicySwitch::kDrop",
+    "a friction variable is said to take something along")
+
+bug = in_file("cli/replay_file.cpp", VIEWER)
+bug("scene-of-another", "AreSame(assembled.file.problem, file.problem)", "true",
+    "forces are drawn in a scene that is of another problem")

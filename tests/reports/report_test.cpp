@@ -607,7 +607,8 @@ TEST_CASE("report: a signature becomes a file name of its own") {
 
 TEST_CASE("html: what a script holds neither ends it nor begins a comment") {
   const std::string text = R"(["</script>", "<!--", "a / b"])";
-  CHECK(ScriptData(text).markup() == R"(["<\/script>", "<\!--", "a / b"])");
+  CHECK(ScriptData(text).markup() == R"(["\u003c/script>", "\u003c!--", "a / b"])");
+  CHECK(Json::parse(ScriptData(text).markup()) == Json::parse(text));
 }
 
 TEST_CASE("html: numbers of pictures") {

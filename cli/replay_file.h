@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `replay` follows a method on: a problem, or a scene, whose problem is assembled.
+
+#ifndef STICTION_CLI_REPLAY_FILE_H_
+#define STICTION_CLI_REPLAY_FILE_H_
+
+#include <string>
+
+#include "corpus/problem_file.h"
+
+namespace stiction {
+
+struct ReplayFile {
+  ProblemFile file;
+  Json picture;  // reports/problem_picture.h; null where there is no scene of this very problem
+};
+
+// Of a scene, the one problem of its forces at this instant; InputError if it has none, or several.
+ReplayFile ReadReplayFile(const std::string& file);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_REPLAY_FILE_H_
