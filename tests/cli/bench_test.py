@@ -337,6 +337,33 @@ class Peers(cli.TestCase):
                 for contacts in [3, 8]:
                     self.assertEqual(points[method, contacts]["counts"], points[method + "-afresh", contacts]["counts"])
 
+    def test_a_search_is_measured_alone_and_beside_lemke(self):
+        done = cli.run("bench", "--suite", "search", "--json", "--problems", 2000, "--repeat", 2, "--contacts", 2, 6)
+        self.assertEqual(done.code, 0, done.err)
+        result = done.json()
+        self.assertEqual({row["contacts"] for row in result["rates"]}, {2, 6})
+        for row in result["rates"]:
+            least, median, most = row["problems a second"]
+            self.assertTrue(0 < least <= median <= most, row)
+        self.assertEqual(result["lanes"][0]["generator"], "integers")
+        self.assertIn("none", result["lanes"][0])
+        for row in result["mix"]:
+            parts = [row[name] for name in ("generation", "doubles", "filtered", "exact", "compared", "finishing")]
+            self.assertAlmostEqual(sum(parts), 1, places=6)
+        self.assertEqual([row["threads"] for row in result["threads"]], [1, 2])
+        for row in result["roofline"]:
+            self.assertGreater(row["problems a second at most"], row["problems a second"])
+        for row in result["lemke"]:
+            self.assertEqual(row["contacts"], 2)  # six are too many for it
+            if "problems" in row:
+                self.assertLess(row["wrong of the peer"], row["problems"])
+
+    def test_a_search_by_one_generator_has_its_rates_alone(self):
+        done = cli.run("bench", "--suite", "search", "--json", "--problems", 500, "--repeat", 1, "--contacts", 3,
+                       "--generator", "psd")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(set(done.json()), {"rates", "lanes"})
+
     def test_bad_options_exit_with_2(self):
         self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
         self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])

@@ -548,6 +548,21 @@ bug("safety-of-fewer", "if (task_.contacts > kMostContactsEnumerated) return;",
 bug("policy-not-named", 'if (!(policy == Policy{})) signature += "@" + PolicyName(policy);', "",
     "findings of all policies share a signature")
 
+bug = in_file("search/batch/run_lanes.ipp", "^search: batch")
+bug("lanes-reach", "~(limits[row].s > reach)", "~(limits[row].s > nearest)",
+    "in lanes steps within the tolerance do not tie")
+bug("lanes-tie", "place[i] < at", "at < place[i]", "of equal pivots in lanes the last is taken")
+bug("lanes-singular", "singular_directions_ += Select(driving_ & singular, All(1), All(0));", "",
+    "singular directions are not counted in lanes")
+bug("lanes-inconsistent", "Leave(driving_ & inconsistent);", "", "lanes go on where a direction system has no solution")
+bug("lanes-infinite", "Leave(driving_ & ~(sum <= __DBL_MAX__));", "", "lanes go on with numbers that are not finite")
+bug("lanes-power", "~along & ", "", "lanes take friction that pushes for one that holds",
+    context="return ~(slack < -force_tolerance_) & ~along & (~(a_positive | a_negative) | ~(slack > force_tolerance_));")
+bug("lanes-second-limit", "second.exists & ~(first.exists & ~(second.s < first.s))", "second.exists & ~first.exists",
+    "in lanes the second limit of a friction never comes first")
+bug("lanes-give-up", "Leave(moves & ~is_driven_[row] & (wants_ == last_left_[row]) & zero);", "",
+    "what is given up does not leave the lanes",
+    equivalent="a variable that wants back in a step of length zero does so again and again, until the bound on steps")
 bug = in_file("search/finish.cpp", "^search: finish")
 bug("safe-once-minimized", 'if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;',
     "", "a cycle that is safe once minimized is one like others")

@@ -4,13 +4,17 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "bench/counted.h"
 #include "bench/family.h"
 #include "bench/measure.h"
 #include "bench/one_thread.h"
+#include "bench/peak.h"
 #include "bench/plain_gauss.h"
 #include "bench/structure.h"
 #include "certify/existence.h"
 #include "certify/properties.h"
+#include "search/generators.ipp"
+#include "solver/published/published.ipp"
 
 namespace stiction {
 namespace {
@@ -202,6 +206,39 @@ TEST_CASE("bench: masses of a family differ as much as its title says, and the s
   const auto& stack = Find(families, "stack-10-masses");
   CHECK(stack.make(2, 1)[1].A == stack.make(2, 1)[1].A);
   CHECK(stack.make(2, 1)[1].A != stack.make(2, 2)[1].A);
+}
+
+TEST_CASE("bench: a double that counts ends as a double does, and counts") {
+  PublishedAlgorithm<Counted, 4> counted;
+  PublishedAlgorithm<double, 4> plain;
+  for (int index = 0; index < 200; ++index) {
+    ContactProblem<double, 4> problem;
+    ContactProblem<Counted, 4> same;
+    Choices choices(ProblemSeed(1, 1, index)), again(ProblemSeed(1, 1, index));
+    Generate<double, 4>(GeneratorId::kIntegers, 2, kDefaultPalette, choices, problem);
+    generators::DrawFriction(kDefaultPalette, again, same);
+    generators::Integers(again, same);
+    const Verdict expected = plain.Run(problem), verdict = counted.Run(same);
+    CHECK(verdict.outcome == expected.outcome);
+    CHECK(verdict.statistics == expected.statistics);
+    for (int row = 0; row < 4; ++row) CHECK(counted.state().f[row].value() == plain.state().f[row]);
+  }
+  Counted::counts() = {};
+  Counted x = 3;
+  x = (x + 1) * x - x / 2;
+  CHECK((x > 10 && x <= 10.5));
+  const OperationCounts counts = Counted::counts();
+  CHECK((counts.sums == 2 && counts.products == 1 && counts.quotients == 1 && counts.comparisons == 2));
+}
+
+TEST_CASE("bench: the peak of a processor is positive, and no less in wider vectors") {
+  for (const InstructionSet set : InstructionSets()) {
+    const Peak peak = MeasurePeak(set), narrow = MeasurePeak(InstructionSet::kNone);
+    CHECK(peak.operations > 1e8);
+    CHECK(peak.quotients > 1e7);
+    CHECK(peak.bytes > 1e8);
+    CHECK(peak.operations > 0.5 * narrow.operations);  // on a busy machine
+  }
 }
 
 TEST_CASE("bench: plain elimination solves the system, and the clocks of one thread agree") {
