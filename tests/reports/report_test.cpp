@@ -343,7 +343,7 @@ TEST_CASE("report: rates by friction stand in the order of the coefficients, the
     stratum.problems = 1000;
     stratum.exact[static_cast<int>(Outcome::kCycle)] = 7;
   }
-  const std::string page = FrequenciesSection(record).text();
+  const std::string page = FrequenciesSection(record).markup();
   const auto at = [&page](const char* head) { return page.find(head, page.find("By friction")); };
   CHECK(at(">1/10<") < at(">1/2<"));
   CHECK(at(">1/2<") < at(">2<"));
@@ -374,9 +374,9 @@ TEST_CASE("report: the page says of a group of counts how many words its loops h
   record.signatures = {{finding.signature, 900}};
   for (std::uint64_t i = 1; i <= 5; ++i) record.words[finding.signature].Add(i << 40);
   const std::vector<Finding> findings = {finding};
-  CHECK(Has(FindingsSection(Discoveries(record, findings)).text(), "900<small>5 words</small>"));
+  CHECK(Has(FindingsSection(Discoveries(record, findings)).markup(), "900<small>5 words</small>"));
   for (std::uint64_t i = 6; i <= 100; ++i) record.words[finding.signature].Add(i << 40);
-  CHECK(Has(FindingsSection(Discoveries(record, findings)).text(), "900<small>about "));
+  CHECK(Has(FindingsSection(Discoveries(record, findings)).markup(), "900<small>about "));
 }
 
 TEST_CASE("report: findings.csv says how many words the loops of a group have, where its signature has none") {
