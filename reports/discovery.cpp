@@ -128,7 +128,10 @@ std::vector<Discovery> Discoveries(const Record& record, const std::vector<Findi
     by_signature[signature].kind = KindOf(signature);
     by_signature[signature].met = count;
   }
-  for (const auto& [signature, sketch] : record.words) by_signature[signature].words = sketch;
+  for (auto& [signature, discovery] : by_signature) {
+    if (const auto words = record.words.find(signature); words != record.words.end())
+      discovery.words = words->second;
+  }
   for (const Finding& finding : findings) Represent(by_signature[finding.signature], finding);
   std::vector<Discovery> discoveries;
   for (auto& [signature, discovery] : by_signature) {

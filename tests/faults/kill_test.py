@@ -57,16 +57,20 @@ class Kill(cli.TestCase):
             return True
 
     def kill_often(self, arguments, stretch, look, begin_anew):
-        """Kills after random parts of a stretch of time, as often as was asked for; what has ended begins anew."""
-        kills, looks = 0, []
+        """Kills after random parts of a stretch of time, as often as was asked for; what has ended begins anew.
+
+        What was there after each kill: a list for each beginning.
+        """
+        kills, runs = 0, [[]]
         while kills < KILLS:
             if self.killed(arguments, max(0.01, stretch * self.moments.uniform(0.1, 1.3))):
                 kills += 1
+                runs[-1].append(look())
             else:
                 begin_anew()
-            looks.append(look())
-        print(f"{arguments[0]}: {kills} kills, {len(looks) - kills} ends, at {looks}", file=sys.stderr)
-        return looks
+                runs.append([])
+        print(f"{arguments[0]}: {kills} kills, {len(runs) - 1} ends, at {runs}", file=sys.stderr)
+        return runs
 
     def progress(self, store):
         """Units and finished findings; none of a store that is not there yet."""
@@ -76,11 +80,11 @@ class Kill(cli.TestCase):
             return 0, 0
         return len(rows["units"]) + 1024 * len(rows["blocks"]), sum(row[10] for row in rows["findings"])
 
-    def assertNothingLost(self, looks, end):
-        for before, now in zip(looks, looks[1:]):
-            if before != end:  # that one was deleted
-                self.assertGreaterEqual(now, before)
-        self.assertGreater(len(set(looks) - {end, (0, 0)}), 1, "nothing was killed on its way")
+    def assertNothingLost(self, runs, end):
+        for looks in runs:
+            self.assertEqual(looks, sorted(looks))
+        on_the_way = {look for looks in runs for look in looks} - {end, (0, 0)}
+        self.assertGreater(len(on_the_way), 1, "nothing was killed on its way")
 
     def test_a_killed_search_loses_nothing(self):
         reference, killed = self.folder / "reference.store", self.folder / "killed.store"
@@ -94,9 +98,8 @@ class Kill(cli.TestCase):
             self.assertSameContent(killed, reference)
             killed.unlink()
 
-        looks = self.kill_often(command, min(seconds / 4, 2 * seconds / KILLS), lambda: self.progress(killed), begin_anew)
-        units = [look[:1] for look in looks]
-        self.assertNothingLost(units, end[:1])
+        runs = self.kill_often(command, min(seconds / 4, 2 * seconds / KILLS), lambda: self.progress(killed), begin_anew)
+        self.assertNothingLost([[look[:1] for look in looks] for looks in runs], end[:1])
         self.to_the_end(command)
         self.assertSameContent(killed, reference)
 
@@ -112,8 +115,8 @@ class Kill(cli.TestCase):
             self.assertSameContent(killed, reference)
             shutil.copy(raw, killed)
 
-        looks = self.kill_often(command, seconds / 3, lambda: self.progress(killed), begin_anew)
-        self.assertNothingLost(looks, self.progress(reference))
+        runs = self.kill_often(command, seconds / 3, lambda: self.progress(killed), begin_anew)
+        self.assertNothingLost(runs, self.progress(reference))
         self.to_the_end(command)
         self.assertSameContent(killed, reference)
 
@@ -129,8 +132,9 @@ class Kill(cli.TestCase):
             self.assertSameContent(killed, reference)
             killed.unlink()
 
-        for look in self.kill_often(command, seconds, lambda: self.progress(killed), begin_anew):
-            self.assertLessEqual(look, self.progress(reference))
+        for looks in self.kill_often(command, seconds, lambda: self.progress(killed), begin_anew):
+            for look in looks:
+                self.assertLessEqual(look, self.progress(reference))
         self.to_the_end(command)
         self.assertSameContent(killed, reference)
         for shard in shards:  # nothing was taken from them

@@ -572,7 +572,7 @@ TEST_CASE("report: every file that is named exists") {
   for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
   for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
   named.erase("");
-  CHECK(named.size() == 8 + 5 + 2);
+  CHECK(named.size() == 11 + 5 + 2);
   for (const std::string& file : named) {
     INFO(file);
     CHECK(fs::is_regular_file(scratch / "out" / file));
@@ -904,7 +904,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 9 + 5 + 1);  // and the list of them
+  CHECK(contents.size() == 12 + 5 + 1);  // and the list of them
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));
