@@ -337,6 +337,19 @@ class Peers(cli.TestCase):
                 for contacts in [3, 8]:
                     self.assertEqual(points[method, contacts]["counts"], points[method + "-afresh", contacts]["counts"])
 
+    def test_bad_options_exit_with_2(self):
+        self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
+        self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])
+        self.refuses("bench", "--suite", "methods", "--generator", "psd", "--contacts", 9,
+                     says=["found 9", "1 to 8", "generator"])
+        for suite in ("sliding", "patches", "methods"):
+            self.refuses("bench", "--suite", suite, "--generator", "bilateral", says=["bilateral", "static", suite])
+        self.refuses("bench", "--suite", "smallest", "--entries", 0, says=["--entries"])
+        self.refuses("bench", "--suite", "space", "--contacts", 13, says=["found 13", "1 to 12"])
+        self.refuses("bench", "--suite", "growth", "--contacts", 0, says=["--contacts"])
+
+
+class Search(cli.TestCase):
     def test_a_search_is_measured_alone_and_beside_lemke(self):
         done = cli.run("bench", "--suite", "search", "--json", "--problems", 2000, "--repeat", 2, "--contacts", 2, 6)
         self.assertEqual(done.code, 0, done.err)
@@ -363,17 +376,6 @@ class Peers(cli.TestCase):
                        "--generator", "psd")
         self.assertEqual(done.code, 0, done.err)
         self.assertEqual(set(done.json()), {"rates", "lanes"})
-
-    def test_bad_options_exit_with_2(self):
-        self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
-        self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])
-        self.refuses("bench", "--suite", "methods", "--generator", "psd", "--contacts", 9,
-                     says=["found 9", "1 to 8", "generator"])
-        for suite in ("sliding", "patches", "methods"):
-            self.refuses("bench", "--suite", suite, "--generator", "bilateral", says=["bilateral", "static", suite])
-        self.refuses("bench", "--suite", "smallest", "--entries", 0, says=["--entries"])
-        self.refuses("bench", "--suite", "space", "--contacts", 13, says=["found 13", "1 to 12"])
-        self.refuses("bench", "--suite", "growth", "--contacts", 0, says=["--contacts"])
 
 
 class Smallest(cli.TestCase):
