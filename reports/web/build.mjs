@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the pages: `node build.mjs [FOLDER]` writes FOLDER/viewer.html (dist/ by default).
 //
-// A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas set
-// as MathML. Of a page's source  {{script}}, {{style}}, {{policy}} and {{notices}} are filled in here, as is \( TeX \);
+// A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas
+// set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}} and {{notices}} are filled in here, as
+// is \( TeX \);
 // {{title}} and {{data}} are left to the program (reports/viewer.h). The same sources give the same bytes.
+import {build} from 'esbuild';
+import katex from 'katex';
 import {createHash} from 'node:crypto';
 import {mkdirSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
-import {build} from 'esbuild';
-import katex from 'katex';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const pages = ['viewer'];
 
 async function bundle(file) {
   const result = await build({
-    entryPoints: [join(here, 'src', file)], absWorkingDir: here, bundle: true, minify: true, charset: 'utf8',
-    format: 'iife', target: ['es2020', 'chrome109', 'firefox102', 'safari16'], legalComments: 'none', write: false,
+    entryPoints: [join(here, 'src', file)],
+    absWorkingDir: here,
+    bundle: true,
+    minify: true,
+    charset: 'utf8',
+    format: 'iife',
+    target: ['es2020', 'chrome109', 'firefox102', 'safari16'],
+    legalComments: 'none',
+    write: false,
     metafile: true,
   });
   return {text: result.outputFiles[0].text.trim(), inputs: Object.keys(result.metafile.inputs)};
@@ -25,7 +33,8 @@ async function bundle(file) {
 
 // Name, version and licence of each package of which the bundle has a part.
 export function notices(inputs) {
-  const folders = new Set(inputs.map(path => path.match(/^(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//)?.[1]).filter(Boolean));
+  const folders =
+      new Set(inputs.map(path => path.match(/^(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//)?.[1]).filter(Boolean));
   return [...folders].sort().map(folder => {
     const facts = JSON.parse(readFileSync(join(here, folder, 'package.json'), 'utf8'));
     const licence = readdirSync(join(here, folder)).find(name => /^licen[cs]e/i.test(name));
@@ -36,20 +45,23 @@ export function notices(inputs) {
 
 function notice(inputs) {
   const parts = notices(inputs);
-  const text = parts.length === 0 ? 'It holds no code but stiction\'s own.' : `It holds parts of:\n\n${parts.join('\n\n')}`;
+  const text = parts.length === 0 ? 'It holds no code but stiction\'s own.' :
+                                    `It holds parts of:\n\n${parts.join('\n\n')}`;
   return text.replaceAll('--', '- -');  // no end of a comment
 }
 
 const hash = text => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
 const formula = (_, tex) => katex.renderToString(tex, {output: 'mathml', throwOnError: true, strict: 'error'})
-    .replace(/^<span class="katex">/, '').replace(/<\/span>$/, '');
+                                .replace(/^<span class="katex">/, '')
+                                .replace(/<\/span>$/, '');
 
 async function page(name) {
   const script = await bundle(`${name}.js`), style = await bundle(`${name}.css`);
-  const policy = `default-src 'none'; script-src ${hash(script.text)}; style-src ${hash(style.text)}; base-uri 'none'; ` +
+  const policy =
+      `default-src 'none'; script-src ${hash(script.text)}; style-src ${hash(style.text)}; base-uri 'none'; ` +
       `form-action 'none'`;
-  const parts = {policy, script: script.text, style: style.text,
-                 notices: notice([...script.inputs, ...style.inputs])};
+  const parts =
+      {policy, script: script.text, style: style.text, notices: notice([...script.inputs, ...style.inputs])};
   return readFileSync(join(here, 'src', `${name}.html`), 'utf8')
       .replace(/\\\((.+?)\\\)/g, formula)
       .replace(/\{\{(policy|script|style|notices)\}\}/g, (_, part) => parts[part]);

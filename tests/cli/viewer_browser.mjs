@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The replay viewer in a browser; run by viewer_test.py, which writes the pages. NAME.json beside NAME.html is what
-// `stiction replay --step --json` says of the same run.
+// The replay viewer in a browser; run by viewer_test.py, which writes the pages. NAME.json beside NAME.html is
+// what `stiction replay --step --json` says of the same run.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -10,7 +10,8 @@ import {pathToFileURL} from 'node:url';
 
 const {PAGES, PACKAGES, BROWSER} = process.env;
 const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
-const names = ['loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space'];
+const names =
+    ['loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space', 'at-rest'];
 const replayOf = name => JSON.parse(readFileSync(join(PAGES, `${name}.json`), 'utf8'));
 let browser;
 
@@ -22,10 +23,13 @@ after(() => browser.close());
 // Opens a page, hands it over, and expects that it asked for nothing and complained of nothing.
 async function opened(name, use, {hash = '', ...options} = {}) {
   const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
-  const page = await context.newPage(), url = pathToFileURL(join(PAGES, `${name}.html`)).href + hash, wrong = [];
+  const page = await context.newPage(), url = pathToFileURL(join(PAGES, `${name}.html`)).href + hash,
+        wrong = [];
   page.on('console', message => wrong.push(`console: ${message.text()}`));
   page.on('pageerror', error => wrong.push(`error: ${error.message}`));
-  page.on('request', request => { if (request.url() !== url.replace(/#.*/, '')) wrong.push(`request: ${request.url()}`); });
+  page.on('request', request => {
+    if (request.url() !== url.replace(/#.*/, '')) wrong.push(`request: ${request.url()}`);
+  });
   await page.goto(url);
   await use(page);
   assert.deepEqual(wrong, []);
@@ -33,21 +37,29 @@ async function opened(name, use, {hash = '', ...options} = {}) {
 }
 
 const heading = (page, run = 0) => page.textContent(`section.run-${run} h3`);
-const press = async (page, ...keys) => { for (const key of keys) await page.keyboard.press(key); };
+const press = async (page, ...keys) => {
+  for (const key of keys) await page.keyboard.press(key);
+};
 
 // The numbers of a column of the table of a run: what a program reads, and what a person sees.
-const column = (page, run, style) => page.$$eval(`section.run-${run} .values td.${style} data`, cells => cells.map(cell => {
-  const sign = cell.querySelector('mo') === null ? '' : '-';
-  const digits = [...cell.querySelectorAll('mn')].map(mn => mn.textContent).join('/');
-  return {value: cell.value, seen: digits === '' ? cell.firstChild.textContent.replace('−', '-') : sign + digits};
-}));
+const column = (page, run, style) =>
+    page.$$eval(`section.run-${run} .values td.${style} data`, cells => cells.map(cell => {
+      const sign = cell.querySelector('mo') === null ? '' : '-';
+      const digits = [...cell.querySelectorAll('mn')].map(mn => mn.textContent).join('/');
+      return {
+        value: cell.value,
+        seen: digits === '' ? cell.firstChild.textContent.replace('−', '-') : sign + digits
+      };
+    }));
 
 async function assertShows(page, run, style, expected) {
   const found = await column(page, run, style);
   assert.deepEqual(found.map(x => x.value), expected.map(String));
   for (const [i, x] of expected.entries()) {
-    if (typeof x === 'string') assert.equal(found[i].seen, x);
-    else assert.ok(Math.abs(Number(found[i].seen) - x) <= 1e-4 * Math.abs(x), `${found[i].seen}, expected ${x}`);
+    if (typeof x === 'string')
+      assert.equal(found[i].seen, x);
+    else
+      assert.ok(Math.abs(Number(found[i].seen) - x) <= 1e-4 * Math.abs(x), `${found[i].seen}, expected ${x}`);
   }
 }
 
@@ -55,11 +67,13 @@ test('every page opens from disk, and draws', async () => {
   for (const name of names) {
     await opened(name, async page => {
       await press(page, 'End');
-      const shapes = await page.$$eval('#cones svg polygon, #cones svg circle, #picture svg polygon, #picture svg line',
-          all => all.map(shape => shape.getBoundingClientRect()).filter(box => box.width + box.height > 2).length);
+      const shapes = await page.$$eval(
+          '#cones svg polygon, #cones svg circle, #picture svg polygon, #picture svg line',
+          all =>
+              all.map(shape => shape.getBoundingClientRect()).filter(box => box.width + box.height > 2).length);
       assert.ok(shapes >= 2, `${name}: ${shapes} shapes`);
       assert.equal(await page.isVisible('#picture'), name.startsWith('scene'));
-      assert.doesNotMatch(await page.content(), /NaN|undefined|Infinity/);
+      assert.doesNotMatch(await page.innerHTML('main'), /NaN|undefined|Infinity/);
     });
   }
 });
@@ -77,10 +91,12 @@ test('every state shows the numbers of --json, to the byte', async () => {
         if (pivot.df !== undefined) await assertShows(page, 0, 'df', pivot.df);
         assert.equal(await page.getAttribute('section.run-0 .event data', 'value'), String(pivot.step));
       }
-      assert.match(await heading(page), new RegExp(`^(Step|Piece) ${pivots.length} of ${pivots.length}$`));
-      const vector = style => page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
-      assert.deepEqual(await vector('force'), pivots.at(-1).f.map(String));
-      assert.deepEqual(await vector('acceleration'), pivots.at(-1).a.map(String));
+      const last = pivots.length, end = await heading(page);
+      assert.match(end, last === 0 ? /^Before the first step$/ : new RegExp(`^(Step|Piece) ${last} of ${last}$`));
+      const vector = style =>
+          page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
+      assert.deepEqual(await vector('force'), replay.f.map(String));
+      assert.deepEqual(await vector('acceleration'), replay.a.map(String));
     });
   }
 });
@@ -114,7 +130,9 @@ test('the keys alone go round the loop, and back', async () => {
 test('space plays and pauses', async () => {
   await opened('loop', async page => {
     await press(page, ' ');
-    await page.waitForFunction(() => document.querySelector('section.run-0 h3').textContent.startsWith('Step 2'), null, {timeout: 20000});
+    await page.waitForFunction(
+        () => document.querySelector('section.run-0 h3').textContent.startsWith('Step 2'), null,
+        {timeout: 20000});
     await press(page, ' ');
     const stands = await heading(page);
     await page.waitForTimeout(1500);
@@ -133,13 +151,16 @@ test('a step has an address', async () => {
     await page.click('section.run-0 p.recurs a');
     assert.equal(new URL(page.url()).hash, '#step-2');
     assert.equal(await heading(page), 'Step 2 of 16');
-    await page.evaluate(() => { location.hash = '#step-7,1'; });
+    await page.evaluate(() => {
+      location.hash = '#step-7,1';
+    });
     await page.waitForFunction(() => document.querySelector('section.run-1 h3').textContent === 'Piece 1 of 5');
     assert.equal(await heading(page), 'Step 7 of 16');
   }, {hash: '#step-5'});
   for (const hash of ['#step-', '#step-1,2,3', '#<script>', '#step--1'])
     await opened('loop', async page => assert.equal(await heading(page), 'Before the first step'), {hash});
-  await opened('complete', async page => assert.equal(await heading(page), 'Piece 5 of 5'), {hash: '#step-999'});
+  await opened(
+      'complete', async page => assert.equal(await heading(page), 'Piece 5 of 5'), {hash: '#step-999'});
 });
 
 test('complete driving turns back where the published algorithm gives up', async () => {
@@ -156,7 +177,8 @@ test('complete driving turns back where the published algorithm gives up', async
 
 test('what recurs is marked where it first stands and where it returns', async () => {
   await opened('loop', async page => {
-    const marked = await page.$$eval('section.run-0 .timeline .recurs', all => all.map(button => button.getAttribute('aria-label')));
+    const marked = await page.$$eval(
+        'section.run-0 .timeline .recurs', all => all.map(button => button.getAttribute('aria-label')));
     assert.equal(marked.length, 2);
     assert.match(marked[0], /^step 2, .*the state that stands again$/);
     assert.match(marked[1], /^step 16, .*the state of step 2 again$/);
@@ -171,7 +193,8 @@ test('where the policy decides, the page says so', async () => {
     assert.match(text, /first.*\(here\)/);
     for (const given of await page.$$('section.run-0 .timeline .given-up')) {
       await given.click();
-      assert.match(await page.textContent('section.run-0 .reading'), /^Reading give-up=first \(.*: if the present step/);
+      assert.match(
+          await page.textContent('section.run-0 .reading'), /^Reading give-up=first \(.*: if the present step/);
     }
   }, {hash: '#step-5'});
 });
@@ -182,14 +205,16 @@ test('a narrow window does not scroll sideways, and a finger steps', async () =>
     await opened(name, async page => {
       for (const key of ['Home', 'ArrowRight', 'End']) {
         await press(page, key);
-        assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name}, ${key}`);
+        assert.ok(
+            await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name}, ${key}`);
       }
       assert.ok(await page.isVisible('#player'));
     }, phone);
   }
   await opened('loop', async page => {
     const touch = await page.context().newCDPSession(page);
-    const finger = (type, x) => touch.send('Input.dispatchTouchEvent', {type, touchPoints: x === null ? [] : [{x, y: 20}]});
+    const finger = (type, x) =>
+        touch.send('Input.dispatchTouchEvent', {type, touchPoints: x === null ? [] : [{x, y: 20}]});
     await page.locator('section.run-0 h3').scrollIntoViewIfNeeded();
     await page.evaluate(() => document.querySelector('section.run-0 h3').scrollIntoView());
     await page.evaluate(() => scrollBy(0, -5));
@@ -203,8 +228,10 @@ test('a narrow window does not scroll sideways, and a finger steps', async () =>
 // Of what a person reads: its contrast with what it stands on.
 const contrasts = page => page.evaluate(() => {
   const parse = colour => colour.match(/[\d.]+/g).map(Number);
-  const light = ([r, g, b]) => [r, g, b].map(x => x / 255).map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)
-      .reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
+  const light = ([r, g, b]) => [r, g, b]
+                                   .map(x => x / 255)
+                                   .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)
+                                   .reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
   const ground = node => {
     for (let at = node; at !== null; at = at.parentElement) {
       const colour = parse(getComputedStyle(at).backgroundColor);
@@ -212,8 +239,10 @@ const contrasts = page => page.evaluate(() => {
     }
     return [255, 255, 255];
   };
-  const texts = ['h1', 'h2', 'h3', '.note', '.event', '.why', '.end', '.values th', '.values .n:not(.nothing)', '.group',
-                 '.place', 'figcaption', '.readings p', '.readings em', '.key', 'dd', 'a', '.matrix td', '.matrix.force td'];
+  const texts = [
+    'h1', 'h2', 'h3', '.note', '.event', '.why', '.end', '.values th', '.values .n:not(.nothing)', '.group',
+    '.place', 'figcaption', '.readings p', '.readings em', '.key', 'dd', 'a', '.matrix td', '.matrix.force td'
+  ];
   return Object.fromEntries(texts.map(text => {
     const node = document.querySelector(text);
     const [a, b] = [light(parse(getComputedStyle(node).color)), light(ground(node))].sort((x, y) => y - x);
@@ -224,7 +253,8 @@ const contrasts = page => page.evaluate(() => {
 test('light and dark have contrast', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await opened('loop', async page => {
-      const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
+      const paper =
+          await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
       assert.equal(paper[0] < 128, colorScheme === 'dark');
       for (const [text, contrast] of Object.entries(await contrasts(page)))
         assert.ok(contrast >= 4.5, `${colorScheme}: ${text} has a contrast of ${contrast}`);
@@ -235,8 +265,11 @@ test('light and dark have contrast', async () => {
 test('printed, it is a few pages without buttons', async () => {
   for (const name of ['loop', 'scene']) {
     await opened(name, async page => {
-      const pdf = (await page.pdf({format: 'A4', printBackground: true, margin: {top: '12mm', bottom: '12mm', left: '12mm', right: '12mm'}}))
-          .toString('latin1');
+      const pdf = (await page.pdf({
+                    format: 'A4',
+                    printBackground: true,
+                    margin: {top: '12mm', bottom: '12mm', left: '12mm', right: '12mm'}
+                  })).toString('latin1');
       const pages = pdf.match(/\/Type\s*\/Page\b(?!s)/g).length;
       assert.ok(pages >= 1 && pages <= 3, `${name}: ${pages} pages`);
       await page.emulateMedia({media: 'print'});
@@ -249,12 +282,16 @@ test('printed, it is a few pages without buttons', async () => {
 test('everything that can be pressed or seen has a name', async () => {
   for (const name of ['loop', 'scene', 'space']) {
     await opened(name, async page => {
-      const bare = await page.$$eval('button, input, svg[role=img], [role=group], nav, section.run', all => all
-          .filter(node => !node.getAttribute('aria-label')).map(node => node.outerHTML.slice(0, 80)));
+      const bare = await page.$$eval(
+          'button, input, svg[role=img], [role=group], nav, section.run',
+          all => all.filter(node => !node.getAttribute('aria-label')).map(node => node.outerHTML.slice(0, 80)));
       assert.deepEqual(bare, []);
       const levels = await page.$$eval('h1, h2, h3, h4', all => all.map(node => Number(node.tagName[1])));
       assert.equal(levels.filter(level => level === 1).length, 1);
-      levels.reduce((before, level) => { assert.ok(level <= before + 1, levels.join(' ')); return level; }, 0);
+      levels.reduce((before, level) => {
+        assert.ok(level <= before + 1, levels.join(' '));
+        return level;
+      }, 0);
       await press(page, 'ArrowRight');
       assert.match(await page.textContent('#said'), /^Step 1: ./);
     });

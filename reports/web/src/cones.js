@@ -32,10 +32,13 @@ function place(f, {first, rows, contact}) {
     if (toDouble(normal) === 0 && sign === 0) return 'no force';
     return sign < 0 ? 'inside the cone' : sign === 0 ? 'on the edge of the cone' : 'outside the cone';
   }
-  const size = Math.hypot(toDouble(f[first + 1]), toDouble(f[first + 2])), most = toDouble(mu) * toDouble(normal);
+  const size = Math.hypot(toDouble(f[first + 1]), toDouble(f[first + 2])),
+        most = toDouble(mu) * toDouble(normal);
   if (size === 0 && most === 0) return 'no force';
   const near = 1e-9 * Math.max(size, most);
-  return size < most - near ? 'inside the cone' : size <= most + near ? 'on the edge of the cone' : 'outside the cone';
+  return size < most - near ? 'inside the cone' :
+      size <= most + near   ? 'on the edge of the cone' :
+                              'outside the cone';
 }
 
 function words(f, layout) {
@@ -48,11 +51,13 @@ function words(f, layout) {
 
 function arrow(from, to, style) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], length = Math.hypot(dx, dy);
-  if (length < 2) return svgElement('circle', {class: `${style} tip`, cx: round(to[0]), cy: round(to[1]), r: 4});
+  if (length < 2)
+    return svgElement('circle', {class: `${style} tip`, cx: round(to[0]), cy: round(to[1]), r: 4});
   const [ux, uy] = [dx / length, dy / length], head = Math.min(12, 0.6 * length);
   const base = [to[0] - head * ux, to[1] - head * uy], half = 0.45 * head;
   const points = [to, [base[0] - half * uy, base[1] + half * ux], [base[0] + half * uy, base[1] - half * ux]];
-  return svgElement('g', {class: style},
+  return svgElement(
+      'g', {class: style},
       svgElement('line', {x1: round(from[0]), y1: round(from[1]), x2: round(base[0]), y2: round(base[1])}),
       svgElement('polygon', {class: 'tip', points: points.map(p => p.map(round).join(',')).join(' ')}));
 }
@@ -74,7 +79,9 @@ class ConeInPlane {
     Object.assign(this, {across, up, low});
   }
 
-  at([t, n]) { return [kWidth / 2 + this.across * t, kHeight - kMargin + this.up * (this.low - n)]; }
+  at([t, n]) {
+    return [kWidth / 2 + this.across * t, kHeight - kMargin + this.up * (this.low - n)];
+  }
 
   ground() {
     const {contact, rows} = this.layout;
@@ -96,11 +103,15 @@ class ConeInPlane {
     return svgElement('polyline', {class: style, points: points.join(' ')});
   }
 
-  force(f, style) { return arrow(this.at([0, 0]), this.at(pointOf(f, this.layout)), style); }
+  force(f, style) {
+    return arrow(this.at([0, 0]), this.at(pointOf(f, this.layout)), style);
+  }
   labels() {
     const apex = this.at([0, 0]);
     return [
-      svgElement('text', {x: kWidth - 4, y: round(apex[1]) - 5, 'text-anchor': 'end'}, this.layout.rows > 1 ? 'fF' : ''),
+      svgElement(
+          'text', {x: kWidth - 4, y: round(apex[1]) - 5, 'text-anchor': 'end'},
+          this.layout.rows > 1 ? 'fF' : ''),
       svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'fN'),
     ];
   }
@@ -118,27 +129,35 @@ class DiscInSpace {
     this.scale = largest === 0 ? 1 : (kHeight / 2 - 10) / largest;
   }
 
-  at(x, y) { return [kWidth / 2 + this.scale * x, kHeight / 2 - this.scale * y]; }
+  at(x, y) {
+    return [kWidth / 2 + this.scale * x, kHeight / 2 - this.scale * y];
+  }
   ground() {
-    return [svgElement('line', {class: 'axis', x1: 0, x2: kWidth, y1: kHeight / 2, y2: kHeight / 2}),
-            svgElement('line', {class: 'axis', x1: kWidth / 2, x2: kWidth / 2, y1: 0, y2: kHeight})];
+    return [
+      svgElement('line', {class: 'axis', x1: 0, x2: kWidth, y1: kHeight / 2, y2: kHeight / 2}),
+      svgElement('line', {class: 'axis', x1: kWidth / 2, x2: kWidth / 2, y1: 0, y2: kHeight})
+    ];
   }
   way(run, from, to, style) {
     const points = [];
     for (let k = from; k <= to; ++k)
-      points.push(this.at(...run.f(k).slice(this.layout.first + 1, this.layout.first + 3).map(toDouble)).map(round).join(','));
+      points.push(this.at(...run.f(k).slice(this.layout.first + 1, this.layout.first + 3).map(toDouble))
+                      .map(round)
+                      .join(','));
     return svgElement('polyline', {class: style, points: points.join(' ')});
   }
   force(f, style) {
     const [n, x, y] = f.slice(this.layout.first, this.layout.first + 3).map(toDouble);
     const r = Math.max(0, this.scale * toDouble(this.layout.contact.mu) * n);
-    return svgElement('g', {},
-        svgElement('circle', {class: `disc ${style}`, cx: kWidth / 2, cy: kHeight / 2, r: round(r)}),
+    return svgElement(
+        'g', {}, svgElement('circle', {class: `disc ${style}`, cx: kWidth / 2, cy: kHeight / 2, r: round(r)}),
         arrow([kWidth / 2, kHeight / 2], this.at(x, y), style));
   }
   labels() {
-    return [svgElement('text', {x: kWidth - 4, y: kHeight / 2 - 5, 'text-anchor': 'end'}, 'x'),
-            svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'y')];
+    return [
+      svgElement('text', {x: kWidth - 4, y: kHeight / 2 - 5, 'text-anchor': 'end'}, 'x'),
+      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'y')
+    ];
   }
 }
 
@@ -146,15 +165,23 @@ class DiscInSpace {
 export class Cones {
   constructor(data, runs) {
     this.runs = runs;
-    this.figures = layoutOf(data.problem).map(
-        (layout, i) => ({layout, number: i + 1, picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(runs, layout)}));
+    this.figures =
+        layoutOf(data.problem).map((layout, i) => ({
+                                     layout,
+                                     number: i + 1,
+                                     picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(runs, layout)
+                                   }));
     this.node = element('div', {class: 'cones'});
   }
 
-  get areToScale() { return this.figures.every(figure => figure.picture.isToScale); }
+  get areToScale() {
+    return this.figures.every(figure => figure.picture.isToScale);
+  }
 
   // `states`: of each run.
-  show(states) { this.node.replaceChildren(...this.figures.map(figure => this.figure(figure, states))); }
+  show(states) {
+    this.node.replaceChildren(...this.figures.map(figure => this.figure(figure, states)));
+  }
 
   figure({layout, number, picture}, states) {
     const {contact} = layout, shapes = picture.ground();
@@ -162,12 +189,20 @@ export class Cones {
     for (const i of order) shapes.push(picture.way(this.runs[i], 0, this.runs[i].last, `way run-${i}`));
     for (const i of order) shapes.push(picture.way(this.runs[i], 0, states[i], `way gone run-${i}`));
     for (const i of order) shapes.push(picture.force(this.runs[i].f(states[i]), `force run-${i}`));
-    const said = this.runs.map((run, i) => `${words(run.f(states[i]), layout)}, ${place(run.f(states[i]), layout)}`);
+    const said =
+        this.runs.map((run, i) => `${words(run.f(states[i]), layout)}, ${place(run.f(states[i]), layout)}`);
     const mu = contact.mu === undefined ? contact.kind : `μ = ${contact.mu}`;
-    return element('figure', {},
-        svgElement('svg', {viewBox: `0 0 ${kWidth} ${kHeight}`, role: 'img', 'aria-label': `Contact ${number}: ${said.join('; ')}`},
+    return element(
+        'figure', {},
+        svgElement(
+            'svg', {
+              viewBox: `0 0 ${kWidth} ${kHeight}`,
+              role: 'img',
+              'aria-label': `Contact ${number}: ${said.join('; ')}`
+            },
             ...shapes, ...picture.labels()),
-        element('figcaption', {}, element('strong', {}, `Contact ${number}`), ` ${mu}`,
+        element(
+            'figcaption', {}, element('strong', {}, `Contact ${number}`), ` ${mu}`,
             ...said.map((text, i) => element('span', {class: `run-${i}`}, text))));
   }
 }

@@ -52,5 +52,6 @@ function set(x) {
 export function number(x) {
   const long = typeof x === 'string' && x.split('/').some(part => part.length > kMostDigits);
   if (!long) return element('data', {value: String(x)}, set(x));
-  return element('data', {value: x, class: 'long'}, x.replace('-', '−'), element('small', {}, ` ≈ ${short(x)}`));
+  return element(
+      'data', {value: x, class: 'long'}, x.replace('-', '−'), element('small', {}, ` ≈ ${short(x)}`));
 }

@@ -19,7 +19,8 @@ export class Picture {
     let largest = 0;
     for (const run of runs) {
       for (let state = 0; state <= run.last; ++state) {
-        for (let i = 0; i < this.places.length; ++i) largest = Math.max(largest, Math.hypot(...this.forceOf(run, state, i)));
+        for (let i = 0; i < this.places.length; ++i)
+          largest = Math.max(largest, Math.hypot(...this.forceOf(run, state, i)));
       }
     }
     this.newton = largest === 0 ? 1 : kLongest * Number(this.svg.getAttribute('height')) / largest;
@@ -42,12 +43,15 @@ export class Picture {
     for (let r = this.runs.length - 1; r >= 0; --r) {
       this.places.forEach(({at}, i) => {
         const [x, y] = this.forceOf(this.runs[r], states[r], i);
-        if (x !== 0 || y !== 0) marks.push(forceArrow(at, [at[0] + this.newton * x, at[1] + this.newton * y], `force run-${r}`));
+        if (x !== 0 || y !== 0)
+          marks.push(forceArrow(at, [at[0] + this.newton * x, at[1] + this.newton * y], `force run-${r}`));
       });
     }
     this.places.forEach(({at}, i) => {
-      marks.push(svgElement('circle', {class: 'contact', cx: at[0], cy: at[1], r: 11}),
-                 svgElement('text', {class: 'contact', x: at[0], y: at[1] + 5, 'text-anchor': 'middle'}, String(i + 1)));
+      marks.push(
+          svgElement('circle', {class: 'contact', cx: at[0], cy: at[1], r: 11}),
+          svgElement(
+              'text', {class: 'contact', x: at[0], y: at[1] + 5, 'text-anchor': 'middle'}, String(i + 1)));
     });
     this.marks.replaceChildren(...marks);
   }

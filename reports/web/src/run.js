@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run as states 0 (before the first step) to `last` (after the last one), and past that: a loop goes on for ever.
+// A run as states 0 (before the first step) to `last` (after the last one), and past that: a loop goes on for
+// ever.
 import {isZero} from './numbers.js';
 
 export class Run {
@@ -9,7 +10,9 @@ export class Run {
     this.last = this.pivots.length;
   }
 
-  get isLoop() { return this.loop !== null && this.loop.to > this.loop.from; }
+  get isLoop() {
+    return this.loop !== null && this.loop.to > this.loop.from;
+  }
 
   // The state that stands at a moment, which of a loop may lie beyond the last state.
   stateAt(moment) {
@@ -24,12 +27,24 @@ export class Run {
     return Math.floor((moment - this.loop.from - 1) / (this.loop.to - this.loop.from));
   }
 
-  f(state) { return state === 0 ? this.replay.initial.f : this.pivots[state - 1].f; }
-  a(state) { return state === 0 ? this.replay.initial.a : this.pivots[state - 1].a; }
-  step(state) { return state === 0 ? null : {...this.pivots[state - 1], ...this.told[state - 1]}; }
-  isZeroStep(state) { return state > 0 && isZero(this.pivots[state - 1].step); }
-  mark(state) { return state === 0 ? '' : this.told[state - 1].mark; }
-  group(state) { return state === 0 ? 0 : this.told[state - 1].group; }
+  f(state) {
+    return state === 0 ? this.replay.initial.f : this.pivots[state - 1].f;
+  }
+  a(state) {
+    return state === 0 ? this.replay.initial.a : this.pivots[state - 1].a;
+  }
+  step(state) {
+    return state === 0 ? null : {...this.pivots[state - 1], ...this.told[state - 1]};
+  }
+  isZeroStep(state) {
+    return state > 0 && isZero(this.pivots[state - 1].step);
+  }
+  mark(state) {
+    return state === 0 ? '' : this.told[state - 1].mark;
+  }
+  group(state) {
+    return state === 0 ? 0 : this.told[state - 1].group;
+  }
   // Why the variable of a step's drive is driven: said at the first step of the drive.
   why(state) {
     for (let k = state; k > 0 && this.group(k) === this.group(state); --k) {
@@ -38,12 +53,17 @@ export class Run {
     return '';
   }
   // Sets after a state, as [name, members]; null where the method has none, and before the first step.
-  sets(state) { return state === 0 ? null : this.told[state - 1].sets ?? null; }
+  sets(state) {
+    return state === 0 ? null : this.told[state - 1].sets ?? null;
+  }
   setOf(variable, state) {
-    const found = (this.sets(state) ?? []).find(([, members]) => members.some(member => member.split(' ')[0] === variable));
+    const found = (this.sets(state) ??
+                   []).find(([, members]) => members.some(member => member.split(' ')[0] === variable));
     return found === undefined ? '' : found[0];
   }
-  partingsAt(state) { return this.partings.filter(parting => parting.step + 1 === state); }
+  partingsAt(state) {
+    return this.partings.filter(parting => parting.step + 1 === state);
+  }
 }
 
 const equal = (f, g) => JSON.stringify(f) === JSON.stringify(g);

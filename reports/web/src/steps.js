@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens in a step of a run, in words: those of `stiction replay --step`, which names the paper's sections.
+// What happens in a step of a run, in words: those of `stiction replay --step`, which names the paper's
+// sections.
 import {element} from './dom.js';
 import {number} from './numbers.js';
 
@@ -10,27 +11,40 @@ function typeset(text) {
     if (part.startsWith('`')) return element('code', {}, part.slice(1, -1));
     const found = part.match(/^([adf]+)_(\w+)$/);
     if (found === null) return part.replace(/(^|[\s(=,])-(?=\d|$)/g, '$1−');
-    return element('span', {class: 'symbol'}, element('i', {}, found[1]), element('span', {class: 'away'}, '_'), element('sub', {}, found[2]));
+    return element(
+        'span', {class: 'symbol'}, element('i', {}, found[1]), element('span', {class: 'away'}, '_'),
+        element('sub', {}, found[2]));
   });
 }
 
 const plural = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
 
+const value = (name, meaning, remark, style = null) =>
+    element('li', {class: style}, element('code', {}, name), ` ${meaning} `, element('em', {}, `(${remark})`));
+
+// One switch: what the text leaves open, what it says, and its values.
+function choice(partings) {
+  const [{
+    switch: name, question, reads, here, meaning
+  }] = partings;
+  const others = partings.map(
+      ({there, other, outcome}) => value(there, other, `that run leaves this one here; its end: ${outcome}`));
+  return element(
+      'div', {},
+      element(
+          'p', {}, element('strong', {}, name), `: ${question}. `,
+          element('span', {class: 'soft'}, `The paper: ${reads}`)),
+      element('ul', {}, value(here, meaning, 'here', 'here'), ...others));
+}
+
 // Where the text leaves a choice: what the policy chose, and how runs end that choose otherwise.
 export function tellReadings(run, state) {
   const partings = run.partingsAt(state);
   if (partings.length === 0) return [];
-  const bySwitch = new Map();
-  for (const parting of partings) bySwitch.set(parting.switch, [...(bySwitch.get(parting.switch) ?? []), parting]);
-  return [element('section', {class: 'readings'},
-      element('h4', {}, 'Here the text leaves a choice, and the policy decides'),
-      ...[...bySwitch.values()].map(list => element('div', {},
-          element('p', {}, element('strong', {}, `${list[0].switch}`), `: ${list[0].question}. `,
-              element('span', {class: 'soft'}, `The paper: ${list[0].reads}`)),
-          element('ul', {},
-              element('li', {class: 'here'}, element('code', {}, list[0].here), ` ${list[0].meaning}`, element('em', {}, ' (here)')),
-              ...list.map(parting => element('li', {}, element('code', {}, parting.there), ` ${parting.other}`,
-                  element('em', {}, ` (that run leaves this one here; its end: ${parting.outcome})`)))))))];
+  const names = [...new Set(partings.map(parting => parting.switch))];
+  const choices = names.map(name => choice(partings.filter(parting => parting.switch === name)));
+  const title = 'Here the text leaves a choice, and the policy decides';
+  return [element('section', {class: 'readings'}, element('h4', {}, title), ...choices)];
 }
 
 function recurrence(run, state, link) {
@@ -38,18 +52,24 @@ function recurrence(run, state, link) {
   const {from, to} = run.loop;
   const at = k => k === 0 ? 'the start' : `step ${k}`;
   if (state === from)
-    return element('p', {class: 'recurs'}, 'This state stands again after ', link(to, `step ${to}`),
+    return element(
+        'p', {class: 'recurs'}, 'This state stands again after ', link(to, `step ${to}`),
         ': same sets, same forces. From here on nothing new happens.');
   if (state !== to) return null;
-  return element('p', {class: 'recurs'}, 'Here the state of ', link(from, at(from)), ` stands again, ${plural(to - from, 'step')} later: `,
-      'the loop closes. Forward goes round it.');
+  return element(
+      'p', {class: 'recurs'}, 'Here the state of ', link(from, at(from)),
+      ` stands again, ${plural(to - from, 'step')} later: `, 'the loop closes. Forward goes round it.');
 }
 
 function sets(run, state) {
   const found = run.sets(state);
   if (found === null) return null;
-  return element('p', {class: 'sets'}, ...found.map(([name, members]) => element('span', {class: members.length === 0 ? 'empty' : null},
-      element('b', {}, name), members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
+  return element(
+      'p', {class: 'sets'},
+      ...found.map(
+          ([name, members]) => element(
+              'span', {class: members.length === 0 ? 'empty' : null}, element('b', {}, name),
+              members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
 }
 
 // `link(state, text)`: a link to a state of the run.
@@ -57,16 +77,28 @@ export function tellStep(run, state, link) {
   const step = run.step(state);
   if (step === null) {
     const lines = run.before.trim().split('\n').filter(line => line !== '');
-    return [...lines.map(line => element('p', {class: 'event'}, ...typeset(line))), recurrence(run, 0, link)].filter(Boolean);
+    return [
+      ...lines.map(line => element('p', {class: 'event'}, ...typeset(line))), recurrence(run, 0, link)
+    ].filter(Boolean);
   }
   const stage = step.word === undefined ? 'drive' : 'stage';
   const why = run.why(state);
   return [
-    why === '' ? null : element('p', {class: 'why'}, element('b', {}, step.entering === undefined ? `${stage} ${step.group} ` : ''), ...typeset(why)),
-    element('p', {class: step.mark === '' ? 'event' : `event ${step.mark.replace(' ', '-')}`},
-        element('span', {class: 's'}, element('i', {}, 's'), ' = ', number(step.step)), ' ', ...typeset(step.event)),
-    ...(step.readings ?? []).map(reading => element('p', {class: 'reading'}, 'Reading ', element('code', {}, `${reading.switch}=${reading.here}`),
-        ` (${reading.question}): ${reading.meaning}.`)),
-    sets(run, state), recurrence(run, state, link),
+    why === '' ?
+        null :
+        element(
+            'p', {class: 'why'}, element('b', {}, step.entering === undefined ? `${stage} ${step.group} ` : ''),
+            ...typeset(why)),
+    element(
+        'p', {class: step.mark === '' ? 'event' : `event ${step.mark.replace(' ', '-')}`},
+        element('span', {class: 's'}, element('i', {}, 's'), ' = ', number(step.step)), ' ',
+        ...typeset(step.event)),
+    ...(step.readings ?? [])
+        .map(
+            reading => element(
+                'p', {class: 'reading'}, 'Reading ', element('code', {}, `${reading.switch}=${reading.here}`),
+                ` (${reading.question}): ${reading.meaning}.`)),
+    sets(run, state),
+    recurrence(run, state, link),
   ].filter(Boolean);
 }

@@ -19,8 +19,10 @@ function styleOf(run, state) {
   if (run.isZeroStep(state)) styles.push('zero');
   if (run.mark(state) === 'given up') styles.push('given-up');
   if (run.mark(state) === 'fold' || run.mark(state) === 'descent') styles.push('turn');
-  if (run.isLoop && (state === run.loop.from || state === run.loop.to)) styles.push('recurs');
-  else if (run.isLoop && state > run.loop.from) styles.push('period');
+  if (run.isLoop && (state === run.loop.from || state === run.loop.to))
+    styles.push('recurs');
+  else if (run.isLoop && state > run.loop.from)
+    styles.push('period');
   return styles.join(' ');
 }
 
@@ -36,8 +38,10 @@ export class Timeline {
     if (!this.buttons.has(state) || this.isAtEdge(state)) this.draw(state);
     for (const [k, button] of this.buttons) {
       button.classList.toggle('past', k < state);
-      if (k === state) button.setAttribute('aria-current', 'step');
-      else button.removeAttribute('aria-current');
+      if (k === state)
+        button.setAttribute('aria-current', 'step');
+      else
+        button.removeAttribute('aria-current');
     }
   }
 
@@ -56,14 +60,22 @@ export class Timeline {
         groups.push({group, label: state === 0 ? 'start' : this.run.told[state - 1].label, buttons: []});
       groups[groups.length - 1].buttons.push(this.button(state));
     }
-    this.node.replaceChildren(...groups.map(({label, buttons}) => element(
-        'li', {}, element('span', {class: 'group', 'aria-hidden': 'true'}, label), element('span', {}, ...buttons))));
+    this.node.replaceChildren(...groups.map(
+        ({label, buttons}) => element(
+            'li', {}, element('span', {class: 'group', 'aria-hidden': 'true'}, label),
+            element('span', {}, ...buttons))));
   }
 
   button(state) {
     const label = labelOf(this.run, state);
-    const button = element('button', {type: 'button', class: styleOf(this.run, state), 'aria-label': label, title: label,
-                                      tabindex: '-1', click: () => this.choose(state)});
+    const button = element('button', {
+      type: 'button',
+      class: styleOf(this.run, state),
+      'aria-label': label,
+      title: label,
+      tabindex: '-1',
+      click: () => this.choose(state)
+    });
     this.buttons.set(state, button);
     return button;
   }

@@ -8,24 +8,34 @@ const variableOf = row => row.replace(/[xy]$/, '');  // in space F1x and F1y are
 // ---- A f + b = a -----------------------------------------------------------------------------
 
 function matrix(rows, shade = () => false, style = '') {
-  return element('table', {class: `matrix ${style}`, role: 'presentation'}, element('tbody', {}, ...rows.map((row, i) => element(
-      'tr', {}, ...row.map((x, j) => element('td', {class: shade(i, j) ? 'shade' : null}, number(x)))))));
+  return element(
+      'table', {class: `matrix ${style}`, role: 'presentation'},
+      element(
+          'tbody', {},
+          ...rows.map(
+              (row, i) => element(
+                  'tr', {},
+                  ...row.map((x, j) => element('td', {class: shade(i, j) ? 'shade' : null}, number(x)))))));
 }
 
 const column = numbers => numbers.map(x => [x]);
 
 export function equation(data, run, state) {
   const kept = data.rows.map(row => ['C', 'CF'].includes(run.setOf(variableOf(row), state)));
-  const names = element('table', {class: 'matrix names', role: 'presentation'}, element('tbody', {}, ...data.rows.map(
-      row => element('tr', {}, element('th', {scope: 'row'}, row)))));
+  const names = element(
+      'table', {class: 'matrix names', role: 'presentation'},
+      element('tbody', {}, ...data.rows.map(row => element('tr', {}, element('th', {scope: 'row'}, row)))));
   const sign = text => element('span', {class: 'sign'}, text);
   const mu = data.problem.contacts.filter(contact => contact.mu !== undefined).map(contact => contact.mu);
-  const part = (label, table) => element('div', {class: 'part'}, element('span', {class: 'name'}, label), table);
+  const part = (label, table) =>
+      element('div', {class: 'part'}, element('span', {class: 'name'}, label), table);
   return [
     part('', names),
     part('A', matrix(data.problem.A, (i, j) => kept[i] && kept[j])),
-    part('f', matrix(column(run.f(state)), () => false, 'force')), sign('+'),
-    part('b', matrix(column(data.problem.b))), sign('='),
+    part('f', matrix(column(run.f(state)), () => false, 'force')),
+    sign('+'),
+    part('b', matrix(column(data.problem.b))),
+    sign('='),
     part('a', matrix(column(run.a(state)), () => false, 'acceleration')),
     mu.length === 0 ? null : part('μ', matrix(column(mu))),
   ].filter(Boolean);
@@ -56,11 +66,18 @@ export class Values {
     this.hasSets = run.last > 0 && run.sets(1) !== null;
     this.hasDirections = run.last > 0 && run.pivots[0].df !== undefined;
     this.body = element('tbody');
-    const head = ['', ...(this.hasSets ? ['set'] : []), 'f', '', 'a', '', ...(this.hasDirections ? ['Δf', 'Δa'] : [])];
-    this.node = element('div', {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Forces and accelerations'},
-        element('table', {class: 'values'},
+    const head =
+        ['', ...(this.hasSets ? ['set'] : []), 'f', '', 'a', '', ...(this.hasDirections ? ['Δf', 'Δa'] : [])];
+    this.node = element(
+        'div', {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Forces and accelerations'},
+        element(
+            'table', {class: 'values'},
             element('caption', {}, 'Forces, accelerations and directions of each variable after this step'),
-            element('thead', {}, element('tr', {}, ...head.map(text => text === '' ? element('td') : element('th', {scope: 'col'}, text)))),
+            element(
+                'thead', {},
+                element(
+                    'tr', {},
+                    ...head.map(text => text === '' ? element('td') : element('th', {scope: 'col'}, text)))),
             this.body));
   }
 
@@ -70,10 +87,11 @@ export class Values {
 
   line(row, i, state) {
     const step = this.run.step(state), f = this.run.f(state)[i], a = this.run.a(state)[i];
-    const direction = (name, sign) => element('td', {class: `direction ${sign}`}, step === null ? '' : number(step[name][i]));
+    const direction = (name, sign) =>
+        element('td', {class: `direction ${sign}`}, step === null ? '' : number(step[name][i]));
     const moved = step !== null && step.moved === variableOf(row);
-    return element('tr', {class: moved ? 'moved' : null},
-        element('th', {scope: 'row'}, row),
+    return element(
+        'tr', {class: moved ? 'moved' : null}, element('th', {scope: 'row'}, row),
         this.hasSets ? element('td', {class: 'set'}, this.run.setOf(variableOf(row), state) || '–') : null,
         element('td', {class: isZero(f) ? 'n nothing force' : 'n force'}, number(f)),
         element('td', {}, bar(f, this.largestForce, 'force')),

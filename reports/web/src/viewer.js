@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The replay viewer. The address says what is shown: #step-5, and #step-5,3 where the second run was moved by itself.
+// The replay viewer. The address says what is shown: #step-5, and #step-5,3 where the second run was moved by
+// itself.
 import {Cones} from './cones.js';
 import {byId, element, icon} from './dom.js';
 import {Picture} from './picture.js';
 import {Run, whereTheyPart} from './run.js';
 import {tellReadings, tellStep} from './steps.js';
 import {Timeline} from './timeline.js';
-import {Values, equation} from './values.js';
+import {equation, Values} from './values.js';
 
-const kTick = 1100;       // ms of a step that is played
-const kSwipe = 45;        // pixels
-const kNarrow = 4;  // rows of A that leave room for a picture beside it
+const kTick = 1100;  // ms of a step that is played
+const kSwipe = 45;   // pixels
+const kNarrow = 4;   // rows of A that leave room for a picture beside it
 
 const data = JSON.parse(byId('data').textContent);
 const runs = data.runs.map(run => new Run(run));
@@ -18,7 +19,11 @@ const parting = runs.length > 1 ? whereTheyPart(runs[0], runs[1]) : null;
 const cones = new Cones(data, runs);
 const picture = data.picture === null ? null : new Picture(data, runs);
 const panels = [];
-const shown = {moment: 0, second: null, timer: null};
+const shown = {
+  moment: 0,
+  second: null,
+  timer: null
+};
 
 // ---- Where the runs are ----------------------------------------------------------------------
 
@@ -40,7 +45,9 @@ const address = () => `#step-${shown.moment}${shown.second === null ? '' : `,${s
 function readAddress() {
   const found = location.hash.match(/^#step-(\d{1,9})(?:,(\d{1,9}))?$/);
   shown.moment = found === null ? 0 : clamp(Number(found[1]));
-  shown.second = found === null || found[2] === undefined || runs.length === 1 ? null : Math.min(Number(found[2]), runs[1].last);
+  shown.second = found === null || found[2] === undefined || runs.length === 1 ?
+      null :
+      Math.min(Number(found[2]), runs[1].last);
 }
 
 // A loop has no end.
@@ -60,41 +67,63 @@ const isPlaying = () => shown.timer !== null;
 function play(on) {
   if (isPlaying()) clearInterval(shown.timer);
   shown.timer = on ? setInterval(() => {
-    if (!runs[0].isLoop && shown.moment >= runs[0].last) play(false);
-    else go(shown.moment + 1);
+    if (!runs[0].isLoop && shown.moment >= runs[0].last)
+      play(false);
+    else
+      go(shown.moment + 1);
   }, kTick) : null;
   controls.play.replaceChildren(icon(on ? icons.pause : icons.play));
   controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
 }
 
 const icons = {
-  back: 'M12 2v12L4 8z', next: 'M4 2v12l8-6z', play: 'M4 1.5v13L14 8z', pause: 'M3.5 2H7v12H3.5zM9 2h3.5v12H9z',
-  first: 'M2 2h2.2v12H2zM14 2v12L5 8z', last: 'M11.8 2H14v12h-2.2zM2 2v12l9-6z',
+  back: 'M12 2v12L4 8z',
+  next: 'M4 2v12l8-6z',
+  play: 'M4 1.5v13L14 8z',
+  pause: 'M3.5 2H7v12H3.5zM9 2h3.5v12H9z',
+  first: 'M2 2h2.2v12H2zM14 2v12L5 8z',
+  last: 'M11.8 2H14v12h-2.2zM2 2v12l9-6z',
 };
-const stop = handler => () => { play(false); handler(); };
+const stop = handler => () => {
+  play(false);
+  handler();
+};
+const button = (shape, label, click, title = label) =>
+    element('button', {type: 'button', 'aria-label': label, title, click}, icon(shape));
 const controls = {
-  first: element('button', {type: 'button', 'aria-label': 'First', title: 'First (Home)', click: stop(() => go(0))}, icon(icons.first)),
-  back: element('button', {type: 'button', 'aria-label': 'Back', title: 'Back (←)', click: stop(() => go(shown.moment - 1))}, icon(icons.back)),
-  play: element('button', {type: 'button', 'aria-label': 'Play', title: 'Play (Space)', click: () => play(!isPlaying())}, icon(icons.play)),
-  next: element('button', {type: 'button', 'aria-label': 'Forward', title: 'Forward (→)', click: stop(() => go(shown.moment + 1))}, icon(icons.next)),
-  last: element('button', {type: 'button', 'aria-label': 'Last', title: 'Last (End)', click: stop(() => go(runs[0].last))}, icon(icons.last)),
-  slider: element('input', {type: 'range', min: 0, max: runs[0].last, step: 1, 'aria-label': 'Step',
-                            input: stop(() => go(Number(controls.slider.value)))}),
+  first: button(icons.first, 'First', stop(() => go(0)), 'First (Home)'),
+  back: button(icons.back, 'Back', stop(() => go(shown.moment - 1)), 'Back (←)'),
+  play: button(icons.play, 'Play', () => play(!isPlaying()), 'Play (Space)'),
+  next: button(icons.next, 'Forward', stop(() => go(shown.moment + 1)), 'Forward (→)'),
+  last: button(icons.last, 'Last', stop(() => go(runs[0].last)), 'Last (End)'),
+  slider: element('input', {
+    type: 'range',
+    min: 0,
+    max: runs[0].last,
+    step: 1,
+    'aria-label': 'Step',
+    input: stop(() => go(Number(controls.slider.value)))
+  }),
   place: element('span', {class: 'place'}),
   link: element('a', {href: '#step-0', class: 'link', title: 'The address of this step'}, 'link'),
 };
 
 const keys = {
-  ArrowRight: () => go(shown.moment + 1), ArrowLeft: () => go(shown.moment - 1),
-  Home: () => go(0), End: () => go(runs[0].last),
+  ArrowRight: () => go(shown.moment + 1),
+  ArrowLeft: () => go(shown.moment - 1),
+  Home: () => go(0),
+  End: () => go(runs[0].last),
 };
 
 function onKey(event) {
   if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
   const pressable = event.target.closest?.('button, a, summary');
-  if (event.key === ' ' && !pressable) play(!isPlaying());
-  else if (keys[event.key] !== undefined) stop(keys[event.key])();
-  else return;
+  if (event.key === ' ' && !pressable)
+    play(!isPlaying());
+  else if (keys[event.key] !== undefined)
+    stop(keys[event.key])();
+  else
+    return;
   event.preventDefault();
 }
 
@@ -102,14 +131,17 @@ function onKey(event) {
 function watchSwipes(node) {
   let start = null;
   node.addEventListener('touchstart', event => {
-    const scrolls = [...node.querySelectorAll('.scroll')].some(part => part.contains(event.target) && part.scrollWidth > part.clientWidth);
+    const scrolls = [...node.querySelectorAll('.scroll')].some(
+        part => part.contains(event.target) && part.scrollWidth > part.clientWidth);
     start = event.touches.length === 1 && !scrolls ? event.touches[0] : null;
   }, {passive: true});
   node.addEventListener('touchend', event => {
     if (start === null) return;
-    const dx = event.changedTouches[0].clientX - start.clientX, dy = event.changedTouches[0].clientY - start.clientY;
+    const dx = event.changedTouches[0].clientX - start.clientX,
+          dy = event.changedTouches[0].clientY - start.clientY;
     start = null;
-    if (Math.abs(dx) > kSwipe && Math.abs(dx) > 2 * Math.abs(dy)) stop(() => go(shown.moment + (dx < 0 ? 1 : -1)))();
+    if (Math.abs(dx) > kSwipe && Math.abs(dx) > 2 * Math.abs(dy))
+      stop(() => go(shown.moment + (dx < 0 ? 1 : -1)))();
   }, {passive: true});
 }
 
@@ -119,13 +151,16 @@ function panel(run, i) {
   const choose = i === 0 ? state => stop(() => go(state))() : state => stop(() => go(shown.moment, state))();
   const timeline = new Timeline(run, choose), values = new Values(data, run);
   const story = element('div', {class: 'story'}), readings = element('div'), heading = element('h3');
-  const buttons = i === 0 ? null : element('span', {class: 'own'},
-      element('button', {type: 'button', 'aria-label': `${run.title}: back`, click: () => choose(Math.max(0, states()[1] - 1))}, icon(icons.back)),
-      element('button', {type: 'button', 'aria-label': `${run.title}: forward`, click: () => choose(Math.min(run.last, states()[1] + 1))}, icon(icons.next)));
-  const node = element('section', {class: `run run-${i}`, 'aria-label': run.title}, element('h2', {}, run.title),
+  const by = steps => choose(Math.max(0, Math.min(run.last, states()[1] + steps)));
+  const buttons = element(
+      'span', {class: 'own'}, button(icons.back, `${run.title}: back`, () => by(-1)),
+      button(icons.next, `${run.title}: forward`, () => by(1)));
+  const node = element(
+      'section', {class: `run run-${i}`, 'aria-label': run.title}, element('h2', {}, run.title),
       element('p', {class: 'end'}, run.end), timeline.node,
-      element('div', {class: 'heading'}, heading, buttons), story, values.node, readings);
-  const link = (state, text) => element('a', {href: i === 0 ? `#step-${state}` : `#step-${shown.moment},${state}`}, text);
+      element('div', {class: 'heading'}, heading, i === 0 ? null : buttons), story, values.node, readings);
+  const link = (state, text) =>
+      element('a', {href: i === 0 ? `#step-${state}` : `#step-${shown.moment},${state}`}, text);
   return {
     node,
     show(state, round) {
@@ -153,28 +188,38 @@ function draw() {
   controls.back.disabled = controls.first.disabled = shown.moment === 0;
   controls.next.disabled = controls.last.disabled = !runs[0].isLoop && shown.moment >= runs[0].last;
   const step = runs[0].step(now[0]);
-  if (!isPlaying()) byId('said').textContent = step === null ? 'Before the first step' : `Step ${now[0]}: ${step.event}`;
+  if (!isPlaying())
+    byId('said').textContent = step === null ? 'Before the first step' : `Step ${now[0]}: ${step.event}`;
 }
 
 function build() {
   byId('name').textContent = data.name;
-  byId('verdicts').append(...runs.map((run, i) => element('p', {class: `run-${i}`}, element('b', {}, `${run.title}: `), run.end)));
-  byId('player').append(controls.first, controls.back, controls.play, controls.next, controls.last, controls.slider,
+  byId('verdicts')
+      .append(...runs.map(
+          (run, i) => element('p', {class: `run-${i}`}, element('b', {}, `${run.title}: `), run.end)));
+  byId('player').append(
+      controls.first, controls.back, controls.play, controls.next, controls.last, controls.slider,
       controls.place, controls.link);
   runs.forEach((run, i) => panels.push(panel(run, i)));
   byId('runs').append(...panels.map(part => part.node));
   byId('cones').append(cones.node);
-  byId('cones-note').append(...runs.map((run, i) => element('span', {class: `key run-${i}`}, run.title)),
-      cones.areToScale ? '' : ' The axes have scales of their own.');
+  byId('cones-note')
+      .append(
+          ...runs.map((run, i) => element('span', {class: `key run-${i}`}, run.title)),
+          cones.areToScale ? '' : ' The axes have scales of their own.');
   const problem = document.querySelector('.problem');
   problem.classList.toggle('large', data.rows.length > kNarrow);
   problem.classList.toggle('with-picture', picture !== null);
   if (picture !== null) {
-    byId('picture').append(picture.node, element('figcaption', {}, 'The scene, and the force of each contact at this step'));
+    byId('picture').append(
+        picture.node, element('figcaption', {}, 'The scene, and the force of each contact at this step'));
     byId('picture').hidden = false;
   }
   document.addEventListener('keydown', onKey);
-  addEventListener('hashchange', () => { readAddress(); draw(); });
+  addEventListener('hashchange', () => {
+    readAddress();
+    draw();
+  });
   watchSwipes(document.querySelector('main'));
 }
 
