@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "certify/robust.h"
 #include "certify/same_run.h"
 #include "certify/slope.h"

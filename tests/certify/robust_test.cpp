@@ -4,9 +4,11 @@
 
 #include "certify/robust.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "certify/robust_scene.h"
 #include "corpus/scene_file.h"
