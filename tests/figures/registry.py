@@ -66,6 +66,7 @@ FIGURES = [
     Figure("night", "search/README.md", "long", search.night, ("algorithm", "tests/setup/memory.py")),
     Figure("scaling", "search/SCALING.md", "minutes", search.scaling,
            ("algorithm", "tests/setup/scaling.py", "corpus/store_merge.cpp")),
+    Figure("plan", "search/SCALING.md", "minutes", search.plan, SEARCH),
     Figure("methods-built", "solver/README.md", "cheap", corpus.methods_built),
     Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers_growth.cpp")),
     Figure("safe-loops", "solver/published/readings.md", "minutes", search.safe_loops, SEARCH),
