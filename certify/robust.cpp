@@ -22,9 +22,7 @@ Rational LargestOf(const Entries& entries) {
 }
 
 // Everything within `by` of x.
-Interval Within(const Rational& x, const Rational& by) {
-  return {Around(x - by).inf(), Around(x + by).sup()};
-}
+Interval Within(const Rational& x, const Rational& by) { return {Around(x - by).inf(), Around(x + by).sup()}; }
 
 IntervalProblem BoxAbout(const ExactProblem& problem, const Rational& radius) {
   IntervalProblem box;

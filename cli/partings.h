@@ -18,8 +18,8 @@ struct Parting {
   Outcome outcome = Outcome::kUndecided;  // of the other run
 };
 
-// One switch at a time, in table order; values that leave the path nowhere are left out. Planar, over rationals.
-// Runs of the other policies end in `limit` after some multiple of the steps of this one.
+// One switch at a time, in table order; values that leave the path nowhere are left out. Planar, over
+// rationals. Runs of the other policies end in `limit` after some multiple of the steps of this one.
 std::vector<Parting> PartingsOf(const ExactProblem& problem, const Policy& policy, const Limits& limits,
                                 const std::vector<Pivot<Rational>>& pivots);
 

@@ -106,8 +106,7 @@ Campaign CampaignOf(const SearchVerb& o) {
   if (!o.optimizer.empty() && campaign.objective.empty())
     throw InputError(
         fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
-  for (const std::string& file : o.parents)
-    campaign.parents.push_back(CandidateOf(ReadProblem(file), file));
+  for (const std::string& file : o.parents) campaign.parents.push_back(CandidateOf(ReadProblem(file), file));
   RequireConsistent(campaign);
   return campaign;
 }

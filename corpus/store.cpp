@@ -374,8 +374,9 @@ bool Store::Represent(const Finding& candidate) {
 
 // Units of a block that stand alone, looked up one by one: the table may hold those of a thousand shards.
 std::int64_t Store::CountUnits(const Shard& shard, std::int64_t block) const {
-  Statement count(db_.get(), fmt::format("{} SELECT COUNT(*) FROM of_block JOIN units USING (unit) WHERE shards = ?",
-                                         kUnitsOfBlock));
+  Statement count(
+      db_.get(),
+      fmt::format("{} SELECT COUNT(*) FROM of_block JOIN units USING (unit) WHERE shards = ?", kUnitsOfBlock));
   const std::int64_t shards = shard.count;
   count.Bind(FirstUnit(shard, block)).Bind(shards).Bind(kUnitsPerBlock).Bind(shards).Step();
   return count.Integer(0);

@@ -70,9 +70,11 @@ void RefuseTwice(std::int64_t unit) {
 
 // The units of a block that is not here. Blocks of the same number of shards share none.
 void RequireNoneOf(sqlite3* db, const Shard& shard, std::int64_t block) {
-  Statement alone(db, fmt::format("{} SELECT unit FROM of_block JOIN units USING (unit) LIMIT 1", kUnitsOfBlock));
+  Statement alone(db,
+                  fmt::format("{} SELECT unit FROM of_block JOIN units USING (unit) LIMIT 1", kUnitsOfBlock));
   const std::int64_t first = FirstUnit(shard, block);
-  if (alone.Bind(first).Bind(std::int64_t{shard.count}).Bind(std::int64_t{Store::kUnitsPerBlock}).Step()) RefuseTwice(alone.Integer(0));
+  if (alone.Bind(first).Bind(std::int64_t{shard.count}).Bind(std::int64_t{Store::kUnitsPerBlock}).Step())
+    RefuseTwice(alone.Integer(0));
   for (const int shards : ShardCounts(db)) {
     if (shards == shard.count) continue;
     for (std::int64_t k = 0; k < Store::kUnitsPerBlock; ++k) {

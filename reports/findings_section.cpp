@@ -179,8 +179,9 @@ Table EmptyTable() {
        {"contacts", "of the problem as found → of the minimized problem", false},
        {"drives", "of one period of the loop"},
        {"steps", "of one period of the loop"},
-       {"met", "runs of the campaign with this signature; below: different words of their loops, where the "
-               "signature is counts alone"},
+       {"met",
+        "runs of the campaign with this signature; below: different words of their loops, where the "
+        "signature is counts alone"},
        {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
        {"policies, as found", "outcomes over the planar grid of policies", false},
        {"policies, minimized", "likewise, of the minimized problem", false},
