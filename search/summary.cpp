@@ -356,6 +356,10 @@ std::string SummaryText(const Store& store, const std::string& file) {
                         Grouped(digest.groups.at(kind)), RateText(count, digest.runs));
   }
   if (digest.findings.empty()) text += "  no findings\n";
+  if (digest.loops.loops > 0)
+    text += fmt::format("  of {} loops {} have no step of length zero in their period, {} nothing else\n",
+                        Grouped(digest.loops.loops), Grouped(digest.loops.without_zero_steps),
+                        Grouped(digest.loops.of_zero_steps_alone));
   text += fmt::format(
       "  doubles: {} of {} suspicions confirmed exactly; {} of {} audited runs misjudged; {} wrong answers\n",
       Grouped(digest.confirmed), Grouped(digest.suspicions), Grouped(digest.misjudged), Grouped(digest.audited),

@@ -55,6 +55,14 @@ Record TwoPolicies() {
   agreement.safety_decided = 29;
   agreement.safe = 31;
   agreement.safe_gave_up = 37;
+  record.loops[2] = {.loops = 41,
+                     .drives = 200,
+                     .steps = 500,
+                     .zero_steps = 90,
+                     .without_zero_steps = 3,
+                     .of_zero_steps_alone = 2,
+                     .by_zero_steps = {}};
+  record.loops[3].loops = 5;
   record.signatures = {
       {"cycle-2c-4d-10s-00", 2}, {"cycle-2c-4d-12s-00", 1}, {"ray-2c", 40}, {"safe-cycle-2c-4d-10s-00", 3}};
   return record;
@@ -93,6 +101,9 @@ TEST_CASE("summary: numbers are sums over all units, problems count once, runs f
   CHECK(summary.at("safety_decided") == 58);
   CHECK(summary.at("safe") == 62);
   CHECK(summary.at("safe_gave_up") == 74);
+  CHECK(summary.at("loops") == 92);
+  CHECK(summary.at("loops_without_zero_steps") == 6);
+  CHECK(summary.at("loops_of_zero_steps_alone") == 4);
   CHECK(summary.at("finished") == 3);
   CHECK(summary.at("pending") == 1);
   CHECK(summary.at("whole_grid") == 2);
@@ -120,6 +131,7 @@ TEST_CASE("summary: grave findings are named, and stand before all others") {
   CHECK_THAT(
       text,
       Contains("24 of 26 problems given to complete driving were solved, verified exactly (12 with folds)"));
+  CHECK_THAT(text, Contains("of 92 loops 6 have no step of length zero in their period, 4 nothing else"));
   CHECK_THAT(text, Contains("3 finished, 1 to go; 2 loop under the whole grid"));
 }
 
