@@ -364,7 +364,7 @@ void AddCertify(CommandLine& program) {
   verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one")
       .Details(
           "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
-          "the scene is built of may be off at once. Writes no certificate");
+          "the scene is built of may be off at once. Exit 3 unless each is proved. Writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.limits);

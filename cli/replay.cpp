@@ -17,6 +17,7 @@
 #include "cli/replay_page.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
 #include "reports/viewer.h"
@@ -183,6 +184,9 @@ std::string TitleOf(const ReplayOptions& o) {
   return o.method == "complete" ? "Complete driving" : "Lemke's method";
 }
 
+// A page of more takes a browser long to open.
+constexpr std::size_t kMostStepsOfPage = 3000;
+
 FollowedRun Followed(ReplayOptions o, const ProblemFile& file, const Solution& solution) {
   o.step = o.json = true;
   FollowedRun run;
@@ -190,6 +194,10 @@ FollowedRun Followed(ReplayOptions o, const ProblemFile& file, const Solution& s
   run.narration = Narrate(o, file, solution);
   run.end = EndOf(solution);
   run.replay = ReplayToJson(o, file, solution, run.narration);
+  if (const std::size_t steps = run.replay["pivots"].size(); steps > kMostStepsOfPage)
+    throw InputError(
+        fmt::format("--html: found a run of {} steps, expected at most {}: --max-drives ends it earlier",
+                    Grouped(static_cast<std::int64_t>(steps)), Grouped(kMostStepsOfPage)));
   const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
   if (o.method == "baraff" && exact != nullptr)
     run.partings = PartingsOf(file.problem, ParsePolicy(o.policy), o.limits, exact->pivots);

@@ -6,14 +6,15 @@
 namespace stiction {
 namespace {
 
-// The states, counted in steps, that are the same: where the loop begins, and where the run was ended. Null for
-// a run that is no loop.
+// The states, counted in steps, that are the same, exactly or but for rounding: where the loop begins, and
+// where the run was ended. Null for a run that is no loop.
 Json LoopToJson(const Json& replay) {
   if (replay["outcome"] != "cycle") return nullptr;
   const Json& pivots = replay["pivots"];
   std::size_t from = 0;
   while (from < pivots.size() && pivots[from]["drive"] <= replay["start"]) ++from;
-  return {{"from", from}, {"to", pivots.size()}};
+  const bool exact = pivots.empty() || pivots.back()["f"].empty() || pivots.back()["f"][0].is_string();
+  return {{"from", from}, {"to", pivots.size()}, {"exact", exact}};
 }
 
 Json PartingToJson(const Parting& parting, const Policy& policy) {

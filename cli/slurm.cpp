@@ -52,7 +52,8 @@ constexpr const char* kArrays = R"sh(
 options=()
 [[ ! -e options ]] || mapfile -t options <options
 
-# Submits tasks for shards, in ascending order; prints the jobs with colons between them.
+# Submits tasks for shards, in ascending order; prints the jobs with colons between them. Where Slurm takes no more, the
+# merge after those that it took has the rest run.
 submit_tasks() {
   local jobs= job first list from to
   while (($#)); do
@@ -67,10 +68,13 @@ submit_tasks() {
       list+=,$from
       ((from == to)) || list+=-$to
     done
-    job=$(sbatch --parsable "${options[@]}" --array="${list:1}" --export=ALL,STICTION_FIRST="$first" task.sh) || return
+    job=$(sbatch --parsable "${options[@]}" --array="${list:1}" --export=ALL,STICTION_FIRST="$first" task.sh) || {
+      echo "sbatch takes no more from shard $first on: the merge has them run, if any was taken" >&2
+      break
+    }
     jobs+=:${job%%;*}
   done
-  echo "${jobs:1}"
+  [[ -n $jobs ]] && echo "${jobs:1}"
 }
 
 # submit_merge JOBS ROUND: the merge, once these jobs have ended.
@@ -91,7 +95,7 @@ constexpr const char* kTask = R"sh(#!/bin/bash
 #SBATCH --output="@LOGS@/task-%A-%a.log"
 @COMMON@
 shard=${1-}
-[[ -z ${SLURM_ARRAY_TASK_ID-} ]] || shard=$((${STICTION_FIRST:-0} + SLURM_ARRAY_TASK_ID))
+[[ -n $shard || -z ${SLURM_ARRAY_TASK_ID-} ]] || shard=$((${STICTION_FIRST:-0} + SLURM_ARRAY_TASK_ID))
 [[ $shard =~ ^[0-9]+$ ]] && ((shard < shards)) || { note "task: found shard '$shard', expected 0 to $((shards - 1))"; exit 2; }
 whole=shards/$shard.store
 [[ ! -e $whole ]] || exit 0

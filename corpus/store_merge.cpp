@@ -64,7 +64,7 @@ bool HoldsIn(sqlite3* db, std::int64_t unit, int shards) {
   return HoldsBlock(db, shard, BlockOf(shard, unit));
 }
 
-void RefuseTwice(std::int64_t unit) {
+[[noreturn]] void RefuseTwice(std::int64_t unit) {
   throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
 }
 
@@ -122,7 +122,7 @@ void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& 
     }
     Statement closed(db_.get(), "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
     if (closed.Bind(shard).Bind(BlockOf(shard, unit)).Step()) return;
-    throw InputError(fmt::format("merge: unit {} is in both stores, in blocks of different shards", unit));
+    RefuseTwice(unit);
   }
   InsertUnit(shard, unit, record);
 }

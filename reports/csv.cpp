@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/csv.h"
 
-#include <cmath>
-
 namespace stiction {
 namespace {
 
@@ -92,10 +90,10 @@ void AddSafe(Csv& csv, const std::optional<RunFacts>& run) {
 }
 
 // How many different words its loops have; empty where the signature is one.
-void AddWords(Csv& csv, const std::optional<WordSketch>& words) {
-  if (!words) return AddEmpty(csv, 2);
-  csv.Add(static_cast<std::int64_t>(std::llround(words->Count())));
-  AddYesNo(csv, words->IsExact());
+void AddWords(Csv& csv, const Discovery& discovery) {
+  if (!discovery.words) return AddEmpty(csv, 2);
+  csv.Add(discovery.Words());
+  AddYesNo(csv, discovery.words->IsExact());
 }
 
 void AddMinimized(Csv& csv, const std::optional<RunFacts>& run) {
@@ -270,7 +268,7 @@ std::string FindingsCsv(const std::vector<Discovery>& discoveries) {
     csv.Add(files.existence).Add(files.original_existence);
     AddSafe(csv, discovery.found);
     AddSafe(csv, discovery.minimized);
-    AddWords(csv, discovery.words);
+    AddWords(csv, discovery);
     csv.EndRow();
   }
   return csv.text();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <regex>
@@ -116,6 +117,10 @@ bool Discovery::IsLoop() const { return IsLoopKind(kind); }
 bool Discovery::WholeGrid() const {
   return found && representative->exact_outcome != Name(Outcome::kSolved) &&
          found->grid.IsAll(representative->exact_outcome);
+}
+
+std::int64_t Discovery::Words() const {
+  return std::min(met, static_cast<std::int64_t>(std::llround(words->Count())));
 }
 
 int Discovery::SmallestContacts() const {

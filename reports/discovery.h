@@ -70,6 +70,9 @@ struct Discovery {
   bool Finished() const { return representative != nullptr && representative->done; }
   bool IsLoop() const;     // of the published algorithm
   bool WholeGrid() const;  // every policy ends in the outcome of the finding, and that is not `solved`
+  // Different words of its loops: counted, or estimated and then no more than there were loops. Requires
+  // `words`.
+  std::int64_t Words() const;
   bool EveryPolicyLoops() const { return found && found->grid.AllLoop(); }
   int SmallestContacts() const;  // of the minimized problem, or as found
 };

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
@@ -205,7 +204,7 @@ Html ContactsText(const Discovery& discovery) {
 Html MetText(const Discovery& discovery) {
   Html met = Text(Grouped(discovery.met));
   if (!discovery.words) return met;
-  const auto words = static_cast<std::int64_t>(std::llround(discovery.words->Count()));
+  const std::int64_t words = discovery.Words();
   return met + Tag("small")((discovery.words->IsExact() ? "" : "about ") + Counted(words, "word"));
 }
 

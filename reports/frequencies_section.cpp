@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -85,26 +86,27 @@ struct LoopCount {
   std::int64_t runs = 0, loops = 0;
 };
 
-// Generators and contacts down, what `column_of` makes of a stratum across: loops that exact arithmetic
-// confirmed.
+// Generators, contacts and policies down, what `column_of` makes of a stratum across: loops that exact
+// arithmetic confirmed.
 template <class Order, class ColumnOf>
 Html StrataTable(const Record& total, const std::string& caption, ColumnOf column_of) {
   using Label = std::decay_t<decltype(column_of(StratumKey{}))>;
-  std::map<std::pair<std::string, int>, std::map<Label, LoopCount, Order>> rows;
+  std::map<std::tuple<std::string, int, std::string>, std::map<Label, LoopCount, Order>> rows;
   std::set<Label, Order> labels;
   for (const auto& [key, tally] : total.tallies) {
     for (const auto& [stratum_key, stratum] : tally.strata) {
-      LoopCount& count = rows[{key.generator, key.contacts}][column_of(stratum_key)];
+      LoopCount& count = rows[{key.generator, key.contacts, key.policy}][column_of(stratum_key)];
       count.runs += stratum.problems;
       count.loops += stratum.exact[static_cast<int>(Outcome::kCycle)];
       labels.insert(column_of(stratum_key));
     }
   }
-  std::vector<Column> columns = {{"generator", "", false}, {"contacts"}};
+  std::vector<Column> columns = {{"generator", "", false}, {"contacts"}, {"policy", "", false}};
   for (const Label& label : labels) columns.push_back({fmt::format("{}", label)});
   Table table(caption, columns);
   for (const auto& [key, counts] : rows) {
-    std::vector<HtmlCell> cells = {{Text(key.first)}, {Text(Grouped(key.second))}};
+    const auto& [generator, contacts, policy] = key;
+    std::vector<HtmlCell> cells = {{Text(generator)}, {Text(Grouped(contacts))}, {Text(policy)}};
     for (const Label& label : labels) {
       const auto found = counts.find(label);
       if (found == counts.end()) {
@@ -114,7 +116,7 @@ Html StrataTable(const Record& total, const std::string& caption, ColumnOf colum
             CountWithInterval(found->second.loops, RateText(found->second.loops, found->second.runs)));
       }
     }
-    table.AddRow(cells, 2);
+    table.AddRow(cells, 3);
   }
   return table.Done();
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corpus/intervals.h"
+#include "corpus/kinds.h"
 #include "reports/page.h"
 
 namespace stiction {
@@ -258,7 +259,13 @@ HtmlCell LoopsAndShare(std::int64_t count, const LoopTally& tally) {
 }
 
 Html LoopTable(const Record& total) {
-  if (total.loops.empty()) return Html("<p class=\"note\">No loop was met.</p>\n");
+  if (total.loops.empty())
+    return Tag("p",
+               {{"class", "note"}})(std::any_of(total.signatures.begin(), total.signatures.end(),
+                                                [](const auto& met) { return IsLoopKind(KindOf(met.first)); })
+                                        ? "Not counted here: those of space, and of searches with an objective."
+                                        : "No loop was met.") +
+           Html("\n");
   Table table("Loops in exact arithmetic, by number of contacts in the period",
               {{"contacts"},
                {"loops"},

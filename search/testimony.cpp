@@ -261,7 +261,11 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
   }
   for (const auto& [contacts, tally] : total.loops) RequireLoops(witness, contacts, tally);
   for (const auto& [signature, sketch] : total.words) {
-    witness.RequireOneOf("words", signature, total.signatures.contains(signature), "signatures that were met");
+    const auto met = total.signatures.find(signature);
+    witness.RequireOneOf("words", signature, met != total.signatures.end(), "signatures that were met");
+    witness.Require(static_cast<std::int64_t>(sketch.hashes().size()) <= met->second, "words",
+                    fmt::format("{} of {}", sketch.hashes().size(), Shortened(signature, 100)),
+                    fmt::format("at most {}, the loops that were met", met->second));
   }
   for (const auto& [contacts, tally] : total.agreement)
     witness.Require(is_size(contacts), "agreement", fmt::format("{} contacts", contacts),

@@ -4,9 +4,10 @@
 // which say why; a condition there is a mask here.
 //
 // Why no state is compared with earlier ones: a drive that gives nothing up puts its variable into a set and
-// takes none out of one, so that the sets of a run grow, and inside a drive a variable moves in a step of
-// length zero only if it has not moved before. Lanes that give up, drive a variable that has a set, or drive a
-// force to zero are left.
+// takes none out of one, so that the sets of a run grow; and inside a drive a variable that goes back to the
+// set that it left last, in a step of length zero, is given up, so that no state of it stands twice
+// (solver/published/readings.md, 6). Lanes that give up, drive a variable that has a set, or drive a force to
+// zero are left.
 
 #include "search/batch/lanes.h"
 #include "solver/problem/index_sets.h"

@@ -129,6 +129,24 @@ class Slurm(cli.TestCase):
         done = self.script(folder, "task.sh", SLURM_ARRAY_TASK_ID=500, STICTION_FIRST=2000)
         self.assertIn("found shard '2500', expected 0 to 2499", done.stderr)
 
+    def test_a_task_that_is_named_is_the_one_that_runs(self):
+        folder = self.make(3, problems=20000)
+        done = self.script(folder, "task.sh", 0, SLURM_ARRAY_TASK_ID=1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({path.name for path in (folder / "shards").iterdir()}, {".keep", "0.store"})
+        self.assertEqual(self.script(folder, "task.sh", 7, SLURM_ARRAY_TASK_ID=1).returncode, 2)
+
+    def test_where_slurm_takes_no_more_the_merge_waits_for_what_it_took(self):
+        folder = self.make(2500, problems=10**8)
+        calls = self.folder / "calls"
+        path = self.tools(sbatch=f'echo "$@" >>{calls}; [[ "$*" != *FIRST=1000* ]] && echo 7', seq='exec /usr/bin/seq "$@"')
+        done = self.script(folder, "submit.sh", path=path)
+        self.assertEqual((done.returncode, done.stdout), (0, "tasks 7, merge 7\n"), done.stderr)
+        self.assertIn("from shard 1000 on: the merge has them run", done.stderr)
+        self.assertIn("--dependency=afterany:7 merge.sh", calls.read_text())
+        nothing = self.script(folder, "submit.sh", path=self.tools(sbatch="exit 1", seq='exec /usr/bin/seq "$@"'))
+        self.assertEqual((nothing.returncode, nothing.stdout), (1, ""))
+
     def test_what_a_dead_node_leaves_goes_with_the_merge(self):
         folder = self.make(1, problems=20000)
         self.script(folder, "task.sh", 0)

@@ -67,11 +67,23 @@ class Data(cli.TestCase):
         for words in ([LOOP], [LOOP, "--policy", "scan=highest"], ["corpus/two-contact-cycle.json"]):
             run = self.page(*words)["runs"][0]
             loop, pivots, told = run["loop"], run["replay"]["pivots"], run["told"]
+            self.assertTrue(loop["exact"])
             self.assertEqual(pivots[loop["from"] - 1]["f"], pivots[loop["to"] - 1]["f"])
             self.assertEqual(told[loop["from"] - 1]["sets"], told[loop["to"] - 1]["sets"])
             drives = {pivot["drive"] for pivot in pivots[loop["from"]:loop["to"]]}
             self.assertEqual(len(drives), run["replay"]["period"])
         self.assertIsNone(self.page("corpus/smallest-integers.json", "--method", "complete")["runs"][0]["loop"])
+
+    def test_a_loop_of_rounded_numbers_is_called_none_that_is_proved(self):
+        run = self.page("corpus/space/cycle-under-both-slips.json", "--policy", "slip=redirect")["runs"][0]
+        self.assertFalse(run["loop"]["exact"])
+
+    def test_a_run_that_is_too_long_for_a_page_is_refused(self):
+        endless = ["corpus/endless/without-repetition.json", "--policy", "resume=round"]
+        self.refuses("replay", *arguments(endless), "--max-drives", "1500", "--html", "-", says=["--html: found a run of", "at most 3,000"])
+        out = self.folder / "page.html"
+        self.assertEqual(cli.run("replay", *arguments(endless), "--max-drives", "20", "--html", out).code, 3)
+        self.assertIsNone(data_of(out.read_text())["runs"][0]["loop"])
 
     def test_every_step_that_gives_up_names_the_reading(self):
         policy = "give-up=second,drop=variable"

@@ -351,6 +351,37 @@ TEST_CASE("report: rates by friction stand in the order of the coefficients, the
   CHECK(Has(page, RateText(7, 1000)));
 }
 
+TEST_CASE("report: rates by friction are of one policy each") {
+  Record record;
+  for (const char* policy : {"paper", "scan=highest"}) {
+    Stratum& stratum = record.tallies[{"scenes", 4, policy}].strata[{"1/2", 3}];
+    stratum.problems = 1000;
+    stratum.exact[static_cast<int>(Outcome::kCycle)] = 7;
+  }
+  const std::string page = FrequenciesSection(record).markup();
+  const std::string by_friction = page.substr(page.find("By friction"));
+  CHECK(Has(by_friction, RateText(7, 1000)));
+  CHECK_FALSE(Has(by_friction, RateText(14, 2000)));
+}
+
+TEST_CASE("report: where loops are met and not counted the page does not say that there are none") {
+  Record record;
+  record.tallies[{"psd", 2, "paper"}].problems = 10;
+  CHECK(Has(PivotsSection(record).markup(), "No loop was met."));
+  record.signatures["cycle-2c-4d"] = 3;  // in space
+  CHECK_FALSE(Has(PivotsSection(record).markup(), "No loop was met."));
+  CHECK(Has(PivotsSection(record).markup(), "Not counted here"));
+}
+
+TEST_CASE("report: an estimate of words is no more than the loops") {
+  Finding finding = PendingFinding("cycle-3c-4d-14s", 0);
+  Record record;
+  record.signatures = {{finding.signature, 70}};
+  for (std::uint64_t i = 1; i <= 70; ++i) record.words[finding.signature].Add(i);
+  CHECK(record.words[finding.signature].Count() > 70);
+  CHECK(Discoveries(record, {finding}).front().Words() == 70);
+}
+
 TEST_CASE("report: loops.csv and zero_steps.csv hold every counter of loops") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");

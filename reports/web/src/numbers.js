@@ -10,7 +10,7 @@ function parts(exact) {
   return [BigInt(p), BigInt(q)];
 }
 
-// The nearest double, also of what no double's numerator holds.
+// A double near it, also of what no double's numerator holds.
 export function toDouble(x) {
   if (typeof x === 'number') return x;
   const [p, q] = parts(x);
@@ -22,10 +22,12 @@ export function toDouble(x) {
 
 export const isZero = x => typeof x === 'number' ? x === 0 : /^-?0+(\/|$)/.test(x);
 
-// The sign of abs(x) - m y: exact where all are.
+// The sign of abs(x) - m y: exact where all are, otherwise 0 where they are the same but for rounding.
 export function compareWithLimit(x, m, y) {
-  if (typeof x === 'number' || typeof y === 'number')
-    return Math.sign(Math.round(1e9 * (Math.abs(toDouble(x)) - toDouble(m) * toDouble(y))));
+  if (typeof x === 'number' || typeof y === 'number') {
+    const size = Math.abs(toDouble(x)), most = toDouble(m) * toDouble(y);
+    return Math.abs(size - most) <= 1e-9 * Math.max(size, Math.abs(most)) ? 0 : Math.sign(size - most);
+  }
   const [a, b] = parts(x), [c, d] = parts(m), [e, f] = parts(y);
   const difference = (a < 0n ? -a : a) * d * f - c * e * b;
   return difference > 0n ? 1 : difference < 0n ? -1 : 0;

@@ -56,8 +56,12 @@ const clamp = moment => Math.max(0, runs[0].isLoop ? moment : Math.min(moment, r
 function go(moment, second = null) {
   shown.moment = clamp(moment);
   shown.second = second;
-  history.replaceState(null, '', address());
   draw();
+  try {
+    history.replaceState(null, '', address());
+  } catch {
+    // Some browsers allow only so many a second.
+  }
 }
 
 // ---- The player ------------------------------------------------------------------------------
