@@ -120,7 +120,7 @@ bool Discovery::WholeGrid() const {
 }
 
 std::int64_t Discovery::Words() const {
-  return std::min(met, static_cast<std::int64_t>(std::llround(words->Count())));
+  return std::llround(std::min(static_cast<double>(met), words->Count()));
 }
 
 int Discovery::SmallestContacts() const {
