@@ -350,6 +350,7 @@ class Peers(cli.TestCase):
 
 
 class Search(cli.TestCase):
+    @unittest.skipIf(cli.SHORT, "the packages are built in the first configuration")
     def test_a_search_is_measured_alone_and_beside_lemke(self):
         done = cli.run("bench", "--suite", "search", "--json", "--problems", 2000, "--repeat", 2, "--contacts", 2, 6)
         self.assertEqual(done.code, 0, done.err)
