@@ -48,6 +48,11 @@ UnitResult RunWith(const Campaign& campaign, const UnitSolvers& solvers) {
 
 const Tally& OnlyTally(const UnitResult& result) {
   REQUIRE(result.record.tallies.size() == 1);
+  const Tally& tally = result.record.tallies.begin()->second;
+  Stratum sum;
+  for (const auto& [key, stratum] : tally.strata) sum.Merge(stratum);
+  CHECK(sum.misjudged == tally.misjudged);
+  CHECK(sum.audited == tally.audited);
   return result.record.tallies.begin()->second;
 }
 
