@@ -44,35 +44,15 @@ std::string Paragraphs(const std::string& text) {
   return lines;
 }
 
-// A term at the left, what it means beside it.
-std::string Entry(const std::string& term, const std::string& meaning) {
-  const bool fits = 2 + term.size() + 2 <= kColumn;
-  const std::string left = fits ? fmt::format("  {:{}}", term, kColumn - 2)
-                                : fmt::format("  {}\n{}", term, std::string(kColumn, ' '));
-  return left + Wrapped(meaning, kColumn, kColumn);
-}
-
 std::string WithCommaSpace(const std::string& name) {
   const std::size_t comma = name.find(',');
   return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
-}
-
-std::string Term(const OptionRow& row) {
-  if (row.kind == RowKind::kPositional) return row.name + (row.IsRepeated() ? " ..." : "");
-  std::string term = WithCommaSpace(row.name);
-  if (row.kind == RowKind::kOption) term += fmt::format(" {}", row.TypeName());
-  return term + (row.IsRepeated() ? " ..." : "");
 }
 
 std::string RangeText(const OptionRow& row) {
   if (row.min == -std::numeric_limits<double>::infinity()) return "";
   if (row.max == kMostInteger) return fmt::format("{:g} or more", row.min);
   return fmt::format("{:g} to {:g}", row.min, row.max);
-}
-
-bool AreExplained(const std::vector<AllowedValue>& choices) {
-  return std::any_of(choices.begin(), choices.end(),
-                     [](const AllowedValue& choice) { return !choice.meaning.empty(); });
 }
 
 // "(drives; 1 to 1e+12; default 10000)"
@@ -96,26 +76,13 @@ std::string NamesOf(const std::vector<AllowedValue>& choices) {
 }
 
 std::string EntryOf(const OptionRow& row) {
-  const bool explained = AreExplained(row.choices);
-  std::string text = row.help;
-  if (!row.choices.empty() && !explained) text += ": " + NamesOf(row.choices);
-  std::string entry = Entry(Term(row), text + Notes(row) + (row.details.empty() ? "" : ". " + row.details));
-  if (explained) {
-    for (const AllowedValue& choice : row.choices) {
-      const std::string meaning = choice.meaning.empty() ? "" : ": " + choice.meaning;
-      entry += std::string(kColumn, ' ') + Wrapped(choice.name + meaning, kColumn, kColumn + 2);
-    }
+  std::string entry = HelpEntry(TermOf(row), MeaningOf(row));
+  if (!AreExplained(row.choices)) return entry;
+  for (const AllowedValue& choice : row.choices) {
+    const std::string meaning = choice.meaning.empty() ? "" : ": " + choice.meaning;
+    entry += std::string(kColumn, ' ') + Wrapped(choice.name + meaning, kColumn, kColumn + 2);
   }
   return entry;
-}
-
-std::string UsageOf(const Verb& verb) {
-  std::string usage = fmt::format("Usage: stiction {} [OPTIONS]", verb.name);
-  for (const OptionRow& row : verb.rows) {
-    if (row.kind == RowKind::kPositional)
-      usage += row.required ? " " + Term(row) : fmt::format(" [{}]", Term(row));
-  }
-  return usage + "\n";
 }
 
 // The groups in the order in which they appear; positional words have none.
@@ -147,22 +114,56 @@ std::size_t Distance(std::string_view left, std::string_view right) {
 
 }  // namespace
 
+std::string TermOf(const OptionRow& row) {
+  if (row.kind == RowKind::kPositional) return row.name + (row.IsRepeated() ? " ..." : "");
+  std::string term = WithCommaSpace(row.name);
+  if (row.kind == RowKind::kOption) term += fmt::format(" {}", row.TypeName());
+  return term + (row.IsRepeated() ? " ..." : "");
+}
+
+std::string MeaningOf(const OptionRow& row) {
+  std::string text = row.help;
+  if (!row.choices.empty() && !AreExplained(row.choices)) text += ": " + NamesOf(row.choices);
+  return text + Notes(row) + (row.details.empty() ? "" : ". " + row.details);
+}
+
+bool AreExplained(const std::vector<AllowedValue>& choices) {
+  return std::any_of(choices.begin(), choices.end(),
+                     [](const AllowedValue& choice) { return !choice.meaning.empty(); });
+}
+
+std::string UsageLine(const Verb& verb) {
+  std::string usage = fmt::format("stiction {} [OPTIONS]", verb.name);
+  for (const OptionRow& row : verb.rows) {
+    if (row.kind == RowKind::kPositional)
+      usage += row.required ? " " + TermOf(row) : fmt::format(" [{}]", TermOf(row));
+  }
+  return usage;
+}
+
+std::string HelpEntry(const std::string& term, const std::string& meaning) {
+  const bool fits = 2 + term.size() + 2 <= kColumn;
+  const std::string left = fits ? fmt::format("  {:{}}", term, kColumn - 2)
+                                : fmt::format("  {}\n{}", term, std::string(kColumn, ' '));
+  return left + Wrapped(meaning, kColumn, kColumn);
+}
+
 std::string HelpOf(const CommandLine& program) {
   std::string text = Paragraphs(program.purpose) + "\nUsage: stiction VERB [OPTIONS] ...\n\nVerbs:\n";
-  for (const Verb& verb : program.verbs) text += Entry(verb.name, verb.purpose);
-  text += "\nOptions:\n" + Entry("-h, --help", "this text; behind a verb, its options");
-  text += Entry("--version", "version, commit, compiler and flags");
+  for (const Verb& verb : program.verbs) text += HelpEntry(verb.name, verb.purpose);
+  text += "\nOptions:\n" + HelpEntry("-h, --help", "this text; behind a verb, its options");
+  text += HelpEntry("--version", "version, commit, compiler and flags");
   return text + "\n" + Paragraphs(program.footer);
 }
 
 std::string HelpOf(const Verb& verb) {
-  std::string text = Paragraphs(verb.purpose) + "\n" + UsageOf(verb) + "\n";
+  std::string text = Paragraphs(verb.purpose) + "\n" + "Usage: " + UsageLine(verb) + "\n\n";
   for (const OptionRow& row : verb.rows) {
     if (row.kind == RowKind::kPositional) text += EntryOf(row);
   }
   for (const std::string& group : GroupsOf(verb)) {
     text += "\n" + (group.empty() ? "Options" : group) + ":\n";
-    if (group.empty()) text += Entry("-h, --help", "this text");
+    if (group.empty()) text += HelpEntry("-h, --help", "this text");
     for (const OptionRow& row : verb.rows) {
       if (row.kind != RowKind::kPositional && row.group == group) text += EntryOf(row);
     }

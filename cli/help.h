@@ -15,6 +15,16 @@ namespace stiction {
 std::string HelpOf(const CommandLine& program);
 std::string HelpOf(const Verb& verb);
 
+// The parts of it, which the manual has, too. "-o, --output TEXT", "FILE ..."
+std::string TermOf(const OptionRow& row);
+// What it is, its range, unit and default; its choices where they need no explanation.
+std::string MeaningOf(const OptionRow& row);
+bool AreExplained(const std::vector<AllowedValue>& choices);
+// "stiction export [OPTIONS] FILE"
+std::string UsageLine(const Verb& verb);
+// A term at the left, what it means beside it; lines.
+std::string HelpEntry(const std::string& term, const std::string& meaning);
+
 // The name that a mistyped word stands for; empty where none is near.
 std::string Nearest(std::string_view word, const std::vector<std::string>& names);
 

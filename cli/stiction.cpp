@@ -46,6 +46,8 @@ int Main(int argc, char** argv) {
   AddPolicies(program);
   AddMethods(program);
   AddBench(program);
+  AddWords(program);
+  AddManual(program);
   return program.Run(argc, argv);
 }
 

@@ -29,6 +29,8 @@ void AddDraw(CommandLine& program);
 void AddPolicies(CommandLine& program);
 void AddMethods(CommandLine& program);
 void AddRecords(CommandLine& program);
+void AddWords(CommandLine& program);
+void AddManual(CommandLine& program);
 
 }  // namespace stiction
 

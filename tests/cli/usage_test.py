@@ -7,7 +7,7 @@ import subprocess
 import cli
 
 VERBS = ["search", "replay", "report", "solve", "certify", "check", "minimize", "status", "merge", "problem", "import",
-         "export", "survey", "assemble", "simulate", "draw", "policies", "records", "bench"]
+         "export", "survey", "assemble", "simulate", "draw", "policies", "records", "bench", "slurm", "methods", "words", "manual"]
 
 # The first value is the reference policy.
 SWITCHES = {

@@ -38,6 +38,7 @@ FIGURES = [
     Figure("readings", "README.md", "cheap", corpus.readings),
     Figure("certificates", "README.md", "cheap", corpus.certificates),
     Figure("records", "README.md", "cheap", corpus.records),
+    Figure("ten-billion", "README.md", "long", search.ten_billion, SEARCH),
     Figure("search-speed", "README.md", "minutes", bench.search_speed, SPEED),
     Figure("lanes", "search/README.md", "minutes", bench.lanes, SPEED),
     Figure("peers-in-short", "README.md", "long", bench.peers_in_short, PEERS),

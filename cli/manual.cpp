@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/manual.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <sstream>
+
+#include "cli/help.h"
+#include "cli/verbs.h"
+#include "cli/words.h"
+#include "corpus/exit_code.h"
+
+namespace stiction {
+namespace {
+
+// ---- man(7) ----
+
+// Text that man reads as it stands: a backslash, a hyphen that is a minus, a line that would be a request.
+std::string Escaped(std::string_view text) {
+  std::string out;
+  bool at_start = true;
+  for (const char c : text) {
+    if (at_start && (c == '.' || c == '\'')) out += "\\&";
+    out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+    at_start = c == '\n';
+  }
+  return out;
+}
+
+// A term, and what it means, indented.
+std::string Paragraph(std::string_view term, std::string_view meaning) {
+  return fmt::format(".TP\n.B {}\n{}\n", Escaped(term), Escaped(meaning));
+}
+
+std::string Section(std::string_view title) { return fmt::format(".SH {}\n", title); }
+
+// Every line a paragraph; those that are indented hang together.
+std::string Lines(const std::string& text) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    if (indent == line.size()) continue;
+    out += (indent > 0 ? ".IP \"\" 4\n" : ".PP\n") + Escaped(line.substr(indent)) + "\n";
+  }
+  return out;
+}
+
+std::string RowInMan(const OptionRow& row) {
+  std::string text = Paragraph(TermOf(row), MeaningOf(row));
+  if (!AreExplained(row.choices)) return text;
+  text += ".RS\n";
+  for (const AllowedValue& choice : row.choices) text += Paragraph(choice.name, choice.meaning);
+  return text + ".RE\n";
+}
+
+std::string VerbInMan(const Verb& verb) {
+  std::string text = fmt::format(".SS {}\n{}\n.PP\n", Escaped(UsageLine(verb)), Escaped(verb.purpose));
+  for (const OptionRow& row : verb.rows) text += RowInMan(row);
+  return text + Lines(verb.footer);
+}
+
+// ---- bash ----
+
+std::string Quoted(const std::string& words) { return "'" + words + "'"; }
+
+// "--json", and "-o" too of "-o,--output".
+std::vector<std::string> Spellings(const OptionRow& row) {
+  const std::size_t comma = row.name.find(',');
+  if (comma == std::string::npos) return {row.name};
+  return {row.name.substr(0, comma), row.name.substr(comma + 1)};
+}
+
+std::string Words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
+
+// Case arms "VERB OPTION) values": of options whose values are a list.
+std::string ValueArms(const Verb& verb) {
+  std::string arms;
+  for (const OptionRow& row : verb.rows) {
+    if (row.kind != RowKind::kOption || row.choices.empty()) continue;
+    std::vector<std::string> patterns, values;
+    for (const std::string& name : Spellings(row)) patterns.push_back(fmt::format("'{} {}'", verb.name, name));
+    for (const AllowedValue& choice : row.choices) values.push_back(choice.name);
+    arms += fmt::format("    {}) values={} ;;\n", fmt::join(patterns, " | "), Quoted(Words(values)));
+  }
+  return arms;
+}
+
+std::string OptionArm(const Verb& verb) {
+  std::vector<std::string> options = {"--help"};
+  for (const OptionRow& row : verb.rows) {
+    if (row.kind == RowKind::kPositional) continue;
+    for (const std::string& name : Spellings(row)) options.push_back(name);
+  }
+  return fmt::format("    {}) options={} ;;\n", verb.name, Quoted(Words(options)));
+}
+
+// ---- JSON ----
+
+std::string_view NameOf(RowKind kind) {
+  return kind == RowKind::kPositional ? "positional" : kind == RowKind::kOption ? "option" : "flag";
+}
+
+Json RowInJson(const OptionRow& row) {
+  Json json = {{"kind", NameOf(row.kind)},     {"names", Spellings(row)},
+               {"type", row.TypeName()},       {"help", row.help},
+               {"required", row.required},     {"repeated", row.IsRepeated()},
+               {"default", row.default_value}, {"choices", Json::array()}};
+  for (const AllowedValue& choice : row.choices)
+    json["choices"].push_back({{"name", choice.name}, {"meaning", choice.meaning}});
+  return json;
+}
+
+// ---- The verb ----
+
+struct ManualOptions {
+  const CommandLine* program = nullptr;
+  std::string format = "man";
+  bool json = false;
+};
+
+int Write(const ManualOptions& o) {
+  if (o.json) {
+    std::cout << JsonText(TablesInJson(*o.program)) << "\n";
+  } else {
+    std::cout << (o.format == "man" ? ManPage(*o.program) : BashCompletion(*o.program));
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+std::string ManPage(const CommandLine& program) {
+  const std::string version =
+      program.version.substr(0, program.version.find(' ', program.version.find(' ') + 1));
+  std::string text = fmt::format(".TH STICTION 1 \"\" \"{}\" \"User commands\"\n", Escaped(version));
+  text +=
+      Section("NAME") + "stiction \\- " + Escaped(program.purpose.substr(program.purpose.find(' ') + 1)) + "\n";
+  text += Section("SYNOPSIS") + ".B stiction\n.I VERB\n[\n.I OPTIONS\n]\n";
+  text +=
+      Section("DESCRIPTION") +
+      "Searches for problems on which the pivoting algorithm of D. Baraff, Fast Contact Force Computation for "
+      "Nonpenetrating Rigid Bodies (1994), loops for ever; replays them, certifies them, and reports on "
+      "them.\n";
+  text += Section("VERBS");
+  for (const Verb& verb : program.verbs) text += VerbInMan(verb);
+  text += Section("EXIT STATUS") + Lines(program.footer);
+  text += Section("WORDS");
+  for (const Word& word : AllWords())
+    text += Paragraph(word.name, fmt::format("{}{}", word.meaning,
+                                             word.source.empty() ? "" : fmt::format(" ({})", word.source)));
+  text += ".PP\nNumbers in brackets are sections of the paper.\n";
+  text += Section("EXAMPLES");
+  for (const auto& [command, says] : std::initializer_list<std::pair<std::string_view, std::string_view>>{
+           {"stiction search --minutes 480", "a night of search on all cores, into stiction.store"},
+           {"stiction report stiction.store -o report", "what it found, as a page"},
+           {"stiction replay report/findings/NAME.json --step", "a loop, step by step"}})
+    text += Paragraph(command, says);
+  return text;
+}
+
+std::string BashCompletion(const CommandLine& program) {
+  std::vector<std::string> verbs;
+  std::string options, values;
+  for (const Verb& verb : program.verbs) {
+    verbs.push_back(verb.name);
+    options += OptionArm(verb);
+    values += ValueArms(verb);
+  }
+  return fmt::format(R"(# bash completion of stiction; written by `stiction manual --format bash`.
+_stiction() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options= values=
+  COMPREPLY=()
+  if ((COMP_CWORD == 1)); then
+    mapfile -t COMPREPLY < <(compgen -W {} -- "$word")
+    return
+  fi
+  case "$verb $before" in
+{}  esac
+  if [[ -n $values ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
+    return
+  fi
+  case $verb in
+{}  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+  fi
+}}
+complete -o filenames -F _stiction stiction
+)",
+                     Quoted(Words(verbs) + " --help --version"), values, options);
+}
+
+Json TablesInJson(const CommandLine& program) {
+  Json verbs = Json::array();
+  for (const Verb& verb : program.verbs) {
+    Json rows = Json::array();
+    for (const OptionRow& row : verb.rows) rows.push_back(RowInJson(row));
+    verbs.push_back({{"verb", verb.name}, {"purpose", verb.purpose}, {"words", std::move(rows)}});
+  }
+  return verbs;
+}
+
+void AddManual(CommandLine& program) {
+  auto [verb, o] = program.Add("manual", "The manual page, and the completion of a shell", Write);
+  o.program = &program;
+  verb.Option("--format", o.format, "what to write")
+      .Choices({{"man", "a page for man, with all verbs and words"}, {"bash", "completion for bash"}});
+  verb.Flag("--json", o.json, "all verbs with their options, as a program reads them");
+}
+
+}  // namespace stiction

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <stdexcept>
+
+#include "cli/help.h"
+#include "cli/verbs.h"
+#include "corpus/exit_code.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::array kWords = {
+    Word{"N1", "the normal variable of contact 1: its force fN and the acceleration aN along its normal",
+         "4.1"},
+    Word{"F1", "the friction variable of contact 1: its force fF and the acceleration aF along its tangent",
+         "5.1"},
+    Word{"F1x, F1y", "in space: the two tangents of contact 1", "5.6"},
+    Word{"f, a", "forces and accelerations, a = A f + b", "4.1"},
+    Word{"drive",
+         "one variable's force grows, or its friction goes to zero, until its own condition holds; the others "
+         "follow",
+         "4.1"},
+    Word{"step", "a stretch of a drive until some variable reaches a limit; of length s, which can be zero",
+         "4.2"},
+    Word{"df, da", "how all forces and accelerations change for a unit of the driven force", "4.2"},
+    Word{"C", "normals that are clamped: aN = 0 is kept, fN is free to be positive", "4.1"},
+    Word{"NC", "normals that are not clamped: fN = 0 is kept, aN is free to be positive", "4.1"},
+    Word{"CF", "friction that holds: aF = 0 is kept, |fF| is less than its limit or at it", "5.2"},
+    Word{"NC+", "friction at its upper limit: fF = mu fN is kept, aF <= 0", "5.2"},
+    Word{"NC-", "friction at its lower limit: fF = -mu fN is kept, aF >= 0", "5.2"},
+    Word{"NCF", "in space: friction at its limit, along the direction that it had when it got there", "5.6"},
+    Word{"suspended", "under the policy apex=suspended: friction that rests while its normal force is zero",
+         "solver/published/readings.md"},
+    Word{"half", "in space: friction of which one tangent is at rest and the other not yet", "5.6"},
+    Word{"bounce", "a variable wants back into the set that it has just left, at a step of length zero", "5.5"},
+    Word{"give up", "what the paper does at a bounce: the variable leaves all sets, and is driven again later",
+         "5.4, 5.5"},
+    Word{"loop", "a run that never ends: the same state stands again and again; a cycle or a stall", ""},
+    Word{"cycle", "a loop over drives: a state between two drives recurs exactly", ""},
+    Word{"stall", "a loop inside one drive", ""},
+    Word{"start, period",
+         "how many drives (of a stall: steps) before the state that recurs, and until it recurs", ""},
+    Word{"singular", "no direction keeps the conditions of the sets: the algorithm cannot go on", "5.5"},
+    Word{"ray", "a step without limit: the forces could grow for ever", "6"},
+    Word{"fold",
+         "in complete driving: the determinant changes its sign, and the driven force turns back; there the "
+         "published algorithm gives up",
+         "solver/complete/complete_driving.md"},
+    Word{"descent",
+         "in complete driving: the driven force has come back to zero, and the variable before it is driven "
+         "again",
+         "solver/complete/complete_driving.md"},
+    Word{"piece", "in complete driving: a stretch of the path along which no contact changes its cell",
+         "solver/complete/complete_driving.md"},
+    Word{"cell",
+         "what a contact does: B breaks, S sticks, + and - slip or are about to (friction at its upper, at its "
+         "lower limit), ? not driven yet; in space V and E, corners and edges of a polygon",
+         "solver/complete/complete_driving.md"},
+    Word{"word", "the cells of all contacts, one letter each", "solver/complete/complete_driving.md"},
+    Word{"policy",
+         "one reading of the published text: a value for each of its open choices; `paper` is the reference",
+         "solver/published/readings.md"},
+    Word{"finding", "a run that is no solution, or a disagreement between methods, arithmetics or checks", ""},
+    Word{"grave", "of a finding: methods that are proved disagree, or a problem loops that cannot", ""},
+    Word{"certificate", "a claim with an exact witness, which a short independent program accepts",
+         "certify/README.md"},
+};
+
+std::string TextOf(const Word& word) {
+  const std::string source = word.source.empty() ? "" : fmt::format(" ({})", word.source);
+  return HelpEntry(std::string(word.name), std::string(word.meaning) + source);
+}
+
+struct WordsOptions {
+  bool json = false;
+};
+
+int List(const WordsOptions& o) {
+  Json json = Json::array();
+  std::string text;
+  for (const Word& word : kWords) {
+    json.push_back({{"word", word.name}, {"meaning", word.meaning}, {"source", word.source}});
+    text += TextOf(word);
+  }
+  std::cout << (o.json ? JsonText(json) + "\n" : text + "\nNumbers in brackets are sections of the paper.\n");
+  return kExitDone;
+}
+
+}  // namespace
+
+std::span<const Word> AllWords() { return kWords; }
+
+std::string Glossary(const std::vector<std::string_view>& names) {
+  for (const std::string_view name : names) {
+    if (std::none_of(kWords.begin(), kWords.end(), [name](const Word& word) { return word.name == name; }))
+      throw std::logic_error(fmt::format("no word {}", name));
+  }
+  std::string text;
+  for (const Word& word : kWords) {
+    if (std::find(names.begin(), names.end(), word.name) != names.end()) text += TextOf(word);
+  }
+  return text;
+}
+
+void AddWords(CommandLine& program) {
+  auto [verb, o] = program.Add("words", "What the words of answers and replays mean", List);
+  verb.Flag("--json", o.json, "machine output");
+}
+
+}  // namespace stiction
