@@ -29,7 +29,7 @@ std::string StoragesText() {
 
 struct ImportOptions {
   std::string file, output, format;
-  bool symmetrize = false;
+  bool symmetrize = false, json = false;
 };
 
 int Import(const ImportOptions& o) {
@@ -37,28 +37,32 @@ int Import(const ImportOptions& o) {
   if (o.symmetrize) Symmetrize(problem);
   WriteText(o.output, Print(ToDense(problem, o.file)));
   const Asymmetry asymmetry = LargestAsymmetry(problem);
-  // With the problem itself on standard output, nothing else may stand there.
-  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << fmt::format("{}: {} contacts, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
-                     problem.contacts.size(), problem.dimension, ToDouble(asymmetry.difference));
+  SayWhatWasDone(o.output, o.json,
+                 fmt::format("{}: {} contacts, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
+                             problem.contacts.size(), problem.dimension, ToDouble(asymmetry.difference)),
+                 {{"written", Json::array({o.output})},
+                  {"contacts", problem.contacts.size()},
+                  {"dimension", problem.dimension},
+                  {"asymmetry", ToString(asymmetry.difference)}});
   return kExitDone;
 }
 
 struct ExportOptions {
   std::string file, output, format, storage;
-  bool round = false;
+  bool round = false, json = false;
 };
 
 int Export(const ExportOptions& o) {
   SparseProblem problem = ToSparse(ReadProblem(o.file));
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
-  // With the problem itself on standard output, nothing else may stand there.
-  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << fmt::format("{}: {} numbers rounded", o.output, report.rounded);
+  std::string text = fmt::format("{}: {} numbers rounded", o.output, report.rounded);
   if (report.rounded > 0)
-    out << fmt::format(", by {:.2g} of their value at most", ToDouble(report.largest_change));
-  out << "\n";
+    text += fmt::format(", by {:.2g} of their value at most", ToDouble(report.largest_change));
+  SayWhatWasDone(o.output, o.json, text + "\n",
+                 {{"written", Json::array({o.output})},
+                  {"rounded", report.rounded},
+                  {"largest_change", ToString(report.largest_change)}});
   return kExitDone;
 }
 
@@ -68,11 +72,14 @@ void AddImport(CommandLine& program) {
   auto [verb, o] = program.Add("import", "Read a problem in the format of another program", Import);
   verb.Positional("FILE", o.file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
       .Required()
-      .Details("Files of other kinds (global .dat, rolling, relay, MLCP, ...) are refused by the name of their kind");
+      .Details(
+          "Files of other kinds (global .dat, rolling, relay, MLCP, ...) are refused by the name of their "
+          "kind");
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
+  verb.Flag("--json", o.json, "machine output");
 }
 
 void AddExport(CommandLine& program) {
@@ -83,6 +90,7 @@ void AddExport(CommandLine& program) {
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
+  verb.Flag("--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 struct AssembleCommand {
   std::string scene, output, given, level = "forces";
-  bool explain = false, full = false;
+  bool explain = false, full = false, json = false;
 };
 
 // FILE.json of one problem; FILE-1.json, FILE-2.json, ... of several.
@@ -77,7 +77,8 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   options.minimal = !o.full;
   const auto model = Assemble(file.scene, contacts, options);
   if (!o.given.empty()) WriteText(o.given, Print(WithGivenContacts(file, contacts)));
-  std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  std::string text;
+  Json written = Json::array(), explained = Json::array();
   for (const int i : model.colliding) {
     if (options.level == Level::kForces) {
       std::cerr << fmt::format(
@@ -99,13 +100,18 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
     if (o.full) problem.scene = ToJson(file);
     const std::string name = NumberedFile(o.output, i, model.islands.size());
     WriteText(name, Print(problem));
-    out << fmt::format("{}: {} contacts, {} rows\n", name, problem.problem.contacts.size(),
-                       problem.problem.rows());
+    const auto many = problem.problem.contacts.size();
+    text += fmt::format("{}: {} contacts, {} rows\n", name, many, problem.problem.rows());
+    written.push_back({{"file", name}, {"contacts", many}, {"rows", problem.problem.rows()}});
   }
-  if (model.islands.empty()) out << "no contacts and no joints: nothing to solve\n";
+  if (model.islands.empty()) text += "no contacts and no joints: nothing to solve\n";
   if (o.explain) {
-    for (const std::string& line : Explain(file.scene, contacts, model, options)) out << line << "\n";
+    for (const std::string& line : Explain(file.scene, contacts, model, options)) {
+      text += line + "\n";
+      explained.push_back(line);
+    }
   }
+  SayWhatWasDone(o.output, o.json, text, {{"problems", written}, {"explained", explained}});
   return kExitDone;
 }
 
@@ -116,7 +122,7 @@ struct SimulateCommand {
   std::optional<double> seconds, step;
   double rest = 0;
   int frames_a_second = 30, threads = 0;
-  bool full = false, svg = true, replace = false;
+  bool full = false, svg = true, replace = false, json = false;
 };
 
 ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
@@ -284,12 +290,20 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
                     RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation)));
 }
 
-void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const std::string& folder) {
-  ForEachField(statistics, [](const char* name, const char* help, std::int64_t value) {
-    fmt::print("{:12} {:>10}   {}\n", name, value, help);
+void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const SimulateCommand& o) {
+  std::string text;
+  ForEachField(statistics, [&text](const char* name, const char* help, std::int64_t value) {
+    text += fmt::format("{:12} {:>10}   {}\n", name, value, help);
   });
-  fmt::print("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", worst.joints, worst.overlap,
-             (fs::path(folder) / "animation.html").string());
+  const std::string animation = (fs::path(o.output) / "animation.html").string();
+  text += fmt::format("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", worst.joints, worst.overlap,
+                      animation);
+  SayWhatWasDone(o.output, o.json, text,
+                 {{"written", Json::array({o.output})},
+                  {"animation", animation},
+                  {"statistics", StatisticsToJson(statistics)},
+                  {"worst_drift",
+                   {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}}});
 }
 
 template <class Kind>
@@ -333,7 +347,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   }
   writer.WritePictures(scene);
   writer.Commit();
-  WriteSummary(simulation.statistics(), writer.worst(), o.output);
+  WriteSummary(simulation.statistics(), writer.worst(), o);
   if (interrupted) {
     fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
                simulation.time(), seconds);
@@ -345,6 +359,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
 
 struct DrawCommand {
   std::string scene, output;
+  bool json = false;
 };
 
 template <class Kind>
@@ -365,6 +380,10 @@ int RunDraw(const DrawCommand& o, const SceneFileIn<Kind>& file) {
   view.Include(scene);
   view.AddMargin();
   WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));
+  const Json done = {{"written", Json::array({o.output})},
+                     {"contacts", marks.contacts.size()},
+                     {"forces", marks.forces.size()}};
+  if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }
 
@@ -393,6 +412,7 @@ void AddAssemble(CommandLine& program) {
   verb.Option("--given", o.given, "stiction-scene to write: this one with its contacts given, not found");
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
+  verb.Flag("--json", o.json, "machine output");
 }
 
 void AddSimulate(CommandLine& program) {
@@ -419,12 +439,14 @@ void AddSimulate(CommandLine& program) {
   verb.Option("--problems", o.problems, "folder for every problem met, as stiction-problem files");
   verb.Flag("--full", o.full, "leave out nothing that the scene does not require");
   verb.Flag("--no-svg", o.svg, "no frames/*.svg");
+  verb.Flag("--json", o.json, "machine output");
 }
 
 void AddDraw(CommandLine& program) {
   auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
+  verb.Flag("--json", o.json, "machine output");
 }
 
 }  // namespace stiction

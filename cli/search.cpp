@@ -261,7 +261,7 @@ struct ProblemVerb {
   std::optional<std::int64_t> unit, index;
   std::optional<int> exponential;  // contacts
   bool scaled = false;
-  bool best = false;
+  bool best = false, json = false;
 };
 
 ProblemFile ExponentialFile(int contacts, bool scaled) {
@@ -304,14 +304,18 @@ int RunProblem(const ProblemVerb& o) {
     throw InputError(
         "problem: expected either STORE UNIT INDEX, or STORE --best, or --exponential N and perhaps --scaled");
   }
-  WriteText(o.output, Print(stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled)));
+  const ProblemFile file = stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled);
+  WriteText(o.output, Print(file));
+  const Json done = {
+      {"written", Json::array({o.output})}, {"contacts", file.problem.contacts.size()}, {"name", file.name}};
+  if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }
 
 struct MergeVerb {
   std::string out;
   std::vector<std::string> stores;
-  bool salvage = false;
+  bool salvage = false, json = false;
 };
 
 // That of the first store whose campaign can be read.
@@ -376,7 +380,7 @@ int RunMerge(const MergeVerb& o) {
   }
   made.Keep();
   const Store merged = Store::OpenToRead(o.out);
-  std::cout << SummaryText(merged, o.out);
+  std::cout << (o.json ? JsonText(SummaryToJson(merged)) + "\n" : SummaryText(merged, o.out));
   return ExitOf(merged, o.out);
 }
 
@@ -491,6 +495,7 @@ void AddMerge(CommandLine& program) {
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
+  verb.Flag("--json", o.json, "machine output");
 }
 
 void AddProblem(CommandLine& program) {
@@ -504,6 +509,7 @@ void AddProblem(CommandLine& program) {
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
   verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
+  verb.Flag("--json", o.json, "machine output");
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <iostream>
 
 #include "certify/bounds.h"
 #include "certify/certificate.h"
@@ -134,6 +135,11 @@ void ProgressBar::Show(double fraction, const std::string& text) const {
 
 void ProgressBar::Clear() const {
   if (terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {
+  std::ostream& out = output == "-" ? std::cerr : std::cout;
+  out << (json ? JsonText(object) + "\n" : text);
 }
 
 Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }

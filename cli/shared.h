@@ -84,6 +84,10 @@ Json NumbersToJson(const Numbers& numbers) {
   return json;
 }
 
+// What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard error
+// where that file stands there (`output` is "-").
+void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object);
+
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 std::string Describe(const Verdict& verdict);
 

@@ -27,7 +27,7 @@ struct SlurmVerb {
   std::int64_t problems = 0;
   int cpus = 1;
   int time = 120;  // minutes
-  bool replace = false;
+  bool replace = false, json = false;
 };
 
 constexpr const char* kCommon = R"sh(
@@ -254,7 +254,10 @@ int RunSlurm(const SlurmVerb& o) {
   whole.Write("logs/.keep", "");
   whole.Write("shards/.keep", "");
   TellAside(whole.Commit());
-  fmt::print("{}/submit.sh\n", o.folder);
+  const std::string submit = o.folder + "/submit.sh";
+  SayWhatWasDone(
+      o.folder, o.json, submit + "\n",
+      {{"written", Json::array({o.folder})}, {"submit", submit}, {"shards", o.shards}, {"units", units}});
   return kExitDone;
 }
 
@@ -281,6 +284,7 @@ void AddSlurm(CommandLine& program) {
   verb.Option("-o,--output", o.folder, "folder to write, which every node sees").Required();
   verb.Option("--cpus", o.cpus, "cores of a task").Range(1, 1024);
   verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);
+  verb.Flag("--json", o.json, "machine output");
   AddReplace(verb, o.replace);
 }
 
