@@ -142,7 +142,10 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
   out << (json ? JsonText(object) + "\n" : text);
 }
 
-Json NumberToJson(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+Json NumberToJson(double x) {
+  if (std::isnan(x)) return "nan";  // whose sign is the machine's
+  return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x));
+}
 
 std::string Describe(const Verdict& verdict) {
   const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";

@@ -40,6 +40,7 @@ SOLVED = {
 }
 
 program = ""  # set by main()
+answers = []  # what --json printed, with the verb: main() holds it against the schemas
 
 
 class Run:
@@ -55,7 +56,16 @@ class Run:
 def run(*arguments, cwd=None, timeout=120):
     done = subprocess.run([program, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if "--json" in arguments and done.stdout:
+        answers.append([arguments[0], done.stdout])
     return Run(done.returncode, done.stdout, done.stderr)
+
+
+def refused_by_schemas():
+    """What is wrong with the answers of --json so far. Debian's Python has jsonschema, the one that runs this may not."""
+    done = subprocess.run(["/usr/bin/python3", ROOT / "cli/schemas/validate.py"], input=json.dumps(answers), text=True,
+                          capture_output=True)
+    return done.stderr if done.returncode else ""
 
 
 def content(store):
@@ -184,4 +194,6 @@ def main():
     rest = sys.argv[2:]
     if rest and os.path.isdir(rest[0]):
         ROOT = Path(rest.pop(0)).resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
+    tests = unittest.main(argv=[sys.argv[0], *rest], exit=False)
+    refused = refused_by_schemas()
+    sys.exit(refused or not tests.result.wasSuccessful())
