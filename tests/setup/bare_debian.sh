@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # bare_debian.sh DIR [COMMAND...]: whether a stranger with nothing but Debian 12 gets there.
+# bare_debian.sh --packages FOLDER DIR: the same with what `cpack` left in FOLDER, instead of a clone.
 #
 # Makes a minimal Debian 12 in DIR (new or empty), clones the committed state of this repository into it, and
 # runs the two commands of the README there as root, or each COMMAND given instead, e.g.
-# './run test --matrix'. Prints every command's exit code and time; exits 0 only if all did.
+# './run test --matrix'. Of packages: installs both, searches, reports, checks, replays, builds a project with the library,
+# and removes both. Prints every command's exit code and time; exits 0 only if all did.
 #
 # Needs root, debootstrap, git and network; about 2 GB in DIR, and some minutes besides the commands' own
 # time. DIR stays, to be looked at and removed with rm -rf. Nothing stays mounted, however the script ends.
@@ -60,21 +62,51 @@ inside() {
     chroot "$chroot" "${@:2}" </dev/null
 }
 
+# What a package has to do, each in an empty folder of the chroot.
+readonly package_jobs=(
+  'apt-get update -qq && apt-get install -qq -y --no-install-recommends ./stiction_*.deb python3 >/dev/null'
+  'stiction --version && stiction words >/dev/null'
+  'stiction search --minutes 0.3 --generator small integers --contacts 2 --store s.store'
+  'stiction report s.store -o report && ls report/index.html'
+  'stiction check report/findings/*.certificate.json >/dev/null'
+  'python3 /usr/share/stiction/certify/check_certificate.py report/findings/*.certificate.json >/dev/null'
+  'stiction replay /usr/share/stiction/corpus/two-contact-cycle.json --step | tail -n 1'
+  'stiction solve /usr/share/stiction/corpus/two-contact-cycle.json --method ipopt | head -n 1'
+  'test -e /usr/share/man/man1/stiction.1.gz'
+  'apt-get install -qq -y --no-install-recommends ./libstiction-dev_*.deb g++ cmake ninja-build >/dev/null'
+  'cmake -S consumer -B consumer/build -G Ninja >/dev/null && ninja -C consumer/build >/dev/null && consumer/build/consumer'
+  'apt-get remove -qq -y stiction libstiction-dev >/dev/null && ! command -v stiction && ! ls /usr/share/stiction'
+)
+
 main() {
-  local chroot mirror command start status worst=0 report=()
-  (($#)) || die "usage: bare_debian.sh DIR [COMMAND...]"
+  local chroot mirror command start status worst=0 report=() packages=
+  if [[ ${1-} == --packages ]]; then
+    packages=$2
+    shift 2
+  fi
+  (($#)) || die "usage: bare_debian.sh [--packages FOLDER] DIR [COMMAND...]"
   ((EUID == 0)) || die "needs root"
   mkdir -p -- "$1"
   chroot=$(readlink -f -- "$1")
   [[ -z $(ls -A -- "$chroot") ]] || die "$1 is not empty"
   shift
-  (($#)) || set -- './run search' './run test'
+  if [[ -n $packages ]]; then
+    (($#)) || set -- "${package_jobs[@]}"
+  else
+    (($#)) || set -- './run search' './run test'
+  fi
   mirror=${MIRROR:-$(mirror_of_this_machine)}
   [[ -n $mirror ]] || die "apt knows no source of $suite here; set MIRROR"
 
   echo "bare_debian: installing $suite from $mirror in $chroot"
   make_debian "$chroot" "$mirror"
-  git clone --quiet --no-hardlinks -- "$(dirname -- "$0")/../.." "$chroot/root/stiction"
+  if [[ -n $packages ]]; then
+    mkdir "$chroot/root/stiction"
+    cp -- "$packages"/*.deb "$chroot/root/stiction/"
+    cp -R -- "$(dirname -- "$0")/../install/consumer" "$chroot/root/stiction/"
+  else
+    git clone --quiet --no-hardlinks -- "$(dirname -- "$0")/../.." "$chroot/root/stiction"
+  fi
   for command in "$@"; do
     echo "bare_debian: $command"
     start=$SECONDS status=0

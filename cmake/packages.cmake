@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+# What is installed besides programs and library, and `cpack`: two Debian packages, stiction and libstiction-dev.
+include(GNUInstallDirs)
+
+# compressed(TARGET FILE): FILE.gz in the build, without name and time.
+function(compressed target file)
+  cmake_path(GET file FILENAME name)
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/packages/${name}.gz
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/packages
+    COMMAND gzip -9nc ${file} > ${PROJECT_BINARY_DIR}/packages/${name}.gz DEPENDS ${file} VERBATIM)
+  set_property(TARGET ${target} APPEND PROPERTY SOURCES ${PROJECT_BINARY_DIR}/packages/${name}.gz)
+endfunction()
+
+# The manual and the completion, written by the program itself.
+set(manual ${PROJECT_BINARY_DIR}/packages/stiction.1)
+set(completion ${PROJECT_BINARY_DIR}/packages/completion)
+add_custom_command(OUTPUT ${manual} ${completion}
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/packages
+  COMMAND stiction manual > ${manual}
+  COMMAND stiction manual --format bash > ${completion}
+  DEPENDS stiction COMMENT "Writing the manual" VERBATIM)
+add_custom_target(stiction_manual ALL DEPENDS ${manual} ${completion})
+compressed(stiction_manual ${manual})
+compressed(stiction_manual ${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
+compressed(stiction_manual ${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
+
+install(FILES ${PROJECT_BINARY_DIR}/packages/stiction.1.gz ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1.gz
+        DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stiction
+        COMPONENT program)
+install(PROGRAMS certify/check_certificate.py certify/check_runs.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
+install(FILES certify/certificate_reader.py DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
+install(DIRECTORY corpus/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/corpus COMPONENT program
+        FILES_MATCHING PATTERN "*.json" PATTERN "formats" EXCLUDE PATTERN "large" EXCLUDE PATTERN "peers" EXCLUDE
+                       PATTERN "space" EXCLUDE PATTERN "records" EXCLUDE)
+install(DIRECTORY search/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
+        FILES_MATCHING PATTERN "*.json")
+install(DIRECTORY cli/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
+        FILES_MATCHING PATTERN "*.schema.json")
+foreach(package stiction libstiction-dev)
+  set(component library)
+  if(package STREQUAL "stiction")
+    set(component program)
+  endif()
+  install(FILES cmake/debian/${package}.copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
+          COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+          RENAME changelog.Debian.gz COMPONENT ${component})
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "The stiction authors")
+set(CPACK_PACKAGE_CONTACT "The stiction authors <authors@stiction.invalid>")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME stiction)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "searches for endless runs of a contact force algorithm
+Does the pivoting algorithm of D. Baraff for contact forces with friction
+(1994) always end? stiction searches for problems on which it loops, replays
+them step by step, certifies them in exact arithmetic, and reports on them.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libstiction-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libeigen3-dev)
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pivoting methods for contact forces with friction, as a library
+Headers, a static library and CMake files: the published algorithm of D.
+Baraff (1994) under every reading of its text, and complete driving, which
+always ends.")
+include(CPack)
