@@ -74,6 +74,23 @@ void RefuseUnknownWord(const Verb& verb, const std::string& word) {
                                Suggestion(name, OptionNames(verb))));
 }
 
+// One line, in the words of all other errors.
+InputError Refused(const CommandLine& program, const CLI::ParseError& error, const std::string& verb) {
+  std::string text = error.what();
+  if (const auto* missing = dynamic_cast<const CLI::RequiredError*>(&error); missing != nullptr) {
+    text = fmt::format("found no {}, expected it", text.substr(0, text.find(' ')));
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    text = text.substr(0, text.find(':')) + ": found nothing behind it, expected a value";
+  } else if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) {
+    text = fmt::format("{}: found without {}, expected it too", text.substr(0, text.find(' ')),
+                       text.substr(text.rfind(' ') + 1));
+  }
+  for (const Verb& known : program.verbs) {
+    if (known.name == verb) return InputError(fmt::format("{}: {}", verb, text));
+  }
+  return InputError(text);
+}
+
 }  // namespace
 
 int CommandLine::Run(int argc, char** argv) const {
@@ -88,7 +105,8 @@ int CommandLine::Run(int argc, char** argv) const {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+    if (error.get_exit_code() != 0) throw Refused(*this, error, word);
+    return app.exit(error), kExitDone;
   }
   for (const Verb& verb : verbs) {
     const CLI::App& chosen = *app.get_subcommand(verb.name);

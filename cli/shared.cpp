@@ -91,7 +91,8 @@ void AddTolerances(Verb& verb, Tolerances& tolerances) { AddNumbers(verb, tolera
 
 std::string CheckSides(const std::string& text) {
   const int sides = std::atoi(text.c_str());
-  return sides >= 4 && sides % 4 == 0 ? "" : "expected a multiple of 4, at least 4";
+  const bool fits = sides >= 4 && sides % 4 == 0;
+  return fits ? "" : fmt::format("found '{}', expected a multiple of 4, at least 4", text);
 }
 
 std::vector<Policy> PoliciesNamed(const std::string& text) {

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <type_traits>
 
+#include "cli/help.h"
+
 namespace stiction {
 namespace {
 
@@ -75,10 +77,13 @@ std::string ExpectedNumber(const OptionRow& row) {
 
 std::string ErrorOf(const OptionRow& row, const std::string& word) {
   if (!row.choices.empty()) {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const AllowedValue& choice : row.choices) names.push_back(choice.name);
-    if (std::find(names.begin(), names.end(), word) == names.end())
-      return fmt::format("found '{}', expected one of {}", word, fmt::join(names, ", "));
+    if (std::find(names.begin(), names.end(), word) == names.end()) {
+      const std::string nearest = Nearest(word, names);
+      return fmt::format("found '{}', expected one of {}{}", word, fmt::join(names, ", "),
+                         nearest.empty() ? "" : "; did you mean " + nearest + "?");
+    }
   }
   return row.check ? row.check(word) : "";
 }

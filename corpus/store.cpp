@@ -169,7 +169,8 @@ Store Store::OpenToRead(const fs::path& file) {
 CampaignIdentity Store::IdentityIn(const fs::path& file) { return OpenUnchecked(file).identity_; }
 
 Store Store::OpenUnchecked(const fs::path& file) {
-  if (!fs::exists(file)) throw InputError(fmt::format("{}: no such store", file.string()));
+  if (!fs::exists(file))
+    throw InputError(fmt::format("{}: found no such store, expected one that a search wrote", file.string()));
   RequireDatabase(file);
   try {
     return Snapshot(OpenDatabase(file, SQLITE_OPEN_READWRITE), file);

@@ -103,6 +103,8 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
+  const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
+  if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.AllowKeys({"format",
                   "version",
                   "seed",
@@ -124,8 +126,6 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
                   "objective",
                   "optimizer",
                   "parents"});
-  const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
-  if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
   Campaign campaign;
   const auto integer = [&root](const char* key, std::int64_t least, std::int64_t most, auto& value) {

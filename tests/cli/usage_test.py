@@ -89,6 +89,83 @@ class Usage(cli.TestCase):
             with self.subTest(arguments=arguments):
                 self.refuses(*arguments)
 
+    def test_wrong_uses_end_in_one_line_that_says_what_was_found_and_what_was_expected(self):
+        problem, out = self.file("problem.json", cli.SOLVED), self.folder / "out"
+        number = iter(range(100))
+
+        def changed(**keys):
+            return self.file(f"changed-{next(number)}.json", dict(cli.SOLVED, **keys))
+
+        nothing, text, empty = self.folder / "none", self.file("text.json", "hello"), self.file("empty.json", "")
+        uses = [
+            ((), ["expected a verb"]),
+            (("solv", problem), ["'solv'", "solve?"]),
+            (("--nonsense",), ["'--nonsense'", "expected a verb"]),
+            (("solve",), ["solve: found no FILE", "expected it"]),
+            (("merge", out), ["merge: found no STORE"]),
+            (("report", nothing), ["report: "]),
+            (("survey",), ["survey: found no PATH"]),
+            (("solve", problem, "--nonsense"), ["--nonsense", "none of its options"]),
+            (("solve", problem, "--polcy", "paper"), ["--polcy", "--policy?"]),
+            (("solve", problem, problem), ["expected nothing more"]),
+            (("policies", "x"), ["'x'", "expected nothing more"]),
+            (("solve", nothing), [nothing, "No such file", "expected a file"]),
+            (("solve", self.folder), ["a directory", "expected a file"]),
+            (("solve", text), [text, "line 1, column 1", "expected JSON"]),
+            (("solve", empty), [empty, "line 1, column 1"]),
+            (("draw", text, "-o", out), ["line 1, column 1"]),
+            (("solve", problem, "--policy"), ["--policy: found nothing behind it"]),
+            (("solve", problem, "--policy", "scan=lowst"), ["'lowst'", "lowest"]),
+            (("solve", problem, "--policy", "scna=lowest"), ["'scna=lowest'", "scan"]),
+            (("solve", problem, "--method", "lemk"), ["'lemk'", "did you mean lemke?"]),
+            (("solve", problem, "--arithmetic", "doubel"), ["'doubel'", "did you mean double?"]),
+            (("solve", problem, "--max-drives", "0"), ["--max-drives: found '0'", "from 1"]),
+            (("solve", problem, "--max-bits", "x"), ["--max-bits: found 'x'", "an integer"]),
+            (("solve", problem, "--force-tolerance", "nan"), ["found 'nan'", "a number"]),
+            (("solve", problem, "--seconds", "-1"), ["found '-1'", "from 0"]),
+            (("solve", problem, "--residual", "two"), ["found 'two'", "a number"]),
+            (("solve", problem, "--sides", "5"), ["found '5'", "a multiple of 4"]),
+            (("solve", changed(contacts=[{"kind": "static", "mu": "-1"}])), ["contacts[0].mu", '"-1"', "mu >= 0"]),
+            (("solve", changed(contacts=[{"kind": "static"}])), ["contacts[0].mu", "found nothing"]),
+            (("solve", changed(contacts=[{"kind": "statik", "mu": "1"}])), ["contacts[0].kind", '"statik"', "static"]),
+            (("solve", changed(b=["1"])), ["b: found 1 numbers", "expected 2"]),
+            (("solve", changed(A=[["1", "2"]])), ["A: found 1 rows", "expected 2"]),
+            (("solve", changed(b=["one", "1"])), ["b[0]", '"one"', "a number"]),
+            (("solve", changed(b=["1/0", "1"])), ["b[0]", '"1/0"', "denominator"]),
+            (("solve", changed(friction=1)), ["friction: found an unknown key"]),
+            (("solve", changed(version=9)), ["version: found 9", "expected 1"]),
+            (("solve", changed(format="stiction-scene")), ['"stiction-scene"', '"stiction-problem"']),
+            (("replay", problem, "--policy", "*"), ["found '*'"]),
+            (("replay", problem, "--method", "enumerate"), ["'enumerate'", "expected one of"]),
+            (("replay", problem, "--all-policies", "--method", "lemke"), ["expected --method baraff"]),
+            (("replay", problem, "--record", "x"), ["--record", "--all-policies"]),
+            (("certify", problem), ["expected -o CERT"]),
+            (("certify", problem, "-o", out, "--claim", "solution"), ["'solution'", "expected one of"]),
+            (("minimize", problem, "-o", out, "--keep", "cycel"), ["'cycel'", "cycle"]),
+            (("minimize", problem, "-o", out, "--keep", "cycle"), ["solved, not in cycle"]),
+            (("search", "--minutes", "0"), ["--minutes: found '0'", "above 0"]),
+            (("search", "--problems", "1e3"), ["--problems: found '1e3'", "an integer"]),
+            (("search", "--generator", "integer", "--store", out), ["'integer'", "did you mean integers?"]),
+            (("search", "--contacts", "9", "--store", out), ["found '9'", "from 1 to 8"]),
+            (("search", "--mu", "-1", "--problems", "1", "--store", out), ["found '-1'", "p/q"]),
+            (("search", "--shard", "2/2", "--problems", "1", "--store", out), ["found '2/2'", "0 <= i < N"]),
+            (("search", problem, "--problems", "1", "--store", out), ['"stiction-problem"', '"stiction-campaign"']),
+            (("status", nothing), [nothing, "found no such store"]),
+            (("status", text), [text, "no stiction store"]),
+            (("slurm", "x.json", "--shards", "0", "--problems", "1", "-o", out), ["--shards: found '0'"]),
+            (("problem", nothing, "0"), ["expected either STORE UNIT INDEX"]),
+            (("import", problem, "-o", out), ["found neither", "expected an LCP"]),
+            (("export", problem, "-o", out, "--format", "siconos"), ["'siconos'", "siconos-lcp"]),
+            (("assemble", problem, "-o", out), ["scene: found nothing", "expected the scene"]),
+            (("manual", "--format", "html"), ["'html'", "man, bash"]),
+        ]
+        self.assertGreaterEqual(len(uses), 50)
+        for arguments, says in uses:
+            with self.subTest(arguments=arguments):
+                err = self.refuses(*arguments, says=says).err
+                self.assertRegex(err, r"^stiction: [^\n]+\n$")
+                self.assertFalse(out.exists())
+
     def test_files_that_cannot_be_read(self):
         out = self.folder / "out"
         broken = self.file("broken.json", '{"format": ')
