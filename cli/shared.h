@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/outcome_text.h"
 #include "cli/verb.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
@@ -74,18 +75,6 @@ Json StatisticsToJson(const S& statistics) {
   ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
   return json;
 }
-
-// A number that is not finite becomes text.
-Json NumberToJson(double x);
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
-  return json;
-}
-
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
-std::string Describe(const Verdict& verdict);
 
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
 // contacts stand a number, and the verb that writes the vector.
