@@ -14,7 +14,7 @@
 namespace stiction {
 namespace {
 
-constexpr const char* kRequest = "request";
+const std::string kRequest = "request";  // named in errors
 
 Json SwitchesToJson() {
   Json switches = Json::array();

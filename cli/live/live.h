@@ -16,7 +16,7 @@ namespace stiction {
 
 // Of a run on a page, whose reader waits. One that spends them ends in `limit`, and says so. kMostStepsOfPage
 // is no less.
-inline constexpr Limits kLiveLimits = {.drives = 1000, .pivots = 3000, .bits = 20000};
+inline constexpr Limits kLiveLimits = {.drives = 300, .pivots = 1000, .bits = 2000};
 inline constexpr int kMostLiveRows = 64;
 
 // Of {"ask": "switches"}: {"switches": the table of the policy, "limits": {"max-drives", "max-pivots",

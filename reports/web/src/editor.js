@@ -34,7 +34,7 @@ function placeOf(error, rows) {
 export class Editor {
   // `shown(data, draft)`: called with the page's data of a run; `restored()`: back to the original.
   constructor(node, original, shown, restored) {
-    Object.assign(this, {node, original, shown, restored, live: new Live(), switches: null});
+    Object.assign(this, {node, original, shown, restored, live: new Live(), switches: null, opening: null});
     node.append(element('h2', {id: 'edit-title'}, 'Edit, and run again'));
     const obstacle = obstacleOf(original);
     this.isPossible = obstacle === '';
@@ -78,8 +78,13 @@ export class Editor {
     this.draw();
   }
 
-  // The table of switches is the solver's.
-  async open() {
+  // The table of switches is the solver's; asked for once.
+  open() {
+    this.opening ??= this.askSwitches().finally(() => this.opening = null);
+    return this.opening;
+  }
+
+  async askSwitches() {
     if (this.switches !== null) return;
     const answer = await this.live.ask({ask: 'switches'});
     if (answer.error !== undefined) {
