@@ -320,7 +320,8 @@ const runAgain = async page => {
 const told = page => page.textContent('#edit .told');
 
 async function downloaded(page) {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#edit text=Download the problem')]);
+  const [download] = await Promise.all(
+      [page.waitForEvent('download'), page.click('#edit button[aria-label="Download the problem"]')]);
   return {name: download.suggestedFilename(), text: readFileSync(await download.path(), 'utf8')};
 }
 
@@ -386,7 +387,7 @@ test('kinds of contacts are edited, and contacts come and go', async () => {
     await openEditor(page);
     await page.selectOption(field('kind 1'), 'frictionless');
     assert.equal(await page.locator('#edit .entries tbody tr').count(), 3);
-    await page.click('#edit text=Add a contact');
+    await page.click('#edit button[aria-label="Add a contact"]');
     assert.equal(await page.locator('#edit .entries tbody tr').count(), 5);
     await page.fill(field('b 3'), '-1/3');
     await page.fill(field('A 4 0'), '1/7');
@@ -444,7 +445,7 @@ test('an edited problem has an address, a file, and a way back', async () => {
     const {name, text} = await downloaded(page);
     assert.equal(name, 'cycle-every-policy-mu-1-edited.json');
     assert.equal(JSON.parse(text).A[1][0], '-3.9');
-    await page.click('#edit text=Back to the original');
+    await page.click('#edit button[aria-label="Back to the original"]');
     assert.equal(await page.textContent('h1'), 'cycle-every-policy-mu-1');
     assert.equal(await page.isVisible('#edited'), false);
     assert.equal(await page.inputValue(field('A 0 1')), '-4');
@@ -452,8 +453,9 @@ test('an edited problem has an address, a file, and a way back', async () => {
     await assertShows(page, 0, 'force', replayOf('loop').initial.f);
   });
   await opened('loop', async page => {
+    await page.waitForFunction(
+        () => document.querySelector('h1').textContent === 'cycle-every-policy-mu-1-edited', null, {timeout: 20000});
     await becomes(page, `Step 1 of ${replay(JSON.stringify(edited())).pivots.length}`);
-    assert.equal(await page.textContent('h1'), 'cycle-every-policy-mu-1-edited');
     assert.equal(await page.inputValue(field('A 1 0')), '-3.9');
     await page.evaluate(() => {
       location.hash = '#step-5';
@@ -545,7 +547,7 @@ test('a run that does not end is ended, by the page or its reader', async () => 
     assert.equal(await told(page), 'no end within 20 seconds: the run was stopped');
     await page.click('#edit button[type=submit]');
     await page.waitForFunction(() => window.asked === 5);
-    await page.click('#edit text=Stop');
+    await page.click('#edit button[aria-label="Stop"]');
     await page.clock.runFor(10);
     assert.equal(await told(page), 'stopped');
     assert.equal(await page.evaluate(() => window.ended), 2);

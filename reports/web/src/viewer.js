@@ -138,7 +138,7 @@ const keys = {
 };
 
 function onKey(event) {
-  if (event.target.closest?.('#edit')) return;
+  if (event.target.closest?.('#edit input, #edit select')) return;
   if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
   const pressable = event.target.closest?.('button, a, summary');
   if (event.key === ' ' && !pressable)
