@@ -23,6 +23,8 @@ COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-
            "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY"]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]
+# clang 14 orders some blocks of a module by where they stand in memory, which is another place in every run but for this.
+STEADY = ["setarch", "--addr-no-randomize"]
 
 
 def sources():
@@ -40,7 +42,7 @@ def module():
         for words in (["-c", "all.cpp", "-o", "all.o", f"-ffile-prefix-map={ROOT}/=", "-I", ROOT, "-isystem", "headers",
                        *COMPILE],
                       ["all.o", "-o", "solver.wasm", *LINK]):
-            done = subprocess.run(["emcc", *words], cwd=scratch, capture_output=True, text=True)
+            done = subprocess.run([*STEADY, "emcc", *words], cwd=scratch, capture_output=True, text=True)
             if done.returncode != 0:
                 sys.exit(f"emcc: {done.stderr}")
         return Path(scratch, "solver.wasm").read_bytes()
