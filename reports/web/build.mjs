@@ -2,8 +2,8 @@
 // Bundles the pages: `node build.mjs [FOLDER]` writes FOLDER/viewer.html (dist/ by default).
 //
 // A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas
-// set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}}, {{notices}} and {{solver}} are filled in
-// here, as is \( TeX \);
+// set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}}, {{notices}} and {{solver}} are filled
+// in here, as is \( TeX \);
 // {{title}} and {{data}} are left to the program (reports/viewer.h). The same sources give the same bytes.
 import {build} from 'esbuild';
 import katex from 'katex';
@@ -60,14 +60,15 @@ const formula = (_, tex) => katex.renderToString(tex, {output: 'mathml', throwOn
                                 .replace(/<\/span>$/, '');
 
 async function page(name) {
-  const source = readFileSync(join(here, 'src', `${name}.html`), 'utf8'), hasSolver = source.includes('{{solver}}');
+  const source = readFileSync(join(here, 'src', `${name}.html`), 'utf8'),
+        hasSolver = source.includes('{{solver}}');
   const worker = hasSolver ? await bundle('worker.js') : {text: '', inputs: []};
   const script = await bundle(`${name}.js`, {WORKER_SOURCE: JSON.stringify(worker.text)});
   const style = await bundle(`${name}.css`);
   // README.md has why.
   const [compiles, threads] = hasSolver ? [` 'wasm-unsafe-eval'`, ' worker-src blob:;'] : ['', ''];
-  const policy =
-      `default-src 'none'; script-src ${hash(script.text)}${compiles};${threads} style-src ${hash(style.text)}; base-uri 'none'; ` +
+  const policy = `default-src 'none'; script-src ${hash(script.text)}${compiles};${threads} style-src ${
+                     hash(style.text)}; base-uri 'none'; ` +
       `form-action 'none'`;
   const parts = {
     policy,
@@ -76,8 +77,7 @@ async function page(name) {
     notices: notice([...script.inputs, ...worker.inputs, ...style.inputs], hasSolver),
     solver: hasSolver ? readFileSync(join(solver, 'solver.wasm.gz')).toString('base64') : '',
   };
-  return source
-      .replace(/\\\((.+?)\\\)/g, formula)
+  return source.replace(/\\\((.+?)\\\)/g, formula)
       .replace(/\{\{(policy|script|style|notices|solver)\}\}/g, (_, part) => parts[part]);
 }
 

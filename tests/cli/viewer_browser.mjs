@@ -11,8 +11,10 @@ import {pathToFileURL} from 'node:url';
 
 const {PAGES, PACKAGES, BROWSER, PROGRAM} = process.env;
 const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
-const names =
-    ['loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space', 'at-rest'];
+const names = [
+  'loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space',
+  'at-rest'
+];
 const replayOf = name => JSON.parse(readFileSync(join(PAGES, `${name}.json`), 'utf8'));
 let browser;
 
@@ -29,7 +31,8 @@ async function opened(name, use, {hash = '', prepare = () => {}, ...options} = {
   page.on('console', message => wrong.push(`console: ${message.text()}`));
   page.on('pageerror', error => wrong.push(`error: ${error.message}`));
   page.on('request', request => {
-    if (request.url() !== url.replace(/#.*/, '') && !request.url().startsWith('blob:')) wrong.push(`request: ${request.url()}`);
+    if (request.url() !== url.replace(/#.*/, '') && !request.url().startsWith('blob:'))
+      wrong.push(`request: ${request.url()}`);
   });
   await prepare(page);
   await page.goto(url);
@@ -98,9 +101,9 @@ test('every state shows the numbers of --json, to the byte', async () => {
         assert.equal(await page.getAttribute('section.run-0 .event data', 'value'), String(pivot.step));
       }
       const last = pivots.length, end = await heading(page), stands = pivots.at(-1) ?? replay.initial;
-      assert.match(end, last === 0 ? /^Before the first step$/ : new RegExp(`^(Step|Piece) ${last} of ${last}$`));
-      const vector = style =>
-          page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
+      assert.match(
+          end, last === 0 ? /^Before the first step$/ : new RegExp(`^(Step|Piece) ${last} of ${last}$`));
+      const vector = style => page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
       assert.deepEqual(await vector('force'), stands.f.map(String));
       assert.deepEqual(await vector('acceleration'), stands.a.map(String));
     });
@@ -246,9 +249,31 @@ const contrasts = page => page.evaluate(() => {
     return [255, 255, 255];
   };
   const texts = [
-    'h1', 'h2', 'h3', '.note', '.event', '.why', '.end', '.values th', '.values .n:not(.nothing)', '.group',
-    '.place', 'figcaption', '.readings p', '.readings em', '.key', 'dd', 'a', '.matrix td', '.matrix.force td',
-    '#edit summary', '#edit legend', '#edit th', '#edit input', '#edit [type=submit]', '#edited'
+    'h1',
+    'h2',
+    'h3',
+    '.note',
+    '.event',
+    '.why',
+    '.end',
+    '.values th',
+    '.values .n:not(.nothing)',
+    '.group',
+    '.place',
+    'figcaption',
+    '.readings p',
+    '.readings em',
+    '.key',
+    'dd',
+    'a',
+    '.matrix td',
+    '.matrix.force td',
+    '#edit summary',
+    '#edit legend',
+    '#edit th',
+    '#edit input',
+    '#edit [type=submit]',
+    '#edited'
   ];
   return Object.fromEntries(texts.map(text => {
     const node = document.querySelector(text);
@@ -330,7 +355,8 @@ function replay(problem, ...words) {
   const budgets = ['--max-drives', '300', '--max-pivots', '1000', '--max-bits', '2000'];
   try {
     return JSON.parse(execFileSync(
-        PROGRAM, ['replay', '-', '--step', '--json', ...budgets, ...words], {input: problem, encoding: 'utf8'}));
+        PROGRAM, ['replay', '-', '--step', '--json', ...budgets, ...words],
+        {input: problem, encoding: 'utf8'}));
   } catch (error) {
     return JSON.parse(error.stdout);  // exit 1: it is not solved
   }
@@ -454,7 +480,8 @@ test('an edited problem has an address, a file, and a way back', async () => {
   });
   await opened('loop', async page => {
     await page.waitForFunction(
-        () => document.querySelector('h1').textContent === 'cycle-every-policy-mu-1-edited', null, {timeout: 20000});
+        () => document.querySelector('h1').textContent === 'cycle-every-policy-mu-1-edited', null,
+        {timeout: 20000});
     await becomes(page, `Step 1 of ${replay(JSON.stringify(edited())).pivots.length}`);
     assert.equal(await page.inputValue(field('A 1 0')), '-3.9');
     await page.evaluate(() => {
@@ -465,17 +492,23 @@ test('an edited problem has an address, a file, and a way back', async () => {
   }, {hash});
   const letters = value => Buffer.from(JSON.stringify(value)).toString('base64url');
   const {contacts, A, b} = edited();
-  for (const bad of ['x', letters({contacts, A, b}), letters({contacts, A: [A[0]], b, policy: 'paper'}), letters(null)])
-    await opened('loop', async page => assert.equal(await heading(page), 'Step 2 of 16'), {hash: `#step-2;problem=${bad}`});
+  for (const bad
+           of ['x', letters({contacts, A, b}), letters({contacts, A: [A[0]], b, policy: 'paper'}),
+               letters(null)])
+    await opened(
+        'loop', async page => assert.equal(await heading(page), 'Step 2 of 16'),
+        {hash: `#step-2;problem=${bad}`});
   await opened('loop', async page => {
-    await page.waitForFunction(() => document.querySelector('#edit .told').textContent.startsWith('contact 1, kind: found'));
+    await page.waitForFunction(
+        () => document.querySelector('#edit .told').textContent.startsWith('contact 1, kind: found'));
     assert.equal(await heading(page), 'Step 2 of 16');
   }, {hash: `#step-2;problem=${letters({contacts: [{kind: '<b>'}], A: [['1']], b: ['1'], policy: 'paper'})}`});
 });
 
 // The problem of the loop, with one entry changed.
 function edited() {
-  const problem = JSON.parse(/id="data">(.*?)<\/script>/s.exec(readFileSync(join(PAGES, 'loop.html'), 'utf8'))[1]).problem;
+  const problem =
+      JSON.parse(/id="data">(.*?)<\/script>/s.exec(readFileSync(join(PAGES, 'loop.html'), 'utf8'))[1]).problem;
   problem.A[0][1] = problem.A[1][0] = '-3.9';
   return {...problem, name: 'edited'};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A planar problem that is being edited, every number as the text that was typed; and the policy to run it under.
+// A planar problem that is being edited, every number as the text that was typed; and the policy to run it
+// under.
 
 export const kKinds = ['static', 'frictionless', 'sliding', 'bilateral'];
 const rowsOf = kind => kind === 'static' || kind === 'sliding' ? 2 : 1;
@@ -32,7 +33,8 @@ export class Draft {
 
   // "N1", "F1", ... by row.
   get rows() {
-    return this.contacts.flatMap(({kind}, i) => rowsOf(kind) === 2 ? [`N${i + 1}`, `F${i + 1}`] : [`N${i + 1}`]);
+    return this.contacts.flatMap(
+        ({kind}, i) => rowsOf(kind) === 2 ? [`N${i + 1}`, `F${i + 1}`] : [`N${i + 1}`]);
   }
 
   firstRow(contact) {
@@ -87,17 +89,20 @@ export class Draft {
   }
 
   policyName(switches) {
-    const words = switches.map(({name, values}) => [name, this.policy.get(name) ?? values[0].name, values[0].name])
-                      .filter(([, value, usual]) => value !== usual)
-                      .map(([name, value]) => `${name}=${value}`);
+    const words =
+        switches.map(({name, values}) => [name, this.policy.get(name) ?? values[0].name, values[0].name])
+            .filter(([, value, usual]) => value !== usual)
+            .map(([name, value]) => `${name}=${value}`);
     return words.length === 0 ? 'paper' : words.join(',');
   }
 }
 
 // The text of a problem file, a contact and a row of A a line.
 export function fileOf(name, {contacts, A, b}) {
-  const lines = list => list.length === 0 ? '[]' : `[\n    ${list.map(x => JSON.stringify(x)).join(',\n    ')}\n  ]`;
-  return `{\n  "format": "stiction-problem", "version": 1,\n  "name": ${JSON.stringify(name)}, "dimension": 2,\n` +
+  const lines = list =>
+      list.length === 0 ? '[]' : `[\n    ${list.map(x => JSON.stringify(x)).join(',\n    ')}\n  ]`;
+  return `{\n  "format": "stiction-problem", "version": 1,\n  "name": ${
+             JSON.stringify(name)}, "dimension": 2,\n` +
       `  "contacts": ${lines(contacts)},\n  "A": ${lines(A)},\n  "b": ${JSON.stringify(b)}\n}\n`;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel in which a reader edits the problem and the policy, and runs again.
-import {Draft, fileOf, kKinds} from './draft.js';
 import {element} from './dom.js';
+import {Draft, fileOf, kKinds} from './draft.js';
 import {kPatience, Live} from './live.js';
 
 const kMostRows = 24;  // of A that are set as fields
@@ -18,12 +18,17 @@ function obstacleOf({problem, rows}) {
 const button = (text, click, attributes = {}) =>
     element('button', {type: 'button', 'aria-label': text, click, ...attributes}, text);
 
-// Where an error of the reader of files stands: the field's key, its name for people, and the rest of the words.
+// Where an error of the reader of files stands: the field's key, its name for people, and the rest of the
+// words.
 function placeOf(error, rows) {
   const [, path, rest] = error.match(/^problem: ([^ ]+): (found .*)$/s) ?? [];
   const numbers = path?.match(/\d+/g)?.map(Number) ?? [];
   if (/^A\[\d+\]\[\d+\]$/.test(path ?? ''))
-    return {key: `A ${numbers.join(' ')}`, name: `A, row ${rows[numbers[0]]}, column ${rows[numbers[1]]}`, rest};
+    return {
+      key: `A ${numbers.join(' ')}`,
+      name: `A, row ${rows[numbers[0]]}, column ${rows[numbers[1]]}`,
+      rest
+    };
   if (/^b\[\d+\]$/.test(path ?? '')) return {key: `b ${numbers[0]}`, name: `b, row ${rows[numbers[0]]}`, rest};
   const contact = path?.match(/^contacts\[(\d+)\]\.(kind|mu|slip)$/);
   if (contact)
@@ -32,7 +37,7 @@ function placeOf(error, rows) {
 }
 
 export class Editor {
-  // `shown(data, draft)`: called with the page's data of a run; `restored()`: back to the original.
+  // `shown(data, {problem, policy})`: called with the page's data of a run; `restored()`: back to the original.
   constructor(node, original, shown, restored) {
     Object.assign(this, {node, original, shown, restored, live: new Live(), switches: null, opening: null});
     node.append(element('h2', {id: 'edit-title'}, 'Edit, and run again'));
@@ -139,32 +144,34 @@ export class Editor {
             this.change(() => draft.setKind(i, kind));
             this.field(`kind ${i}`).focus();
           });
-      const mu = this.input(`mu ${i}`, `Friction coefficient of ${name}`, contact.mu, text => contact.mu = text);
+      const mu =
+          this.input(`mu ${i}`, `Friction coefficient of ${name}`, contact.mu, text => contact.mu = text);
       const slip = this.select(
-          `slip ${i}`, `Direction of slip of ${name}`, contact.slip, [['1', 'slips along +'], ['-1', 'slips along -']],
-          slip => contact.slip = slip);
+          `slip ${i}`, `Direction of slip of ${name}`, contact.slip,
+          [['1', 'slips along +'], ['-1', 'slips along -']], slip => contact.slip = slip);
       return element(
-          'li', {}, element('b', {}, `Contact ${i + 1} `), kind, hasMu ? element('span', {}, ' μ = ', mu) : null,
-          contact.kind === 'sliding' ? slip : null,
+          'li', {}, element('b', {}, `Contact ${i + 1} `), kind,
+          hasMu ? element('span', {}, ' μ = ', mu) : null, contact.kind === 'sliding' ? slip : null,
           button('Remove', () => this.change(() => draft.removeContact(i)), {'aria-label': `Remove ${name}`}));
     };
     const isFull = draft.b.length + 2 > kMostRows;
     return element(
-        'fieldset', {}, element('legend', {}, 'Contacts'), element('ol', {class: 'contacts'}, ...draft.contacts.map(one)),
+        'fieldset', {}, element('legend', {}, 'Contacts'),
+        element('ol', {class: 'contacts'}, ...draft.contacts.map(one)),
         button('Add a contact', () => this.change(() => draft.addContact()), {disabled: isFull}));
   }
 
   matrix() {
     const {draft} = this, {rows} = draft, head = text => element('th', {scope: 'col'}, text);
     const entry = (i, j) => element(
-        'td', {},
-        this.input(`A ${i} ${j}`, `A, row ${rows[i]}, column ${rows[j]}`, draft.A[i][j], text => {
+        'td', {}, this.input(`A ${i} ${j}`, `A, row ${rows[i]}, column ${rows[j]}`, draft.A[i][j], text => {
           draft.set(i, j, text);
           if (draft.isSymmetric && i !== j) this.field(`A ${j} ${i}`).value = text;
         }));
     const line = (row, i) => element(
         'tr', {}, element('th', {scope: 'row'}, row), ...rows.map((_, j) => entry(i, j)),
-        element('td', {class: 'b'}, this.input(`b ${i}`, `b, row ${row}`, draft.b[i], text => draft.b[i] = text)));
+        element(
+            'td', {class: 'b'}, this.input(`b ${i}`, `b, row ${row}`, draft.b[i], text => draft.b[i] = text)));
     const mirror = element('input', {
       type: 'checkbox',
       'aria-label': 'Keep A symmetric',
@@ -189,7 +196,8 @@ export class Editor {
         'label', {}, element('span', {}, element('b', {}, name), ` ${question}`),
         this.select(
             `policy ${name}`, `${name}: ${question}`, policy.get(name) ?? values[0].name,
-            values.map((value, i) => [value.name, `${value.name}${i === 0 ? ' (paper)' : ''}: ${value.meaning}`]),
+            values.map(
+                (value, i) => [value.name, `${value.name}${i === 0 ? ' (paper)' : ''}: ${value.meaning}`]),
             value => policy.set(name, value)));
     return element(
         'fieldset', {class: 'policy'}, element('legend', {}, 'Policy: how the text is read'),
@@ -261,7 +269,10 @@ export class Editor {
 
   save() {
     const url = URL.createObjectURL(new Blob([this.file()], {type: 'application/json'}));
-    element('a', {href: url, download: `${this.isOriginal ? this.original.name : `${this.original.name}-edited`}.json`}).click();
+    element('a', {
+      href: url,
+      download: `${this.isOriginal ? this.original.name : `${this.original.name}-edited`}.json`
+    }).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
   }
 }

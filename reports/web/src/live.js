@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solver that the page brings along, asked from the page: it runs beside it, and is ended when it takes too long.
+// The solver that the page brings along, asked from the page: it runs beside it, and is ended when it takes too
+// long.
 import {byId} from './dom.js';
 
 export const kPatience = 20;  // seconds
@@ -43,7 +44,8 @@ export class Live {
       this.waiting = resolve;
       try {
         if (this.worker === null) this.start();
-        this.timer = setTimeout(() => this.end(`no end within ${kPatience} seconds: the run was stopped`), 1000 * kPatience);
+        this.timer = setTimeout(
+            () => this.end(`no end within ${kPatience} seconds: the run was stopped`), 1000 * kPatience);
         this.worker.postMessage(JSON.stringify(request));
       } catch (error) {
         this.end(`the solver does not run here: ${error.message}`);

@@ -6,17 +6,19 @@ function host(memory) {
   const nothing = () => 0, unsupported = () => 52;
   return {
     env: {emscripten_notify_memory_growth: nothing},
-    wasi_snapshot_preview1: new Proxy({
-      environ_sizes_get(count, size) {
-        new DataView(memory().buffer).setUint32(count, 0, true);
-        new DataView(memory().buffer).setUint32(size, 0, true);
-        return 0;
-      },
-      environ_get: nothing,
-      proc_exit(code) {
-        throw new Error(`the solver ended with ${code}`);
-      },
-    }, {get: (given, name) => given[name] ?? unsupported}),
+    wasi_snapshot_preview1: new Proxy(
+        {
+          environ_sizes_get(count, size) {
+            new DataView(memory().buffer).setUint32(count, 0, true);
+            new DataView(memory().buffer).setUint32(size, 0, true);
+            return 0;
+          },
+          environ_get: nothing,
+          proc_exit(code) {
+            throw new Error(`the solver ended with ${code}`);
+          },
+        },
+        {get: (given, name) => given[name] ?? unsupported}),
   };
 }
 

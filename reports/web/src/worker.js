@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solver in a thread of its own. The first message is the module, compressed, in base64; each other one a request.
+// The solver in a thread of its own. The first message is the module, compressed, in base64; each other one a
+// request.
 import {Solver} from './solver.js';
 
 async function unpacked(base64) {
