@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact.h"
 
-#include <CGAL/Exact_rational.h>
-
-#include <type_traits>
 #include <utility>
 
 #include "solver/complete/complete.ipp"
@@ -13,8 +10,6 @@
 #include "solver/published/published.ipp"
 
 namespace stiction {
-
-static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
 
 template class Reduction<Rational>;
 template class PublishedAlgorithm<Rational>;

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/safety_threshold.h"
 
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Polynomial.h>
 #include <CGAL/Polynomial_traits_d.h>
 #include <CGAL/gmpxx.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "certify/safe.h"
 
 namespace stiction {
 
 namespace {
+
+static_assert(std::is_same_v<CGAL::Exact_rational, Rational>, "CGAL computes with the same exact rational");
 
 using enum Mode;
 using Polynomial = CGAL::Polynomial<Rational>;

@@ -8,7 +8,7 @@
 #include "certify/filtered.h"
 #include "certify/published_space.h"
 #include "certify/quad.h"
-#include "certify/verify_solution.h"
+#include "certify/traced.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
 
@@ -25,40 +25,6 @@ bool IsFloating(Arithmetic arithmetic) {
 template <class Scalar>
 double BoundOf(const SolveOptions& options) {
   return options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
-}
-
-// ---- Exact -------------------------------------------------------------------------------------
-
-// The first condition that an answer breaks which calls itself solved.
-std::optional<std::string> ViolationOf(const ExactProblem& problem, const Answer<Rational>& answer) {
-  if (problem.dimension == 2) return FindViolation(problem, answer.f);
-  if (answer.law == FrictionLaw::kBaraff) return FindWeakViolation(problem, answer.f);
-  return FindCoulombViolation(problem, answer.f, *ParseRational(answer.bound));
-}
-
-template <class Scalar>
-TracedAnswer<Scalar> Traced(Answer<Scalar> answer, Trace<Scalar> trace) {
-  TracedAnswer<Scalar> traced;
-  static_cast<Answer<Scalar>&>(traced) = std::move(answer);
-  traced.pivots = std::move(trace.pivots);
-  return traced;
-}
-
-template <class Scalar>
-TracedAnswer<Scalar> SolveTraced(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
-  Trace<Scalar> trace;
-  const bool keep = request.trace == KeepTrace::kYes;
-  Answer<Scalar> answer = Solve(problem, request.method, request.options, keep ? &trace : nullptr);
-  return Traced(std::move(answer), std::move(trace));
-}
-
-ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request) {
-  ExactAnswer answer = SolveTraced(problem, request);
-  if (!answer.Solved()) return answer;
-  const auto violation = ViolationOf(problem, answer);
-  STICTION_CHECK(!violation, fmt::format("{} calls solved what is not: {}", answer.method, *violation));
-  answer.residual = 0;
-  return answer;
 }
 
 // ---- Floating point ------------------------------------------------------------------------------

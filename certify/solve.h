@@ -117,6 +117,9 @@ struct Solution {
   }
 };
 
+// Over rationals, whatever arithmetic the request names. What is called solved was verified.
+ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request);
+
 // Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
 // InputError where the published algorithm in space has no such reading.
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request);

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/certificate.h"
-#include "cli/shared.h"
+#include "cli/outcome_text.h"
 #include "corpus/problem_file.h"
 #include "solver/problem/answer.h"
 

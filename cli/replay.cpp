@@ -3,21 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <iostream>
 #include <optional>
 
 #include "certify/exact.h"
 #include "certify/published_space.h"
 #include "certify/solve.h"
-#include "cli/answer_text.h"
-#include "cli/narrate.h"
+#include "cli/followed.h"
 #include "cli/narrate_text.h"
 #include "cli/replay_file.h"
-#include "cli/replay_page.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
 #include "reports/viewer.h"
@@ -37,6 +33,8 @@ struct ReplayOptions {
   bool json = false;
   std::string record, html;
   Limits limits;
+
+  PathOptions path() const { return {method, policy, limits}; }
 };
 
 SolveRequest RequestOf(const ReplayOptions& o, const ProblemFile& file, const Policy& policy) {
@@ -64,46 +62,6 @@ Solution SolveFile(const ReplayOptions& o, const ProblemFile& file, const SolveR
 
 // ---- One policy ------------------------------------------------------------------------------
 
-// A row for each path method.
-struct Narrator {
-  std::string_view method;
-  Narration (*exact)(const ProblemFile&, const ExactAnswer&, bool);
-  Narration (*inexact)(const ProblemFile&, const InexactAnswer&, bool);
-
-  Narration operator()(const ProblemFile& file, const ExactAnswer& a, bool all) const {
-    return exact(file, a, all);
-  }
-  Narration operator()(const ProblemFile& file, const InexactAnswer& a, bool all) const {
-    return inexact(file, a, all);
-  }
-};
-
-constexpr std::array kNarrators = {
-    Narrator{"baraff", &NarrateBaraff<Rational>, &NarrateBaraff<double>},
-    Narrator{"complete", &NarrateComplete<Rational>, &NarrateComplete<double>},
-    Narrator{"lemke", &NarrateLemke<Rational>, &NarrateLemke<double>},
-};
-
-Narration Narrate(const ReplayOptions& o, const ProblemFile& file, const Solution& solution) {
-  const auto narrator =
-      std::find_if(kNarrators.begin(), kNarrators.end(), [&o](auto& n) { return n.method == o.method; });
-  return std::visit([&](const auto& answer) { return (*narrator)(file, answer, o.step || !o.json); },
-                    solution.answer);
-}
-
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
-template <class End>
-std::string EndText(const End& end, bool proved) {
-  Verdict verdict;
-  verdict.outcome = end.outcome;
-  verdict.start = end.start;
-  verdict.period = end.period;
-  verdict.reason = end.reason;
-  if (proved || end.outcome != Outcome::kCycle) return Describe(verdict);
-  return fmt::format("cycle: after rounding, the state after {} drives stands again {} drives later", end.start,
-                     end.period);
-}
-
 template <class Scalar>
 void PrintEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
   const bool proved = kIsExact<Scalar>;
@@ -126,20 +84,6 @@ void PrintForPeople(const ReplayOptions& o, const ProblemFile& file, const Solut
         PrintEnd(answer, solution);
       },
       solution.answer);
-}
-
-Json ReplayToJson(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
-                  Narration narration) {
-  Json json = SolutionToJson(solution, file.problem.dimension);
-  if (!json.contains("start")) json["start"] = json["period"] = 0;
-  json["method"] = o.method;
-  if (o.method == "baraff") json["policy"] = PolicyName(ParsePolicy(o.policy));
-  const auto first = [&file](const auto& answer) {
-    return Json{{"f", ListJson(answer.first_f)}, {"a", ListJson(FirstAccelerations(file.problem, answer))}};
-  };
-  if (o.step) json["initial"] = std::visit(first, solution.answer);
-  json["pivots"] = std::move(narration.pivots);
-  return json;
 }
 
 // What intervals say of a run in space that does not end solved over floating-point numbers.
@@ -165,56 +109,17 @@ int ExitOf(Outcome outcome, const std::string& expected) {
 
 // ---- The page ----------------------------------------------------------------------------------
 
-// How a run ended, as PrintEnd says it.
-std::string EndOf(const Solution& solution) {
-  return std::visit(
-      [](const auto& answer) {
-        const bool proved = answer.arithmetic == Arithmetic::kExact;
-        std::string text = EndText(answer, proved);
-        if (!proved && answer.outcome == Outcome::kCycle) text += fmt::format(" ({})", kNoProof);
-        if (answer.ray.size() > 0)
-          text += fmt::format("; no limit to the step along df = {}", ListText(answer.ray));
-        return text;
-      },
-      solution.answer);
-}
-
-std::string TitleOf(const ReplayOptions& o) {
-  if (o.method == "baraff") return "The published algorithm, policy " + PolicyName(ParsePolicy(o.policy));
-  return o.method == "complete" ? "Complete driving" : "Lemke's method";
-}
-
-// A page of more takes a browser long to open.
-constexpr std::size_t kMostStepsOfPage = 3000;
-
-FollowedRun Followed(ReplayOptions o, const ProblemFile& file, const Solution& solution) {
-  o.step = o.json = true;
-  FollowedRun run;
-  run.title = TitleOf(o);
-  run.narration = Narrate(o, file, solution);
-  run.end = EndOf(solution);
-  run.replay = ReplayToJson(o, file, solution, run.narration);
-  if (const std::size_t steps = run.replay["pivots"].size(); steps > kMostStepsOfPage)
-    throw InputError(
-        fmt::format("--html: found a run of {} steps, expected at most {}: --max-drives ends it earlier",
-                    Grouped(static_cast<std::int64_t>(steps)), Grouped(kMostStepsOfPage)));
-  const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
-  if (o.method == "baraff" && exact != nullptr)
-    run.partings = PartingsOf(file.problem, ParsePolicy(o.policy), o.limits, exact->pivots);
-  return run;
-}
-
 // The run itself, with what intervals say of it, and beside it complete driving.
 void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
                const std::optional<Verdict>& over_intervals) {
   const ProblemFile& file = replay.file;
-  std::vector<FollowedRun> runs = {Followed(o, file, solution)};
+  std::vector<FollowedRun> runs = {Followed(o.path(), file, solution)};
   if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
   ReplayOptions beside = o;
   beside.method = "complete";
   beside.arithmetic = "";
   if (o.method != beside.method)
-    runs.push_back(Followed(beside, file, SolveFile(beside, file, RequestOf(beside, file, {}))));
+    runs.push_back(Followed(beside.path(), file, SolveFile(beside, file, RequestOf(beside, file, {}))));
   WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs)));
 }
 
@@ -223,12 +128,12 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const Policy policy = ParsePolicy(o.policy);
   const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
   const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
-  Narration narration = Narrate(o, file, solution);
+  Narration narration = Narrate(o.method, file, solution, o.step || !o.json);
   const auto proved = OverIntervals(o, file, policy, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
   if (o.html == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
-    Json json = ReplayToJson(o, file, solution, std::move(narration));
+    Json json = ReplayToJson(o.path(), file, solution, std::move(narration), o.step);
     if (proved) json["over_intervals"] = EndToJson(*proved);
     json["expected"] = expected;
     std::cout << JsonText(json) << "\n";

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/outcome_text.h"
 #include "cli/verb.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
@@ -75,21 +76,9 @@ Json StatisticsToJson(const S& statistics) {
   return json;
 }
 
-// A number that is not finite becomes text.
-Json NumberToJson(double x);
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
-  return json;
-}
-
 // What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard error
 // where that file stands there (`output` is "-").
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object);
-
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
-std::string Describe(const Verdict& verdict);
 
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
 // contacts stand a number, and the verb that writes the vector.

@@ -328,7 +328,7 @@ std::string PrintedValue(const std::string& key, const Json& value) {
 std::optional<Rational> ExactValue(const Json& json) {
   if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
   if (json.is_number_integer()) {
-    const Rational x(json.dump(), 10);
+    const Rational x = *ParseRational(json.dump());
     return IsExactDouble(x) ? std::optional(x) : std::nullopt;
   }
   if (json.is_number_float() && std::isfinite(json.get<double>())) return Rational(json.get<double>());

@@ -11,6 +11,8 @@
 namespace stiction {
 namespace {
 
+using Integer = Fractions<Rational>::Integer;
+
 constexpr long kMaxExponent = 10000;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -43,19 +45,9 @@ class Scanner {
   char last_ = '\0';
 };
 
-mpz_class Integer(std::string_view digits) { return mpz_class(std::string(digits), 10); }
-
-mpz_class PowerOfTen(unsigned long exponent) {
-  mpz_class power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, exponent);
-  return power;
-}
-
-std::optional<Rational> Ratio(mpz_class numerator, std::string_view denominator) {
-  Rational x(std::move(numerator), Integer(denominator));
-  if (x.get_den() == 0) return std::nullopt;
-  x.canonicalize();
-  return x;
+std::optional<Rational> Ratio(const Integer& numerator, const Integer& denominator) {
+  if (denominator == 0) return std::nullopt;
+  return Fractions<Rational>::Quotient(numerator, denominator);
 }
 
 // The exponent, or nothing beyond the limit. Leading zeros may make it as long as they like.
@@ -68,27 +60,25 @@ std::optional<long> Exponent(bool negative, std::string_view digits) {
   return negative ? -exponent : exponent;
 }
 
-Rational Scaled(mpz_class digits, long exponent) {
-  if (exponent >= 0) return Rational(digits * PowerOfTen(exponent));
-  Rational x(std::move(digits), PowerOfTen(-exponent));
-  x.canonicalize();
-  return x;
+Rational Scaled(const Integer& digits, long exponent) {
+  if (exponent >= 0) return Rational(Integer(digits * PowerOfTen(exponent)));
+  return Fractions<Rational>::Quotient(digits, PowerOfTen(-exponent));
 }
 
 // The binary exponent of x > 0: 2^e <= x < 2^(e + 1).
-long FloorLog2(const mpz_class& numerator, const mpz_class& denominator) {
-  const long e = static_cast<long>(mpz_sizeinbase(numerator.get_mpz_t(), 2)) -
-                 static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2));
+long FloorLog2(const Integer& numerator, const Integer& denominator) {
+  const long e = static_cast<long>(BitLength<Integer>::Of(numerator)) -
+                 static_cast<long>(BitLength<Integer>::Of(denominator));
   const bool below = e >= 0 ? numerator < (denominator << e) : (numerator << -e) < denominator;
   return below ? e - 1 : e;
 }
 
-// numerator / denominator rounded to the nearest integer, to even on ties.
-mpz_class RoundedQuotient(const mpz_class& numerator, const mpz_class& denominator) {
-  mpz_class quotient, remainder;
-  mpz_fdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
-  const int half = cmp(mpz_class(2 * remainder), denominator);
-  if (half > 0 || (half == 0 && mpz_odd_p(quotient.get_mpz_t()))) ++quotient;
+// numerator / denominator rounded to the nearest integer, to even on ties. Requires numbers >= 0.
+Integer RoundedQuotient(const Integer& numerator, const Integer& denominator) {
+  Integer quotient = numerator / denominator;
+  const Integer twice = 2 * (numerator - quotient * denominator);
+  const int half = Sign(Integer(twice - denominator));
+  if (half > 0 || (half == 0 && quotient % 2 != 0)) ++quotient;
   return quotient;
 }
 
@@ -99,11 +89,11 @@ std::optional<Rational> ParseRational(std::string_view text) {
   const bool negative = scanner.Skip("-");
   std::string digits(scanner.Digits());
   if (digits.empty()) return std::nullopt;
-  const auto signed_integer = [&] { return negative ? mpz_class(-Integer(digits)) : Integer(digits); };
+  const auto signed_integer = [&] { return negative ? Integer(-IntegerOf(digits)) : IntegerOf(digits); };
   if (scanner.Skip("/")) {
     const std::string_view denominator = scanner.Digits();
     if (denominator.empty() || !scanner.AtEnd()) return std::nullopt;
-    return Ratio(signed_integer(), denominator);
+    return Ratio(signed_integer(), IntegerOf(std::string(denominator)));
   }
   std::string_view fraction;
   if (scanner.Skip(".")) {
@@ -122,26 +112,26 @@ std::optional<Rational> ParseRational(std::string_view text) {
   return Scaled(signed_integer(), *exponent - static_cast<long>(fraction.size()));
 }
 
-std::string ToString(const Rational& x) { return x.get_str(); }
+std::string ToString(const Rational& x) { return TextOf(x); }
 
-// mpq_get_d truncates. Here the last bit that the double has is found first, then x is rounded to it
-// once, over integers: right for subnormals too, and in any rounding mode of the processor.
+// Conversions of libraries truncate. Here the last bit that the double has is found first, then x is rounded to
+// it once, over integers: right for subnormals too, and in any rounding mode of the processor.
 double ToDouble(const Rational& x) {
-  if (sgn(x) == 0) return 0;
-  const mpz_class numerator = abs(x.get_num());
-  const mpz_class& denominator = x.get_den();
+  if (Sign(x) == 0) return 0;
+  const Integer numerator = abs(Fractions<Rational>::Numerator(x)),
+                denominator = Fractions<Rational>::Denominator(x);
   const long last_bit = std::max(FloorLog2(numerator, denominator) - 52, -1074L);
-  const mpz_class digits = last_bit >= 0 ? RoundedQuotient(numerator, denominator << last_bit)
-                                         : RoundedQuotient(numerator << -last_bit, denominator);
-  const bool overflow = static_cast<long>(mpz_sizeinbase(digits.get_mpz_t(), 2)) + last_bit > 1024;
+  const Integer digits = last_bit >= 0 ? RoundedQuotient(numerator, Integer(denominator << last_bit))
+                                       : RoundedQuotient(Integer(numerator << -last_bit), denominator);
+  const bool overflow = static_cast<long>(BitLength<Integer>::Of(digits)) + last_bit > 1024;
   const double magnitude = overflow ? std::numeric_limits<double>::infinity()
-                                    : std::ldexp(digits.get_d(), static_cast<int>(last_bit));
-  return sgn(x) < 0 ? -magnitude : magnitude;
+                                    : std::ldexp(DoubleOf(digits), static_cast<int>(last_bit));
+  return Sign(x) < 0 ? -magnitude : magnitude;
 }
 
 std::int64_t Bits(const Rational& x) {
-  return static_cast<std::int64_t>(
-      std::max(mpz_sizeinbase(x.get_num_mpz_t(), 2), mpz_sizeinbase(x.get_den_mpz_t(), 2)));
+  using Parts = Fractions<Rational>;
+  return std::max(BitLength<Integer>::Of(Parts::Numerator(x)), BitLength<Integer>::Of(Parts::Denominator(x)));
 }
 
 }  // namespace stiction

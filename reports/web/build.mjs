@@ -2,8 +2,8 @@
 // Bundles the pages: `node build.mjs [FOLDER]` writes FOLDER/viewer.html (dist/ by default).
 //
 // A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas
-// set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}} and {{notices}} are filled in here, as
-// is \( TeX \);
+// set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}}, {{notices}} and {{solver}} are filled
+// in here, as is \( TeX \);
 // {{title}} and {{data}} are left to the program (reports/viewer.h). The same sources give the same bytes.
 import {build} from 'esbuild';
 import katex from 'katex';
@@ -15,7 +15,7 @@ import {fileURLToPath} from 'node:url';
 const here = dirname(fileURLToPath(import.meta.url));
 const pages = ['viewer'];
 
-async function bundle(file) {
+async function bundle(file, define = {}) {
   const result = await build({
     entryPoints: [join(here, 'src', file)],
     absWorkingDir: here,
@@ -25,6 +25,7 @@ async function bundle(file) {
     format: 'iife',
     target: ['es2020', 'chrome109', 'firefox102', 'safari16'],
     legalComments: 'none',
+    define,
     write: false,
     metafile: true,
   });
@@ -43,8 +44,11 @@ export function notices(inputs) {
   });
 }
 
-function notice(inputs) {
+const solver = join(here, 'solver');
+
+function notice(inputs, hasSolver) {
   const parts = notices(inputs);
+  if (hasSolver) parts.push(readFileSync(join(solver, 'LICENSES.txt'), 'utf8').trim());
   const text = parts.length === 0 ? 'It holds no code but stiction\'s own.' :
                                     `It holds parts of:\n\n${parts.join('\n\n')}`;
   return text.replaceAll('--', '- -');  // no end of a comment
@@ -56,15 +60,25 @@ const formula = (_, tex) => katex.renderToString(tex, {output: 'mathml', throwOn
                                 .replace(/<\/span>$/, '');
 
 async function page(name) {
-  const script = await bundle(`${name}.js`), style = await bundle(`${name}.css`);
-  const policy =
-      `default-src 'none'; script-src ${hash(script.text)}; style-src ${hash(style.text)}; base-uri 'none'; ` +
+  const source = readFileSync(join(here, 'src', `${name}.html`), 'utf8'),
+        hasSolver = source.includes('{{solver}}');
+  const worker = hasSolver ? await bundle('worker.js') : {text: '', inputs: []};
+  const script = await bundle(`${name}.js`, {WORKER_SOURCE: JSON.stringify(worker.text)});
+  const style = await bundle(`${name}.css`);
+  // README.md has why.
+  const [compiles, threads] = hasSolver ? [` 'wasm-unsafe-eval'`, ' worker-src blob:;'] : ['', ''];
+  const policy = `default-src 'none'; script-src ${hash(script.text)}${compiles};${threads} style-src ${
+                     hash(style.text)}; base-uri 'none'; ` +
       `form-action 'none'`;
-  const parts =
-      {policy, script: script.text, style: style.text, notices: notice([...script.inputs, ...style.inputs])};
-  return readFileSync(join(here, 'src', `${name}.html`), 'utf8')
-      .replace(/\\\((.+?)\\\)/g, formula)
-      .replace(/\{\{(policy|script|style|notices)\}\}/g, (_, part) => parts[part]);
+  const parts = {
+    policy,
+    script: script.text,
+    style: style.text,
+    notices: notice([...script.inputs, ...worker.inputs, ...style.inputs], hasSolver),
+    solver: hasSolver ? readFileSync(join(solver, 'solver.wasm.gz')).toString('base64') : '',
+  };
+  return source.replace(/\\\((.+?)\\\)/g, formula)
+      .replace(/\{\{(policy|script|style|notices|solver)\}\}/g, (_, part) => parts[part]);
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -2,16 +2,19 @@
 // The replay viewer in a browser; run by viewer_test.py, which writes the pages. NAME.json beside NAME.html is
 // what `stiction replay --step --json` says of the same run.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {pathToFileURL} from 'node:url';
 
-const {PAGES, PACKAGES, BROWSER} = process.env;
+const {PAGES, PACKAGES, BROWSER, PROGRAM} = process.env;
 const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
-const names =
-    ['loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space', 'at-rest'];
+const names = [
+  'loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space',
+  'at-rest'
+];
 const replayOf = name => JSON.parse(readFileSync(join(PAGES, `${name}.json`), 'utf8'));
 let browser;
 
@@ -21,15 +24,17 @@ before(async () => {
 after(() => browser.close());
 
 // Opens a page, hands it over, and expects that it asked for nothing and complained of nothing.
-async function opened(name, use, {hash = '', ...options} = {}) {
+async function opened(name, use, {hash = '', prepare = () => {}, ...options} = {}) {
   const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
   const page = await context.newPage(), url = pathToFileURL(join(PAGES, `${name}.html`)).href + hash,
         wrong = [];
   page.on('console', message => wrong.push(`console: ${message.text()}`));
   page.on('pageerror', error => wrong.push(`error: ${error.message}`));
   page.on('request', request => {
-    if (request.url() !== url.replace(/#.*/, '')) wrong.push(`request: ${request.url()}`);
+    if (request.url() !== url.replace(/#.*/, '') && !request.url().startsWith('blob:'))
+      wrong.push(`request: ${request.url()}`);
   });
+  await prepare(page);
   await page.goto(url);
   await use(page);
   assert.deepEqual(wrong, []);
@@ -96,9 +101,9 @@ test('every state shows the numbers of --json, to the byte', async () => {
         assert.equal(await page.getAttribute('section.run-0 .event data', 'value'), String(pivot.step));
       }
       const last = pivots.length, end = await heading(page), stands = pivots.at(-1) ?? replay.initial;
-      assert.match(end, last === 0 ? /^Before the first step$/ : new RegExp(`^(Step|Piece) ${last} of ${last}$`));
-      const vector = style =>
-          page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
+      assert.match(
+          end, last === 0 ? /^Before the first step$/ : new RegExp(`^(Step|Piece) ${last} of ${last}$`));
+      const vector = style => page.$$eval(`#equation .${style} data`, cells => cells.map(cell => cell.value));
       assert.deepEqual(await vector('force'), stands.f.map(String));
       assert.deepEqual(await vector('acceleration'), stands.a.map(String));
     });
@@ -244,8 +249,31 @@ const contrasts = page => page.evaluate(() => {
     return [255, 255, 255];
   };
   const texts = [
-    'h1', 'h2', 'h3', '.note', '.event', '.why', '.end', '.values th', '.values .n:not(.nothing)', '.group',
-    '.place', 'figcaption', '.readings p', '.readings em', '.key', 'dd', 'a', '.matrix td', '.matrix.force td'
+    'h1',
+    'h2',
+    'h3',
+    '.note',
+    '.event',
+    '.why',
+    '.end',
+    '.values th',
+    '.values .n:not(.nothing)',
+    '.group',
+    '.place',
+    'figcaption',
+    '.readings p',
+    '.readings em',
+    '.key',
+    'dd',
+    'a',
+    '.matrix td',
+    '.matrix.force td',
+    '#edit summary',
+    '#edit legend',
+    '#edit th',
+    '#edit input',
+    '#edit [type=submit]',
+    '#edited'
   ];
   return Object.fromEntries(texts.map(text => {
     const node = document.querySelector(text);
@@ -300,6 +328,271 @@ test('everything that can be pressed or seen has a name', async () => {
       assert.match(await page.textContent('#said'), /^Step 1: ./);
     });
   }
+});
+
+// ---- Editing, and running again -----------------------------------------------------------------
+
+const field = key => `#edit [data-key="${key}"]`;
+const openEditor = async page => {
+  await page.click('#edit summary');
+  await page.waitForSelector('#edit .policy select');
+};
+const runAgain = async page => {
+  await page.click('#edit button[type=submit]');
+  await page.waitForFunction(
+      () => !document.querySelector('#edit button[type=submit]').disabled, null, {timeout: 60000});
+};
+const told = page => page.textContent('#edit .told');
+
+async function downloaded(page) {
+  const [download] = await Promise.all(
+      [page.waitForEvent('download'), page.click('#edit button[aria-label="Download the problem"]')]);
+  return {name: download.suggestedFilename(), text: readFileSync(await download.path(), 'utf8')};
+}
+
+// What the program says of a problem, under the budgets of a page.
+function replay(problem, ...words) {
+  const budgets = ['--max-drives', '300', '--max-pivots', '1000', '--max-bits', '2000'];
+  try {
+    return JSON.parse(execFileSync(
+        PROGRAM, ['replay', '-', '--step', '--json', ...budgets, ...words],
+        {input: problem, encoding: 'utf8'}));
+  } catch (error) {
+    return JSON.parse(error.stdout);  // exit 1: it is not solved
+  }
+}
+
+// Every state of both runs, as `replay --step --json` has them.
+async function assertRunsLikeTheProgram(page, policy) {
+  const {text} = await downloaded(page);
+  const runs = [replay(text, '--policy', policy), replay(text, '--method', 'complete')];
+  for (const [i, {initial, pivots, outcome}] of runs.entries()) {
+    assert.ok((await page.textContent(`#verdicts .run-${i}`)).includes(`: ${outcome}`));
+    for (let state = 0; state <= pivots.length; ++state) {
+      const stands = state === 0 ? initial : pivots[state - 1];
+      if (i === 0)
+        await press(page, state === 0 ? 'Home' : 'ArrowRight');
+      else
+        await page.click(`section.run-1 .timeline li .state >> nth=${state}`);
+      await assertShows(page, i, 'force', stands.f);
+      await assertShows(page, i, 'acceleration', stands.a);
+      if (state > 0) await assertShows(page, i, 'df', stands.df);
+    }
+  }
+  return runs;
+}
+const leaveFields = page => page.evaluate(() => document.activeElement.blur());
+
+test('an edited problem runs in the page as in the program, to the byte', async () => {
+  const edits = [
+    {changes: [], policy: 'paper', outcome: 'cycle'},
+    {changes: [['A 0 1', '-7/2']], policy: 'paper', outcome: 'solved'},
+    {changes: [['b 0', '-1.25'], ['mu 1', '0.9'], ['A 3 2', ' \u22126 ']], policy: 'paper'},
+    {changes: [['b 3', '-2e0']], policy: 'scan=highest,ties=contacts', outcome: 'cycle'},
+  ];
+  for (const {changes, policy, outcome} of edits) {
+    await opened('loop', async page => {
+      await openEditor(page);
+      for (const [key, text] of changes) await page.fill(field(key), text);
+      for (const word of policy === 'paper' ? [] : policy.split(',')) {
+        const [name, value] = word.split('=');
+        await page.selectOption(field(`policy ${name}`), value);
+      }
+      await runAgain(page);
+      await leaveFields(page);
+      assert.equal(await page.isVisible('#edited'), true);
+      const [first] = await assertRunsLikeTheProgram(page, policy);
+      if (outcome !== undefined) assert.equal(first.outcome, outcome);
+      assert.equal(await page.textContent('section.run-0 h2'), `The published algorithm, policy ${policy}`);
+    });
+  }
+});
+
+test('kinds of contacts are edited, and contacts come and go', async () => {
+  await opened('loop', async page => {
+    await openEditor(page);
+    await page.selectOption(field('kind 1'), 'frictionless');
+    assert.equal(await page.locator('#edit .entries tbody tr').count(), 3);
+    await page.click('#edit button[aria-label="Add a contact"]');
+    assert.equal(await page.locator('#edit .entries tbody tr').count(), 5);
+    await page.fill(field('b 3'), '-1/3');
+    await page.fill(field('A 4 0'), '1/7');
+    assert.equal(await page.inputValue(field('A 0 4')), '1/7');
+    await page.selectOption(field('kind 2'), 'sliding');
+    await page.selectOption(field('slip 2'), '-1');
+    await runAgain(page);
+    await leaveFields(page);
+    await assertRunsLikeTheProgram(page, 'paper');
+    await page.click('#edit [aria-label="Remove contact 1"]');
+    await page.selectOption(field('kind 0'), 'bilateral');
+    await runAgain(page);
+    await leaveFields(page);
+    await assertRunsLikeTheProgram(page, 'paper');
+  });
+});
+
+test('what is wrong is said of its field, and the page stays as it is', async () => {
+  const wrong = [
+    ['A 1 2', 'x', /^A, row F1, column N2: found "x", expected a number/],
+    ['b 3', '', /^b, row F2: found "", expected a number/],
+    ['b 0', '1/0', /^b, row N1: found "1\/0", expected .*denominator not zero/],
+    ['mu 1', '-1', /^contact 2, mu: found "-1", expected mu >= 0/],
+    ['mu 0', '1e99999', /^contact 1, mu: found "1e99999", expected .*exponent within 10000/],
+  ];
+  await opened('loop', async page => {
+    await openEditor(page);
+    const verdicts = await page.textContent('#verdicts');
+    for (const [key, text, says] of wrong) {
+      const before = await page.inputValue(field(key));
+      await page.fill(field(key), text);
+      await runAgain(page);
+      assert.match(await told(page), says);
+      assert.equal(await page.evaluate(() => document.activeElement.dataset.key), key);
+      assert.equal(await page.getAttribute(field(key), 'aria-invalid'), 'true');
+      await page.fill(field(key), before);
+    }
+    assert.equal(await page.textContent('#verdicts'), verdicts);
+    await runAgain(page);
+    assert.equal(await page.locator('[aria-invalid]').count(), 0);
+    assert.match(await told(page), /^The published algorithm, policy paper: cycle: /);
+  });
+});
+
+test('an edited problem has an address, a file, and a way back', async () => {
+  let hash = '';
+  await opened('loop', async page => {
+    await openEditor(page);
+    await page.fill(field('A 0 1'), '-3.9');
+    await runAgain(page);
+    await leaveFields(page);
+    await press(page, 'ArrowRight');
+    hash = new URL(page.url()).hash;
+    assert.match(hash, /^#step-1;problem=[\w-]+$/);
+    const {name, text} = await downloaded(page);
+    assert.equal(name, 'cycle-every-policy-mu-1-edited.json');
+    assert.equal(JSON.parse(text).A[1][0], '-3.9');
+    await page.click('#edit button[aria-label="Back to the original"]');
+    assert.equal(await page.textContent('h1'), 'cycle-every-policy-mu-1');
+    assert.equal(await page.isVisible('#edited'), false);
+    assert.equal(await page.inputValue(field('A 0 1')), '-4');
+    assert.equal(new URL(page.url()).hash, '#step-0');
+    await assertShows(page, 0, 'force', replayOf('loop').initial.f);
+  });
+  await opened('loop', async page => {
+    await page.waitForFunction(
+        () => document.querySelector('h1').textContent === 'cycle-every-policy-mu-1-edited', null,
+        {timeout: 20000});
+    await becomes(page, `Step 1 of ${replay(JSON.stringify(edited())).pivots.length}`);
+    assert.equal(await page.inputValue(field('A 1 0')), '-3.9');
+    await page.evaluate(() => {
+      location.hash = '#step-5';
+    });
+    await becomes(page, 'Step 5 of 16');
+    assert.equal(await page.textContent('h1'), 'cycle-every-policy-mu-1');
+  }, {hash});
+  const letters = value => Buffer.from(JSON.stringify(value)).toString('base64url');
+  const {contacts, A, b} = edited();
+  for (const bad
+           of ['x', letters({contacts, A, b}), letters({contacts, A: [A[0]], b, policy: 'paper'}),
+               letters(null)])
+    await opened(
+        'loop', async page => assert.equal(await heading(page), 'Step 2 of 16'),
+        {hash: `#step-2;problem=${bad}`});
+  await opened('loop', async page => {
+    await page.waitForFunction(
+        () => document.querySelector('#edit .told').textContent.startsWith('contact 1, kind: found'));
+    assert.equal(await heading(page), 'Step 2 of 16');
+  }, {hash: `#step-2;problem=${letters({contacts: [{kind: '<b>'}], A: [['1']], b: ['1'], policy: 'paper'})}`});
+});
+
+// The problem of the loop, with one entry changed.
+function edited() {
+  const problem =
+      JSON.parse(/id="data">(.*?)<\/script>/s.exec(readFileSync(join(PAGES, 'loop.html'), 'utf8'))[1]).problem;
+  problem.A[0][1] = problem.A[1][0] = '-3.9';
+  return {...problem, name: 'edited'};
+}
+
+test('the scene is drawn while the problem is its own', async () => {
+  await opened('scene', async page => {
+    await openEditor(page);
+    await page.selectOption(field('policy scan'), 'highest');
+    await runAgain(page);
+    assert.equal(await page.isVisible('#picture svg'), true);
+    await page.fill(field('b 0'), '-3');
+    await runAgain(page);
+    assert.equal(await page.isVisible('#picture'), false);
+  });
+});
+
+test('the keyboard alone edits and runs, and moves no step meanwhile', async () => {
+  await opened('loop', async page => {
+    await page.focus('#edit summary');
+    await press(page, 'Enter');
+    await page.waitForSelector('#edit .policy select');
+    await page.focus(field('b 0'));
+    await press(page, 'End', 'ArrowLeft', 'Delete', '2', ' ', 'Tab');
+    assert.equal(await page.inputValue(field('b 0')), '-2 ');
+    assert.equal(await heading(page), 'Step 5 of 16');
+    await press(page, 'Enter');
+    await page.waitForSelector('#edited', {state: 'visible'});
+    assert.equal(JSON.parse((await downloaded(page)).text).b[0], '-2');
+  }, {hash: '#step-5'});
+});
+
+test('the editor fits a narrow window, and all in it has a name', async () => {
+  await opened('loop', async page => {
+    await openEditor(page);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const bare = await page.$$eval(
+        '#edit button, #edit input, #edit select, #edit [role=group]',
+        all => all.filter(node => !node.getAttribute('aria-label')).map(node => node.outerHTML.slice(0, 80)));
+    assert.deepEqual(bare, []);
+    await page.tap('#edit button[type=submit]');
+    await page.waitForSelector('#edited', {state: 'visible'});
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  }, {viewport: {width: 360, height: 740}, isMobile: true, hasTouch: true});
+});
+
+test('a run that does not end is ended, by the page or its reader', async () => {
+  // In place of the solver, what answers one question and then never again.
+  const silent = page => page.addInitScript(() => {
+    window.asked = window.ended = 0;
+    window.Worker = class {
+      postMessage() {
+        if (++window.asked === 2) setTimeout(() => this.onmessage({data: '{"switches": [], "limits": {}}'}), 0);
+      }
+      terminate() {
+        ++window.ended;
+      }
+    };
+  });
+  await opened('loop', async page => {
+    await page.clock.install();
+    await page.click('#edit summary');
+    await page.waitForFunction(() => window.asked === 2);
+    await page.clock.runFor(10);
+    await page.click('#edit button[type=submit]');
+    await page.waitForFunction(() => window.asked === 3);
+    await page.clock.runFor(19000);
+    assert.match(await told(page), /^Running; it is stopped after 20 seconds/);
+    await page.clock.runFor(2000);
+    assert.equal(await told(page), 'no end within 20 seconds: the run was stopped');
+    await page.click('#edit button[type=submit]');
+    await page.waitForFunction(() => window.asked === 5);
+    await page.click('#edit button[aria-label="Stop"]');
+    await page.clock.runFor(10);
+    assert.equal(await told(page), 'stopped');
+    assert.equal(await page.evaluate(() => window.ended), 2);
+    assert.equal(await heading(page), 'Step 3 of 16');
+  }, {prepare: silent, hash: '#step-3'});
+});
+
+test('in space it is said why nothing runs', async () => {
+  await opened('space', async page => {
+    assert.match(await page.textContent('#edit'), /In space forces are irrational/);
+    assert.equal(await page.locator('#edit input').count(), 0);
+  });
 });
 
 test('no script but its own runs', async () => {

@@ -140,7 +140,7 @@ class Data(cli.TestCase):
         cli.run("replay", self.file("p.json", dict(cli.SOLVED, name=name)), "--html", out)
         page = out.read_text()
         self.assertEqual(data_of(page)["name"], name)
-        self.assertEqual(page.count("<script"), 2)
+        self.assertEqual(page.count("<script"), 3)
         self.assertIn("<title>{{data}}&lt;/title&gt;", page)
 
     def test_standard_output_holds_the_page_alone_and_bad_use_is_refused(self):

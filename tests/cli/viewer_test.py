@@ -102,7 +102,8 @@ class Browser(cli.TestCase):
             (self.folder / f"{name}.json").write_text(done.out)
         script = Path(__file__).with_name("viewer_browser.mjs")
         done = subprocess.run(["node", "--test", script], capture_output=True, text=True, timeout=900, env=dict(
-            os.environ, PAGES=str(self.folder), PACKAGES=str(packages), BROWSER=browser))
+            os.environ, PAGES=str(self.folder), PACKAGES=str(packages), BROWSER=browser,
+            PROGRAM=cli.program))
         self.assertEqual(done.returncode, 0, done.stdout[-8000:] + done.stderr[-2000:])
         passed = re.search(r"^# pass (\d+)$|^ℹ pass (\d+)$", done.stdout, re.M)
         self.assertGreaterEqual(int(passed[1] or passed[2]), 10, done.stdout[-2000:])

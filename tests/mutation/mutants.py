@@ -695,13 +695,13 @@ bug = in_file("corpus/formats/fclib.cpp", FOREIGN)
 bug("two-problems", "problems.size() > 1", "false", "the first of two problems is read")
 
 bug = in_file("corpus/rational.cpp", "^corpus: (rational|nearest|bits)")
-bug("ties-up", "half > 0 || (half == 0 && mpz_odd_p(quotient.get_mpz_t()))", "half >= 0", "halves are rounded up")
+bug("ties-up", "half > 0 || (half == 0 && quotient % 2 != 0)", "half >= 0", "halves are rounded up")
 bug("subnormal-bit", "-1074L", "-1073L", "the last bit of subnormals is lost")
 bug("exponent-limit", "exponent > kMaxExponent", "exponent >= kMaxExponent", "an exponent of 10000 is refused")
-bug("overflow-early", "static_cast<long>(mpz_sizeinbase(digits.get_mpz_t(), 2)) + last_bit > 1024",
-    "static_cast<long>(mpz_sizeinbase(digits.get_mpz_t(), 2)) + last_bit > 1023", "the largest doubles are infinite")
+bug("overflow-early", "static_cast<long>(BitLength<Integer>::Of(digits)) + last_bit > 1024",
+    "static_cast<long>(BitLength<Integer>::Of(digits)) + last_bit > 1023", "the largest doubles are infinite")
 bug("binary-exponent", "below ? e - 1 : e", "e", "numbers are rounded to one bit less")
-bug("zero-denominator", "if (x.get_den() == 0) return std::nullopt;", "", "a denominator of zero is read")
+bug("zero-denominator", "if (denominator == 0) return std::nullopt;", "", "a denominator of zero is read")
 bug("empty-fraction", "if (fraction.empty()) return std::nullopt;", "", "1. is a number")
 
 bug = in_file("corpus/statistics.cpp", "^corpus: (record|tally|store|merge)")

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The replay viewer. The address says what is shown: #step-5, and #step-5,3 where the second run was moved by
-// itself.
+// itself; #step-5;problem=... of a problem that was edited (draft.js).
 import {Cones} from './cones.js';
 import {byId, element, icon} from './dom.js';
+import {decoded, Draft, encoded} from './draft.js';
+import {Editor} from './editor.js';
 import {Picture} from './picture.js';
 import {Run, whereTheyPart} from './run.js';
 import {tellReadings, tellStep} from './steps.js';
@@ -13,16 +15,13 @@ const kTick = 1100;  // ms of a step that is played
 const kSwipe = 45;   // pixels
 const kNarrow = 4;   // rows of A that leave room for a picture beside it
 
-const data = JSON.parse(byId('data').textContent);
-const runs = data.runs.map(run => new Run(run));
-const parting = runs.length > 1 ? whereTheyPart(runs[0], runs[1]) : null;
-const cones = new Cones(data, runs);
-const picture = data.picture === null ? null : new Picture(data, runs);
-const panels = [];
+const original = JSON.parse(byId('data').textContent);
+let data = null, runs = [], parting = null, cones = null, picture = null, panels = [];
 const shown = {
   moment: 0,
   second: null,
-  timer: null
+  timer: null,
+  problem: '',  // letters of an address, of one that was edited
 };
 
 // ---- Where the runs are ----------------------------------------------------------------------
@@ -40,10 +39,30 @@ function states() {
   return runs.length === 1 ? [first] : [first, shown.second ?? secondFor(shown.moment)];
 }
 
-const address = () => `#step-${shown.moment}${shown.second === null ? '' : `,${shown.second}`}`;
+const tail = () => shown.problem === '' ? '' : `;problem=${shown.problem}`;
+const address = () => `#step-${shown.moment}${shown.second === null ? '' : `,${shown.second}`}${tail()}`;
 
-function readAddress() {
-  const found = location.hash.match(/^#step-(\d{1,9})(?:,(\d{1,9}))?$/);
+const kAddress = /^#step-(\d{1,9})(?:,(\d{1,9}))?(?:;problem=([\w-]+))?$/;
+
+// Runs the problem of the address first, where it has another.
+async function followAddress() {
+  const hash = location.hash, letters = hash.match(kAddress)?.[3] ?? '';
+  if (letters !== shown.problem) {
+    const found = letters === '' ? null : decoded(letters);
+    if (found !== null && editor.isPossible) {
+      editor.details.open = true;
+      editor.take(new Draft(found.problem, found.policy));
+      if (!await editor.run()) return;
+    } else if (shown.problem !== '') {
+      showOriginal();
+    }
+  }
+  readAddress(hash);
+  go(shown.moment, shown.second);
+}
+
+function readAddress(hash) {
+  const found = hash.match(kAddress);
   shown.moment = found === null ? 0 : clamp(Number(found[1]));
   shown.second = found === null || found[2] === undefined || runs.length === 1 ?
       null :
@@ -103,7 +122,6 @@ const controls = {
   slider: element('input', {
     type: 'range',
     min: 0,
-    max: runs[0].last,
     step: 1,
     'aria-label': 'Step',
     input: stop(() => go(Number(controls.slider.value)))
@@ -120,6 +138,7 @@ const keys = {
 };
 
 function onKey(event) {
+  if (event.target.closest?.('#edit input, #edit select')) return;
   if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
   const pressable = event.target.closest?.('button, a, summary');
   if (event.key === ' ' && !pressable)
@@ -164,7 +183,7 @@ function panel(run, i) {
       element('p', {class: 'end'}, run.end), timeline.node,
       element('div', {class: 'heading'}, heading, i === 0 ? null : buttons), story, values.node, readings);
   const link = (state, text) =>
-      element('a', {href: i === 0 ? `#step-${state}` : `#step-${shown.moment},${state}`}, text);
+      element('a', {href: `#step-${i === 0 ? state : `${shown.moment},${state}`}${tail()}`}, text);
   return {
     node,
     show(state, round) {
@@ -196,37 +215,65 @@ function draw() {
     byId('said').textContent = step === null ? 'Before the first step' : `Step ${now[0]}: ${step.event}`;
 }
 
-function build() {
+// The page of some data: the original's, or those of a run in the page.
+function use(given) {
+  play(false);
+  data = given;
+  runs = data.runs.map(run => new Run(run));
+  parting = runs.length > 1 ? whereTheyPart(runs[0], runs[1]) : null;
+  cones = new Cones(data, runs);
+  picture = data.picture === null ? null : new Picture(data, runs);
+  panels = runs.map((run, i) => panel(run, i));
+  Object.assign(shown, {moment: 0, second: null});
   byId('name').textContent = data.name;
   byId('verdicts')
-      .append(...runs.map(
+      .replaceChildren(...runs.map(
           (run, i) => element('p', {class: `run-${i}`}, element('b', {}, `${run.title}: `), run.end)));
-  byId('player').append(
-      controls.first, controls.back, controls.play, controls.next, controls.last, controls.slider,
-      controls.place, controls.link);
-  runs.forEach((run, i) => panels.push(panel(run, i)));
-  byId('runs').append(...panels.map(part => part.node));
-  byId('cones').append(cones.node);
+  byId('edited').hidden = data === original;
+  controls.slider.max = runs[0].last;
+  byId('runs').replaceChildren(...panels.map(part => part.node));
+  byId('cones').replaceChildren(cones.node);
   byId('cones-note')
-      .append(
+      .replaceChildren(
           ...runs.map((run, i) => element('span', {class: `key run-${i}`}, run.title)),
           cones.areToScale ? '' : ' The axes have scales of their own.');
   const problem = document.querySelector('.problem');
   problem.classList.toggle('large', data.rows.length > kNarrow);
   problem.classList.toggle('with-picture', picture !== null);
+  byId('picture').replaceChildren();
   if (picture !== null) {
     byId('picture').append(
         picture.node, element('figcaption', {}, 'The scene, and the force of each contact at this step'));
-    byId('picture').hidden = false;
   }
+  byId('picture').hidden = picture === null;
+}
+
+function showOriginal() {
+  shown.problem = '';
+  use(original);
+  go(0);
+}
+
+// `edited`: {problem, policy} of the run.
+function showEdited(given, {problem, policy}) {
+  shown.problem = encoded(problem, policy);
+  use(given);
+  go(0);
+}
+
+const editor = new Editor(byId('edit'), original, showEdited, showOriginal);
+
+function build() {
+  byId('player').append(
+      controls.first, controls.back, controls.play, controls.next, controls.last, controls.slider,
+      controls.place, controls.link);
   document.addEventListener('keydown', onKey);
-  addEventListener('hashchange', () => {
-    readAddress();
-    draw();
-  });
+  addEventListener('hashchange', followAddress);
   watchSwipes(document.querySelector('main'));
 }
 
 build();
-readAddress();
+use(original);
+readAddress(location.hash);
 draw();
+if (kAddress.test(location.hash)) followAddress();

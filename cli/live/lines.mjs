@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// `node lines.mjs MODULE`: what stiction-live does, by the WebAssembly module. For the tests.
+import {readFileSync} from 'node:fs';
+import {gunzipSync} from 'node:zlib';
+
+import {Solver} from '../../reports/web/src/solver.js';
+
+const solver = await Solver.from(gunzipSync(readFileSync(process.argv[2])));
+for (const request of readFileSync(0, 'utf8').split('\n')) {
+  if (request !== '') console.log(solver.answer(request));
+}

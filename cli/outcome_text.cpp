@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/outcome_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stiction {
+
+Json NumberToJson(double x) {
+  if (std::isnan(x)) return "nan";  // whose sign is the machine's
+  return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x));
+}
+
+std::string Describe(const Verdict& verdict) {
+  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(verdict.outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
+                       verdict.start, unit, verdict.period, unit);
+  }
+  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
+  const std::string name(Name(verdict.outcome));
+  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
+}
+
+}  // namespace stiction

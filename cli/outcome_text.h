@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and outcomes, for programs and for people.
+
+#ifndef STICTION_CLI_OUTCOME_TEXT_H_
+#define STICTION_CLI_OUTCOME_TEXT_H_
+
+#include <string>
+
+#include "corpus/json_text.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
+
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_OUTCOME_TEXT_H_
