@@ -143,7 +143,12 @@ Html FrequenciesSection(const Record& total) {
       "with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).");
   return Section(
       "frequencies", "How often it fails exactly",
-      Tag("p")(explained + RateBounds(total)) + FrequencyTable(total) +
+      Tag("p")(explained + RateBounds(total)) +
+          FigurePlace("rates.contacts", "Failures confirmed exactly in a million runs, by generator and number of "
+                                        "contacts, on a logarithmic scale; lines: exact intervals at 95 %. An open "
+                                        "triangle: none was seen, and the rate is below its tip.") +
+          FigurePlace("rates.friction", "The same by friction coefficient, of all contacts or mixed.") +
+          FigurePlace("rates.rank", "The same by the rank that A has at most.") + FrequencyTable(total) +
           Html("<h3>By friction</h3>\n<p>Cycles confirmed exactly, where all contacts have the same "
                "coefficient, or different ones (mixed); below, in a million runs:</p>\n") +
           StrataTable<ByFriction>(total, "Cycles by friction coefficient",
