@@ -388,8 +388,8 @@ struct ReportVerb {
 };
 
 int RunReport(const ReportVerb& o) {
-  TellAside(
-      WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace), {o.benches.begin(), o.benches.end()}, o.since));
+  TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
+                        {o.benches.begin(), o.benches.end()}, o.since));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
 }

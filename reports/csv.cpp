@@ -136,8 +136,8 @@ std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::
   bool quoted = false;
   const auto end_row = [&] {
     if (!rows.empty() && row.size() != rows.front().size())
-      throw InputError(fmt::format("{}: row {}: found {} cells, expected {}", source, rows.size() + 1, row.size(),
-                                   rows.front().size()));
+      throw InputError(fmt::format("{}: row {}: found {} cells, expected {}", source, rows.size() + 1,
+                                   row.size(), rows.front().size()));
     rows.push_back(std::exchange(row, std::vector<std::string>(1)));
   };
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -261,7 +261,8 @@ std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
   template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);               \
   template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                  \
   template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double); \
-  template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, const std::string&); \
+  template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&,              \
+                           const std::string&);                                                          \
   template std::string DrawAnimation(const SceneIn<Kind, double>&, const View&,                          \
                                      const std::vector<FrameIn<Kind>>&, double, double)
 

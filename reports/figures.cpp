@@ -81,8 +81,8 @@ void AddRates(FigureTable& figure, const char* by, const RateCounts& counts) {
       for (std::size_t i = 0; i < kDrawnFailures.size(); ++i) {
         if (count.runs == 0) continue;
         const auto& [generator, policy, contacts] = key;
-        Json row = {by,          generator, policy, contacts, value, Name(kDrawnFailures[i]), count.runs,
-                    count.failures[i]};
+        Json row = {by,         generator,        policy, contacts, value, Name(kDrawnFailures[i]),
+                    count.runs, count.failures[i]};
         AddRate(row, count.failures[i], count.runs);
         figure.rows.push_back(std::move(row));
       }
@@ -91,9 +91,9 @@ void AddRates(FigureTable& figure, const char* by, const RateCounts& counts) {
 }
 
 FigureTable RatesFigure(const Record& total) {
-  FigureTable figure{"rates",
-                     {"by", "generator", "policy", "contacts", "value", "outcome", "runs", "count", "rate",
-                      "low", "high"}};
+  FigureTable figure{
+      "rates",
+      {"by", "generator", "policy", "contacts", "value", "outcome", "runs", "count", "rate", "low", "high"}};
   RateCounts by_contacts, by_friction, by_rank;
   for (const auto& [key, tally] : total.tallies) {
     const RateKey row{key.generator, key.policy, key.contacts};
@@ -176,9 +176,8 @@ FigureTable PivotingFigure(const Record& total) {
   for (const auto& [key, tally] : total.tallies) merged[{key.generator, key.policy, key.contacts}].Merge(tally);
   for (const auto& [key, tally] : merged) {
     const auto& [generator, policy, contacts] = key;
-    const auto add = [&, &generator = generator, &policy = policy, contacts = contacts](const char* what,
-                                                                                      std::int64_t count,
-                                                                                      std::int64_t of) {
+    const auto add = [&, &generator = generator, &policy = policy, contacts = contacts](
+                         const char* what, std::int64_t count, std::int64_t of) {
       if (of == 0) return;
       Json row = {generator, policy, contacts, what, count, of};
       AddShare(row, count, of);
@@ -209,7 +208,8 @@ FigureTable DrivingFigure(const Record& total) {
 // ---- Methods ----
 
 FigureTable MethodsFigure(const ReportContent& content) {
-  FigureTable figure{"methods", {"method", "asked_about", "contacts", "asked", "solved", "share", "low", "high"}};
+  FigureTable figure{"methods",
+                     {"method", "asked_about", "contacts", "asked", "solved", "share", "low", "high"}};
   for (const MethodLine& line : MethodLines(content)) {
     Json row = {line.method, line.asked_about, line.contacts, line.asked, line.solved};
     AddShare(row, line.solved, line.asked);
@@ -222,9 +222,9 @@ FigureTable MethodsFigure(const ReportContent& content) {
 
 std::vector<FigureTable> Figures(const ReportContent& content) {
   const Record& total = content.total;
-  std::vector<FigureTable> all = {RatesFigure(total),     DoublesFigure(total),  TrustFigure(total),
-                                  StepsFigure(total),     LoopStepsFigure(total), PivotingFigure(total),
-                                  DrivingFigure(total),   MethodsFigure(content), RungsFigure(content.rungs)};
+  std::vector<FigureTable> all = {RatesFigure(total),   DoublesFigure(total),   TrustFigure(total),
+                                  StepsFigure(total),   LoopStepsFigure(total), PivotingFigure(total),
+                                  DrivingFigure(total), MethodsFigure(content), RungsFigure(content.rungs)};
   std::erase_if(all, [](const FigureTable& figure) { return figure.rows.empty(); });
   return all;
 }
@@ -249,8 +249,9 @@ Json FiguresToJson(const std::vector<FigureTable>& figures) {
 
 Html FigurePlace(const std::string& name, const std::string& caption) {
   const std::string table = name.substr(0, name.find('.')), file = "figures/" + table + ".csv";
-  const Html source = Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) +
-                      Html(", made by <code>stiction report STORE -o DIR</code>; <a href=\"#again\">the store</a>");
+  const Html source =
+      Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) +
+      Html(", made by <code>stiction report STORE -o DIR</code>; <a href=\"#again\">the store</a>");
   return Tag("figure", {{"class", "plot"}, {"data-figure", name}})(
              Html("\n") + Tag("figcaption")(caption) + Html("\n<div class=\"drawing\"></div>\n") +
              Tag("p", {{"class", "source"}})(source) + Html("\n")) +

@@ -18,18 +18,19 @@ template <class Kind>
 Html SceneFigure(const SceneFileIn<Kind>& file, const std::string& signature) {
   const SceneIn<Kind, double> scene = RoundedScene(file, signature);
   MarksIn<Kind> marks;
-  for (const auto& contact : FindContacts(file.scene)) marks.contacts.push_back(contact.point.unaryExpr(&ToDouble));
+  for (const auto& contact : FindContacts(file.scene))
+    marks.contacts.push_back(contact.point.unaryExpr(&ToDouble));
   View view;
   view.Include(scene);
   view.AddMargin();
   const auto bodies = static_cast<std::int64_t>(scene.bodies.size()),
              contacts = static_cast<std::int64_t>(marks.contacts.size());
-  const std::string label = fmt::format("Scene of {}: {}, touching at {}", signature,
-                                        bodies == 1 ? "1 body" : Grouped(bodies) + " bodies",
-                                        Counted(contacts, "point"));
-  return Tag("figure", {{"class", "scene"}})(
-             DrawInline<Kind>(scene, view, marks, label) +
-             Html("<figcaption>The scene, as found. Green: contacts.</figcaption>\n")) +
+  const std::string label =
+      fmt::format("Scene of {}: {}, touching at {}", signature,
+                  bodies == 1 ? "1 body" : Grouped(bodies) + " bodies", Counted(contacts, "point"));
+  return Tag("figure",
+             {{"class", "scene"}})(DrawInline<Kind>(scene, view, marks, label) +
+                                   Html("<figcaption>The scene, as found. Green: contacts.</figcaption>\n")) +
          Html("\n");
 }
 

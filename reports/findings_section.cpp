@@ -257,15 +257,21 @@ void AddFinding(Table& table, const Discovery& discovery, const std::optional<Si
                 "more");
 }
 
-Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
+Html HowMany(std::size_t represented, const std::vector<Discovery>& discoveries) {
   const auto all = static_cast<std::int64_t>(discoveries.size());
-  const auto here = static_cast<std::int64_t>(shown);
+  const auto here = static_cast<std::int64_t>(represented);
   std::string text =
-      "One row per signature: cycles of safe problems and disagreements of methods first, then fewest contacts, then "
+      "One row per signature: cycles of safe problems and disagreements of methods first, then fewest "
+      "contacts, then "
       "those that every policy of the grid shows, then loops before others, then the most frequent. ";
-  if (here == all) return Tag("p", {{"class", "how-many"}})(text + fmt::format("All {} are shown.", Grouped(all)));
-  text += fmt::format("Without a script {} of {} are shown; all are in ", Grouped(here), Counted(all, "signature"));
-  return Tag("p", {{"class", "how-many"}})(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
+  text += here == all
+              ? "All " + Counted(all, "signature") + (all == 1 ? " is" : " are")
+              : fmt::format("{} of {} have a representative and are", Grouped(here), Counted(all, "signature"));
+  text += represented > kFindingsShown
+              ? fmt::format(" here, without a script the first {}; all are in ", kFindingsShown)
+              : " here; all are in ";
+  return Tag("p", {{"class", "how-many"}})(Text(text) +
+                                           Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
 }
 
 Html IpoptText(const std::vector<Discovery>& discoveries) {
@@ -301,27 +307,31 @@ Html IpoptText(const std::vector<Discovery>& discoveries) {
 
 Html FindingDetails(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
-  return Tag("div", {{"class", "details"}})(
-             Html("\n") + Tag("p")(StoryOf(discovery)) + Html("\n") + ProblemOf(finding) + PictureOfFinding(finding) +
-             Tag("pre")(Tag("code")(CommandsOf(discovery))) + FileLinks(discovery.files)) +
+  return Tag("div", {{"class", "details"}})(Html("\n") + Tag("p")(StoryOf(discovery)) + Html("\n") +
+                                            ProblemOf(finding) + PictureOfFinding(finding) +
+                                            Tag("pre")(Tag("code")(CommandsOf(discovery))) +
+                                            FileLinks(discovery.files)) +
          Html("\n");
 }
 
 Html FindingsSection(const std::vector<Discovery>& discoveries, const std::optional<Since>& since) {
   if (discoveries.empty()) return Section("findings", "Findings", Html("<p>None.</p>\n"));
   std::vector<const Discovery*> shown = ByInterest(discoveries);
-  if (shown.size() > kFindingsShown) shown.resize(kFindingsShown);
+  const std::size_t represented = shown.size();
+  if (represented > kFindingsShown) shown.resize(kFindingsShown);
   Table table = EmptyTable();
+  table.StayOpen();
   for (const Discovery* discovery : shown) AddFinding(table, *discovery, since);
-  return Section("findings", "Findings",
-                 HowMany(shown.size(), discoveries) + IpoptText(discoveries) +
-                     Html("<p>Commands stand in the folder of this page, where <code>stiction</code> is the program, or "
-                          "<code>run</code> of its sources:</p>\n<pre class=\"setup\"><code>stiction() { "
-                          "/path/to/stiction/run \"$@\"; }</code></pre>\n<p class=\"note\"><code>replay</code> shows "
-                          "every pivot in exact numbers, as text or as a page to step through; <code>check</code> "
-                          "verifies a certificate, and so does <code>certify/check_certificate.py</code> of the sources, "
-                          "which shares nothing with it.</p>\n<div id=\"gallery\"></div>\n") +
-                     table.Done());
+  return Section(
+      "findings", "Findings",
+      HowMany(represented, discoveries) + IpoptText(discoveries) +
+          Html("<p>Commands stand in the folder of this page, where <code>stiction</code> is the program, or "
+               "<code>run</code> of its sources:</p>\n<pre class=\"setup\"><code>stiction() { "
+               "/path/to/stiction/run \"$@\"; }</code></pre>\n<p class=\"note\"><code>replay</code> shows "
+               "every pivot in exact numbers, as text or as a page to step through; <code>check</code> "
+               "verifies a certificate, and so does <code>certify/check_certificate.py</code> of the sources, "
+               "which shares nothing with it.</p>\n<div id=\"gallery\"></div>\n") +
+          table.Done());
 }
 
 }  // namespace stiction

@@ -49,7 +49,8 @@ std::vector<MethodLine> MethodLines(const ReportContent& content) {
       for (int i = 0; i < kOutcomeCount; ++i) exact.Add(key.contacts, row[i], i == kSolvedOutcome ? row[i] : 0);
     }
   }
-  for (const auto& [contacts, tally] : content.total.existence) complete.Add(contacts, tally.problems, tally.solved);
+  for (const auto& [contacts, tally] : content.total.existence)
+    complete.Add(contacts, tally.problems, tally.solved);
   for (const auto& [contacts, tally] : content.total.agreement)
     lemke.Add(contacts, tally.compared, tally.compared - tally.disagreements);
   for (const Discovery& discovery : content.discoveries) {
@@ -86,15 +87,19 @@ Html MethodsSection(const ReportContent& content) {
   }
   return Section(
       "methods", "Methods side by side",
-      Html("<p>Each was asked about problems of its own: the published algorithm ran on all, and exactly where "
-           "doubles were suspicious; complete driving got what the published algorithm did not solve, audits, and "
-           "a sample; Lemke’s method a sample of these, where solved means that no method contradicts another. "
-           "The same problems for all are the finished findings, in the last rows: what the published algorithm "
-           "makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a certificate "
-           "says that there is one. A solution counts only if it is verified; over doubles, if its natural "
-           "residual is at most 1e-6.</p>\n") +
-          FigurePlace("methods", "Share of the problems that each method solved, of those that it was asked about, "
-                                 "by number of contacts; lines: exact intervals at 95 %.") +
+      Html(
+          "<p>Each was asked about problems of its own: the published algorithm ran on all, and exactly where "
+          "doubles were suspicious; complete driving got what the published algorithm did not solve, audits, "
+          "and "
+          "a sample; Lemke’s method a sample of these, where solved means that no method contradicts another. "
+          "The same problems for all are the finished findings, in the last rows: what the published algorithm "
+          "makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a "
+          "certificate "
+          "says that there is one. A solution counts only if it is verified; over doubles, if its natural "
+          "residual is at most 1e-6.</p>\n") +
+          FigurePlace("methods",
+                      "Share of the problems that each method solved, of those that it was asked about, "
+                      "by number of contacts; lines: exact intervals at 95 %.") +
           table.Done());
 }
 

@@ -182,7 +182,8 @@ std::int64_t UnitProblems(const CampaignIdentity& identity) {
 constexpr const char* kTitle = "stiction: does Baraff's contact force algorithm always end?";
 
 Html Navigation(const ReportContent& content) {
-  std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"}, {"#method", "Method and definitions"}};
+  std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"},
+                                                               {"#method", "Method and definitions"}};
   if (content.units > 0) {
     sections.insert(sections.end(), {{"#frequencies", "How often it fails"},
                                      {"#outcomes", "Outcomes"},
@@ -239,7 +240,8 @@ Html Results(const ReportContent& content) {
 }
 
 Json PageData(const ReportContent& content, const std::vector<FigureTable>& figures) {
-  return {{"figures", FiguresToJson(figures)}, {"findings", FindingsToJson(content.discoveries, content.since)}};
+  return {{"figures", FiguresToJson(figures)},
+          {"findings", FindingsToJson(content.discoveries, content.since)}};
 }
 
 }  // namespace
@@ -299,8 +301,8 @@ Html TimeTable(const ProcessorTime& time) {
 // From the folder of the report.
 Html AgainCommands(const ReportContent& content) {
   const std::string search =
-      fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store", content.identity.seed,
-                  content.units * UnitProblems(content.identity));
+      fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store",
+                  content.identity.seed, content.units * UnitProblems(content.identity));
   return Tag("pre")(Tag("code")(search + "\nstiction report again.store -o again"));
 }
 
@@ -316,24 +318,29 @@ Html AgainSection(const ReportContent& content) {
   list.Add("complete blocks",
            fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
   const Html commands =
-      content.units > 0 ? Html("<p>The same campaign, with the same build, gives the same problems, outcomes and findings "
-                               "on any machine and any number of threads:</p>\n") +
-                              AgainCommands(content)
-                        : Html();
-  return Section("again", "Reproducing it",
-                 commands + list.Done() +
-                     Html("<p class=\"note\">On which processors it ran the store does not say; nothing here depends on "
-                          "them but the processor time, which other runs of the same campaign need not repeat.</p>\n") +
-                     TimeTable(content.work.time));
+      content.units > 0
+          ? Html(
+                "<p>The same campaign, with the same build, gives the same problems, outcomes and findings "
+                "on any machine and any number of threads:</p>\n") +
+                AgainCommands(content)
+          : Html();
+  return Section(
+      "again", "Reproducing it",
+      commands + list.Done() +
+          Html("<p class=\"note\">On which processors it ran the store does not say; nothing here depends on "
+               "them but the processor time, which other runs of the same campaign need not repeat.</p>\n") +
+          TimeTable(content.work.time));
 }
 
 std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
-  return FilledTemplate(page, {{"title", Text(kTitle)},
-                               {"navigation", Navigation(content)},
-                               {"found", FoundSection(content)},
-                               {"results", Results(content)},
-                               {"data", ScriptData(PageData(content, figures).dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  return FilledTemplate(
+      page,
+      {{"title", Text(kTitle)},
+       {"navigation", Navigation(content)},
+       {"found", FoundSection(content)},
+       {"results", Results(content)},
+       {"data", ScriptData(PageData(content, figures).dump(-1, ' ', false, Json::error_handler_t::replace))}});
 }
 
 }  // namespace stiction

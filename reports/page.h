@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a report: one HTML document that needs nothing else. Its sections, tables and sentences stand in it as
-// text; a script draws the figures and makes the findings sortable (web/, bundled ahead of time).
+// The page of a report: one HTML document that needs nothing else. Its sections, tables and sentences stand in
+// it as text; a script draws the figures and makes the findings sortable (web/, bundled ahead of time).
 
 #ifndef STICTION_REPORTS_PAGE_H_
 #define STICTION_REPORTS_PAGE_H_
@@ -13,8 +13,8 @@
 
 #include "corpus/store.h"
 #include "reports/discovery.h"
-#include "reports/html.h"
 #include "reports/figures.h"
+#include "reports/html.h"
 #include "reports/rungs.h"
 #include "reports/since.h"
 
@@ -65,7 +65,8 @@ struct MethodLine {
 };
 std::vector<MethodLine> MethodLines(const ReportContent& content);
 
-// All findings with a representative, in the order of interest, as the script of the page reads them (web/README.md).
+// All findings with a representative, in the order of interest, as the script of the page reads them
+// (web/README.md).
 Json FindingsToJson(const std::vector<Discovery>& discoveries, const std::optional<Since>& since);
 
 // What a finding is in full: its problem in numbers, what happens, commands and files.

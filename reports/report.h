@@ -26,10 +26,10 @@
 
 namespace stiction {
 
-// `benches`: files of bench --csv, which the page draws. `since`: an earlier report, beside which the page says what
-// is new.
-// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
-// content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
+// `benches`: files of bench --csv, which the page draws. `since`: an earlier report, beside which the page says
+// what is new. Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report
+// stays. The same content of a store gives the same bytes. Returns where a directory with files of others was
+// moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
                                   Occupied occupied = Occupied::kRefused,
                                   const std::vector<std::filesystem::path>& benches = {},

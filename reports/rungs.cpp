@@ -197,9 +197,9 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
 }
 
 FigureTable RungsFigure(const std::vector<RungLine>& lines) {
-  FigureTable figure{"rungs",
-                     {"family", "method", "arithmetic", "microseconds", "lost", "asked", "solved", "wrong",
-                      "undecided"}};
+  FigureTable figure{
+      "rungs",
+      {"family", "method", "arithmetic", "microseconds", "lost", "asked", "solved", "wrong", "undecided"}};
   for (const auto& [family, sums] : Families(lines)) {
     for (const RungSum& sum : sums) {
       if (sum.microseconds.empty() || sum.asked == 0) continue;
@@ -215,9 +215,10 @@ Html RungsSection(const std::vector<RungLine>& lines) {
   for (const auto& [family, sums] : Families(lines))
     tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
   return Section("rungs", "Speed against accuracy",
-                 FigurePlace("rungs", "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends "
-                                      "wrongly or undecided. A dot is a method over an arithmetic; filtered and exact "
-                                      "ones are filled.") +
+                 FigurePlace("rungs",
+                             "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends "
+                             "wrongly or undecided. A dot is a method over an arithmetic; filtered and exact "
+                             "ones are filled.") +
                      tables);
 }
 

@@ -59,7 +59,8 @@ std::string Spread(const std::set<int>& contacts) {
 Html Asked(const ReportContent& content, const Sums& sums) {
   if (sums.contacts.empty()) return Html();
   return Tag("p", {{"class", "asked"}})(fmt::format(
-             "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run under "
+             "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run "
+             "under "
              "{} of its text: {}.",
              Grouped(ProblemsOf(content.total)), Spread(sums.contacts),
              Counted(static_cast<std::int64_t>(sums.generators.size()), "generator"),
@@ -73,10 +74,11 @@ Html LoopSentence(const Sums& sums) {
   if (loops == 0)
     return Sentence("No loop was seen.",
                     fmt::format("In exact arithmetic no run repeats a state: {} in a million runs.", rate));
-  return Sentence("It does not always end.",
-                  fmt::format("{} of {} runs repeat a state in exact arithmetic, and so go on for ever: {} in a million "
-                              "runs.",
-                              Grouped(loops), Grouped(sums.runs), rate));
+  return Sentence(
+      "It does not always end.",
+      fmt::format("{} of {} runs repeat a state in exact arithmetic, and so go on for ever: {} in a million "
+                  "runs.",
+                  Grouped(loops), Grouped(sums.runs), rate));
 }
 
 Html GridSentence(const std::vector<Discovery>& discoveries) {
@@ -90,22 +92,25 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
     smallest = smallest == 0 ? contacts : std::min(smallest, contacts);
   }
   if (finished == 0) return Html();
-  return Sentence(
-      "Not a matter of one reading.",
-      fmt::format("Of {} loops of different kinds that were certified and minimized, {} loop under every reading of the "
-                  "text that stiction distinguishes; the smallest has {}.",
-                  Grouped(finished), Grouped(whole), Counted(smallest, "contact")));
+  return Sentence(whole > 0 ? "Not a matter of one reading." : "The reading matters.",
+                  fmt::format("Of {} loops of different kinds that were certified and minimized, {} loop under "
+                              "every reading of the "
+                              "text that stiction distinguishes; the smallest has {}.",
+                              Grouped(finished), Grouped(whole), Counted(smallest, "contact")));
 }
 
 Html OtherFailures(const Sums& sums) {
   const std::int64_t singular = sums.exact[static_cast<int>(Outcome::kSingular)],
                      rays = sums.exact[static_cast<int>(Outcome::kRay)];
   if (singular + rays == 0) return Html();
-  return Sentence("Or it gets stuck.",
-                  fmt::format("{} runs come to a direction system without a solution ({} in a million), {} to a step "
-                              "that nothing limits ({}).",
-                              Grouped(singular), RateText(singular, sums.runs), Grouped(rays),
-                              RateText(rays, sums.runs)));
+  const auto part = [&sums](std::int64_t count, const char* what) {
+    return fmt::format("{} {} ({} in a million)", Counted(count, "run"), what, RateText(count, sums.runs));
+  };
+  std::string text = "In exact arithmetic ";
+  if (singular > 0) text += part(singular, "come to a direction system without a solution");
+  if (singular > 0 && rays > 0) text += ", and ";
+  if (rays > 0) text += part(rays, "come to a step that nothing limits");
+  return Sentence("Or it gets stuck.", text + ".");
 }
 
 Html CompleteSentence(const Record& total) {
@@ -116,10 +121,11 @@ Html CompleteSentence(const Record& total) {
     all.with_folds += tally.with_folds;
   }
   if (all.problems == 0) return Html();
-  return Sentence(all.solved == all.problems ? "Solutions exist, and are found." : "Not all were solved.",
-                  fmt::format("Complete driving, which turns back where the published algorithm gives up, solved {} of "
-                              "{} problems that were given to it, each solution verified exactly; on {} its path folds.",
-                              Grouped(all.solved), Grouped(all.problems), Grouped(all.with_folds)));
+  return Sentence(
+      all.solved == all.problems ? "Solutions exist, and are found." : "Not all were solved.",
+      fmt::format("Complete driving, which turns back where the published algorithm gives up, solved {} of "
+                  "{} problems that were given to it, each solution verified exactly; on {} its path folds.",
+                  Grouped(all.solved), Grouped(all.problems), Grouped(all.with_folds)));
 }
 
 Html AgreementSentence(const Record& total) {
@@ -129,22 +135,24 @@ Html AgreementSentence(const Record& total) {
     disagreements += tally.disagreements;
   }
   if (compared == 0) return Html();
-  return Sentence(disagreements == 0 ? "The methods agree." : "The methods disagree.",
-                  fmt::format("{} of {} problems show a disagreement of the published algorithm, complete driving and "
-                              "Lemke’s method.",
-                              Grouped(disagreements), Grouped(compared)));
+  return Sentence(
+      disagreements == 0 ? "The methods agree." : "The methods disagree.",
+      fmt::format("{} of {} problems show a disagreement of the published algorithm, complete driving and "
+                  "Lemke’s method.",
+                  Grouped(disagreements), Grouped(compared)));
 }
 
 Html LyingSentence(const Sums& sums) {
   if (sums.suspicions == 0) return Html();
-  std::string text = fmt::format(
-      "Of {} suspicious runs in doubles {} are solved in exact arithmetic ({}). ", Grouped(sums.suspicions),
-      Grouped(sums.refuted), ShareText(sums.refuted, sums.suspicions));
+  std::string text =
+      fmt::format("Of {} suspicious runs in doubles {} are solved in exact arithmetic ({}). ",
+                  Grouped(sums.suspicions), Grouped(sums.refuted), ShareText(sums.refuted, sums.suspicions));
   text += fmt::format("{} called solved what is no solution ({} in a million).", Counted(sums.wrong, "run"),
                       RateText(sums.wrong, sums.runs));
   if (sums.audited > 0)
-    text += fmt::format(" Of {} runs without a suspicion that were repeated exactly, {} were misjudged ({}).",
-                        Grouped(sums.audited), Grouped(sums.misjudged), ShareText(sums.misjudged, sums.audited));
+    text +=
+        fmt::format(" Of {} runs without a suspicion that were repeated exactly, {} were misjudged ({}).",
+                    Grouped(sums.audited), Grouped(sums.misjudged), ShareText(sums.misjudged, sums.audited));
   return Sentence("Doubles lie.", text);
 }
 
@@ -157,8 +165,10 @@ Html FoundSentences(const ReportContent& content) {
          Tag("ul", {{"class", "answers"}})(Html("\n") + LoopSentence(sums) + GridSentence(content.discoveries) +
                                            OtherFailures(sums) + CompleteSentence(content.total) +
                                            AgreementSentence(content.total) + LyingSentence(sums)) +
-         Html("\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by Clopper and "
-              "Pearson.</p>\n");
+         Html(
+             "\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by "
+             "Clopper and "
+             "Pearson.</p>\n");
 }
 
 }  // namespace stiction

@@ -16,7 +16,8 @@ namespace stiction {
 namespace {
 
 // Of the columns, one that must be there.
-std::size_t ColumnOf(const std::vector<std::string>& columns, const std::string& name, const std::string& source) {
+std::size_t ColumnOf(const std::vector<std::string>& columns, const std::string& name,
+                     const std::string& source) {
   const auto at = std::find(columns.begin(), columns.end(), name);
   if (at == columns.end())
     throw InputError(fmt::format("{}:1: found no column {}, expected findings.csv of a report", source, name));
@@ -59,8 +60,8 @@ Since ReadSince(const std::filesystem::path& report) {
   const std::string source = file.string();
   const auto rows = ReadCsv(ReadText(file), source);
   const std::vector<std::string> columns = rows.empty() ? std::vector<std::string>() : rows.front();
-  const std::size_t signature = ColumnOf(columns, "signature", source), count = ColumnOf(columns, "count", source),
-                    state = ColumnOf(columns, "state", source);
+  const std::size_t signature = ColumnOf(columns, "signature", source),
+                    count = ColumnOf(columns, "count", source), state = ColumnOf(columns, "state", source);
   Since since;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const std::string& text = rows[i][count];
@@ -98,14 +99,16 @@ std::string SinceCsv(const Since& since, const std::vector<Discovery>& discoveri
 Html SinceText(const Since& since, const std::vector<Discovery>& discoveries) {
   const Changes changes = CountChanges(since, discoveries);
   std::string text = fmt::format(
-      "Since the earlier report: {} new, {} finished that were not, and {} met more often, of {} groups; it had {}.",
+      "Since the earlier report: {} new, {} finished that were not, and {} met more often, of {} groups; it "
+      "had {}.",
       Grouped(changes.fresh), Grouped(changes.finished), Grouped(changes.more),
       Grouped(static_cast<std::int64_t>(discoveries.size())),
       Grouped(static_cast<std::int64_t>(since.earlier.size())));
   if (changes.gone > 0)
-    text += fmt::format(" {} of those are not here: the earlier report is of another store.", Grouped(changes.gone));
-  return Tag("p", {{"class", "since"}})(
-             Text(text) + Html(" Each is in <a href=\"since.csv\"><code>since.csv</code></a>.")) +
+    text += fmt::format(" {} of those are not here: the earlier report is of another store.",
+                        Grouped(changes.gone));
+  return Tag("p", {{"class", "since"}})(Text(text) +
+                                        Html(" Each is in <a href=\"since.csv\"><code>since.csv</code></a>.")) +
          Html("\n");
 }
 

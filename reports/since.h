@@ -27,8 +27,8 @@ struct Since {
   std::string_view ChangeOf(const Discovery& discovery) const;
 };
 
-// A report's folder, or its findings.csv. InputError that names file, line and column of what is not as a report
-// writes it.
+// A report's folder, or its findings.csv. InputError that names file, line and column of what is not as a
+// report writes it.
 Since ReadSince(const std::filesystem::path& report);
 
 // "finished", "pending", "counted"

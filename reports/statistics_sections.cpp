@@ -300,19 +300,23 @@ Html OutcomesSection(const Record& total) {
 Html StepsSection(const Record& total) {
   return Section(
       "steps", "Steps per problem",
-      FigurePlace("steps", "Runs in doubles by the number of their steps, by number of contacts; up: their share, on a "
-                           "logarithmic scale. The last bar is of all that took more.") +
-          FigurePlace("pivoting", "Share of the runs in doubles with a step of length zero, and of those in which a "
-                                  "variable was given up, by generator and number of contacts; lines: exact "
-                                  "intervals at 95 %.") +
-          Html("<h3>Work per problem</h3>\n<p>Of the runs in doubles: the mean, and below it the maximum. A loop "
+      FigurePlace("steps",
+                  "Runs in doubles by the number of their steps, by number of contacts; up: their share, on a "
+                  "logarithmic scale. The last bar is of all that took more.") +
+          FigurePlace("pivoting",
+                      "Share of the runs in doubles with a step of length zero, and of those in which a "
+                      "variable was given up, by generator and number of contacts; lines: exact "
+                      "intervals at 95 %.") +
+          Html("<h3>Work per problem</h3>\n<p>Of the runs in doubles: the mean, and below it the maximum. A "
+               "loop "
                "counts up to where it was noticed.</p>\n") +
           PivotTable(total) +
           Html("<h3>Zero steps of loops</h3>\n<p>What one period of a loop consists of, in exact "
                "arithmetic:</p>\n") +
           (total.loops.empty() ? Html()
-                               : FigurePlace("loop-steps", "Loops in exact arithmetic by the number of steps of "
-                                                           "length zero in their period, by number of contacts.")) +
+                               : FigurePlace("loop-steps",
+                                             "Loops in exact arithmetic by the number of steps of "
+                                             "length zero in their period, by number of contacts.")) +
           LoopTable(total));
 }
 
@@ -323,11 +327,13 @@ Html DoublesSection(const Record& total) {
                       "rational arithmetic, and so is a sample of the others. Where a generator rounds its "
                       "problems to doubles, the exact run is that of the problem before rounding. Rows: "
                       "how the suspicious runs ended in doubles; columns: how they end exactly.</p>\n") +
-                     FigurePlace("doubles", "Suspicious runs by what doubles said, and what exact arithmetic says of "
-                                            "them.") +
+                     FigurePlace("doubles",
+                                 "Suspicious runs by what doubles said, and what exact arithmetic says of "
+                                 "them.") +
                      VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") +
-                     FigurePlace("trust", "Share of the audited runs that doubles misjudged, and of all runs that "
-                                          "ended in a wrong answer; lines: exact intervals at 95 %.") +
+                     FigurePlace("trust",
+                                 "Share of the audited runs that doubles misjudged, and of all runs that "
+                                 "ended in a wrong answer; lines: exact intervals at 95 %.") +
                      TrustTable(total));
 }
 

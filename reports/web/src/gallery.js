@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are taken as
-// they stand, with their pictures; the others are made of the data.
+// The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are
+// taken as they stand, with their pictures; the others are made of the data.
 import {byId, element} from './dom.js';
 
 const pageSize = 50;
 const count = x => x.toLocaleString('en');
 const counted = (n, noun) => `${count(n)} ${noun}${n === 1 ? '' : 's'}`;
 
-// How the columns of the table sort: by what, and whether the largest comes first. The program's order is that of interest.
+// How the columns of the table sort: by what, and whether the largest comes first. The program's order is that
+// of interest.
 const columns = [
-  {by: finding => finding.signature}, {by: finding => finding.kind}, {by: finding => finding.smallest * 100 + finding.contacts},
-  {by: finding => finding.drives ?? Infinity}, {by: finding => finding.steps ?? Infinity}, {by: finding => finding.met, down: true},
-  {by: finding => `${finding.generator} ${String(finding.unit).padStart(12)} ${String(finding.index).padStart(12)}`},
+  {by: finding => finding.signature}, {by: finding => finding.kind},
+  {by: finding => finding.smallest * 100 + finding.contacts}, {by: finding => finding.drives ?? Infinity},
+  {by: finding => finding.steps ?? Infinity}, {by: finding => finding.met, down: true}, {
+    by: finding =>
+        `${finding.generator} ${String(finding.unit).padStart(12)} ${String(finding.index).padStart(12)}`
+  },
   {by: finding => finding.grid ?? ''}, {by: finding => finding.minimized_grid ?? ''},
   {by: finding => finding.nonzeros === undefined ? Infinity : finding.nonzeros * 1e6 + finding.bits}
 ];
@@ -31,7 +35,8 @@ function badges(finding) {
 }
 
 function sizeOf(finding) {
-  if (finding.nonzeros !== undefined) return `${counted(finding.nonzeros, 'nonzero')}, ${counted(finding.bits, 'bit')}`;
+  if (finding.nonzeros !== undefined)
+    return `${counted(finding.nonzeros, 'nonzero')}, ${counted(finding.bits, 'bit')}`;
   return element('span', {class: 'soft'}, finding.state === 'pending' ? 'pending' : '–');
 }
 
@@ -43,30 +48,43 @@ function row(finding) {
       'tr', {class: 'finding'},
       element('th', {scope: 'row', class: 'signature'}, element('code', {}, finding.signature)),
       cell(null, ...badges(finding)),
-      cell(null, finding.contacts === finding.smallest ? `${finding.contacts}` : `${finding.contacts} → ${finding.smallest}`),
+      cell(
+          null,
+          finding.contacts === finding.smallest ? `${finding.contacts}` :
+                                                  `${finding.contacts} → ${finding.smallest}`),
       cell('n', finding.drives === undefined ? '' : count(finding.drives)),
-      cell('n', finding.steps === undefined ? '' : count(finding.steps)),
-      cell('n', count(finding.met), words),
-      cell(null, `${finding.generator} ${finding.unit}/${finding.index}`, finding.policy === 'paper' ? null : small(finding.policy)),
+      cell('n', finding.steps === undefined ? '' : count(finding.steps)), cell('n', count(finding.met), words),
+      cell(
+          null, `${finding.generator} ${finding.unit}/${finding.index}`,
+          finding.policy === 'paper' ? null : small(finding.policy)),
       cell(null, finding.grid), cell(null, finding.minimized_grid), cell(null, sizeOf(finding)));
 }
 
 function numbers({names, A, b, mu}) {
-  const head = element('tr', {}, element('th', {scope: 'col'}, 'A'), ...[...names, 'b', 'mu'].map(name => element('th', {scope: 'col', class: 'n'}, name)));
+  const head = element(
+      'tr', {}, element('th', {scope: 'col'}, 'A'),
+      ...[...names, 'b', 'mu'].map(name => element('th', {scope: 'col', class: 'n'}, name)));
   const number = (text, style = '') => cell(`n ${style}${text === '0' && style === '' ? 'zero' : ''}`, text);
-  const body = A.map((line, i) => element('tr', {}, element('th', {scope: 'row'}, names[i]), ...line.map(text => number(text)), number(b[i], 'edge'), number(mu[i] ?? '', 'edge')));
-  return element('div', {class: 'scroll', role: 'region', tabindex: 0, 'aria-label': 'A, b and mu'},
-                 element('table', {}, element('thead', {}, head), element('tbody', {}, ...body)));
+  const body = A.map(
+      (line, i) => element(
+          'tr', {}, element('th', {scope: 'row'}, names[i]), ...line.map(text => number(text)),
+          number(b[i], 'edge'), number(mu[i] ?? '', 'edge')));
+  return element(
+      'div', {class: 'scroll', role: 'region', tabindex: 0, 'aria-label': 'A, b and mu'},
+      element('table', {}, element('thead', {}, head), element('tbody', {}, ...body)));
 }
 
 const fileTitles = ['problem', 'as found', 'certificate', 'a solution exists', 'likewise, as found'];
 
 function details(finding) {
-  const files = finding.files.flatMap((file, i) => file === '' ? [] : [i === 0 ? '' : ' · ', element('a', {href: file}, fileTitles[i])]);
+  const files = finding.files.flatMap(
+      (file, i) => file === '' ? [] : [i === 0 ? '' : ' · ', element('a', {href: file}, fileTitles[i])]);
   return element(
       'div', {class: 'details'}, element('p', {}, finding.story),
-      finding.numbers === null ? element('p', {class: 'note'}, 'Its numbers are too long for a page.') : numbers(finding.numbers),
-      element('pre', {}, element('code', {}, finding.commands)), element('p', {class: 'note'}, 'Files: ', ...files));
+      finding.numbers === null ? element('p', {class: 'note'}, 'Its numbers are too long for a page.') :
+                                 numbers(finding.numbers),
+      element('pre', {}, element('code', {}, finding.commands)),
+      element('p', {class: 'note'}, 'Files: ', ...files));
 }
 
 function more(finding) {
@@ -83,7 +101,8 @@ class Gallery {
     this.body = table.tBodies[0];
     this.rows = new Map();
     const written = [...this.body.rows];
-    for (let i = 0; i + 1 < written.length; i += 2) this.rows.set(findings[i / 2].signature, [written[i], written[i + 1]]);
+    for (let i = 0; i + 1 < written.length; i += 2)
+      this.rows.set(findings[i / 2].signature, [written[i], written[i + 1]]);
     this.sorted = null;
     this.down = false;
     this.first = 0;
@@ -95,13 +114,16 @@ class Gallery {
   makeControls() {
     const select = (name, label, values) => {
       if (values.length < 2) return [];
-      const node = element('select', {id: `gallery-${name}`}, element('option', {value: ''}, 'all'), ...values.map(value => element('option', {value}, value)));
+      const node = element(
+          'select', {id: `gallery-${name}`}, element('option', {value: ''}, 'all'),
+          ...values.map(value => element('option', {value}, value)));
       node.addEventListener('change', () => this.filter());
       this.choices.push([name, node]);
       return [element('label', {class: 'choice'}, `${label} `, node)];
     };
     this.choices = [];
-    this.search = element('input', {type: 'search', id: 'gallery-search', autocomplete: 'off', spellcheck: 'false'});
+    this.search =
+        element('input', {type: 'search', id: 'gallery-search', autocomplete: 'off', spellcheck: 'false'});
     this.search.addEventListener('input', () => this.filter());
     const changes = unique(this.findings.map(finding => finding.change ?? '')).filter(change => change !== '');
     const controls = element(
@@ -123,7 +145,8 @@ class Gallery {
     const order = element('button', {type: 'button', class: 'order'}, 'In order of interest');
     order.addEventListener('click', () => this.sortBy(null));
     this.order = order;
-    byId('gallery').append(controls, element('div', {class: 'pager'}, this.before, this.after, this.said, order));
+    byId('gallery').append(
+        controls, element('div', {class: 'pager'}, this.before, this.after, this.said, order));
   }
 
   makeHeads(table) {
@@ -141,17 +164,21 @@ class Gallery {
     this.down = i === null ? false : this.sorted === i ? !this.down : columns[i].down === true;
     this.sorted = i;
     this.heads.forEach((head, k) => {
-      if (k === i) head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending');
-      else head.removeAttribute('aria-sort');
+      if (k === i)
+        head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending');
+      else
+        head.removeAttribute('aria-sort');
     });
     this.filter();
   }
 
   filter() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const wanted = this.choices.filter(([, node]) => node.value !== '').map(([name, node]) => [name, node.value]);
+    const wanted =
+        this.choices.filter(([, node]) => node.value !== '').map(([name, node]) => [name, node.value]);
     const fits = finding => words.every(word => finding.text.includes(word)) &&
-        wanted.every(([name, value]) => value === 'changed' ? finding.change !== '' : String(finding[name]) === value);
+        wanted.every(
+            ([name, value]) => value === 'changed' ? finding.change !== '' : String(finding[name]) === value);
     this.shown = this.findings.filter(fits);
     if (this.sorted !== null) {
       const {by} = columns[this.sorted], sign = this.down ? -1 : 1;
@@ -190,11 +217,12 @@ class Gallery {
 }
 
 // What a search looks through.
-const textOf = finding => [finding.signature, finding.kind, finding.generator, finding.policy, finding.state, finding.change, finding.grid,
-                           finding.minimized_grid, finding.whole ? 'whole grid' : '']
-                              .filter(Boolean)
-                              .join(' ')
-                              .toLowerCase();
+const textOf =
+    finding => [finding.signature, finding.kind, finding.generator, finding.policy, finding.state,
+                finding.change, finding.grid, finding.minimized_grid, finding.whole ? 'whole grid' : '']
+                   .filter(Boolean)
+                   .join(' ')
+                   .toLowerCase();
 
 export function showGallery(findings) {
   const place = byId('gallery');

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a report: draws its figures, and makes its findings sortable. Without it all else stands there.
-import {drawFigures} from './figures.js';
 import {showGallery} from './gallery.js';
+import {lowerIndices} from './math.js';
+import {drawFigures} from './places.js';
 
 const data = JSON.parse(document.getElementById('data').textContent);
 
+lowerIndices();
 showGallery(data.findings);
 drawFigures(data.figures);
 
