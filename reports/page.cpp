@@ -170,13 +170,6 @@ void AddDefinition(Definitions& list, const std::string& definition) {
   }
 }
 
-// Problems of a unit; 1 where the definition is none.
-std::int64_t UnitProblems(const CampaignIdentity& identity) {
-  const Json json = Lenient(identity.definition);
-  const auto problems = json.is_object() ? json.find("unit_problems") : json.end();
-  return problems != json.end() && problems->is_number_integer() ? problems->get<std::int64_t>() : 1;
-}
-
 // ---- The document ----
 
 constexpr const char* kTitle = "stiction: does Baraff's contact force algorithm always end?";
@@ -302,7 +295,7 @@ Html TimeTable(const ProcessorTime& time) {
 Html AgainCommands(const ReportContent& content) {
   const std::string search =
       fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store",
-                  content.identity.seed, content.units * UnitProblems(content.identity));
+                  content.identity.seed, ProblemsOf(content.total));
   return Tag("pre")(Tag("code")(search + "\nstiction report again.store -o again"));
 }
 

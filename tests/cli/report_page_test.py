@@ -23,14 +23,20 @@ import cli
 from viewer_test import Packages
 
 POLICIES = ("paper", "ties=contacts")
-CAMPAIGN = ("--seed", 3, "--generator", "scenes", "conditioned", "--contacts", 2, 3, "--mu", "1/2", "1", "2", "--policy", *POLICIES,
-            "--audit-every", 500)
+CAMPAIGN = ("--seed", 3, "--generator", "integers", "scenes", "conditioned", "--contacts", 2, 3, "--mu", "1/2", "1",
+            "2", "--policy", *POLICIES, "--audit-every", 500)
+OUTCOMES = ("solved", "cycle", "stall", "ray", "singular", "limit", "undecided")
 MANY = 10000
 
 
 def tables(report):
     with open(report, newline="") as file:
         return list(csv.DictReader(file))
+
+
+def exact_outcomes(tally):
+    """How the runs that were repeated on suspicion end exactly, by outcome; rows of the record end where zeros do."""
+    return [sum(row[i] for row in tally["verdicts"] if i < len(row)) for i in range(len(OUTCOMES))]
 
 
 def add_findings(store, many):
@@ -40,14 +46,17 @@ def add_findings(store, many):
     row = db.execute(f"SELECT {', '.join(columns)} FROM findings WHERE kind = 'cycle' AND done = 1 LIMIT 1").fetchone()
     signatures = [f"{row[0]}@copy={number:05}" for number in range(many)]
     copies = [(signature, *row[1:], cli.seal("findings", (signature, *row[1:]))) for signature in signatures]
-    with db:
-        db.executemany(f"INSERT INTO findings ({', '.join(columns)}, seal) VALUES ({', '.join('?' * len(copies[0]))})", copies)
-    unit, record = db.execute("SELECT unit, record FROM units ORDER BY unit LIMIT 1").fetchone()
-    db.close()
-    record = json.loads(record)
+    keys = cli.SEALED["units"].split(", ")
+    unit = dict(zip(keys, db.execute(f"SELECT {', '.join(keys)} FROM units ORDER BY unit LIMIT 1").fetchone()))
+    record = json.loads(unit["record"])
     record["signatures"].update({signature: 1 + number % 97 for number, signature in enumerate(signatures)})
-    text = json.dumps(record, separators=(",", ":"), ensure_ascii=False)
-    cli.change(store, "UPDATE units SET record = ? WHERE unit = ?", (text, unit))
+    unit["record"] = json.dumps(record, separators=(",", ":"), ensure_ascii=False)
+    with db:
+        db.executemany(f"INSERT INTO findings ({', '.join(columns)}, seal) VALUES ({', '.join('?' * len(copies[0]))})",
+                       copies)
+        db.execute("UPDATE units SET record = ?, seal = ? WHERE unit = ?",
+                   (unit["record"], cli.seal("units", list(unit.values())), unit["unit"]))
+    db.close()
 
 
 @unittest.skipIf(cli.SHORT, "pages are the same in every build")
@@ -57,7 +66,7 @@ class Page(cli.TestCase):
         cls.pages = Path(tempfile.mkdtemp(prefix="stiction-report-"))
         cls.addClassCleanup(shutil.rmtree, cls.pages, ignore_errors=True)
         cls.store = cls.pages / "small.store"
-        for problems, report in ((20000, "earlier"), (80000, "small")):
+        for problems, report in ((40000, "earlier"), (100000, "small")):
             cls.must("search", *CAMPAIGN, "--problems", problems, "--store", cls.store, "--finishing", 100)
             cls.must("report", cls.store, "-o", cls.pages / report)
         cls.report = cls.pages / "small"
@@ -74,29 +83,37 @@ class Page(cli.TestCase):
 
     def test_what_is_drawn_is_what_the_store_holds(self):
         tallies, _ = cli.total(self.store)
-        outcomes = ["solved", "cycle", "stall", "ray", "singular", "limit", "undecided"]
         rates = {(row["by"], row["generator"], row["policy"], row["contacts"], row["value"], row["outcome"]): row
                  for row in tables(self.report / "figures/rates.csv")}
         seen = 0
         for (generator, contacts, policy, _method, _arithmetic), tally in tallies.items():
-            exact = [sum(row[i] for row in tally["verdicts"]) for i in range(len(outcomes))]
+            exact, n = exact_outcomes(tally), str(contacts)
             for outcome in ("cycle", "singular", "ray"):
-                row = rates["contacts", generator, policy, str(contacts), str(contacts), outcome]
-                self.assertEqual((int(row["count"]), int(row["runs"])),
-                                 (exact[outcomes.index(outcome)], tally["problems"]))
-                self.assertAlmostEqual(float(row["rate"]), 1e6 * int(row["count"]) / tally["problems"], delta=1e-5 * float(row["rate"]))
-                self.assertLessEqual(float(row["low"]), float(row["rate"]))
-                self.assertGreater(float(row["high"]), float(row["rate"]))
-                seen += int(row["count"])
-            steps = {int(row["steps"]): int(row["runs"]) for row in tables(self.report / "figures/steps.csv")
-                     if (row["policy"], row["contacts"]) == (policy, str(contacts))}
-            both = [other for key, other in tallies.items() if (key[1], key[2]) == (contacts, policy)]
-            self.assertEqual(steps, {i: n for i, n in enumerate(sum(t["steps"][i] for t in both) for i in range(64)) if n})
+                row = rates["contacts", generator, policy, n, n, outcome]
+                counts = exact[OUTCOMES.index(outcome)], tally["problems"]
+                self.assertEqual((int(row["count"]), int(row["runs"])), counts)
+                low, rate, high = (float(row[name]) for name in ("low", "rate", "high"))
+                self.assertAlmostEqual(rate, 1e6 * counts[0] / counts[1], delta=1e-5 * rate)
+                self.assertTrue(low <= rate < high, row)
+                seen += counts[0]
         self.assertGreater(seen, 10)
+
+    def test_steps_that_are_drawn_are_those_of_the_store(self):
+        tallies, _ = cli.total(self.store)
+        expected, found = {}, {}
+        for (_generator, contacts, policy, _method, _arithmetic), tally in tallies.items():
+            for steps, runs in enumerate(tally["steps"]):
+                if runs:
+                    key = policy, str(contacts), str(steps)
+                    expected[key] = expected.get(key, 0) + runs
+        for row in tables(self.report / "figures/steps.csv"):
+            found[row["policy"], row["contacts"], row["steps"]] = int(row["runs"])
+        self.assertEqual(found, expected)
+        self.assertGreater(len(found), 20)
 
     def test_the_first_sentence_counts_the_loops_of_the_store(self):
         tallies, _ = cli.total(self.store)
-        loops = sum(sum(row[1] + row[2] for row in tally["verdicts"]) for tally in tallies.values())
+        loops = sum(sum(exact_outcomes(tally)[1:3]) for tally in tallies.values())
         runs = sum(tally["problems"] for tally in tallies.values())
         self.assertIn(f"{loops:,} of {runs:,} runs repeat a state in exact arithmetic", self.page)
 
@@ -106,8 +123,9 @@ class Page(cli.TestCase):
         self.assertEqual(sorted(rows), sorted(finding["signature"] for finding in findings))
         for finding in findings:
             row = rows[finding["signature"]]
-            self.assertEqual((finding["kind"], finding["met"], finding["state"], finding["contacts"], finding["files"][0]),
-                             (row["kind"], int(row["count"]), row["state"], int(row["contacts"]), row["problem_file"]))
+            said = [finding[key] for key in ("kind", "met", "state", "contacts")]
+            self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
+            self.assertEqual(finding["files"][0], row["problem_file"])
 
     def test_commands_run_in_the_folder_of_the_report(self):
         featured = re.search(r'<div class="featured">.*?<pre><code>(.*?)</code></pre>', self.page, re.S)[1]
@@ -117,7 +135,8 @@ class Page(cli.TestCase):
         setup = setup.replace("/path/to/stiction/run", str(cli.program))
         folder = shutil.copytree(self.report, self.folder / "a report")
         for command in commands:
-            done = subprocess.run(["bash", "-c", f"{setup}\n{command}"], cwd=folder, capture_output=True, text=True, timeout=300)
+            done = subprocess.run(["bash", "-c", f"{setup}\n{command}"], cwd=folder, capture_output=True, text=True,
+                                  timeout=300)
             self.assertEqual((done.returncode, done.stderr), (0, ""), command)
         self.assertTrue((folder / "replay.html").is_file())
 
@@ -125,15 +144,18 @@ class Page(cli.TestCase):
         section = self.page[self.page.index('<section id="again">'):]
         commands = html.unescape(re.search(r"<pre><code>(.*?)</code></pre>", section, re.S)[1])
         folder = shutil.copytree(self.report, self.folder / "again")
-        script = f'set -e; stiction() {{ {cli.program} "$@"; }}\n' + commands.replace("--store", "--finishing 0 --store")
+        program = f'set -e; stiction() {{ {cli.program} "$@"; }}\n'
+        script = program + commands.replace("--store", "--finishing 0 --store")
         done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, timeout=900)
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("rates", "steps", "doubles", "trust", "pivoting", "loop-steps", "driving"):
-            self.assertEqual((folder / f"again/figures/{name}.csv").read_bytes(), (self.report / f"figures/{name}.csv").read_bytes(), name)
+            one, two = (path / f"figures/{name}.csv" for path in (self.report, folder / "again"))
+            self.assertEqual(one.read_text(), two.read_text(), name)
 
     def test_an_earlier_report_that_is_none_is_refused(self):
-        self.refuses("report", self.store, "-o", self.folder / "out", "--since", self.folder / "nowhere", says="nowhere")
-        self.refuses("report", self.store, "-o", self.folder / "out", "--since", self.file("x.csv", "a,b\r\n"),
+        report = "report", self.store, "-o", self.folder / "out", "--since"
+        self.refuses(*report, self.folder / "nowhere", says="nowhere")
+        self.refuses(*report, self.file("x.csv", "a,b\r\n"),
                      says="x.csv:1: found no column signature, expected findings.csv of a report")
         self.assertFalse((self.folder / "out").exists())
 
