@@ -251,7 +251,7 @@ Html FigurePlace(const std::string& name, const std::string& caption) {
   const std::string table = name.substr(0, name.find('.')), file = "figures/" + table + ".csv";
   const Html source =
       Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) +
-      Html(", made by <code>stiction report STORE -o DIR</code>; <a href=\"#again\">the store</a>");
+      Html(", made by <code>stiction report STORE -o DIR</code> of <a href=\"#again\">this store</a>");
   return Tag("figure", {{"class", "plot"}, {"data-figure", name}})(
              Html("\n") + Tag("figcaption")(caption) + Html("\n<div class=\"drawing\"></div>\n") +
              Tag("p", {{"class", "source"}})(source) + Html("\n")) +

@@ -23,6 +23,10 @@ const titleOf = by => row => `${row.generator}, ${p.contactsOf(row.contacts)}, $
                                  p.rate(row.high)}] ` +
     'in a million';
 
+// As many of the values as there is room for.
+const fitting = (values, width) =>
+    values.filter((_, i) => i % Math.ceil(values.length * 24 / (width - 60)) === 0);
+
 // Marks of the rows of one number of contacts. Where none was seen the rate is below the tip of a triangle.
 function marks(rows, by, floor, shift) {
   const i = by === 'contacts' ? 0 : rows[0].contacts - 1, stroke = p.colours[i % p.colours.length];
@@ -61,7 +65,8 @@ function ratePlot(rows, by, outcome, {width, domain, values, contacts}) {
         x: {type: 'point', domain: values, label: names[by], padding: 0.6},
         y: {type: 'log', domain, label: null, clamp: true},
         marks: [
-          p.lines('y', 30), p.yAxis({tickSpacing: 30, tickFormat: p.shortNumber}), p.xAxis(),
+          p.lines('y', 30), p.yAxis({tickSpacing: 30, tickFormat: p.shortNumber}),
+          p.xAxis({ticks: fitting(values, width)}),
           ...groups.flatMap(group => marks(group, by, domain[0], shift(group)))
         ]
       },
