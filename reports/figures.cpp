@@ -127,19 +127,22 @@ FigureTable DoublesFigure(const Record& total) {
   return figure;
 }
 
+// Appends `row` with a count, of how many, and its share; nothing where there were none.
+void AddShareRow(FigureTable& figure, Json row, std::int64_t count, std::int64_t of) {
+  if (of == 0) return;
+  row.push_back(count);
+  row.push_back(of);
+  AddShare(row, count, of);
+  figure.rows.push_back(std::move(row));
+}
+
 FigureTable TrustFigure(const Record& total) {
   std::map<std::string, Tally> by_generator;
   for (const auto& [key, tally] : total.tallies) by_generator[key.generator].Merge(tally);
   FigureTable figure{"trust", {"generator", "what", "count", "of", "share", "low", "high"}};
   for (const auto& [generator, tally] : by_generator) {
-    const auto add = [&](const char* what, std::int64_t count, std::int64_t of) {
-      if (of == 0) return;
-      Json row = {generator, what, count, of};
-      AddShare(row, count, of);
-      figure.rows.push_back(std::move(row));
-    };
-    add("audited runs, misjudged", tally.misjudged, tally.audited);
-    add("runs with a wrong answer", tally.wrong, tally.problems);
+    AddShareRow(figure, {generator, "audited runs, misjudged"}, tally.misjudged, tally.audited);
+    AddShareRow(figure, {generator, "runs with a wrong answer"}, tally.wrong, tally.problems);
   }
   return figure;
 }
@@ -170,21 +173,16 @@ FigureTable LoopStepsFigure(const Record& total) {
 }
 
 FigureTable PivotingFigure(const Record& total) {
-  FigureTable figure{"pivoting",
-                     {"generator", "policy", "contacts", "what", "count", "of", "share", "low", "high"}};
   std::map<std::tuple<std::string, std::string, int>, Tally> merged;
   for (const auto& [key, tally] : total.tallies) merged[{key.generator, key.policy, key.contacts}].Merge(tally);
+  FigureTable figure{"pivoting",
+                     {"generator", "policy", "contacts", "what", "count", "of", "share", "low", "high"}};
   for (const auto& [key, tally] : merged) {
     const auto& [generator, policy, contacts] = key;
-    const auto add = [&, &generator = generator, &policy = policy, contacts = contacts](
-                         const char* what, std::int64_t count, std::int64_t of) {
-      if (of == 0) return;
-      Json row = {generator, policy, contacts, what, count, of};
-      AddShare(row, count, of);
-      figure.rows.push_back(std::move(row));
-    };
-    add("a step of length zero", tally.with_zero_steps, tally.problems);
-    add("a variable given up", tally.with_give_ups, tally.problems);
+    AddShareRow(figure, {generator, policy, contacts, "a step of length zero"}, tally.with_zero_steps,
+                tally.problems);
+    AddShareRow(figure, {generator, policy, contacts, "a variable given up"}, tally.with_give_ups,
+                tally.problems);
   }
   return figure;
 }
@@ -192,15 +190,9 @@ FigureTable PivotingFigure(const Record& total) {
 FigureTable DrivingFigure(const Record& total) {
   FigureTable figure{"driving", {"contacts", "what", "count", "of", "share", "low", "high"}};
   for (const auto& [contacts, tally] : total.existence) {
-    const auto add = [&, contacts = contacts, of = tally.problems](const char* what, std::int64_t count) {
-      if (of == 0) return;
-      Json row = {contacts, what, count, of};
-      AddShare(row, count, of);
-      figure.rows.push_back(std::move(row));
-    };
-    add("folds", tally.with_folds);
-    add("descents", tally.with_descents);
-    add("ties", tally.with_ties);
+    AddShareRow(figure, {contacts, "folds"}, tally.with_folds, tally.problems);
+    AddShareRow(figure, {contacts, "descents"}, tally.with_descents, tally.problems);
+    AddShareRow(figure, {contacts, "ties"}, tally.with_ties, tally.problems);
   }
   return figure;
 }
