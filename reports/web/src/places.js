@@ -29,8 +29,10 @@ class Place {
     this.drawing.before(element('label', {class: 'choice'}, `${name} `, select));
   }
 
+  // Not while there is no room at all, as in a window that is being made smaller.
   draw() {
     this.width = this.drawing.clientWidth;
+    if (this.width < 160) return;
     const parts = this.figure.draw(this.rows, this.width, this.chosen);
     const none = element('p', {class: 'note'}, 'Nothing to draw: none was seen.');
     this.drawing.replaceChildren(...parts.length > 0 ? parts : [none]);
