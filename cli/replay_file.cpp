@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/rounded_scene.h"
 #include "reports/problem_picture.h"
+#include "reports/rounded_scene.h"
 
 namespace stiction {
 namespace {

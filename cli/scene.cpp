@@ -13,13 +13,13 @@
 #include <iostream>
 #include <set>
 
-#include "cli/rounded_scene.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/output_error.h"
 #include "corpus/scene_file.h"
 #include "reports/draw.h"
+#include "reports/rounded_scene.h"
 #include "scene/simulate.h"
 
 namespace stiction {

@@ -387,12 +387,13 @@ int RunMerge(const MergeVerb& o) {
 struct ReportVerb {
   std::string store, folder;
   std::vector<std::string> benches;
+  std::string since;
   bool replace = false;
 };
 
 int RunReport(const ReportVerb& o) {
-  TellAside(
-      WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace), {o.benches.begin(), o.benches.end()}));
+  TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
+                        {o.benches.begin(), o.benches.end()}, o.since));
   fmt::print("{}/index.html\n", o.folder);
   return kExitDone;
 }
@@ -520,6 +521,7 @@ void AddReport(CommandLine& program) {
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced").Required();
   verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
+  verb.Option("--since", o.since, "folder of an earlier report: the page says what is new since");
   AddReplace(verb, o.replace);
 }
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/csv.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "corpus/input_error.h"
+
 namespace stiction {
 namespace {
 
@@ -122,6 +128,36 @@ Csv& Csv::Add(std::int64_t value) { return Add(std::string_view(std::to_string(v
 void Csv::EndRow() {
   text_ += "\r\n";
   row_started_ = false;
+}
+
+std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::string& source) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> row(1);
+  bool quoted = false;
+  const auto end_row = [&] {
+    if (!rows.empty() && row.size() != rows.front().size())
+      throw InputError(fmt::format("{}: row {}: found {} cells, expected {}", source, rows.size() + 1,
+                                   row.size(), rows.front().size()));
+    rows.push_back(std::exchange(row, std::vector<std::string>(1)));
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      row.back() += text[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      row.emplace_back();
+    } else if (!quoted && c == '\n') {
+      end_row();
+    } else if (quoted || c != '\r') {
+      row.back() += c;
+    }
+  }
+  if (quoted)
+    throw InputError(fmt::format("{}: row {}: found a quotation that does not end", source, rows.size() + 1));
+  if (row.size() > 1 || !row.back().empty()) end_row();
+  return rows;
 }
 
 std::string StatisticsCsv(const Record& record) {

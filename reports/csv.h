@@ -26,6 +26,10 @@ class Csv {
   bool row_started_ = false;
 };
 
+// The rows of a CSV text, the line of names first. InputError that names the row of an open quotation, and of a
+// number of cells other than that of the names.
+std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::string& source);
+
 // One row per tally: problems, outcomes, audits, sums and maxima of every counter.
 std::string StatisticsCsv(const Record& record);
 // One row per tally, double outcome and exact outcome that occurred, of the runs repeated exactly on suspicion.

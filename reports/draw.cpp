@@ -130,6 +130,17 @@ Html Marks(const SceneIn<Kind, double>& scene, const Screen& screen, const Marks
   return html;
 }
 
+// Each where it is.
+template <class Kind>
+Html Bodies(const SceneIn<Kind, double>& scene, const Screen& screen) {
+  const std::vector<Html> pictures = BodyPictures(scene, screen);
+  const std::vector<std::string> transforms = Transforms(scene, screen);
+  Html bodies;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    bodies += Tag("g", {{"transform", transforms[i]}})(pictures[i]) + Html("\n");
+  return bodies;
+}
+
 Html Svg(const Screen& screen, const Html& content) {
   const std::string width = Fixed(screen.width, 0), height = Fixed(screen.height, 0);
   const Html head(
@@ -208,12 +219,19 @@ template <class Kind>
 std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
                     double newton) {
   const Screen screen(view);
-  const std::vector<Html> pictures = BodyPictures(scene, screen);
-  const std::vector<std::string> transforms = Transforms(scene, screen);
-  Html bodies;
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    bodies += Tag("g", {{"transform", transforms[i]}})(pictures[i]) + Html("\n");
-  return Svg(screen, bodies + Marks(scene, screen, marks, newton)).markup();
+  return Svg(screen, Bodies(scene, screen) + Marks(scene, screen, marks, newton)).markup();
+}
+
+template <class Kind>
+Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
+                const std::string& label) {
+  const Screen screen(view);
+  MarksIn<Kind> contacts;
+  contacts.contacts = marks.contacts;
+  return Tag("svg", {{"viewBox", fmt::format("0 0 {} {}", Fixed(screen.width, 0), Fixed(screen.height, 0))},
+                     {"role", "img"},
+                     {"aria-label", label}})(Bodies(scene, screen) + Marks(scene, screen, contacts, 1)) +
+         Html("\n");
 }
 
 template <class Kind>
@@ -243,6 +261,8 @@ std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
   template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);               \
   template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                  \
   template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double); \
+  template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&,              \
+                           const std::string&);                                                          \
   template std::string DrawAnimation(const SceneIn<Kind, double>&, const View&,                          \
                                      const std::vector<FrameIn<Kind>>&, double, double)
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/html.h"
 #include "scene/plane.h"
 #include "scene/scene.h"
 
@@ -75,6 +76,10 @@ double ForceScale(const View& view, std::vector<double> largest);
 template <class Kind>
 std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
                     double newton);
+// The same in a page with others: with contacts alone, and no id. `label` says what is seen.
+template <class Kind>
+Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
+                const std::string& label);
 // `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
 template <class Kind>
 std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,

@@ -134,6 +134,9 @@ Html ExistenceSection(const Record& total) {
       Html("<p>Every problem here has a symmetric positive semidefinite A and b in its range, so it has a "
            "solution. Complete driving looks for it wherever the published algorithm does not solve, and on "
            "problems that are audited or drawn; the solution is verified exactly:</p>\n") +
+          FigurePlace("driving",
+                      "Share of the paths of complete driving with folds, with descents, and with ties, by "
+                      "number of contacts; lines: exact intervals at 95 %.") +
           ExistenceTable(total) + Html("<h3>Do the methods agree?</h3>\n") + Tag("p")(verdict) + Html("\n") +
           AgreementTable(total) +
           Html("<h3>How many solutions</h3>\n<p>Regular problems by the number of their solutions (in rows: "

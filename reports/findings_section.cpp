@@ -8,6 +8,8 @@
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
+#include "reports/finding_picture.h"
+#include "reports/findings_data.h"
 #include "reports/page.h"
 
 namespace stiction {
@@ -15,9 +17,8 @@ namespace {
 
 // ---- The problem in numbers ----
 
-constexpr std::size_t kLongestProblem = 6000;  // of its JSON text; longer ones nobody reads off a page
+}  // namespace
 
-// "N1", "F1", "N2", ...; in space a contact has two friction rows, "F1x" and "F1y".
 std::vector<std::string> RowNames(const ExactProblem& problem) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
@@ -32,11 +33,14 @@ std::vector<std::string> RowNames(const ExactProblem& problem) {
   return names;
 }
 
+namespace {
+
 std::string MuText(const Contact<Rational>& contact) {
   return contact.HasFrictionRows() ? ToString(contact.mu) : "–";
 }
 
-// What stands in the column of mu: the coefficient beside the normal of its contact.
+}  // namespace
+
 std::vector<std::string> MuColumn(const ExactProblem& problem) {
   std::vector<std::string> column;
   for (const Contact<Rational>& contact : problem.contacts) {
@@ -46,6 +50,8 @@ std::vector<std::string> MuColumn(const ExactProblem& problem) {
   }
   return column;
 }
+
+namespace {
 
 HtmlCell Number(const Rational& x, const std::string& style = "") {
   return {Text(ToString(x)), x == 0 && style.empty() ? "zero" : style};
@@ -68,13 +74,10 @@ Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
   return table.Done();
 }
 
-struct Size {
-  int nonzeros = 0;       // of A and b
-  std::int64_t bits = 0;  // of the longest numerator or denominator
-};
+}  // namespace
 
-Size SizeOf(const ExactProblem& problem) {
-  Size size;
+ProblemSize SizeOf(const ExactProblem& problem) {
+  ProblemSize size;
   const auto count = [&size](const Rational& x) {
     size.nonzeros += x != 0;
     size.bits = std::max(size.bits, Bits(x));
@@ -85,10 +88,11 @@ Size SizeOf(const ExactProblem& problem) {
   return size;
 }
 
-// The minimized problem; as found while there is none.
 const std::string& SimplestText(const Finding& finding) {
   return finding.minimized.empty() ? finding.problem : finding.minimized;
 }
+
+namespace {
 
 Html ProblemOf(const Finding& finding) {
   const std::string& text = SimplestText(finding);
@@ -99,6 +103,8 @@ Html ProblemOf(const Finding& finding) {
 
 // ---- Words ----
 
+}  // namespace
+
 std::string GridText(const GridOutcomes& grid) {
   std::string text;
   for (int i = 0; i < kOutcomeCount; ++i) {
@@ -107,6 +113,8 @@ std::string GridText(const GridOutcomes& grid) {
   }
   return text;
 }
+
+namespace {
 
 // "The state after 3 drives stands again 4 drives later (17 steps in all)."
 std::string RunText(const RunFacts& run, const Finding& finding) {
@@ -131,14 +139,19 @@ std::string ShellWord(const std::string& word) {
   return quoted + "'";
 }
 
-Html Commands(const Discovery& discovery) {
+}  // namespace
+
+std::string CommandsOf(const Discovery& discovery) {
   const std::string& policy = discovery.representative->policy;
-  std::string text = fmt::format("./run replay {} --step", discovery.files.problem);
+  std::string text = fmt::format("stiction replay {}", ShellWord(discovery.files.problem));
   if (policy != "paper") text += " --policy " + ShellWord(policy);
+  text = fmt::format("{0} --step\n{0} --html replay.html", text);
   if (!discovery.files.certificate.empty())
-    text += fmt::format("\n./run check {}", discovery.files.certificate);
-  return Tag("pre")(Tag("code")(text));
+    text += fmt::format("\nstiction check {}", ShellWord(discovery.files.certificate));
+  return text;
 }
+
+namespace {
 
 Html FileLinks(const FindingFiles& files) {
   const auto link = [](const std::string& file, std::string_view title) {
@@ -156,16 +169,18 @@ std::string SafeText(const RunFacts& run) {
   return run.safe == true ? " All reduced determinants are positive." : "";
 }
 
-Html Story(const Discovery& discovery) {
+}  // namespace
+
+std::string StoryOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
-  if (!discovery.Finished()) return Html("<p>Neither certified nor minimized yet; the problem as found:</p>\n");
-  if (discovery.minimized) {
-    return Tag("p")(RunText(*discovery.minimized, finding) + SafeText(*discovery.minimized)) + Html("\n");
-  }
+  if (!discovery.Finished()) return "Neither certified nor minimized yet; the problem as found:";
+  if (discovery.minimized) return RunText(*discovery.minimized, finding) + SafeText(*discovery.minimized);
   std::string text = fmt::format("In doubles: {}.", finding.inexact_outcome);
   if (discovery.found) text += " " + RunText(*discovery.found, finding);
-  return Tag("p")(text + " Not minimized; the problem as found:") + Html("\n");
+  return text + " Not minimized; the problem as found:";
 }
+
+namespace {
 
 // ---- The table ----
 
@@ -187,11 +202,13 @@ Table EmptyTable() {
        {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
 }
 
-Html KindBadge(const Discovery& discovery) {
+Html KindBadge(const Discovery& discovery, const std::optional<Since>& since) {
   const bool stands_out = discovery.IsLoop() || IsGrave(discovery.kind);
   const Tag badge("span", {{"class", stands_out ? "badge loop" : "badge"}});
   Html html = badge(discovery.kind);
   if (discovery.WholeGrid()) html += Html(" <span class=\"badge whole\">whole grid</span>");
+  const std::string_view change = since ? since->ChangeOf(discovery) : "";
+  if (!change.empty()) html += Html(" ") + Tag("span", {{"class", "badge change"}})(change);
   return html;
 }
 
@@ -217,16 +234,16 @@ Html RepresentativeText(const Finding& finding) {
 Html SizeText(const Discovery& discovery) {
   if (!discovery.minimized) return Tag("span", {{"class", "soft"}})(discovery.Finished() ? "–" : "pending");
   const Finding& finding = *discovery.representative;
-  const Size size = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
+  const ProblemSize size = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
   return Text(fmt::format("{}, {}", Counted(size.nonzeros, "nonzero"), Counted(size.bits, "bit")));
 }
 
-void AddFinding(Table& table, const Discovery& discovery) {
+void AddFinding(Table& table, const Discovery& discovery, const std::optional<Since>& since) {
   const auto period = [&](std::int64_t LoopLength::*part) {
     return discovery.loop ? Text(Grouped((*discovery.loop).*part)) : Html();
   };
   table.AddRow({{Tag("code")(discovery.signature), "signature"},
-                {KindBadge(discovery)},
+                {KindBadge(discovery, since)},
                 {ContactsText(discovery)},
                 {period(&LoopLength::drives)},
                 {period(&LoopLength::steps)},
@@ -240,16 +257,21 @@ void AddFinding(Table& table, const Discovery& discovery) {
                 "more");
 }
 
-Html HowMany(std::size_t shown, const std::vector<Discovery>& discoveries) {
+Html HowMany(std::size_t represented, const std::vector<Discovery>& discoveries) {
   const auto all = static_cast<std::int64_t>(discoveries.size());
-  const auto here = static_cast<std::int64_t>(shown);
+  const auto here = static_cast<std::int64_t>(represented);
   std::string text =
       "One row per signature: cycles of safe problems and disagreements of methods first, then fewest "
-      "contacts, then those that every policy "
-      "of the grid shows, then loops before others, then the most frequent. ";
-  if (here == all) return Tag("p")(text + fmt::format("All {} are shown.", Grouped(all)));
-  text += fmt::format("{} of {} are shown; all are in ", Grouped(here), Counted(all, "signature"));
-  return Tag("p")(Text(text) + Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
+      "contacts, then "
+      "those that every policy of the grid shows, then loops before others, then the most frequent. ";
+  text += here == all
+              ? "All " + Counted(all, "signature") + (all == 1 ? " is" : " are")
+              : fmt::format("{} of {} have a representative and are", Grouped(here), Counted(all, "signature"));
+  text += represented > kFindingsShown
+              ? fmt::format(" here, without a script the first {}; all are in ", kFindingsShown)
+              : " here; all are in ";
+  return Tag("p", {{"class", "how-many"}})(Text(text) +
+                                           Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
 }
 
 Html IpoptText(const std::vector<Discovery>& discoveries) {
@@ -285,24 +307,31 @@ Html IpoptText(const std::vector<Discovery>& discoveries) {
 
 Html FindingDetails(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
-  return Tag("div", {{"class", "details"}})(Html("\n") + Story(discovery) + ProblemOf(finding) +
-                                            Commands(discovery) + FileLinks(discovery.files)) +
+  return Tag("div", {{"class", "details"}})(Html("\n") + Tag("p")(StoryOf(discovery)) + Html("\n") +
+                                            ProblemOf(finding) + PictureOfFinding(finding) +
+                                            Tag("pre")(Tag("code")(CommandsOf(discovery))) +
+                                            FileLinks(discovery.files)) +
          Html("\n");
 }
 
-Html FindingsSection(const std::vector<Discovery>& discoveries) {
+Html FindingsSection(const std::vector<Discovery>& discoveries, const std::optional<Since>& since) {
   if (discoveries.empty()) return Section("findings", "Findings", Html("<p>None.</p>\n"));
   std::vector<const Discovery*> shown = ByInterest(discoveries);
-  if (shown.size() > kFindingsShown) shown.resize(kFindingsShown);
+  const std::size_t represented = shown.size();
+  if (represented > kFindingsShown) shown.resize(kFindingsShown);
   Table table = EmptyTable();
-  for (const Discovery* discovery : shown) AddFinding(table, *discovery);
+  table.StayOpen();
+  for (const Discovery* discovery : shown) AddFinding(table, *discovery, since);
   return Section(
       "findings", "Findings",
-      HowMany(shown.size(), discoveries) +
-          Html("<p class=\"note\">Paths are relative to the directory of this page; <code>run</code> stands "
-               "in stiction’s own directory. <code>replay</code> shows every pivot in exact numbers; "
-               "<code>certify/check_certificate.py</code> is an independent check of a certificate.</p>\n") +
-          IpoptText(discoveries) + table.Done());
+      HowMany(represented, discoveries) + IpoptText(discoveries) +
+          Html("<p>Commands stand in the folder of this page, where <code>stiction</code> is the program, or "
+               "<code>run</code> of its sources:</p>\n<pre class=\"setup\"><code>stiction() { "
+               "/path/to/stiction/run \"$@\"; }</code></pre>\n<p class=\"note\"><code>replay</code> shows "
+               "every pivot in exact numbers, as text or as a page to step through; <code>check</code> "
+               "verifies a certificate, and so does <code>certify/check_certificate.py</code> of the sources, "
+               "which shares nothing with it.</p>\n<div id=\"gallery\"></div>\n") +
+          table.Done());
 }
 
 }  // namespace stiction

@@ -143,7 +143,19 @@ Html FrequenciesSection(const Record& total) {
       "with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).");
   return Section(
       "frequencies", "How often it fails exactly",
-      Tag("p")(explained + RateBounds(total)) + FrequencyTable(total) +
+      Tag("p")(explained + RateBounds(total)) +
+          FigurePlace("rates.contacts",
+                      "Failures confirmed exactly in a million runs, by generator and number of "
+                      "contacts, on a logarithmic scale; lines: exact intervals at 95 %. An open "
+                      "triangle: none was seen, and the rate is below its tip.") +
+          FigurePlace("rates.friction",
+                      "Failures confirmed exactly in a million runs, by generator and friction coefficient of "
+                      "all contacts (mixed: they differ); colours: numbers of contacts. Only where some "
+                      "were seen.") +
+          FigurePlace("rates.rank",
+                      "Failures confirmed exactly in a million runs, by generator and the rank that A has at "
+                      "most; colours: numbers of contacts. Only where some were seen.") +
+          FrequencyTable(total) +
           Html("<h3>By friction</h3>\n<p>Cycles confirmed exactly, where all contacts have the same "
                "coefficient, or different ones (mixed); below, in a million runs:</p>\n") +
           StrataTable<ByFriction>(total, "Cycles by friction coefficient",

@@ -114,6 +114,7 @@ Table::Table(std::string caption, std::vector<Column> columns)
 void Table::AddRow(const std::vector<HtmlCell>& cells, int headers, const std::string& style) {
   STICTION_CHECK(cells.size() == columns_.size(),
                  fmt::format("table {}: {} cells for {} columns", caption_, cells.size(), columns_.size()));
+  ++count_;
   Html row;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const bool header = static_cast<int>(i) < headers;
@@ -143,7 +144,9 @@ Html Table::Done() const {
   const Html table = Tag("table")(caption + Head() + Html("\n") + Tag("tbody")(Html("\n") + rows_));
   const Tag frame("div",
                   {{"class", "scroll"}, {"role", "region"}, {"aria-label", caption_}, {"tabindex", "0"}});
-  return frame(table) + Html("\n");
+  if (count_ <= kLong || !folds_) return frame(table) + Html("\n");
+  const Html title = Tag("summary")(fmt::format("{}: a table of {}", caption_, Counted(count_, "row")));
+  return Tag("details", {{"class", "folded"}})(title + Html("\n") + frame(table)) + Html("\n");
 }
 
 std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, decimals); }

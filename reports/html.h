@@ -83,17 +83,23 @@ class Table {
 
   // The first `headers` cells are headers of the row. As many cells as columns (InternalError otherwise).
   void AddRow(const std::vector<HtmlCell>& cells, int headers = 1, const std::string& style = "");
+  // Shows all rows at once, however many.
+  void StayOpen() { folds_ = false; }
   // One cell across all columns.
   void AddWide(const Html& content, const std::string& style);
-  // The table in a frame that scrolls sideways where the page is narrow.
+  // The table in a frame that scrolls sideways where the page is narrow; a long one opens on demand.
   Html Done() const;
 
  private:
   Html Head() const;
 
+  static constexpr int kLong = 30;  // rows
+
   std::string caption_;
   std::vector<Column> columns_;
   Html rows_;
+  int count_ = 0;  // of rows
+  bool folds_ = true;
 };
 
 // ---- Numbers for pictures ----

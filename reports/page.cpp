@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
-#include "reports/style.h"
+#include "reports/report_template.h"
+#include "reports/template.h"
 
 namespace stiction {
 namespace {
@@ -81,24 +83,6 @@ Html KindNote() {
       "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
       "represented when another unit meets them. Whole grid: a loop under every policy, that is, under "
       "every reading of the published text.</p>\n");
-}
-
-// Every policy runs the same problems.
-std::int64_t ProblemsOf(const Record& total) {
-  std::map<std::pair<std::string, int>, std::int64_t> problems;
-  for (const auto& [key, tally] : total.tallies) {
-    std::int64_t& most = problems[{key.generator, key.contacts}];
-    most = std::max(most, tally.problems);
-  }
-  std::int64_t sum = 0;
-  for (const auto& [key, count] : problems) sum += count;
-  return sum;
-}
-
-std::int64_t RunsOf(const Record& total) {
-  std::int64_t runs = 0;
-  for (const auto& [key, tally] : total.tallies) runs += tally.problems;
-  return runs;
 }
 
 Html Tile(std::int64_t value, const std::string& meaning, const char* style = "") {
@@ -190,45 +174,23 @@ void AddDefinition(Definitions& list, const std::string& definition) {
 
 constexpr const char* kTitle = "stiction: does Baraff's contact force algorithm always end?";
 
-Html Head() {
-  // The sheet is ours, and nothing else is loaded.
-  const Tag policy("meta", {{"http-equiv", "Content-Security-Policy"},
-                            {"content", "default-src 'none'; style-src 'unsafe-inline'"}});
-  return Html("<head>\n<meta charset=\"utf-8\">\n") +
-         Html("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n") + policy.Void() +
-         Html("\n") + Tag("title")(kTitle) + Html("\n") + Tag("style")(Html(kStyle)) + Html("\n</head>\n");
-}
-
-Html Introduction() {
-  return Tag("h1")("Does Baraff’s contact force algorithm always end?") +
-         Tag("p")(
-             "A search of random friction problems for inputs on which the pivoting algorithm of D. "
-             "Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies (SIGGRAPH 1994), run "
-             "as published, repeats a state and so never ends. Every finding was run again in exact "
-             "rational arithmetic, in space over intervals, which prove what they decide; a finished loop "
-             "comes with "
-             "a problem made as small as it gets and, in the plane, with a certificate that an independent "
-             "checker "
-             "verifies.") +
-         Html("\n");
-}
-
-Html Navigation() {
-  Html links;
-  for (const auto& [id, title] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"#found", "Found"},
-                                                                  {"#campaign", "Campaign"},
-                                                                  {"#outcomes", "Outcomes"},
-                                                                  {"#frequencies", "How often it fails"},
-                                                                  {"#doubles", "How often doubles lie"},
-                                                                  {"#pivots", "Pivots"},
-                                                                  {"#steps", "Steps"},
-                                                                  {"#existence", "Existence and agreement"},
-                                                                  {"#findings", "Findings"},
-                                                                  {"#files", "Files"}}) {
-    links += Tag("a", {{"href", id}})(title) + Html("\n");
+Html Navigation(const ReportContent& content) {
+  std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"},
+                                                               {"#method", "Method and definitions"}};
+  if (content.units > 0) {
+    sections.insert(sections.end(), {{"#frequencies", "How often it fails"},
+                                     {"#outcomes", "Outcomes"},
+                                     {"#doubles", "How often doubles lie"},
+                                     {"#steps", "Steps"},
+                                     {"#methods", "Methods side by side"},
+                                     {"#existence", "Existence and agreement"},
+                                     {"#findings", "Findings"}});
   }
-  return Tag("nav", {{"aria-label", "Sections"}})(links) + Html("\n");
+  if (!content.rungs.empty()) sections.emplace_back("#rungs", "Speed against accuracy");
+  sections.insert(sections.end(), {{"#again", "Reproducing it"}, {"#files", "Files"}});
+  Html links;
+  for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
+  return links;
 }
 
 Html FilesSection() {
@@ -243,8 +205,12 @@ Html FilesSection() {
            {"agreement.csv", "existence, agreement of methods and safe problems per number of contacts"},
            {"solutions.csv", "histograms of solutions per number of contacts"},
            {"findings.csv", "every signature, with its counts, facts and files"},
+           {"figures/", "the numbers that each figure draws"},
+           {"campaign.json", "what was searched, as stiction search reads it"},
            {"SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check"}}) {
-    list += Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
+    const Html name = Tag("code")(file);
+    const Html linked = std::string_view(file).ends_with("/") ? name : Tag("a", {{"href", file}})(name);
+    list += Tag("li")(linked + Html(": ") + Text(meaning)) + Html("\n");
   }
   list +=
       Tag("li")(Html(
@@ -256,16 +222,40 @@ Html FilesSection() {
   return Section("files", "Files beside this page", Tag("ul")(list));
 }
 
-Html Sections(const ReportContent& content) {
-  Html sections = FoundSection(content) + CampaignSection(content);
+// All but what was found.
+Html Results(const ReportContent& content) {
   const Html rungs = content.rungs.empty() ? Html() : RungsSection(content.rungs);
-  if (content.units == 0) return sections + rungs + FilesSection();
-  return sections + OutcomesSection(content.total) + FrequenciesSection(content.total) +
-         DoublesSection(content.total) + PivotsSection(content.total) + StepsSection(content.total) +
-         ExistenceSection(content.total) + FindingsSection(content.discoveries) + rungs + FilesSection();
+  const Html end = rungs + AgainSection(content) + FilesSection();
+  if (content.units == 0) return end;
+  return FrequenciesSection(content.total) + OutcomesSection(content.total) + DoublesSection(content.total) +
+         StepsSection(content.total) + MethodsSection(content) + ExistenceSection(content.total) +
+         FindingsSection(content.discoveries, content.since) + end;
+}
+
+Json PageData(const ReportContent& content, const std::vector<FigureTable>& figures) {
+  return {{"figures", FiguresToJson(figures)},
+          {"findings", FindingsToJson(content.discoveries, content.since)}};
 }
 
 }  // namespace
+
+// Every policy runs the same problems.
+std::int64_t ProblemsOf(const Record& total) {
+  std::map<std::pair<std::string, int>, std::int64_t> problems;
+  for (const auto& [key, tally] : total.tallies) {
+    std::int64_t& most = problems[{key.generator, key.contacts}];
+    most = std::max(most, tally.problems);
+  }
+  std::int64_t sum = 0;
+  for (const auto& [key, count] : problems) sum += count;
+  return sum;
+}
+
+std::int64_t RunsOf(const Record& total) {
+  std::int64_t runs = 0;
+  for (const auto& [key, tally] : total.tallies) runs += tally.problems;
+  return runs;
+}
 
 Html Section(const std::string& id, const std::string& title, const Html& content) {
   return Tag("section", {{"id", id}})(Html("\n") + Tag("h2")(title) + Html("\n") + content) + Html("\n");
@@ -276,7 +266,8 @@ Html FoundSection(const ReportContent& content) {
     return Section("found", "What was found",
                    Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
   }
-  Html found = Tiles(content);
+  Html found = FoundSentences(content) + Tiles(content);
+  if (content.since) found += SinceText(*content.since, content.discoveries);
   if (content.discoveries.empty()) {
     found +=
         Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
@@ -300,7 +291,15 @@ Html TimeTable(const ProcessorTime& time) {
   return table.Done();
 }
 
-Html CampaignSection(const ReportContent& content) {
+// From the folder of the report.
+Html AgainCommands(const ReportContent& content) {
+  const std::string search =
+      fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store",
+                  content.identity.seed, ProblemsOf(content.total));
+  return Tag("pre")(Tag("code")(search + "\nstiction report again.store -o again"));
+}
+
+Html AgainSection(const ReportContent& content) {
   Definitions list;
   list.Add("seed", std::to_string(content.identity.seed));
   AddDefinition(list, content.identity.definition);
@@ -311,19 +310,30 @@ Html CampaignSection(const ReportContent& content) {
   list.Add("units", Grouped(content.units));
   list.Add("complete blocks",
            fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
-  return Section("campaign", "Campaign",
-                 list.Done() +
-                     Html("<p class=\"note\">The same campaign gives the same problems, outcomes and "
-                          "findings on any machine.</p>\n") +
-                     TimeTable(content.work.time));
+  const Html commands =
+      content.units > 0
+          ? Html(
+                "<p>The same campaign, with the same build, gives the same problems, outcomes and findings "
+                "on any machine and any number of threads:</p>\n") +
+                AgainCommands(content)
+          : Html();
+  return Section(
+      "again", "Reproducing it",
+      commands + list.Done() +
+          Html("<p class=\"note\">On which processors it ran the store does not say; nothing here depends on "
+               "them but the processor time, which other runs of the same campaign need not repeat.</p>\n") +
+          TimeTable(content.work.time));
 }
 
-std::string Page(const ReportContent& content) {
-  Html sections = Sections(content);
-  const Html header = Tag("header")(Html("\n") + Introduction() + (content.units > 0 ? Navigation() : Html()));
-  const Html body =
-      Tag("body")(Html("\n") + header + Html("\n") + Tag("main")(Html("\n") + sections) + Html("\n"));
-  return Document(Head(), body);
+std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {
+  const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
+  return FilledTemplate(
+      page,
+      {{"title", Text(kTitle)},
+       {"navigation", Navigation(content)},
+       {"found", FoundSection(content)},
+       {"results", Results(content)},
+       {"data", ScriptData(PageData(content, figures).dump(-1, ' ', false, Json::error_handler_t::replace))}});
 }
 
 }  // namespace stiction

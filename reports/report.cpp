@@ -8,7 +8,9 @@
 #include "corpus/problem_file.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
+#include "reports/figures.h"
 #include "reports/page.h"
+#include "reports/since.h"
 
 namespace stiction {
 namespace {
@@ -56,11 +58,22 @@ void WriteFiles(const Discovery& discovery, ReportFiles& folder) {
   WriteCertificate(folder, files.original_existence, finding.existence);
 }
 
+// What was searched, as stiction search reads it; the definition as it stands if that is no JSON object.
+std::string CampaignFile(const CampaignIdentity& identity) {
+  Json campaign = Json::parse(identity.definition, nullptr, false);
+  const Json policies = Json::parse(identity.policies, nullptr, false);
+  if (!campaign.is_object()) return identity.definition + "\n";
+  if (policies.is_array()) campaign["policies"] = policies;
+  return JsonText(campaign, 1) + "\n";
+}
+
 }  // namespace
 
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory, Occupied occupied,
-                                  const std::vector<std::filesystem::path>& benches) {
+                                  const std::vector<std::filesystem::path>& benches,
+                                  const std::filesystem::path& since) {
   ReportContent content;
+  if (!since.empty()) content.since = ReadSince(since);
   for (const auto& file : benches) {
     for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));
   }
@@ -86,7 +99,11 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   folder.Write("solutions.csv", SolutionsCsv(content.total));
   folder.Write("findings.csv", FindingsCsv(content.discoveries));
   folder.Write("ipopt.csv", IpoptCsv(content.discoveries));
-  folder.Write("index.html", Page(content));
+  folder.Write("campaign.json", CampaignFile(content.identity));
+  if (content.since) folder.Write("since.csv", SinceCsv(*content.since, content.discoveries));
+  const std::vector<FigureTable> figures = Figures(content);
+  for (const FigureTable& figure : figures) folder.Write("figures/" + figure.name + ".csv", FigureCsv(figure));
+  folder.Write("index.html", Page(content, figures));
   folder.WriteManifest();
   return whole.Commit();
 }

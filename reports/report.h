@@ -4,6 +4,9 @@
 //   index.html                    one page that needs nothing else
 //   statistics.csv verdicts.csv   what was counted (csv.h)
 //   steps.csv findings.csv agreement.csv solutions.csv
+//   figures/NAME.csv              what the figures of the page draw (figures.h)
+//   campaign.json                 what was searched, for another search
+//   since.csv                     what changed since an earlier report, if one was given (since.h)
 //   SHA256SUMS                    of every file but itself
 //   findings/NAME.json            the minimized problem; as found while there is none
 //   findings/NAME.original.json   the problem as found
@@ -23,12 +26,14 @@
 
 namespace stiction {
 
-// `benches`: files of bench --csv, which the page draws.
-// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
-// content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
+// `benches`: files of bench --csv, which the page draws. `since`: an earlier report, beside which the page says
+// what is new. Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report
+// stays. The same content of a store gives the same bytes. Returns where a directory with files of others was
+// moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
                                   Occupied occupied = Occupied::kRefused,
-                                  const std::vector<std::filesystem::path>& benches = {});
+                                  const std::vector<std::filesystem::path>& benches = {},
+                                  const std::filesystem::path& since = {});
 
 }  // namespace stiction
 

@@ -120,77 +120,7 @@ std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
   return sums;
 }
 
-// ---- The plot: time across, what is lost up ------------------------------------------------------
-
-constexpr double kLeft = 40, kTop = 8, kWidth = 300, kHeight = 150;
-constexpr double kBase = kTop + kHeight;
-
-double Decade(double x) { return std::log10(std::max(x, 1e-3)); }
-
-class Plot {
- public:
-  explicit Plot(const std::vector<RungSum>& sums) : sums_(sums) {
-    for (const RungSum& sum : sums_) {
-      if (sum.microseconds.empty() || sum.asked == 0) continue;
-      low_ = std::min(low_, std::floor(Decade(sum.Median())));
-      high_ = std::max(high_, std::ceil(Decade(sum.Median())));
-      most_ = std::max(most_, sum.LostShare());
-    }
-    if (high_ <= low_) high_ = low_ + 1;
-  }
-
-  Html Draw(const std::string& label) const {
-    const std::string view = fmt::format("0 0 {:.0f} {:.0f}", kLeft + kWidth + 10, kBase + 34);
-    Html marks = Scale();
-    for (const RungSum& sum : sums_) {
-      if (!sum.microseconds.empty() && sum.asked > 0) marks += Mark(sum);
-    }
-    return Tag("svg", {{"viewBox", view}, {"role", "img"}, {"aria-label", label}})(Html("\n") + marks);
-  }
-
- private:
-  double X(double microseconds) const {
-    return kLeft + kWidth * (Decade(microseconds) - low_) / (high_ - low_);
-  }
-  double Y(double share) const { return kBase - kHeight * share / most_; }
-
-  static Html Label(double x, double y, const char* anchor, const std::string& text) {
-    return Tag("text", {{"x", Fixed(x)}, {"y", Fixed(y)}, {"text-anchor", anchor}})(text) + Html("\n");
-  }
-  static Html Line(double x1, double y1, double x2, double y2) {
-    return Tag("line", {{"x1", Fixed(x1)}, {"y1", Fixed(y1)}, {"x2", Fixed(x2)}, {"y2", Fixed(y2)}})("");
-  }
-
-  Html Scale() const {
-    Html scale;
-    for (double decade = low_; decade <= high_; ++decade) {
-      const double x = kLeft + kWidth * (decade - low_) / (high_ - low_);
-      scale +=
-          Line(x, kTop, x, kBase) + Label(x, kBase + 14, "middle", fmt::format("{:g}", std::pow(10.0, decade)));
-    }
-    for (const double part : {0.0, 0.5, 1.0})
-      scale += Line(kLeft, Y(part * most_), kLeft + kWidth, Y(part * most_)) +
-               Label(kLeft - 4, Y(part * most_) + 4, "end", fmt::format("{:.3g} %", 100 * part * most_));
-    return scale + Label(kLeft + kWidth, kBase + 28, "end", "microseconds");
-  }
-
-  // Certified ones are filled.
-  Html Mark(const RungSum& sum) const {
-    const bool certified = sum.arithmetic == "filtered" || sum.arithmetic == "exact";
-    const std::string tip = fmt::format("{} {}: {:.3g} microseconds, {} solved, {} wrong, {} undecided of {}",
-                                        sum.method, sum.arithmetic, sum.Median(), Grouped(sum.solved),
-                                        Grouped(sum.wrong), Grouped(sum.undecided), Grouped(sum.asked));
-    return Tag("circle", {{"cx", Fixed(X(sum.Median()))},
-                          {"cy", Fixed(Y(sum.LostShare()))},
-                          {"r", certified ? "4.5" : "3"},
-                          {"fill", certified ? "currentColor" : "none"},
-                          {"stroke", "currentColor"}})(Tag("title")(tip)) +
-           Html("\n");
-  }
-
-  const std::vector<RungSum>& sums_;
-  double low_ = 6, high_ = -3, most_ = 0.01;
-};
+// ---- Tables --------------------------------------------------------------------------------------
 
 Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
   Table table("Rungs on " + family,
@@ -217,6 +147,19 @@ Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
                  2);
   }
   return table.Done();
+}
+
+// In the order of the file.
+std::vector<std::pair<std::string, std::vector<RungSum>>> Families(const std::vector<RungLine>& lines) {
+  std::vector<std::string> families;
+  std::map<std::string, std::vector<const RungLine*>> by_family;
+  for (const RungLine& line : lines) {
+    if (by_family[line.family].empty()) families.push_back(line.family);
+    by_family[line.family].push_back(&line);
+  }
+  std::vector<std::pair<std::string, std::vector<RungSum>>> sums;
+  for (const std::string& family : families) sums.emplace_back(family, SumsOf(by_family[family]));
+  return sums;
 }
 
 }  // namespace
@@ -253,25 +196,30 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
   return lines;
 }
 
+FigureTable RungsFigure(const std::vector<RungLine>& lines) {
+  FigureTable figure{
+      "rungs",
+      {"family", "method", "arithmetic", "microseconds", "lost", "asked", "solved", "wrong", "undecided"}};
+  for (const auto& [family, sums] : Families(lines)) {
+    for (const RungSum& sum : sums) {
+      if (sum.microseconds.empty() || sum.asked == 0) continue;
+      figure.rows.push_back({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked,
+                             sum.solved, sum.wrong, sum.undecided});
+    }
+  }
+  return figure;
+}
+
 Html RungsSection(const std::vector<RungLine>& lines) {
-  std::vector<std::string> families;
-  std::map<std::string, std::vector<const RungLine*>> by_family;
-  for (const RungLine& line : lines) {
-    if (by_family[line.family].empty()) families.push_back(line.family);
-    by_family[line.family].push_back(&line);
-  }
-  Html plots, tables;
-  for (const std::string& family : families) {
-    const std::vector<RungSum> sums = SumsOf(by_family[family]);
-    plots += Tag("figure")(Tag("figcaption")(family) + Plot(sums).Draw("Time and lost answers on " + family)) +
-             Html("\n");
+  Html tables;
+  for (const auto& [family, sums] : Families(lines))
     tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
-  }
-  return Section(
-      "rungs", "Speed against accuracy",
-      Html("<p>Across: microseconds a problem, on a logarithmic scale. Up: the share that ends wrongly or "
-           "undecided. A dot is a method over an arithmetic; filtered and exact ones are filled.</p>\n") +
-          Tag("div", {{"class", "charts"}})(Html("\n") + plots) + Html("\n") + tables);
+  return Section("rungs", "Speed against accuracy",
+                 FigurePlace("rungs",
+                             "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends "
+                             "wrongly or undecided. A dot is a method over an arithmetic; filtered and exact "
+                             "ones are filled.") +
+                     tables);
 }
 
 }  // namespace stiction

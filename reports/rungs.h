@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurements of rungs (bench --suite trade or extremes, --csv) in a report: a plot and a table for each
+// Measurements of rungs (bench --suite trade or extremes, --csv) in a report: a figure, and a table for each
 // family.
 
 #ifndef STICTION_REPORTS_RUNGS_H_
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/figures.h"
 #include "reports/html.h"
 
 namespace stiction {
@@ -26,6 +27,8 @@ struct RungLine {
 // InputError that names the line and the column of what is not as bench writes it.
 std::vector<RungLine> ReadRungs(const std::filesystem::path& file);
 
+// Time and lost answers of each method over each arithmetic (figures.h).
+FigureTable RungsFigure(const std::vector<RungLine>& lines);
 Html RungsSection(const std::vector<RungLine>& lines);
 
 }  // namespace stiction

@@ -297,6 +297,29 @@ Html OutcomesSection(const Record& total) {
           OutcomeTable(total));
 }
 
+Html StepsSection(const Record& total) {
+  return Section(
+      "steps", "Steps per problem",
+      FigurePlace("steps",
+                  "Runs in doubles by the number of their steps, by number of contacts; up: their share, on a "
+                  "logarithmic scale. The last bar is of all that took more.") +
+          FigurePlace("pivoting",
+                      "Share of the runs in doubles with a step of length zero, and of those in which a "
+                      "variable was given up, by generator and number of contacts; lines: exact "
+                      "intervals at 95 %.") +
+          Html("<h3>Work per problem</h3>\n<p>Of the runs in doubles: the mean, and below it the maximum. A "
+               "loop "
+               "counts up to where it was noticed.</p>\n") +
+          PivotTable(total) +
+          Html("<h3>Zero steps of loops</h3>\n<p>What one period of a loop consists of, in exact "
+               "arithmetic:</p>\n") +
+          (total.loops.empty() ? Html()
+                               : FigurePlace("loop-steps",
+                                             "Loops in exact arithmetic by the number of steps of "
+                                             "length zero in their period, by number of contacts.")) +
+          LoopTable(total));
+}
+
 Html DoublesSection(const Record& total) {
   return Section("doubles", "How often doubles lie",
                  Html("<p>A run in doubles is suspicious if it does not end in a solution, or if its solution "
@@ -304,18 +327,14 @@ Html DoublesSection(const Record& total) {
                       "rational arithmetic, and so is a sample of the others. Where a generator rounds its "
                       "problems to doubles, the exact run is that of the problem before rounding. Rows: "
                       "how the suspicious runs ended in doubles; columns: how they end exactly.</p>\n") +
-                     VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") + TrustTable(total));
-}
-
-Html PivotsSection(const Record& total) {
-  return Section(
-      "pivots", "Pivots per problem",
-      Html("<p>Of the runs in doubles: the mean, and below it the maximum. A loop counts up to where it "
-           "was noticed.</p>\n") +
-          PivotTable(total) +
-          Html("<h3>Zero steps of loops</h3>\n<p>What one period of a loop consists of, in exact "
-               "arithmetic:</p>\n") +
-          LoopTable(total));
+                     FigurePlace("doubles",
+                                 "Suspicious runs by what doubles said, and what exact arithmetic says of "
+                                 "them.") +
+                     VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") +
+                     FigurePlace("trust",
+                                 "Share of the audited runs that doubles misjudged, and of all runs that "
+                                 "ended in a wrong answer; lines: exact intervals at 95 %.") +
+                     TrustTable(total));
 }
 
 }  // namespace stiction

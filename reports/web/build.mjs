@@ -4,7 +4,8 @@
 // A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas
 // set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}}, {{notices}} and {{solver}} are filled
 // in here, as is \( TeX \);
-// {{title}} and {{data}} are left to the program (reports/viewer.h). The same sources give the same bytes.
+// the other marks, {{title}}, {{data}} and such, are left to the program (reports/template.h). The same sources
+// give the same bytes.
 import {build} from 'esbuild';
 import katex from 'katex';
 import {createHash} from 'node:crypto';
@@ -13,7 +14,7 @@ import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const pages = ['viewer'];
+const pages = ['viewer', 'report'];
 
 async function bundle(file, define = {}) {
   const result = await build({
@@ -65,6 +66,7 @@ async function page(name) {
   const worker = hasSolver ? await bundle('worker.js') : {text: '', inputs: []};
   const script = await bundle(`${name}.js`, {WORKER_SOURCE: JSON.stringify(worker.text)});
   const style = await bundle(`${name}.css`);
+  if (/<\/script|<!--/i.test(script.text)) throw new Error(`${name}.js: found an end of a script or a comment in it`);
   // README.md has why.
   const [compiles, threads] = hasSolver ? [` 'wasm-unsafe-eval'`, ' worker-src blob:;'] : ['', ''];
   const policy = `default-src 'none'; script-src ${hash(script.text)}${compiles};${threads} style-src ${

@@ -769,6 +769,32 @@ bug = in_file("reports/findings_section.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 
+bug = in_file("reports/figures.cpp", "^reports: ")
+bug("rates-of-doubles", "for (int i = 0; i < kOutcomeCount; ++i) sum[i] += exact[i];",
+    "for (int i = 0; i < kOutcomeCount; ++i) sum[i] = exact[i];", "rates count the last row of verdicts alone")
+bug("interval-of-the-runs", "CountInterval(count)", "CountInterval(runs)",
+    "the interval of a rate is that of another count")
+bug("empty-bins-drawn", "if (tally.steps[steps] == 0) continue;", "", "bars of no height are drawn")
+
+bug = in_file("reports/methods_section.cpp", "^reports: ")
+bug("wrong-is-solved", "tally.outcomes[kSolvedOutcome] - tally.wrong", "tally.outcomes[kSolvedOutcome]",
+    "wrong answers of doubles count as solutions")
+bug("lemke-disagrees", "tally.compared - tally.disagreements", "tally.compared", "a disagreement counts as solved")
+
+bug = in_file("reports/since.cpp", "^reports: ")
+bug("since-always-more", "discovery.met > before->second.met", "discovery.met >= before->second.met",
+    "what is as it was is told as news")
+bug("since-gone-hidden", "if (present.count(signature) > 0) continue;", "continue;", "what is gone is not told")
+
+bug = in_file("reports/sentences.cpp", "^reports: ")
+bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] +", "sums.suspicions +",
+    "every suspicion is told as a loop")
+bug("all-solved", 'all.solved == all.problems ? "Solutions exist, and are found."',
+    'true ? "Solutions exist, and are found."', "problems that were not solved are not told")
+
+bug = in_file("reports/template.cpp", "^reports: ")
+bug("mark-twice", "page.find(mark, at + 1) == page.npos", "true", "a mark that stands twice is filled once")
+
 # ---- cli ---------------------------------------------------------------------------
 
 VIEWER = "^program: viewer_data"

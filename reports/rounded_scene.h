@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene of a file over doubles, for pictures and simulations.
 
-#ifndef STICTION_CLI_ROUNDED_SCENE_H_
-#define STICTION_CLI_ROUNDED_SCENE_H_
+#ifndef STICTION_REPORTS_ROUNDED_SCENE_H_
+#define STICTION_REPORTS_ROUNDED_SCENE_H_
 
 #include <fmt/format.h>
 
@@ -62,4 +62,4 @@ SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::str
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_ROUNDED_SCENE_H_
+#endif  // STICTION_REPORTS_ROUNDED_SCENE_H_

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of a finding, where it was found with one.
+
+#ifndef STICTION_REPORTS_FINDING_PICTURE_H_
+#define STICTION_REPORTS_FINDING_PICTURE_H_
+
+#include "corpus/store.h"
+#include "reports/html.h"
+
+namespace stiction {
+
+// A figure of the scene as found, with its contacts; empty where there is none that can be drawn.
+Html PictureOfFinding(const Finding& finding);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_FINDING_PICTURE_H_

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of a report, by the names of their places in the page (../../figures.h has the tables).
+// `choices(rows)`: what can be chosen, by column; `draw(rows, width, chosen)`: elements.
+import {barX, dot, ruleX} from '@observablehq/plot';
+
+import * as p from './plots.js';
+import {rates} from './rates.js';
+
+const outcomes = ['solved', 'cycle', 'stall', 'ray', 'singular', 'limit', 'undecided'];
+const byPolicy = rows => ({policy: p.unique(rows.map(row => row.policy))});
+
+// ---- Doubles ----
+
+function drawDoubles(rows, width, {policy}) {
+  const mine = rows.filter(row => row.policy === policy);
+  const totals = new Map([...p.groupBy(mine, row => row.in_doubles)].map(
+      ([outcome, all]) => [outcome, p.sum(all, row => row.runs)]));
+  const name = outcome => outcome === 'solved' ? 'solved, but wrong' : outcome;
+  const bar = {
+    y: 'in_doubles',
+    x: row => row.runs / totals.get(row.in_doubles),
+    fill: row => `var(--o-${row.exact})`,
+    order: row => outcomes.indexOf(row.exact),
+    insetRight: 1,
+    title: row => `${name(row.in_doubles)} in doubles, exactly ${row.exact}: ${p.count(row.runs)} runs`
+  };
+  const svg = p.drawn(
+      {
+        width,
+        height: totals.size * 34 + 50,
+        marginLeft: Math.min(190, width * 0.4),
+        marginRight: 22,
+        marginTop: 6,
+        marginBottom: 36,
+        x: {domain: [0, 1], label: 'share of the suspicious runs'},
+        y: {type: 'band', domain: outcomes.filter(outcome => totals.has(outcome)), label: null, padding: 0.2},
+        marks: [
+          p.xAxis({tickFormat: p.share, tickSpacing: 70}),
+          p.yAxis({tickFormat: outcome => `${name(outcome)} (${p.count(totals.get(outcome))})`}),
+          barX(mine, bar)
+        ]
+      },
+      'Suspicious runs in doubles and their exact outcome: ' +
+          mine.map(row => `${name(row.in_doubles)} is ${row.exact}: ${p.count(row.runs)}`).join('; '));
+  const present = outcomes.filter(outcome => mine.some(row => row.exact === outcome));
+  return [p.legend(present.map(outcome => [`exactly ${outcome}`, `o-${outcome}`])), svg];
+}
+
+function drawTrust(rows, width) {
+  const plots = [...p.groupBy(rows, row => row.what)].map(
+      ([what, mine]) => p.small(
+          what,
+          p.shareLines(mine, `${what}: ${mine.map(row => `${row.generator}: ${p.told(row)}`).join('; ')}`, {
+            width: p.columnWidth(width, 360),
+            at: row => row.generator,
+            left: 120,
+            title: row => `${row.generator}: ${p.told(row)}`
+          })));
+  return [p.grid(plots)];
+}
+
+// ---- Steps ----
+
+// A bar for each row from the floor to its share.
+const bars = (rows, x, floor, total, paint, width, title) => ruleX(
+    rows, {x, y1: floor, y2: row => (row.runs ?? row.loops) / total, stroke: paint, strokeWidth: width, title});
+
+const histogram = {
+  height: 170,
+  marginLeft: 54,
+  marginTop: 8,
+  marginBottom: 32,
+  marginRight: 10
+};
+
+function medianOf(rows, total) {
+  let below = 0;
+  return rows.find(row => 2 * (below += row.runs) >= total).steps;
+}
+
+function stepsPlot(rows, {width, most, floor}) {
+  const total = p.sum(rows, row => row.runs), last = rows.at(-1), contacts = p.contactsOf(rows[0].contacts);
+  const stepsOf = row => `${row.steps}${row.or_more === 'yes' ? ' or more' : ''}`;
+  const title = row => `${stepsOf(row)} steps: ${p.count(row.runs)} runs, ${p.share(row.runs / total)}`;
+  const thick = Math.max(1.4, (width - 60) / (most + 2) - 1);
+  const svg = p.drawn(
+      {
+        ...histogram,
+        width,
+        x: {domain: [-0.5, most + 1], label: 'steps'},
+        y: {type: 'log', domain: [floor, 1], label: null},
+        marks: [
+          p.lines('y', 32), p.yAxis({tickSpacing: 32, tickFormat: p.shareOfTen}), p.xAxis({tickSpacing: 45}),
+          bars(rows, 'steps', floor, total, 'var(--bar)', thick, title)
+        ]
+      },
+      `Steps per problem of ${contacts}, ${p.count(total)} runs: from ${rows[0].steps} to ${
+          stepsOf(last)}, half of them ` +
+          `at most ${medianOf(rows, total)}`);
+  return p.small(`${contacts}, ${p.count(total)} runs`, svg);
+}
+
+function drawSteps(rows, width, {policy}) {
+  const groups = [...p.groupBy(rows.filter(row => row.policy === policy), row => row.contacts).values()];
+  const least =
+      Math.min(...groups.map(group => Math.min(...group.map(row => row.runs)) / p.sum(group, row => row.runs)));
+  const options = {
+    width: p.columnWidth(width, 250),
+    most: Math.max(...groups.map(group => group.at(-1).steps)),
+    floor: 0.7 * 10 ** Math.floor(Math.log10(least))
+  };
+  return [p.grid(groups.map(group => stepsPlot(group, options)))];
+}
+
+function loopStepsPlot(rows, {width, most}) {
+  const total = p.sum(rows, row => row.loops), contacts = p.contactsOf(rows[0].contacts);
+  const title = row => `${row.zero_steps} of length zero: ${p.count(row.loops)} of ${p.count(total)} loops`;
+  const thick = Math.min(22, Math.max(2, (width - 60) / (most + 1) - 2));
+  const svg =
+      p.drawn(
+          {
+            ...histogram,
+            width,
+            x: {domain: [-0.5, most + 0.5], label: 'steps of length zero in a period'},
+            y: {domain: [0, Math.max(...rows.map(row => row.loops)) / total], label: null},
+            marks: [
+              p.lines('y', 40), p.yAxis({tickSpacing: 40, tickFormat: p.share}),
+              p.xAxis({tickSpacing: 40, tickFormat: x => Number.isInteger(x) ? `${x}` : ''}),
+              bars(rows, 'zero_steps', 0, total, 'var(--loop)', thick, title)
+            ]
+          },
+          `Steps of length zero in the period of ${p.count(total)} loops of ${contacts}: ` +
+              rows.map(row => `${row.zero_steps}: ${p.count(row.loops)}`).join('; '));
+  return p.small(`${contacts}: ${p.count(total)} loop${total === 1 ? '' : 's'}`, svg);
+}
+
+function drawLoopSteps(rows, width) {
+  const options = {width: p.columnWidth(width, 250), most: Math.max(...rows.map(row => row.zero_steps))};
+  return [p.grid(
+      [...p.groupBy(rows, row => row.contacts).values()].map(group => loopStepsPlot(group, options)))];
+}
+
+function pivotingPlot(generator, rows, whats, {width, values, most}) {
+  const title = row => `${generator}, ${p.contactsOf(row.contacts)}, ${row.what}: ${p.told(row)}`;
+  const series = (what, i) => p.shares(
+      rows.filter(row => row.what === what),
+      {at: 'contacts', series: i, shift: p.aside(i, whats.length, 6), title});
+  return p.small(
+      generator,
+      p.drawn(
+          {
+            ...histogram,
+            width,
+            x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
+            y: {domain: [0, most], label: null},
+            marks: [
+              p.lines('y', 40), p.yAxis({tickSpacing: 40, tickFormat: p.share}), p.xAxis(),
+              ...whats.flatMap(series)
+            ]
+          },
+          `${generator}: ` +
+              rows.map(row => `${p.contactsOf(row.contacts)}, ${row.what}: ${p.share(row.share)}`).join('; ')));
+}
+
+function drawPivoting(rows, width, {policy}) {
+  const mine = rows.filter(row => row.policy === policy), whats = p.unique(mine.map(row => row.what));
+  const options = {
+    width: p.columnWidth(width, 250),
+    values: p.ascending(p.unique(mine.map(row => row.contacts))),
+    most: Math.max(...mine.map(row => row.high))
+  };
+  const plots = [...p.groupBy(mine, row => row.generator)].map(
+      ([generator, group]) => pivotingPlot(generator, group, whats, options));
+  return [p.legend(whats.map((what, i) => [what, `c${i + 1}`])), p.grid(plots)];
+}
+
+// ---- Methods ----
+
+function drawDriving(rows, width) {
+  const whats = p.unique(rows.map(row => row.what));
+  const title = row => `${p.contactsOf(row.contacts)}, with ${row.what}: ${p.told(row)}`;
+  const svg = p.shareLines(rows, `Share of the paths of complete driving: ${rows.map(title).join('; ')}`, {
+    width: Math.min(width, 760),
+    at: row => p.contactsOf(row.contacts),
+    series: row => row.what,
+    left: 84,
+    height: 34,
+    title
+  });
+  return [p.legend(whats.map((what, i) => [`with ${what}`, `c${i + 1}`])), svg];
+}
+
+function drawMethods(rows, width) {
+  const title = row => `${p.contactsOf(row.contacts)}: ${p.told(row)}`;
+  const plots = [...p.groupBy(rows, row => `${row.method}: ${row.asked_about}`)].map(
+      ([name, group]) => p.small(
+          name,
+          p.shareLines(
+              group, `${name}, share solved: ${group.map(title).join('; ')}`,
+              {width: p.columnWidth(width, 330), at: row => p.contactsOf(row.contacts), left: 84, title})));
+  return [p.grid(plots)];
+}
+
+function rungsPlot(family, rows, {width, domain, most}) {
+  const title = row =>
+      `${row.method} ${row.arithmetic}: ${p.rate(row.microseconds)} microseconds, ${p.count(row.solved)} ` +
+      `solved, ${p.count(row.wrong)} wrong, ${p.count(row.undecided)} undecided of ${p.count(row.asked)}`;
+  const mark = {
+    x: row => Math.max(row.microseconds, 1e-3),
+    y: 'lost',
+    r: 4,
+    stroke: 'var(--bar)',
+    strokeWidth: 1.5,
+    fill: row => ['filtered', 'exact'].includes(row.arithmetic) ? 'var(--bar)' : 'var(--card)',
+    title
+  };
+  return p.small(
+      family,
+      p.drawn(
+          {
+            ...histogram,
+            width,
+            height: 220,
+            x: {type: 'log', domain, label: 'microseconds'},
+            y: {domain: [0, most], label: null},
+            marks: [
+              p.lines('y', 45), p.yAxis({tickSpacing: 45, tickFormat: p.share}),
+              p.xAxis({tickFormat: p.shortNumber}), dot(rows, mark)
+            ]
+          },
+          `Time and lost answers on ${family}: ${rows.map(title).join('; ')}`));
+}
+
+function drawRungs(rows, width) {
+  const times = rows.map(row => Math.max(row.microseconds, 1e-3));
+  const options = {
+    width: p.columnWidth(width, 330),
+    domain: [Math.min(...times) / 1.3, Math.max(...times) * 1.3],
+    most: Math.max(0.01, ...rows.map(row => row.lost))
+  };
+  return [p.grid(
+      [...p.groupBy(rows, row => row.family)].map(([family, group]) => rungsPlot(family, group, options)))];
+}
+
+export const figures = {
+  'rates.contacts': rates('contacts'),
+  'rates.friction': rates('friction'),
+  'rates.rank': rates('rank'),
+  'doubles': {choices: byPolicy, draw: drawDoubles},
+  'trust': {draw: drawTrust},
+  'steps': {choices: byPolicy, draw: drawSteps},
+  'loop-steps': {draw: drawLoopSteps},
+  'pivoting': {choices: byPolicy, draw: drawPivoting},
+  'driving': {draw: drawDriving},
+  'methods': {draw: drawMethods},
+  'rungs': {draw: drawRungs},
+};

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are
+// taken as they stand, with their pictures; the others are made of the data.
+import {byId, element} from './dom.js';
+
+const pageSize = 50;
+const count = x => x.toLocaleString('en');
+const counted = (n, noun) => `${count(n)} ${noun}${n === 1 ? '' : 's'}`;
+
+// How the columns of the table sort: by what, and whether the largest comes first. The program's order is that
+// of interest.
+const columns = [
+  {by: finding => finding.signature}, {by: finding => finding.kind},
+  {by: finding => finding.smallest * 100 + finding.contacts}, {by: finding => finding.drives ?? Infinity},
+  {by: finding => finding.steps ?? Infinity}, {by: finding => finding.met, down: true}, {
+    by: finding =>
+        `${finding.generator} ${String(finding.unit).padStart(12)} ${String(finding.index).padStart(12)}`
+  },
+  {by: finding => finding.grid ?? ''}, {by: finding => finding.minimized_grid ?? ''},
+  {by: finding => finding.nonzeros === undefined ? Infinity : finding.nonzeros * 1e6 + finding.bits}
+];
+
+const unique = values => [...new Set(values)].sort();
+
+// ---- One finding ----
+
+const small = text => element('small', {}, text);
+const cell = (style, ...content) => element('td', {class: style}, ...content);
+
+function badges(finding) {
+  const all = [element('span', {class: finding.stands_out ? 'badge loop' : 'badge'}, finding.kind)];
+  if (finding.whole) all.push(' ', element('span', {class: 'badge whole'}, 'whole grid'));
+  if (finding.change) all.push(' ', element('span', {class: 'badge change'}, finding.change));
+  return all;
+}
+
+function sizeOf(finding) {
+  if (finding.nonzeros !== undefined)
+    return `${counted(finding.nonzeros, 'nonzero')}, ${counted(finding.bits, 'bit')}`;
+  return element('span', {class: 'soft'}, finding.state === 'pending' ? 'pending' : '–');
+}
+
+function row(finding) {
+  const words = finding.words === undefined ?
+      null :
+      small(`${finding.words_exact ? '' : 'about '}${counted(finding.words, 'word')}`);
+  return element(
+      'tr', {class: 'finding'},
+      element('th', {scope: 'row', class: 'signature'}, element('code', {}, finding.signature)),
+      cell(null, ...badges(finding)),
+      cell(
+          null,
+          finding.contacts === finding.smallest ? `${finding.contacts}` :
+                                                  `${finding.contacts} → ${finding.smallest}`),
+      cell('n', finding.drives === undefined ? '' : count(finding.drives)),
+      cell('n', finding.steps === undefined ? '' : count(finding.steps)), cell('n', count(finding.met), words),
+      cell(
+          null, `${finding.generator} ${finding.unit}/${finding.index}`,
+          finding.policy === 'paper' ? null : small(finding.policy)),
+      cell(null, finding.grid), cell(null, finding.minimized_grid), cell(null, sizeOf(finding)));
+}
+
+function numbers({names, A, b, mu}) {
+  const head = element(
+      'tr', {}, element('th', {scope: 'col'}, 'A'),
+      ...[...names, 'b', 'mu'].map(name => element('th', {scope: 'col', class: 'n'}, name)));
+  const number = (text, style = '') => cell(`n ${style}${text === '0' && style === '' ? 'zero' : ''}`, text);
+  const body = A.map(
+      (line, i) => element(
+          'tr', {}, element('th', {scope: 'row'}, names[i]), ...line.map(text => number(text)),
+          number(b[i], 'edge'), number(mu[i] ?? '', 'edge')));
+  return element(
+      'div', {class: 'scroll', role: 'region', tabindex: 0, 'aria-label': 'A, b and mu'},
+      element('table', {}, element('thead', {}, head), element('tbody', {}, ...body)));
+}
+
+const fileTitles = ['problem', 'as found', 'certificate', 'a solution exists', 'likewise, as found'];
+
+function details(finding) {
+  const files = finding.files.flatMap(
+      (file, i) => file === '' ? [] : [i === 0 ? '' : ' · ', element('a', {href: file}, fileTitles[i])]);
+  return element(
+      'div', {class: 'details'}, element('p', {}, finding.story),
+      finding.numbers === null ? element('p', {class: 'note'}, 'Its numbers are too long for a page.') :
+                                 numbers(finding.numbers),
+      element('pre', {}, element('code', {}, finding.commands)),
+      element('p', {class: 'note'}, 'Files: ', ...files));
+}
+
+function more(finding) {
+  const box = element('details', {}, element('summary', {}, 'A, b, mu and commands'));
+  box.addEventListener('toggle', () => box.append(details(finding)), {once: true});
+  return element('tr', {class: 'more'}, element('td', {colspan: columns.length}, box));
+}
+
+// ---- The table ----
+
+class Gallery {
+  constructor(findings, table) {
+    this.findings = findings.map((finding, place) => ({...finding, place, text: textOf(finding)}));
+    this.body = table.tBodies[0];
+    this.rows = new Map();
+    const written = [...this.body.rows];
+    for (let i = 0; i + 1 < written.length; i += 2)
+      this.rows.set(findings[i / 2].signature, [written[i], written[i + 1]]);
+    this.sorted = null;
+    this.down = false;
+    this.first = 0;
+    this.makeControls();
+    this.makeHeads(table);
+    this.filter();
+  }
+
+  makeControls() {
+    const select = (name, label, values) => {
+      if (values.length < 2) return [];
+      const node = element(
+          'select', {id: `gallery-${name}`}, element('option', {value: ''}, 'all'),
+          ...values.map(value => element('option', {value}, value)));
+      node.addEventListener('change', () => this.filter());
+      this.choices.push([name, node]);
+      return [element('label', {class: 'choice'}, `${label} `, node)];
+    };
+    this.choices = [];
+    this.search =
+        element('input', {type: 'search', id: 'gallery-search', autocomplete: 'off', spellcheck: 'false'});
+    this.search.addEventListener('input', () => this.filter());
+    const changes = unique(this.findings.map(finding => finding.change ?? '')).filter(change => change !== '');
+    const controls = element(
+        'div', {class: 'controls', role: 'search'}, element('label', {class: 'choice'}, 'Search ', this.search),
+        ...select('kind', 'kind', unique(this.findings.map(finding => finding.kind))),
+        ...select('smallest', 'contacts', unique(this.findings.map(finding => String(finding.smallest)))),
+        ...select('generator', 'generator', unique(this.findings.map(finding => finding.generator))),
+        ...select('policy', 'policy', unique(this.findings.map(finding => finding.policy))),
+        ...select('state', 'state', unique(this.findings.map(finding => finding.state))),
+        ...(changes.length > 0 ? select('change', 'since', ['changed', ...changes]) : []));
+    this.said = element('p', {class: 'said', role: 'status'});
+    const button = (text, step) => {
+      const node = element('button', {type: 'button'}, text);
+      node.addEventListener('click', () => this.turn(step));
+      return node;
+    };
+    this.before = button('Previous', -pageSize);
+    this.after = button('Next', pageSize);
+    const order = element('button', {type: 'button', class: 'order'}, 'In order of interest');
+    order.addEventListener('click', () => this.sortBy(null));
+    this.order = order;
+    byId('gallery').append(
+        controls, element('div', {class: 'pager'}, this.before, this.after, this.said, order));
+  }
+
+  makeHeads(table) {
+    this.heads = [...table.tHead.rows[0].cells];
+    this.heads.forEach((head, i) => {
+      const button = element('button', {type: 'button', class: 'sort'}, head.textContent);
+      if (head.title) button.title = head.title;
+      head.replaceChildren(button);
+      button.addEventListener('click', () => this.sortBy(i));
+    });
+  }
+
+  // Again by the same column: the other way round.
+  sortBy(i) {
+    this.down = i === null ? false : this.sorted === i ? !this.down : columns[i].down === true;
+    this.sorted = i;
+    this.heads.forEach((head, k) => {
+      if (k === i)
+        head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending');
+      else
+        head.removeAttribute('aria-sort');
+    });
+    this.filter();
+  }
+
+  filter() {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const wanted =
+        this.choices.filter(([, node]) => node.value !== '').map(([name, node]) => [name, node.value]);
+    const fits = finding => words.every(word => finding.text.includes(word)) &&
+        wanted.every(
+            ([name, value]) => value === 'changed' ? finding.change !== '' : String(finding[name]) === value);
+    this.shown = this.findings.filter(fits);
+    if (this.sorted !== null) {
+      const {by} = columns[this.sorted], sign = this.down ? -1 : 1;
+      const keys = new Map(this.shown.map(finding => [finding, by(finding)]));
+      this.shown.sort((left, right) => {
+        const a = keys.get(left), b = keys.get(right);
+        return a < b ? -sign : a > b ? sign : left.place - right.place;
+      });
+    }
+    this.first = 0;
+    this.show();
+  }
+
+  turn(step) {
+    this.first = Math.max(0, Math.min(this.first + step, this.shown.length - 1));
+    this.show();
+  }
+
+  rowsOf(finding) {
+    if (!this.rows.has(finding.signature)) this.rows.set(finding.signature, [row(finding), more(finding)]);
+    return this.rows.get(finding.signature);
+  }
+
+  show() {
+    const last = Math.min(this.first + pageSize, this.shown.length);
+    this.body.replaceChildren(...this.shown.slice(this.first, last).flatMap(finding => this.rowsOf(finding)));
+    this.before.disabled = this.first === 0;
+    this.after.disabled = last >= this.shown.length;
+    this.order.hidden = this.sorted === null;
+    const all = count(this.findings.length);
+    this.said.textContent = this.shown.length === 0 ?
+        `None of ${all} findings fits.` :
+        `${count(this.first + 1)} to ${count(last)} of ${counted(this.shown.length, 'finding')}` +
+            (this.shown.length === this.findings.length ? '' : `, of ${all} in all`);
+  }
+}
+
+// What a search looks through.
+const textOf =
+    finding => [finding.signature, finding.kind, finding.generator, finding.policy, finding.state,
+                finding.change, finding.grid, finding.minimized_grid, finding.whole ? 'whole grid' : '']
+                   .filter(Boolean)
+                   .join(' ')
+                   .toLowerCase();
+
+export function showGallery(findings) {
+  const place = byId('gallery');
+  if (place === null) return;
+  const table = document.querySelector('#findings > .scroll > table');
+  new Gallery(findings, table);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the figures of a report are made of. Colours are those of the style sheet, so that they follow it into
+// the dark and onto paper.
+import {axisX, axisY, dot, gridX, gridY, plot, ruleX, ruleY} from '@observablehq/plot';
+
+import {element} from './dom.js';
+
+export const colours = [1, 2, 3, 4, 5, 6, 7, 8].map(i => `var(--c${i})`);
+export const symbols = ['circle', 'diamond', 'square', 'triangle', 'star', 'cross', 'wye'];
+
+// ---- Numbers for people ----
+
+export const count = x => x.toLocaleString('en');
+export const rate = x => x.toLocaleString('en', {maximumSignificantDigits: 3});
+export const share = x => `${rate(100 * x)} %`;
+export const contactsOf = n => n === 1 ? '1 contact' : `${n} contacts`;
+
+// "3 of 10: 30 % [6.67 %, 65.2 %]"
+export const told = line =>
+    `${count(line.count ?? line.solved)} of ${count(line.of ?? line.asked)}: ${share(line.share)} ` +
+    `[${share(line.low)}, ${share(line.high)}]`;
+
+const isPowerOfTen = x => Math.abs(Math.log10(x) - Math.round(Math.log10(x))) < 1e-9;
+
+// 0.01, 10, 1k, 1M; nothing between powers of ten.
+export function shortNumber(x) {
+  if (!isPowerOfTen(x)) return '';
+  if (x >= 1e6) return `${rate(x / 1e6)}M`;
+  return x >= 1e3 ? `${rate(x / 1e3)}k` : rate(x);
+}
+
+export const shareOfTen = x => isPowerOfTen(x) ? share(x) : '';
+
+// ---- Rows ----
+
+export const unique = values => [...new Set(values)];
+export const ascending = values => [...values].sort((a, b) => a - b);
+export const sum = (rows, value) => rows.reduce((all, row) => all + value(row), 0);
+
+// A map of arrays, in the order in which the keys come.
+export function groupBy(rows, key) {
+  const groups = new Map();
+  for (const row of rows) groups.set(key(row), [...groups.get(key(row)) ?? [], row]);
+  return groups;
+}
+
+// ---- Plots ----
+
+export const xAxis = options => axisX({tickSize: 0, labelArrow: 'none', labelAnchor: 'center', ...options});
+export const yAxis = options => axisY({tickSize: 0, ...options});
+export const lines = (axis, tickSpacing) =>
+    (axis === 'x' ? gridX : gridY)({stroke: 'var(--line)', strokeOpacity: 1, tickSpacing});
+
+// A plot with a name, and without the style element that it brings and the policy of the page refuses.
+export function drawn(options, label) {
+  const svg = plot({className: 'plot-svg', ariaLabel: label, style: {fontSize: '12px'}, ...options});
+  for (const style of svg.querySelectorAll('style')) style.remove();
+  svg.setAttribute('role', 'img');
+  return svg;
+}
+
+// A plot below its title, of those that stand beside each other.
+export const small = (title, svg) =>
+    element('div', {class: 'small'}, element('p', {class: 'title'}, title), svg);
+export const grid = parts => element('div', {class: 'smalls'}, ...parts);
+
+// How wide these are: as many beside each other as there is room for.
+export function columnWidth(width, least) {
+  const gap = 16, many = Math.max(1, Math.floor((width + gap) / (least + gap)));
+  return Math.floor((width - gap * (many - 1)) / many);
+}
+
+// Texts with the class that has their colour.
+export const legend = entries =>
+    element('ul', {class: 'legend'}, ...entries.map(([text, style]) => element('li', {class: style}, text)));
+
+// Marks of shares with their intervals: upwards, or (`across`) from left to right. `shift` in pixels, aside.
+export function shares(rows, {at, series, shift, title, across = false}) {
+  const look = {stroke: colours[series % colours.length], strokeWidth: 1.6};
+  const mark =
+      {r: 3.4, symbol: symbols[series % symbols.length], fill: colours[series % colours.length], title};
+  return across ?
+      [
+        ruleY(rows, {y: at, x1: 'low', x2: 'high', dy: shift, ...look}),
+        dot(rows, {y: at, x: 'share', dy: shift, ...mark})
+      ] :
+      [
+        ruleX(rows, {x: at, y1: 'low', y2: 'high', dx: shift, ...look}),
+        dot(rows, {x: at, y: 'share', dx: shift, ...mark})
+      ];
+}
+
+// How far aside each of several series stands.
+export const aside = (i, many, distance) => (i - (many - 1) / 2) * distance;
+
+// Shares from left to right, a line for each `at(row)`, in the colours of `series(row)`.
+export function shareLines(rows, label, {width, at, series = () => 0, title, left, height = 22}) {
+  const groups = [...groupBy(rows, series).values()], places = unique(rows.map(at));
+  const most = Math.min(1, 1.02 * Math.max(...rows.map(row => row.high)));
+  return drawn(
+      {
+        width,
+        height: places.length * height + 46,
+        marginLeft: left,
+        marginTop: 6,
+        marginBottom: 36,
+        marginRight: 22,
+        x: {domain: [0, most], label: 'share of those asked'},
+        y: {type: 'band', domain: places, label: null},
+        marks: [
+          lines('x', 70), xAxis({tickFormat: share, tickSpacing: 70}), yAxis({tickFormat: name => name}),
+          ...groups.flatMap(
+              (group, i) =>
+                  shares(group, {at, series: i, shift: aside(i, groups.length, 7), title, across: true}))
+        ]
+      },
+      label);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figures of exact rates: a small plot for each generator, on a logarithmic scale that all of them share.
+// Colour and symbol are the number of contacts, where that is not the axis itself.
+import {dot, ruleX} from '@observablehq/plot';
+
+import {element} from './dom.js';
+import * as p from './plots.js';
+
+const names = {
+  contacts: 'number of contacts',
+  friction: 'friction coefficient',
+  rank: 'rank of A at most'
+};
+
+// "1/2" < "2" < "mixed"
+const numberOf = text => {
+  const [above, below = 1] = text.split('/').map(Number);
+  return Number.isNaN(above) ? Infinity : above / below;
+};
+
+const titleOf = by => row => `${row.generator}, ${p.contactsOf(row.contacts)}, ${names[by]} ${row.value}: ` +
+    `${p.count(row.count)} of ${p.count(row.runs)} runs, ${p.rate(row.rate)} [${p.rate(row.low)}, ${
+                                 p.rate(row.high)}] ` +
+    'in a million';
+
+// As many of the values as there is room for.
+const fitting = (values, width) =>
+    values.filter((_, i) => i % Math.ceil(values.length * 24 / (width - 60)) === 0);
+
+// Marks of the rows of one number of contacts. Where none was seen the rate is below the tip of a triangle.
+function marks(rows, by, floor, shift) {
+  const i = by === 'contacts' ? 0 : rows[0].contacts - 1, stroke = p.colours[i % p.colours.length];
+  const some = rows.filter(row => row.count > 0), none = rows.filter(row => row.count === 0);
+  const line = {x: 'value', y2: 'high', stroke, strokeWidth: 1.6, dx: shift};
+  return [
+    ruleX(some, {y1: 'low', ...line}),
+    ruleX(none, {y1: floor, ...line, strokeOpacity: 0.6, strokeDasharray: '2,3'}),
+    dot(none, {x: 'value', y: 'high', symbol: 'triangle', rotate: 180, r: 3, stroke, dx: shift}), dot(some, {
+      x: 'value',
+      y: 'rate',
+      r: 3.2,
+      fill: stroke,
+      symbol: p.symbols[i % p.symbols.length],
+      dx: shift,
+      title: titleOf(by)
+    })
+  ];
+}
+
+function ratePlot(rows, by, outcome, {width, domain, values, contacts}) {
+  const groups = by === 'contacts' ? [rows] : [...p.groupBy(rows, row => row.contacts).values()];
+  const seen = rows.filter(row => row.count > 0)
+                   .map(
+                       row => `${by === 'contacts' ? '' : `${p.contactsOf(row.contacts)}, `}${row.value}: ${
+                           p.rate(row.rate)}`);
+  const shift = group =>
+      by === 'contacts' ? 0 : p.aside(contacts.indexOf(group[0].contacts), contacts.length, 4);
+  return p.drawn(
+      {
+        width,
+        height: 190,
+        marginLeft: 48,
+        marginBottom: 34,
+        marginTop: 10,
+        x: {type: 'point', domain: values, label: names[by], padding: 0.6},
+        y: {type: 'log', domain, label: null, clamp: true},
+        marks: [
+          p.lines('y', 30), p.yAxis({tickSpacing: 30, tickFormat: p.shortNumber}),
+          p.xAxis({ticks: fitting(values, width)}),
+          ...groups.flatMap(group => marks(group, by, domain[0], shift(group)))
+        ]
+      },
+      `${rows[0].generator}: ${outcome} in a million runs, exactly, by ${names[by]}: ${
+          seen.join('; ') || 'none seen'}`);
+}
+
+function draw(by, rows, width, {policy, outcome}) {
+  const all = rows.filter(row => row.by === by && row.policy === policy && row.outcome === outcome);
+  const ends = all.flatMap(row => row.count > 0 ? [row.low, row.high] : [row.high]);
+  if (!all.some(row => row.count > 0)) return [];
+  const options = {
+    width: p.columnWidth(width, 250),
+    domain: [10 ** Math.floor(Math.log10(Math.min(...ends))), Math.max(...ends) * 1.1],
+    values: p.unique(all.map(row => row.value)).sort((a, b) => numberOf(a) - numberOf(b)),
+    contacts: p.ascending(p.unique(all.filter(row => row.count > 0).map(row => row.contacts))),
+  };
+  const plots = [], none = [];
+  for (const [generator, mine] of p.groupBy(all, row => row.generator)) {
+    const shown = by === 'contacts' ? mine : mine.filter(row => row.count > 0);
+    if (shown.length === 0)
+      none.push(generator);
+    else
+      plots.push(p.small(generator, ratePlot(shown, by, outcome, options)));
+  }
+  const key = options.contacts.map(n => [p.contactsOf(n), `c${(n - 1) % p.colours.length + 1}`]);
+  return [
+    ...by === 'contacts' ? [] : [p.legend(key)], p.grid(plots),
+    ...none.length === 0 ? [] : [element('p', {class: 'note'}, `None seen: ${none.join(', ')}.`)]
+  ];
+}
+
+export const rates = by => ({
+  choices: rows => ({
+    policy: p.unique(rows.map(row => row.policy)),
+    outcome: p.unique(rows.filter(row => row.count > 0).map(row => row.outcome)),
+  }),
+  draw: (rows, width, chosen) => draw(by, rows, width, chosen),
+});

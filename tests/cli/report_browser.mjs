@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a report in a browser; run by report_page_test.py, which writes the reports: `small`, `since`
+// (the same beside an earlier one) and `large` (ten thousand findings).
+import assert from 'node:assert/strict';
+import {existsSync, readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {pathToFileURL} from 'node:url';
+
+const {PAGES, PACKAGES, BROWSER} = process.env;
+const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
+let browser;
+
+before(async () => {
+  browser = await chromium.launch({executablePath: BROWSER, args: ['--no-sandbox', '--disable-dev-shm-usage']});
+});
+after(() => browser.close());
+
+// Opens a page, hands it over once all is drawn, and expects that it asked for nothing and complained of
+// nothing.
+async function opened(name, use, {hash = '', ...options} = {}) {
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
+  const page = await context.newPage(), url = pathToFileURL(join(PAGES, name, 'index.html')).href + hash,
+        wrong = [];
+  page.on('console', message => wrong.push(`console: ${message.text()}`));
+  page.on('pageerror', error => wrong.push(`error: ${error.message}`));
+  page.on('request', request => {
+    if (request.url() !== url.replace(/#.*/, '')) wrong.push(`request: ${request.url()}`);
+  });
+  await page.goto(url);
+  if (options.javaScriptEnabled !== false)
+    await page.waitForSelector('html[data-drawn]', {timeout: 60000, state: 'attached'});
+  await use(page);
+  assert.deepEqual(wrong, []);
+  await context.close();
+}
+
+// The rows of a table of the report, by the names of its columns; no cell of these has a line end in it.
+function csv(report, file) {
+  const cells = line => [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map(
+      match => match[1].replace(/^"|"$/g, '').replaceAll('""', '"'));
+  const [head, ...rows] = readFileSync(join(PAGES, report, file), 'utf8').trimEnd().split('\r\n').map(cells);
+  return rows.map(row => Object.fromEntries(head.map((name, i) => [name, row[i]])));
+}
+
+const count = text => Number(text).toLocaleString('en');
+const titles = (page, figure) =>
+    page.$$eval(`figure[data-figure="${figure}"] svg title`, all => all.map(node => node.textContent));
+
+test('every figure is drawn, has a name, and its numbers beside it', async () => {
+  await opened('small', async page => {
+    const figures = await page.$$eval(
+        'figure[data-figure]',
+        all => all.map(node => ({
+                         name: node.dataset.figure,
+                         data: node.querySelector('.source a').getAttribute('href'),
+                         command: node.querySelector('.source').textContent,
+                         caption: node.querySelector('figcaption').textContent,
+                         plots: [...node.querySelectorAll('svg')].map(
+                             svg => ({
+                               role: svg.getAttribute('role'),
+                               label: svg.getAttribute('aria-label') ?? '',
+                               marks: [...svg.querySelectorAll('circle, path, rect, line')]
+                                          .map(mark => mark.getBoundingClientRect())
+                                          .filter(box => box.width + box.height > 2)
+                                          .length
+                             }))
+                       })));
+    assert.deepEqual(figures.map(figure => figure.name), [
+      'rates.contacts', 'rates.friction', 'rates.rank', 'doubles', 'trust', 'steps', 'pivoting', 'loop-steps',
+      'methods', 'driving'
+    ]);
+    for (const figure of figures) {
+      assert.ok(figure.plots.length > 0, figure.name);
+      assert.ok(figure.caption.length > 20, figure.name);
+      assert.ok(existsSync(join(PAGES, 'small', figure.data)), figure.data);
+      assert.match(figure.command, /stiction report/);
+      for (const plot of figure.plots) {
+        assert.equal(plot.role, 'img');
+        assert.ok(plot.label.length > 20, `${figure.name}: ${plot.label}`);
+        assert.ok(plot.marks > 2, `${figure.name}: ${plot.marks} marks`);
+      }
+    }
+    assert.doesNotMatch(await page.innerHTML('main'), /NaN|undefined|Infinity/);
+  });
+});
+
+test('what is drawn are the numbers of the tables', async () => {
+  await opened('small', async page => {
+    const rates = csv('small', 'figures/rates.csv')
+                      .filter(row => row.policy === 'paper' && row.outcome === 'cycle' && row.count !== '0');
+    for (const by of ['contacts', 'friction', 'rank']) {
+      const drawn = await titles(page, `rates.${by}`), rows = rates.filter(row => row.by === by);
+      assert.equal(drawn.length, rows.length, by);
+      for (const row of rows) {
+        const told = drawn.filter(
+            text => text.startsWith(`${row.generator}, ${row.contacts} contact`) &&
+                text.includes(` ${row.value}: ${count(row.count)} of ${count(row.runs)} runs, `));
+        assert.equal(told.length, 1, `${by}: ${JSON.stringify(row)}`);
+      }
+    }
+    const steps = csv('small', 'figures/steps.csv').filter(row => row.policy === 'paper'),
+          told = await titles(page, 'steps');
+    assert.equal(told.length, steps.length);
+    for (const row of steps)
+      assert.ok(told.some(
+          text => text.startsWith(
+              `${row.steps}${row.or_more === 'yes' ? ' or more' : ''} steps: ${count(row.runs)} runs`)));
+    const doubles = csv('small', 'figures/doubles.csv').filter(row => row.policy === 'paper');
+    assert.equal((await titles(page, 'doubles')).length, doubles.length);
+    for (const text of await titles(page, 'doubles'))
+      assert.ok(doubles.some(row => text.endsWith(`exactly ${row.exact}: ${count(row.runs)} runs`)), text);
+    const loops = csv('small', 'figures/loop-steps.csv');
+    assert.deepEqual(
+        (await titles(page, 'loop-steps')).map(text => text.match(/: ([\d,]+) of/)[1]).sort(),
+        loops.map(row => count(row.loops)).sort());
+  });
+});
+
+test('where a dot stands is its rate', async () => {
+  await opened('small', async page => {
+    const rows = csv('small', 'figures/pivoting.csv')
+                     .filter(row => row.policy === 'paper' && row.what === 'a step of length zero');
+    const generator = rows[0].generator, mine = rows.filter(row => row.generator === generator);
+    const heights = await page.$$eval(
+        'figure[data-figure=pivoting] .small:first-child svg :is(circle, path)',
+        all => all.filter(node => node.querySelector('title')?.textContent.includes('zero')).map(node => {
+          const box = node.getBoundingClientRect();
+          return (box.top + box.bottom) / 2;
+        }));
+    assert.equal(heights.length, mine.length);
+    const shares = mine.map(row => Number(row.share)), low = shares.indexOf(Math.min(...shares)),
+          high = shares.indexOf(Math.max(...shares));
+    const scale = (heights[low] - heights[high]) / (shares[high] - shares[low]);
+    assert.ok(scale > 0);
+    for (const [i, share] of shares.entries())
+      assert.ok(
+          Math.abs(heights[low] - scale * (share - shares[low]) - heights[i]) < 1.5,
+          `${share} at ${heights[i]}`);
+  });
+});
+
+test('a figure shows another policy when one is chosen, by the keyboard', async () => {
+  await opened('small', async page => {
+    const select = page.locator('figure[data-figure=steps] select');
+    await select.focus();
+    await page.keyboard.press('ArrowDown');
+    const chosen = await select.inputValue();
+    assert.notEqual(chosen, 'paper');
+    const rows = csv('small', 'figures/steps.csv').filter(row => row.policy === chosen);
+    assert.equal((await titles(page, 'steps')).length, rows.length);
+  });
+});
+
+// ---- Findings ----
+
+const signatures = page =>
+    page.$$eval('#findings tr.finding th code', all => all.map(node => node.textContent));
+const said = page => page.textContent('#findings .said');
+
+test('findings stand in the order of interest, and sort by every column with the keyboard', async () => {
+  await opened('small', async page => {
+    const first = await signatures(page),
+          rows = new Map(csv('small', 'findings.csv').map(row => [row.signature, row]));
+    assert.ok(first.length > 3);
+    const heads = await page.$$('#findings > .scroll > table > thead th');
+    assert.equal(heads.length, 10);
+    for (const [i, head] of heads.entries()) {
+      const button = await head.$('button');
+      await button.focus();
+      await page.keyboard.press('Enter');
+      const up = await head.getAttribute('aria-sort'), one = await signatures(page);
+      await page.keyboard.press('Enter');
+      assert.notEqual(await head.getAttribute('aria-sort'), up);
+      assert.equal(await page.$$eval('#findings [aria-sort]', all => all.length), 1);
+      assert.deepEqual([...one].sort(), [...first].sort(), `column ${i} keeps all`);
+    }
+    await (await heads[5].$('button')).click();
+    const met = (await signatures(page)).map(signature => Number(rows.get(signature).count));
+    assert.deepEqual(met, [...met].sort((a, b) => b - a));
+    await (await heads[0].$('button')).click();
+    assert.deepEqual(await signatures(page), [...first].sort());
+    await page.click('#findings .order');
+    assert.deepEqual(await signatures(page), first);
+  });
+});
+
+test('findings are filtered by kind, and searched', async () => {
+  await opened('small', async page => {
+    const all = csv('small', 'findings.csv').filter(row => row.state !== 'counted');
+    await page.selectOption('#gallery-kind', 'cycle');
+    const cycles = all.filter(row => row.kind === 'cycle');
+    assert.ok(cycles.length > 0 && cycles.length < all.length);
+    assert.match(await said(page), new RegExp(`of ${cycles.length} findings?, of ${all.length} in all`));
+    await page.selectOption('#gallery-kind', '');
+    const wanted = cycles.at(-1).signature;
+    await page.fill('#gallery-search', `CYCLE ${wanted.slice(-12)}`);
+    const fitting =
+        all.filter(row => row.signature.includes(wanted.slice(-12)) && row.signature.includes('cycle'));
+    assert.deepEqual((await signatures(page)).sort(), fitting.map(row => row.signature).sort());
+    await page.fill('#gallery-search', 'nothing of the kind');
+    assert.match(await said(page), /^None of \d+ findings fits/);
+    await page.fill('#gallery-search', '');
+    assert.equal((await signatures(page)).length, Math.min(50, all.length));
+  });
+});
+
+const matrixOf = (page, signature) => page.evaluate(signature => {
+  const head = [...document.querySelectorAll('#findings tr.finding')].find(
+      row => row.querySelector('code').textContent === signature);
+  return [...head.nextElementSibling.querySelectorAll('.details tbody tr')].map(
+      row => [...row.querySelectorAll('td')].map(cell => cell.textContent));
+}, signature);
+
+function assertIsProblem(shown, file) {
+  const {A, b} = JSON.parse(readFileSync(file, 'utf8'));
+  assert.equal(shown.length, A.length);
+  for (const [i, row] of A.entries()) assert.deepEqual(shown[i].slice(0, -1), [...row, b[i]]);
+}
+
+test('a finding opens by the keyboard, and shows the problem of its file', async () => {
+  await opened('small', async page => {
+    const [signature] = await signatures(page);
+    await page.focus('#findings tr.more summary');
+    await page.keyboard.press('Enter');
+    const row = csv('small', 'findings.csv').find(row => row.signature === signature);
+    assertIsProblem(await matrixOf(page, signature), join(PAGES, 'small', row.problem_file));
+    assert.match(
+        await page.textContent('#findings tr.more .details pre'), /^stiction replay findings\/.* --step\n/);
+    assert.match(await page.textContent('pre.setup'), /^cd '.*\/small'\n/);
+  });
+});
+
+test('findings that were found with a scene show it', async () => {
+  await opened('small', async page => {
+    const pictures = await page.$$eval(
+        'figure.scene svg',
+        all => all.map(
+            svg =>
+                [svg.getAttribute('role'), svg.getAttribute('aria-label'),
+                 svg.querySelectorAll('circle, polygon, path').length]));
+    assert.ok(pictures.length > 0);
+    for (const [role, label, shapes] of pictures) {
+      assert.equal(role, 'img');
+      assert.match(label, /^Scene of .*touching at \d+ points?$/);
+      assert.ok(shapes > 1);
+    }
+  });
+});
+
+test('beside an earlier report, what is new can be told and filtered', async () => {
+  await opened('since', async page => {
+    const changed = csv('since', 'since.csv').filter(row => row.change !== 'gone');
+    assert.match(await page.textContent('.since'), /^Since the earlier report: [\d,]+ new/);
+    await page.selectOption('#gallery-change', 'new');
+    const fresh = csv('since', 'findings.csv')
+                      .filter(
+                          row => row.state !== 'counted' &&
+                              changed.some(line => line.signature === row.signature && line.change === 'new'));
+    assert.ok(fresh.length > 0);
+    assert.deepEqual((await signatures(page)).sort(), fresh.map(row => row.signature).sort().slice(0, 50));
+    const badges =
+        await page.$$eval('#findings tr.finding .badge.change', all => all.map(node => node.textContent));
+    assert.deepEqual([...new Set(badges)], ['new']);
+  });
+});
+
+test(
+    'ten thousand findings open in two seconds, and are found beyond those that stand in the page',
+    async () => {
+      const times = [];
+      for (let k = 0; k < 3; ++k) {
+        await opened('large', async page => {
+          times.push(await page.evaluate(() => performance.getEntriesByType('navigation')[0].loadEventEnd));
+          assert.match(await said(page), /^1 to 50 of 10,\d\d\d findings$/);
+          const rows = csv('large', 'findings.csv'), last = rows.filter(row => row.state !== 'counted').at(-1);
+          await page.fill('#gallery-search', last.signature);
+          assert.ok((await signatures(page)).includes(last.signature));
+          await page.click('#findings tr.more summary');
+          assertIsProblem(
+              await matrixOf(page, (await signatures(page))[0]), join(PAGES, 'large', last.problem_file));
+          await page.fill('#gallery-search', '');
+          await page.click('#findings .pager button:nth-child(2)');
+          assert.match(await said(page), /^51 to 100 of 10,/);
+        });
+      }
+      assert.ok(Math.min(...times) < 2000, `opened in ${times.map(Math.round)} ms`);
+    });
+
+// ---- For everybody ----
+
+test('the first key leads past the header, and every control has a name and is reached', async () => {
+  await opened('small', async page => {
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => document.activeElement.className), 'skip');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => location.hash), '#found');
+    const unreachable = await page.$$eval(
+        'main a[href], main button, main select, main input, main summary, [tabindex]',
+        all => all.filter(node => node.tabIndex < 0).map(node => node.outerHTML.slice(0, 80)));
+    assert.deepEqual(unreachable, []);
+    const bare = await page.$$eval(
+        'button, input, select, svg[role=img], [role=region], nav',
+        all => all.filter(
+                      node =>
+                          !(node.getAttribute('aria-label') ||
+                            node.textContent.trim() && node.tagName === 'BUTTON' || node.labels?.length > 0))
+                   .map(node => node.outerHTML.slice(0, 80)));
+    assert.deepEqual(bare, []);
+    const levels = await page.$$eval('h1, h2, h3, h4', all => all.map(node => Number(node.tagName[1])));
+    assert.equal(levels.filter(level => level === 1).length, 1);
+    levels.reduce((before, level) => {
+      assert.ok(level <= before + 1, levels.join(' '));
+      return level;
+    }, 0);
+    assert.ok(await page.$$eval('main section', all => all.every(node => node.querySelector('h2') !== null)));
+  });
+});
+
+// Of what a person reads: its contrast with what it stands on.
+const contrasts = page => page.evaluate(() => {
+  const parse = colour => colour.match(/[\d.]+/g).map(Number);
+  const light = ([r, g, b]) => [r, g, b]
+                                   .map(x => x / 255)
+                                   .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)
+                                   .reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
+  const ground = node => {
+    for (let at = node; at !== null; at = at.parentElement) {
+      const colour = parse(getComputedStyle(at).backgroundColor);
+      if (colour.length === 3 || colour[3] === 1) return colour;
+    }
+    return [255, 255, 255];
+  };
+  const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  const found = {};
+  for (const text
+           of ['h1', 'h2', 'h3', 'p', '.kicker', '.note', '.source', '.source a', 'figcaption', '.answers li',
+               '.tiles strong', '.tiles span', 'th button', 'td.zero', 'td small', '.badge.loop',
+               '.badge.whole', '.said', 'dt', 'dd', 'summary', '.legend li', '.title', 'td.h1', 'td.h2',
+               'td.h3', 'td.h4', 'td.h5', '.choice', 'pre code'])
+    for (const node of [...document.querySelectorAll(text)].slice(0, 3))
+      found[text] = Math.min(
+          found[text] ?? Infinity, ratio(light(parse(getComputedStyle(node).color)), light(ground(node))));
+  for (const node of document.querySelectorAll('.plot-svg text'))
+    found['text of plots'] = Math.min(
+        found['text of plots'] ?? Infinity,
+        ratio(light(parse(getComputedStyle(node).fill)), light(ground(node.closest('figure')))));
+  const marks = {};
+  for (const node of document.querySelectorAll('.plot-svg circle, .plot-svg [aria-label=dot] path')) {
+    const style = getComputedStyle(node), paint = style.fill === 'none' ? style.stroke : style.fill;
+    if (paint !== 'none') marks[paint] ??= ratio(light(parse(paint)), light(ground(node.closest('figure'))));
+  }
+  return {found, marks};
+});
+
+test('light and dark have contrast: texts, and what is drawn', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    await opened('small', async page => {
+      const paper =
+          await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
+      assert.equal(paper[0] < 128, colorScheme === 'dark');
+      const {found, marks} = await contrasts(page);
+      assert.ok(Object.keys(found).length > 20 && Object.keys(marks).length > 2);
+      for (const [text, contrast] of Object.entries(found))
+        assert.ok(contrast >= 4.5, `${colorScheme}: ${text} has a contrast of ${contrast}`);
+      for (const [mark, contrast] of Object.entries(marks))
+        assert.ok(contrast >= 3, `${colorScheme}: ${mark} has a contrast of ${contrast}`);
+    }, {colorScheme});
+  }
+});
+
+test('on a phone nothing is cut off, and plots are redrawn for its width', async () => {
+  await opened('small', async page => {
+    const room = () => page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+    assert.deepEqual(await room(), [360, 360]);
+    const wide = () => page.$$eval(
+        'figure.plot',
+        all => all.filter(
+                      node => [...node.querySelectorAll('svg')].some(
+                          svg => svg.getBoundingClientRect().right > node.getBoundingClientRect().right + 1))
+                   .map(node => node.dataset.figure));
+    assert.deepEqual(await wide(), []);
+    const before = await page.$eval('figure[data-figure=steps] svg', svg => svg.getBoundingClientRect().width);
+    await page.setViewportSize({width: 640, height: 900});
+    await page.waitForFunction(
+        before =>
+            document.querySelector('figure[data-figure=steps] svg').getBoundingClientRect().width !== before,
+        before, {timeout: 20000});
+    assert.deepEqual(await room(), [640, 640]);
+    assert.deepEqual(await wide(), []);
+  }, {viewport: {width: 360, height: 740}, deviceScaleFactor: 2, isMobile: true, hasTouch: true});
+});
+
+test('printed, it is light, in pages, with its figures and without controls', async () => {
+  await opened('small', async page => {
+    const pdf = (await page.pdf({preferCSSPageSize: true, printBackground: true})).toString('latin1');
+    const pages = pdf.match(/\/Type\s*\/Page\b(?!s)/g).length;
+    assert.ok(pages >= 4 && pages <= 25, `${pages} pages`);
+    await page.emulateMedia({media: 'print', colorScheme: 'dark'});
+    assert.deepEqual(
+        await page.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
+    for (const text of ['nav', '.controls', 'select', '#findings tr.more'])
+      assert.ok(!await page.isVisible(text), text);
+    for (const text
+             of ['.answers', 'figure[data-figure="rates.contacts"] svg', '#findings tr.finding', '.references'])
+      assert.ok(await page.isVisible(text), text);
+  }, {colorScheme: 'dark'});
+});
+
+test('without a script all texts and tables stand there', async () => {
+  await opened('small', async page => {
+    assert.ok(await page.isVisible('.answers'));
+    assert.ok(await page.isVisible('noscript, noscript p'));
+    const all = csv('small', 'findings.csv').filter(row => row.state !== 'counted');
+    assert.equal(await page.locator('#findings tr.finding').count(), Math.min(300, all.length));
+    assert.ok(await page.isVisible('figure[data-figure=steps] .source a'));
+  }, {javaScriptEnabled: false});
+});
+
+test('indices stand below their letter', async () => {
+  await opened('small', async page => {
+    const [letter, index] = await page.$eval(
+        '#method msub', node => [...node.children].map(child => child.getBoundingClientRect().bottom));
+    assert.ok(index > letter + 1, `${index}, ${letter}`);
+  });
+});
+
+test('no script but its own runs', async () => {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(pathToFileURL(join(PAGES, 'small', 'index.html')).href);
+  const ran = await page.evaluate(() => {
+    const script = document.createElement('script');
+    script.textContent = 'window.ran = true;';
+    document.body.append(script);
+    return window.ran === true;
+  });
+  assert.equal(ran, false);
+  await context.close();
+});

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page of a report: its numbers are those of the store, its commands run where they stand, a browser shows it.
+
+report_page_test.py PATH_TO_STICTION [SOURCES]
+
+The bundle is compared by viewer_test.py. What needs npm's packages is SKIPPED, with its reason, where npm reaches no
+registry.
+"""
+
+import csv
+import html
+import json
+import os
+import re
+import shutil
+import sqlite3
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import cli
+from viewer_test import Packages
+
+POLICIES = ("paper", "ties=contacts")
+CAMPAIGN = ("--seed", 3, "--generator", "integers", "scenes", "conditioned", "--contacts", 2, 3, "--mu", "1/2", "1",
+            "2", "--policy", *POLICIES, "--audit-every", 500)
+OUTCOMES = ("solved", "cycle", "stall", "ray", "singular", "limit", "undecided")
+MANY = 10000
+
+
+def tables(report):
+    with open(report, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def exact_outcomes(tally):
+    """How the runs that were repeated on suspicion end exactly, by outcome; rows of the record end where zeros do."""
+    return [sum(row[i] for row in tally["verdicts"] if i < len(row)) for i in range(len(OUTCOMES))]
+
+
+def add_findings(store, many):
+    """Copies of one finding under signatures of their own, as a long search would leave them."""
+    db = sqlite3.connect(store)
+    columns = cli.SEALED["findings"].split(", ")
+    row = db.execute(f"SELECT {', '.join(columns)} FROM findings WHERE kind = 'cycle' AND done = 1 LIMIT 1").fetchone()
+    signatures = [f"{row[0]}@copy={number:05}" for number in range(many)]
+    copies = [(signature, *row[1:], cli.seal("findings", (signature, *row[1:]))) for signature in signatures]
+    keys = cli.SEALED["units"].split(", ")
+    unit = dict(zip(keys, db.execute(f"SELECT {', '.join(keys)} FROM units ORDER BY unit LIMIT 1").fetchone()))
+    record = json.loads(unit["record"])
+    record["signatures"].update({signature: 1 + number % 97 for number, signature in enumerate(signatures)})
+    unit["record"] = json.dumps(record, separators=(",", ":"), ensure_ascii=False)
+    with db:
+        db.executemany(f"INSERT INTO findings ({', '.join(columns)}, seal) VALUES ({', '.join('?' * len(copies[0]))})",
+                       copies)
+        db.execute("UPDATE units SET record = ?, seal = ? WHERE unit = ?",
+                   (unit["record"], cli.seal("units", list(unit.values())), unit["unit"]))
+    db.close()
+
+
+@unittest.skipIf(cli.SHORT, "pages are the same in every build")
+class Page(cli.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.pages = Path(tempfile.mkdtemp(prefix="stiction-report-"))
+        cls.addClassCleanup(shutil.rmtree, cls.pages, ignore_errors=True)
+        cls.store = cls.pages / "small.store"
+        for problems, report in ((40000, "earlier"), (100000, "small")):
+            cls.must("search", *CAMPAIGN, "--problems", problems, "--store", cls.store, "--finishing", 100)
+            cls.must("report", cls.store, "-o", cls.pages / report)
+        cls.report = cls.pages / "small"
+        cls.page = (cls.report / "index.html").read_text()
+
+    @classmethod
+    def must(cls, *arguments):
+        done = cli.run(*arguments, timeout=900)
+        if done.code != 0:
+            raise AssertionError(f"{arguments}: exit {done.code}\n{done.err}")
+
+    def data(self):
+        return json.loads(re.search(r'id="data">(.*?)</script>', self.page, re.S)[1])
+
+    def test_what_is_drawn_is_what_the_store_holds(self):
+        tallies, _ = cli.total(self.store)
+        rates = {(row["by"], row["generator"], row["policy"], row["contacts"], row["value"], row["outcome"]): row
+                 for row in tables(self.report / "figures/rates.csv")}
+        seen = 0
+        for (generator, contacts, policy, _method, _arithmetic), tally in tallies.items():
+            exact, n = exact_outcomes(tally), str(contacts)
+            for outcome in ("cycle", "singular", "ray"):
+                row = rates["contacts", generator, policy, n, n, outcome]
+                counts = exact[OUTCOMES.index(outcome)], tally["problems"]
+                self.assertEqual((int(row["count"]), int(row["runs"])), counts)
+                low, rate, high = (float(row[name]) for name in ("low", "rate", "high"))
+                self.assertAlmostEqual(rate, 1e6 * counts[0] / counts[1], delta=1e-5 * rate)
+                self.assertTrue(low <= rate < high, row)
+                seen += counts[0]
+        self.assertGreater(seen, 10)
+
+    def test_steps_that_are_drawn_are_those_of_the_store(self):
+        tallies, _ = cli.total(self.store)
+        expected, found = {}, {}
+        for (_generator, contacts, policy, _method, _arithmetic), tally in tallies.items():
+            for steps, runs in enumerate(tally["steps"]):
+                if runs:
+                    key = policy, str(contacts), str(steps)
+                    expected[key] = expected.get(key, 0) + runs
+        for row in tables(self.report / "figures/steps.csv"):
+            found[row["policy"], row["contacts"], row["steps"]] = int(row["runs"])
+        self.assertEqual(found, expected)
+        self.assertGreater(len(found), 20)
+
+    def test_the_first_sentence_counts_the_loops_of_the_store(self):
+        tallies, _ = cli.total(self.store)
+        loops = sum(sum(exact_outcomes(tally)[1:3]) for tally in tallies.values())
+        runs = sum(tally["problems"] for tally in tallies.values())
+        self.assertIn(f"{loops:,} of {runs:,} runs repeat a state in exact arithmetic", self.page)
+
+    def test_every_finding_of_the_table_is_in_the_data(self):
+        rows = {row["signature"]: row for row in tables(self.report / "findings.csv") if row["state"] != "counted"}
+        findings = self.data()["findings"]
+        self.assertEqual(sorted(rows), sorted(finding["signature"] for finding in findings))
+        for finding in findings:
+            row = rows[finding["signature"]]
+            said = [finding[key] for key in ("kind", "met", "state", "contacts")]
+            self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
+            self.assertEqual(finding["files"][0], row["problem_file"])
+
+    def test_commands_run_in_the_folder_of_the_report(self):
+        featured = re.search(r'<div class="featured">.*?<pre><code>(.*?)</code></pre>', self.page, re.S)[1]
+        commands = html.unescape(featured).split("\n")
+        self.assertEqual(len(commands), 3)
+        setup = html.unescape(re.search(r'<pre class="setup"><code>(.*?)</code></pre>', self.page, re.S)[1])
+        setup = setup.replace("/path/to/stiction/run", str(cli.program))
+        folder = shutil.copytree(self.report, self.folder / "a report")
+        for command in commands:
+            done = subprocess.run(["bash", "-c", f"{setup}\n{command}"], cwd=folder, capture_output=True, text=True,
+                                  timeout=300)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+        self.assertTrue((folder / "replay.html").is_file())
+
+    def test_the_campaign_can_be_searched_again_with_the_command_that_is_named(self):
+        section = self.page[self.page.index('<section id="again">'):]
+        commands = html.unescape(re.search(r"<pre><code>(.*?)</code></pre>", section, re.S)[1])
+        folder = shutil.copytree(self.report, self.folder / "again")
+        program = f'set -e; stiction() {{ {cli.program} "$@"; }}\n'
+        script = program + commands.replace("--store", "--finishing 0 --store")
+        done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, timeout=900)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("rates", "steps", "doubles", "trust", "pivoting", "loop-steps", "driving"):
+            one, two = (path / f"figures/{name}.csv" for path in (self.report, folder / "again"))
+            self.assertEqual(one.read_text(), two.read_text(), name)
+
+    def test_an_earlier_report_that_is_none_is_refused(self):
+        report = "report", self.store, "-o", self.folder / "out", "--since"
+        self.refuses(*report, self.folder / "nowhere", says="nowhere")
+        self.refuses(*report, self.file("x.csv", "a,b\r\n"),
+                     says="x.csv:1: found no column signature, expected findings.csv of a report")
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_in_a_browser(self):
+        browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+        self.assertIsNotNone(browser, "expected a browser: apt-get install chromium")
+        packages = Packages.get()
+        self.succeeds("report", self.store, "-o", self.pages / "since", "--since", self.pages / "earlier")
+        large = self.pages / "large.store"
+        shutil.copy(self.store, large)
+        add_findings(large, MANY)
+        self.succeeds("report", large, "-o", self.pages / "large", timeout=600)
+        script = Path(__file__).with_name("report_browser.mjs")
+        done = subprocess.run(["node", "--test", script], capture_output=True, text=True, timeout=900, env=dict(
+            os.environ, PAGES=str(self.pages), PACKAGES=str(packages), BROWSER=browser))
+        self.assertEqual(done.returncode, 0, done.stdout[-8000:] + done.stderr[-2000:])
+        passed = re.search(r"^# pass (\d+)$|^ℹ pass (\d+)$", done.stdout, re.M)
+        self.assertGreaterEqual(int(passed[1] or passed[2]), 15, done.stdout[-2000:])
+
+
+if __name__ == "__main__":
+    cli.main()
