@@ -9,6 +9,7 @@
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "reports/page.h"
+#include "reports/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -117,18 +118,6 @@ std::string RunText(const RunFacts& run, const Finding& finding) {
   const std::string unit = cycle ? "drive" : "step";
   return fmt::format("Under {}: the state after {} stands again {} later, and so on for ever ({} in all).",
                      finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
-}
-
-// A word as a shell reads it back.
-std::string ShellWord(const std::string& word) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("-_=,@./").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 Html Commands(const Discovery& discovery) {

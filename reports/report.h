@@ -4,6 +4,7 @@
 //   index.html                    one page that needs nothing else
 //   statistics.csv verdicts.csv   what was counted (csv.h)
 //   steps.csv findings.csv agreement.csv solutions.csv
+//   citation.bib                  how to cite it (latex.h)
 //   SHA256SUMS                    of every file but itself
 //   findings/NAME.json            the minimized problem; as found while there is none
 //   findings/NAME.original.json   the problem as found
@@ -23,12 +24,12 @@
 
 namespace stiction {
 
-// `benches`: files of bench --csv, which the page draws.
+// `benches`: files of bench --csv, which the page draws. `latex`: with tables and figures for papers (latex.h).
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
 // content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
                                   Occupied occupied = Occupied::kRefused,
-                                  const std::vector<std::filesystem::path>& benches = {});
+                                  const std::vector<std::filesystem::path>& benches = {}, bool latex = false);
 
 }  // namespace stiction
 

@@ -598,16 +598,6 @@ bug("no-word-of-two", "contacts.size() <= kMostContactsWithWord", "contacts.size
     "loops of two contacts have no word")
 bug("all-steps-zero", "step.s == 0", "step.s >= 0", "words do not tell zero steps from others")
 
-bug = in_file("search/summary.cpp", "^search: summary")
-bug("all-confirmed", "if (exact == inexact && !undecided) digest.confirmed += tally.verdicts[inexact][exact];",
-    "digest.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
-bug("grave-not-named", "if (IsGrave(finding.kind)) digest.grave.push_back(finding);", "", "grave findings are not named")
-bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
-    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
-bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
-    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
-bug("misjudged-not-summed", "digest.misjudged += tally.misjudged;", "", "misjudged runs are not told")
-
 bug = in_file("search/campaign.cpp", "^search: campaign")
 bug("units-too-small", "campaign.unit_problems >> std::max(0, task.contacts - 2)",
     "campaign.unit_problems >> std::max(0, task.contacts - 1)", "units of two contacts are half as large")
@@ -619,6 +609,16 @@ bug("a-round-too-many", "if (round >= WeightOf(contacts)) continue;", "if (round
 bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here", "false", "a policy may stand twice")
 
 # ---- corpus --------------------------------------------------------------------------
+
+bug = in_file("corpus/store_totals.cpp", "^search: summary|^reports: text")
+bug("all-confirmed", "if (exact == inexact && !undecided) totals.confirmed += tally.verdicts[inexact][exact];",
+    "totals.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
+bug("grave-not-named", "if (IsGrave(finding.kind)) totals.grave.push_back(finding);", "", "grave findings are not named")
+bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
+    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
+bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
+    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
+bug("misjudged-not-summed", "totals.misjudged += tally.misjudged;", "", "misjudged runs are not told")
 
 bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: store")
 bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
@@ -747,7 +747,7 @@ bug("unrepresented", "if (discovery.representative != nullptr) sorted.push_back(
 bug("file-names-collide", "if (name == signature && !name.empty()) return name;", "return name;",
     "two signatures have one file")
 
-bug = in_file("reports/report.cpp", "^reports: ")
+bug = in_file("reports/report_files.cpp", "^reports: ")
 bug("certificate-of-the-original", "own.empty() ? finding.certificate : own", "finding.certificate",
     "the minimized problem has the certificate of another")
 
@@ -765,7 +765,7 @@ bug = in_file("reports/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
 bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
 
-bug = in_file("reports/findings_section.cpp", "^reports: ")
+bug = in_file("reports/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 
