@@ -426,6 +426,7 @@ int RunReport(const ReportVerb& o) {
   if (!o.other.empty()) return CompareStores(o);
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
+  if (o.latex && o.folder.empty()) throw InputError("report: found --latex alone, expected -o, a folder to write");
   if (!o.folder.empty())
     TellAside(
         WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace), {o.benches.begin(), o.benches.end()}, o.latex));
@@ -560,7 +561,7 @@ void AddReport(CommandLine& program) {
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
   verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
   verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
-  verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/").Needs("--output");
+  verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
   verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
   AddReplace(verb, o.replace);
 }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "corpus/grouped.h"
 #include "corpus/input_error.h"
@@ -132,7 +134,7 @@ std::map<std::string, std::string> PartsOf(const std::string& definition) {
   const Json json = Json::parse(definition, nullptr, false);
   if (!json.is_object()) return {{"definition", definition}};
   std::map<std::string, std::string> parts;
-  for (const auto& [key, value] : json.items()) parts[key] = JsonText(value);
+  for (const auto& [key, value] : json.items()) parts[key] = PlainValue(value);
   return parts;
 }
 
@@ -140,7 +142,7 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
   std::vector<std::string> lines;
   const auto add = [&lines](const std::string& what, const std::string& left, const std::string& right) {
     if (left != right)
-      lines.push_back(fmt::format("{}: {} in A, {} in B", what, left.empty() ? "none" : left,
+      lines.push_back(fmt::format("{}: A: {}; B: {}", what, left.empty() ? "none" : left,
                                   right.empty() ? "none" : right));
   };
   if (a.algorithm != b.algorithm) {
@@ -154,7 +156,11 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
     for (const auto& [key, value] : *parts) keys.insert(key);
   }
   for (const std::string& key : keys) add(key, parts_a[key], parts_b[key]);
-  add("readings", a.policies, b.policies);
+  const auto policies = [](const CampaignIdentity& identity) {
+    const Json json = Json::parse(identity.policies, nullptr, false);
+    return json.is_array() ? PlainValue(json) : identity.policies;
+  };
+  add("readings", policies(a), policies(b));
   add("seed", std::to_string(a.seed), std::to_string(b.seed));
   if (a.seed == b.seed)
     lines.push_back(fmt::format("seed: {} in both. The tests take problems for independent draws, which those of one "
@@ -211,17 +217,34 @@ std::string AboutTests() {
       0);
 }
 
-std::string LoopTable(const Comparison& c) {
-  TextTable table({"", "contacts", "runs A", "loops", "in a million", "runs B", "loops", "in a million", "p"}, 1);
-  for (const ComparedRate& rate : c.rates) {
-    if (rate.measure != "loops" || !rate.friction.empty()) continue;
-    std::string name = rate.key.generator;
-    if (rate.key.policy != "paper") name += " " + rate.key.policy;
-    table.AddRow({name, Grouped(rate.key.contacts), Grouped(rate.a.of), Grouped(rate.a.count),
-                  RateText(rate.a.count, rate.a.of), Grouped(rate.b.of), Grouped(rate.b.count),
-                  RateText(rate.b.count, rate.b.of), rate.adjusted ? PText(*rate.adjusted) : ""});
+// "near-degenerate, 2", and what is not as usual.
+std::string RowName(const TallyKey& key) {
+  std::string name = fmt::format("{}, {}", key.generator, key.contacts);
+  for (const auto& [part, usual] : {std::pair(key.method, "baraff"), std::pair(key.arithmetic, "double")}) {
+    if (part != usual) name += ", " + part;
   }
-  return table.Done();
+  return name;
+}
+
+// A table for each policy, of the rows that `add` puts into it.
+template <class Rows, class Add>
+std::string TablesByPolicy(const Rows& rows, const std::vector<std::string>& header, Add add) {
+  std::map<std::string, TextTable> tables;
+  for (const auto& row : rows) add(tables.try_emplace(row.key.policy, header, 1).first->second, row);
+  std::string text;
+  for (const auto& [policy, table] : tables) text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
+  return text;
+}
+
+std::string LoopTable(const Comparison& c) {
+  return TablesByPolicy(
+      c.rates, {"generator, contacts", "loops A", "in a million runs", "loops B", "in a million runs", "p"},
+      [](TextTable& table, const ComparedRate& rate) {
+        if (rate.measure != "loops" || !rate.friction.empty()) return;
+        table.AddRow({RowName(rate.key), Grouped(rate.a.count), RateText(rate.a.count, rate.a.of),
+                      Grouped(rate.b.count), RateText(rate.b.count, rate.b.of),
+                      rate.adjusted ? PText(*rate.adjusted) : ""});
+      });
 }
 
 // The number of steps that a share of the runs do not exceed; "63+" for the last bin.
@@ -235,29 +258,30 @@ std::string Quantile(const ComparedSteps::Bins& bins, double share) {
   return fmt::format("{}+", Tally::kBins - 1);
 }
 
+// The mean, and quantiles.
+std::vector<std::string> StepCells(const ComparedSteps::Bins& bins, std::int64_t sum) {
+  const auto runs = std::accumulate(bins.begin(), bins.end(), std::int64_t{0});
+  if (runs == 0) return {"", ""};
+  std::string quantiles;
+  for (const double share : {0.25, 0.5, 0.75, 0.99})
+    quantiles += (quantiles.empty() ? "" : "/") + Quantile(bins, share);
+  return {fmt::format("{:.2f}", static_cast<double>(sum) / static_cast<double>(runs)), quantiles};
+}
+
 std::string StepTable(const Comparison& c) {
-  TextTable table({"", "contacts", "mean A", "25 %", "50 %", "75 %", "99 %", "mean B", "25 %", "50 %", "75 %", "99 %", "p"},
-                  1);
   std::map<TallyKey, std::string> p;
   for (const ComparedRate& rate : c.rates) {
     if (rate.measure.starts_with("steps-above") && rate.adjusted) p[rate.key] = PText(*rate.adjusted);
   }
-  for (const ComparedSteps& steps : c.steps) {
-    std::vector<std::string> cells = {
-        steps.key.policy == "paper" ? steps.key.generator : steps.key.generator + " " + steps.key.policy,
-        Grouped(steps.key.contacts)};
-    const auto add = [&cells](const ComparedSteps::Bins& bins, std::int64_t sum) {
-      double runs = 0;
-      for (const std::int64_t count : bins) runs += static_cast<double>(count);
-      cells.push_back(runs == 0 ? "" : fmt::format("{:.2f}", static_cast<double>(sum) / runs));
-      for (const double share : {0.25, 0.5, 0.75, 0.99}) cells.push_back(runs == 0 ? "" : Quantile(bins, share));
-    };
-    add(steps.a, steps.sum_a);
-    add(steps.b, steps.sum_b);
-    cells.push_back(p[steps.key]);
-    table.AddRow(std::move(cells));
-  }
-  return table.Done();
+  const char* quantiles = "25/50/75/99 %";
+  return TablesByPolicy(c.steps, {"generator, contacts", "mean A", quantiles, "mean B", quantiles, "p"},
+                        [&p](TextTable& table, const ComparedSteps& steps) {
+                          std::vector<std::string> cells = {RowName(steps.key)};
+                          for (std::string& cell : StepCells(steps.a, steps.sum_a)) cells.push_back(std::move(cell));
+                          for (std::string& cell : StepCells(steps.b, steps.sum_b)) cells.push_back(std::move(cell));
+                          cells.push_back(p[steps.key]);
+                          table.AddRow(std::move(cells));
+                        });
 }
 
 std::string OnlyText(const std::vector<TallyKey>& keys, const char* name) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
@@ -23,8 +24,8 @@ std::string LatexTable(const std::string& caption, const std::string& label, con
                        std::size_t names, const std::vector<LatexRow>& rows) {
   std::string columns = std::string(names, 'l') + std::string(header.size() - names, 'r');
   std::string text = fmt::format(
-      "% Written by stiction; needs booktabs and longtable.\n\\begin{{longtable}}{{{}}}\n\\caption{{{}}}\\label{{{}}}\\\\\n"
-      "\\toprule\n{} \\\\\n\\midrule\n\\endhead\n",
+      "% Written by stiction; needs booktabs and longtable.\n\\begin{{longtable}}{{{0}}}\n\\caption{{{1}}}\\label{{{2}}}\\\\\n"
+      "\\toprule\n{3} \\\\\n\\midrule\n\\endfirsthead\n\\toprule\n{3} \\\\\n\\midrule\n\\endhead\n",
       columns, caption, label, fmt::join(header, " & "));
   for (const LatexRow& row : rows) text += fmt::format("{} \\\\\n", fmt::join(row, " & "));
   return text + "\\bottomrule\n\\end{longtable}\n";
@@ -112,7 +113,7 @@ std::string MethodsTable(const Record& record) {
 
 // ---- Figures: columns of numbers, and what draws them ----
 
-// Rows by contacts; for each generator a rate in a million and how far its interval reaches; nan where there is
+// Rows by contacts; for each generator that has loops a rate in a million and how far its interval reaches; nan where there is
 // no run or no loop, which a logarithmic axis cannot show.
 struct LoopCurves {
   std::map<std::string, std::map<int, std::pair<std::int64_t, std::int64_t>>> curves;  // loops, runs
@@ -124,6 +125,10 @@ struct LoopCurves {
       loops += LoopsOf(tally);
       runs += tally.problems;
     }
+    std::erase_if(curves, [](const auto& curve) {
+      return std::all_of(curve.second.begin(), curve.second.end(),
+                         [](const auto& size) { return size.second.first == 0; });
+    });
   }
   std::set<int> Contacts() const {
     std::set<int> all;
@@ -215,7 +220,6 @@ std::string StepFigure(const Record& record) {
 std::string Document(const CampaignIdentity& identity) {
   return fmt::format(R"(% Written by stiction: pdflatex report.tex, twice.
 \documentclass[a4paper]{{article}}
-\usepackage[T1]{{fontenc}}
 \usepackage[utf8]{{inputenc}}
 \usepackage[margin=2cm]{{geometry}}
 \usepackage{{booktabs}}
@@ -252,7 +256,7 @@ std::string LatexText(std::string_view text) {
       case '^': escaped += "\\textasciicircum{}"; break;
       case '<': escaped += "\\textless{}"; break;
       case '>': escaped += "\\textgreater{}"; break;
-      case '"': escaped += "\\textquotedbl{}"; break;
+      case '"': escaped += "{''}"; break;
       case '[': escaped += "{[}"; break;  // behind \\ it would be a length
       case ']': escaped += "{]}"; break;
       case '&': case '%': case '$': case '#': case '_': case '{': case '}': escaped += '\\'; escaped += c; break;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/plain_text.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "solver/problem/check.h"
@@ -85,6 +88,14 @@ std::string TextTable::Done() const {
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
+}
+
+std::string PlainValue(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  if (!json.is_array()) return JsonText(json);
+  std::vector<std::string> parts;
+  for (const Json& element : json) parts.push_back(PlainValue(element));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string ShellWord(const std::string& word) {

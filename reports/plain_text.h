@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/json_text.h"
+
 namespace stiction {
 
 inline constexpr std::size_t kTextWidth = 100;
@@ -32,6 +34,9 @@ class TextTable {
   std::size_t names_;
   std::vector<std::vector<std::string>> rows_;  // the header first
 };
+
+// A value of a definition: texts without quotes, elements of arrays behind ", ".
+std::string PlainValue(const Json& json);
 
 // A word as a shell reads it back.
 std::string ShellWord(const std::string& word);

@@ -304,15 +304,6 @@ std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
   return text + table.Done();
 }
 
-// A value of a definition.
-std::string ValueText(const Json& json) {
-  if (json.is_string()) return json.get<std::string>();
-  if (!json.is_array()) return JsonText(json);
-  std::vector<std::string> parts;
-  for (const Json& element : json) parts.push_back(ValueText(element));
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
 // "0.1.0 2060e9f249a5, GNU 12.2.0 Release" of a build, whose flags follow.
 std::string WithoutFlags(const std::string& build) {
   const std::size_t first = build.find(',');
@@ -325,13 +316,13 @@ std::string SearchedText(const Store& store, const StoreTotals& t) {
   const Json definition = Json::parse(identity.definition, nullptr, false);
   if (definition.is_object()) {
     for (const auto& [key, value] : definition.items()) {
-      if (key != "format" && key != "version") text += Paragraph(fmt::format("{}: {}", key, ValueText(value)));
+      if (key != "format" && key != "version") text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
     }
   } else {
     text += Paragraph(identity.definition);
   }
   const Json policies = Json::parse(identity.policies, nullptr, false);
-  text += Paragraph("readings: " + (policies.is_array() ? ValueText(policies) : identity.policies));
+  text += Paragraph("readings: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
   text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
   for (const std::string& build : t.work.builds) text += Paragraph("build: " + WithoutFlags(build));
   return text + Paragraph(TimeText(t.work.time));

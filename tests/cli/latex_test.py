@@ -36,7 +36,7 @@ class Latex(cli.TestCase):
         cls.made = cli.Path(cli.tempfile.mkdtemp(prefix="stiction-latex-"))
         cls.addClassCleanup(shutil.rmtree, cls.made, ignore_errors=True)
         store, cls.report = cls.made / "small.store", cls.made / "report"
-        for arguments in [("search", "--generator", "conditioned", "near-degenerate", "--contacts", 2, 3, "--problems", 4000, "--seed", 1,
+        for arguments in [("search", "--generator", "conditioned", "near-degenerate", "--contacts", 2, 3, "--problems", 40000, "--seed", 1,
                            "--policy", "paper", "ties=contacts", "--finishing", 0, "--store", store),
                           ("report", store, "-o", cls.report, "--latex")]:
             done = cli.run(*arguments)
@@ -136,7 +136,7 @@ class Latex(cli.TestCase):
         self.assertIn(f"howpublished = {{Software, version {version}}}", citation)
         self.assertIn("note = {Seed 1, version", citation)
         self.assertEqual(citation.count("{"), citation.count("}"))
-        self.refuses("report", self.store, "--latex", "--text", says="--output")
+        self.refuses("report", self.store, "--latex", "--text", says="found --latex alone, expected -o")
 
     def test_citation_file(self):
         text = (cli.ROOT / "CITATION.cff").read_text()

@@ -769,6 +769,35 @@ bug = in_file("reports/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 
+bug = in_file("reports/text_report.cpp", "^reports: text")
+bug("stalls-are-no-loops", "loops += of(Outcome::kCycle) + of(Outcome::kStall);", "loops += of(Outcome::kRay);",
+    "rates of loops count something else")
+bug("known-is-new", "if (known_as(signature).empty()) unknown", "unknown", "loops of the corpus are new ones")
+bug("grave-at-the-end", "return HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
+    "return HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
+
+bug = in_file("reports/exact_tests.cpp", "^reports: comparison")
+bug("one-sided", "weight <= seen * kSame ? weight : 0", "weight < seen ? weight : 0", "the table seen does not count")
+bug("bonferroni", "order.size() - k", "order.size()",
+    "every p is corrected for all tests")
+
+bug = in_file("reports/comparison.cpp", "^reports: comparison")
+bug("misjudged-of-all", "return Trials{t.misjudged, t.audited}", "return Trials{t.misjudged, t.problems}",
+    "misjudged runs are held against all runs")
+bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) return steps;", "the median is the most")
+bug("one-rank", "frictions[key.friction].Merge(stratum)", "frictions[key.friction] = stratum", "a friction has one rank alone")
+bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one campaign are compared")
+bug("rates-the-wrong-way", 'RateOf(rate.a) > RateOf(rate.b) ? "A" : "B"', 'RateOf(rate.a) < RateOf(rate.b) ? "A" : "B"',
+    "more is said to be less")
+
+bug = in_file("reports/latex.cpp", "^reports: latex|^program: latex")
+bug("percent-not-escaped", "case '%': ", "", "what stands behind a percent sign is lost")
+bug("interval-as-reach", "scale * (count - interval.low)", "scale * interval.low", "error bars begin at the interval's end")
+
+bug = in_file("reports/package.cpp", "^program: package")
+bug("certificate-of-another", "of_original ? files.original : files.problem", "files.original",
+    "a certificate is said to be of the problem as found")
+
 # ---- cli ---------------------------------------------------------------------------
 
 VIEWER = "^program: viewer_data"
