@@ -557,7 +557,8 @@ void AddReport(CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search").Required();
-  verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead");
+  verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead")
+      .Details("Exit 1 if a difference is more than noise");
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
   verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
   verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");

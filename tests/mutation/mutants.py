@@ -15,8 +15,8 @@ from collections import namedtuple
 
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "corpus", "certify", "search", "reports")
-PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test",
-            "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
+PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "latex_test", "outputs_test",
+            "package_test", "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
             "usage_test", "viewer_data_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
@@ -772,26 +772,27 @@ bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", 
 bug = in_file("reports/text_report.cpp", "^reports: text")
 bug("stalls-are-no-loops", "loops += of(Outcome::kCycle) + of(Outcome::kStall);", "loops += of(Outcome::kRay);",
     "rates of loops count something else")
-bug("known-is-new", "if (known_as(signature).empty()) unknown", "unknown", "loops of the corpus are new ones")
-bug("grave-at-the-end", "return HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
-    "return HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
+bug("known-is-new", "known_as(signature).empty()", "true", "loops of the corpus are new ones")
+bug("grave-at-the-end", "HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
+    "HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
 
 bug = in_file("reports/exact_tests.cpp", "^reports: comparison")
 bug("one-sided", "weight <= seen * kSame ? weight : 0", "weight < seen ? weight : 0", "the table seen does not count")
-bug("bonferroni", "order.size() - k", "order.size()",
-    "every p is corrected for all tests")
+bug("bonferroni", "order.size() - k", "order.size()", "every p is corrected for all tests")
 
 bug = in_file("reports/comparison.cpp", "^reports: comparison")
-bug("misjudged-of-all", "return Trials{t.misjudged, t.audited}", "return Trials{t.misjudged, t.problems}",
+bug("misjudged-of-all", "Trials{t.misjudged, t.audited}", "Trials{t.misjudged, t.problems}",
     "misjudged runs are held against all runs")
 bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) return steps;", "the median is the most")
-bug("one-rank", "frictions[key.friction].Merge(stratum)", "frictions[key.friction] = stratum", "a friction has one rank alone")
+bug("one-rank", "frictions[key.friction].Merge(stratum);", "frictions[key.friction] = stratum;",
+    "a friction has one rank alone")
 bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one campaign are compared")
 bug("rates-the-wrong-way", 'RateOf(rate.a) > RateOf(rate.b) ? "A" : "B"', 'RateOf(rate.a) < RateOf(rate.b) ? "A" : "B"',
     "more is said to be less")
 
 bug = in_file("reports/latex.cpp", "^reports: latex|^program: latex")
-bug("percent-not-escaped", "case '%': ", "", "what stands behind a percent sign is lost")
+bug("control-not-replaced", "static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c", "c",
+    "control characters of a store come through", type="char")
 bug("interval-as-reach", "scale * (count - interval.low)", "scale * interval.low", "error bars begin at the interval's end")
 
 bug = in_file("reports/package.cpp", "^program: package")
