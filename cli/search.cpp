@@ -407,7 +407,8 @@ int PrintReport(const ReportVerb& o) {
 Store OpenDrawn(const std::string& file) {
   Store store = OpenSound(file);
   if (!CampaignOf(store.identity(), file).objective.empty())
-    throw InputError(fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
+    throw InputError(
+        fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
   return store;
 }
 
@@ -426,10 +427,11 @@ int RunReport(const ReportVerb& o) {
   if (!o.other.empty()) return CompareStores(o);
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
-  if (o.latex && o.folder.empty()) throw InputError("report: found --latex alone, expected -o, a folder to write");
+  if (o.latex && o.folder.empty())
+    throw InputError("report: found --latex alone, expected -o, a folder to write");
   if (!o.folder.empty())
-    TellAside(
-        WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace), {o.benches.begin(), o.benches.end()}, o.latex));
+    TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
+                          {o.benches.begin(), o.benches.end()}, o.latex));
   if (!o.package.empty())
     TellAside(WritePackage(OpenSound(o.store), o.package, CheckerFiles(), OccupiedIf(o.replace)));
   if (o.text) return PrintReport(o);

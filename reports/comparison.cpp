@@ -24,7 +24,9 @@ namespace {
 
 // ---- What is compared ----
 
-std::int64_t At(const Tally::Outcomes& outcomes, Outcome outcome) { return outcomes[static_cast<int>(outcome)]; }
+std::int64_t At(const Tally::Outcomes& outcomes, Outcome outcome) {
+  return outcomes[static_cast<int>(outcome)];
+}
 
 // Exact outcomes of the runs that were suspicious.
 std::int64_t Confirmed(const Tally& tally, Outcome outcome) {
@@ -41,19 +43,33 @@ struct Measure {
   Trials (*of)(const Tally&);
 };
 
-constexpr Measure kMeasures[] = {
-    {"loops", "runs that loop, confirmed exactly", [](const Tally& t) { return Trials{Loops(t), t.problems}; }},
-    {"singular", "runs without a direction of the forces, confirmed exactly",
-     [](const Tally& t) { return Trials{Confirmed(t, Outcome::kSingular), t.problems}; }},
-    {"rays", "runs with a step without end, confirmed exactly",
-     [](const Tally& t) { return Trials{Confirmed(t, Outcome::kRay), t.problems}; }},
-    {"zero-steps", "runs with a step of length zero",
-     [](const Tally& t) { return Trials{t.with_zero_steps, t.problems}; }},
-    {"give-ups", "runs that gave something up", [](const Tally& t) { return Trials{t.with_give_ups, t.problems}; }},
-    {"misjudged", "audited runs that ended otherwise in exact arithmetic",
-     [](const Tally& t) { return Trials{t.misjudged, t.audited}; }},
-    {"wrong", "runs called solved with forces that are none",
-     [](const Tally& t) { return Trials{t.wrong, t.problems}; }}};
+constexpr Measure kMeasures[] = {{"loops", "runs that loop, confirmed exactly",
+                                  [](const Tally& t) {
+                                    return Trials{Loops(t), t.problems};
+                                  }},
+                                 {"singular", "runs without a direction of the forces, confirmed exactly",
+                                  [](const Tally& t) {
+                                    return Trials{Confirmed(t, Outcome::kSingular), t.problems};
+                                  }},
+                                 {"rays", "runs with a step without end, confirmed exactly",
+                                  [](const Tally& t) {
+                                    return Trials{Confirmed(t, Outcome::kRay), t.problems};
+                                  }},
+                                 {"zero-steps", "runs with a step of length zero",
+                                  [](const Tally& t) {
+                                    return Trials{t.with_zero_steps, t.problems};
+                                  }},
+                                 {"give-ups", "runs that gave something up",
+                                  [](const Tally& t) {
+                                    return Trials{t.with_give_ups, t.problems};
+                                  }},
+                                 {"misjudged", "audited runs that ended otherwise in exact arithmetic",
+                                  [](const Tally& t) {
+                                    return Trials{t.misjudged, t.audited};
+                                  }},
+                                 {"wrong", "runs called solved with forces that are none", [](const Tally& t) {
+                                    return Trials{t.wrong, t.problems};
+                                  }}};
 
 struct StratumMeasure {
   const char* name;
@@ -66,8 +82,9 @@ constexpr StratumMeasure kStratumMeasures[] = {
      [](const Stratum& s) {
        return Trials{At(s.exact, Outcome::kCycle) + At(s.exact, Outcome::kStall), s.problems};
      }},
-    {"misjudged", "audited runs that ended otherwise in exact arithmetic",
-     [](const Stratum& s) { return Trials{s.misjudged, s.audited}; }}};
+    {"misjudged", "audited runs that ended otherwise in exact arithmetic", [](const Stratum& s) {
+       return Trials{s.misjudged, s.audited};
+     }}};
 
 std::map<std::string, Stratum, ByFriction> FrictionsOf(const Tally& tally) {
   std::map<std::string, Stratum, ByFriction> frictions;
@@ -99,16 +116,27 @@ void AddRates(Comparison& comparison, const TallyKey& key, const Tally& a, const
   for (const Measure& measure : kMeasures)
     comparison.rates.push_back({key, "", measure.name, measure.meaning, measure.of(a), measure.of(b), {}, {}});
   const int median = PooledMedian(a, b);
-  comparison.rates.push_back({key, "", fmt::format("steps-above-{}", median),
+  comparison.rates.push_back({key,
+                              "",
+                              fmt::format("steps-above-{}", median),
                               fmt::format("runs of more than {} steps, the median of both", median),
-                              StepsAbove(a, median), StepsAbove(b, median), {}, {}});
+                              StepsAbove(a, median),
+                              StepsAbove(b, median),
+                              {},
+                              {}});
   const auto frictions_a = FrictionsOf(a), frictions_b = FrictionsOf(b);
   for (const auto& [friction, stratum] : frictions_a) {
     const auto found = frictions_b.find(friction);
     if (found == frictions_b.end()) continue;
     for (const StratumMeasure& measure : kStratumMeasures)
-      comparison.rates.push_back(
-          {key, friction, measure.name, measure.meaning, measure.of(stratum), measure.of(found->second), {}, {}});
+      comparison.rates.push_back({key,
+                                  friction,
+                                  measure.name,
+                                  measure.meaning,
+                                  measure.of(stratum),
+                                  measure.of(found->second),
+                                  {},
+                                  {}});
   }
 }
 
@@ -142,13 +170,14 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
   std::vector<std::string> lines;
   const auto add = [&lines](const std::string& what, const std::string& left, const std::string& right) {
     if (left != right)
-      lines.push_back(fmt::format("{}: A: {}; B: {}", what, left.empty() ? "none" : left,
-                                  right.empty() ? "none" : right));
+      lines.push_back(
+          fmt::format("{}: A: {}; B: {}", what, left.empty() ? "none" : left, right.empty() ? "none" : right));
   };
   if (a.algorithm != b.algorithm) {
-    lines.push_back(fmt::format("version of the algorithm: {} in A, {} in B. What differs below can be that of the two "
-                                "programs",
-                                a.algorithm, b.algorithm));
+    lines.push_back(
+        fmt::format("version of the algorithm: {} in A, {} in B. What differs below can be that of the two "
+                    "programs",
+                    a.algorithm, b.algorithm));
   }
   auto parts_a = PartsOf(a.definition), parts_b = PartsOf(b.definition);
   std::set<std::string> keys;
@@ -163,9 +192,10 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
   add("readings", policies(a), policies(b));
   add("seed", std::to_string(a.seed), std::to_string(b.seed));
   if (a.seed == b.seed)
-    lines.push_back(fmt::format("seed: {} in both. The tests take problems for independent draws, which those of one "
-                                "seed need not be",
-                                a.seed));
+    lines.push_back(
+        fmt::format("seed: {} in both. The tests take problems for independent draws, which those of one "
+                    "seed need not be",
+                    a.seed));
   return lines;
 }
 
@@ -199,12 +229,14 @@ std::string NoiseText(const Comparison& c) {
     if (rate.MoreThanNoise()) beyond.push_back(&rate);
   }
   if (beyond.empty())
-    return Paragraph(fmt::format("None of {} tests finds a difference that is more than noise.", Grouped(c.tests)), 0);
+    return Paragraph(
+        fmt::format("None of {} tests finds a difference that is more than noise.", Grouped(c.tests)), 0);
   std::stable_sort(beyond.begin(), beyond.end(), [](const ComparedRate* left, const ComparedRate* right) {
     return *left->adjusted < *right->adjusted;
   });
   std::string text = Paragraph(
-      fmt::format("{} of {} tests find a difference that is more than noise:", beyond.size(), Grouped(c.tests)), 0);
+      fmt::format("{} of {} tests find a difference that is more than noise:", beyond.size(), Grouped(c.tests)),
+      0);
   for (const ComparedRate* rate : beyond) text += Paragraph(SentenceOf(*rate));
   return text;
 }
@@ -232,7 +264,8 @@ std::string TablesByPolicy(const Rows& rows, const std::vector<std::string>& hea
   std::map<std::string, TextTable> tables;
   for (const auto& row : rows) add(tables.try_emplace(row.key.policy, header, 1).first->second, row);
   std::string text;
-  for (const auto& [policy, table] : tables) text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
+  for (const auto& [policy, table] : tables)
+    text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
   return text;
 }
 
@@ -277,8 +310,10 @@ std::string StepTable(const Comparison& c) {
   return TablesByPolicy(c.steps, {"generator, contacts", "mean A", quantiles, "mean B", quantiles, "p"},
                         [&p](TextTable& table, const ComparedSteps& steps) {
                           std::vector<std::string> cells = {RowName(steps.key)};
-                          for (std::string& cell : StepCells(steps.a, steps.sum_a)) cells.push_back(std::move(cell));
-                          for (std::string& cell : StepCells(steps.b, steps.sum_b)) cells.push_back(std::move(cell));
+                          for (std::string& cell : StepCells(steps.a, steps.sum_a))
+                            cells.push_back(std::move(cell));
+                          for (std::string& cell : StepCells(steps.b, steps.sum_b))
+                            cells.push_back(std::move(cell));
                           cells.push_back(p[steps.key]);
                           table.AddRow(std::move(cells));
                         });
@@ -315,9 +350,10 @@ bool Comparison::MoreThanNoise() const {
 
 Comparison Compare(const Store& a, const std::string& file_a, const Store& b, const std::string& file_b) {
   if (a.identity() == b.identity()) {
-    throw InputError(fmt::format("{} and {}: found two stores of one campaign, expected two campaigns to compare; "
-                                 "'merge' joins those of one",
-                                 file_a, file_b));
+    throw InputError(
+        fmt::format("{} and {}: found two stores of one campaign, expected two campaigns to compare; "
+                    "'merge' joins those of one",
+                    file_a, file_b));
   }
   const Record of_a = a.Total(), of_b = b.Total();
   Comparison comparison;
@@ -336,9 +372,10 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
     if (!of_a.tallies.contains(key)) comparison.only_b.push_back(key);
   }
   if (comparison.rates.empty()) {
-    throw InputError(fmt::format("{} and {}: found no generator, number of contacts, reading and arithmetic that both "
-                                 "have run, expected one to compare",
-                                 file_a, file_b));
+    throw InputError(
+        fmt::format("{} and {}: found no generator, number of contacts, reading and arithmetic that both "
+                    "have run, expected one to compare",
+                    file_a, file_b));
   }
   AddTests(comparison);
   return comparison;
@@ -356,9 +393,10 @@ std::string ComparisonText(const Comparison& c, const std::string& file_a, const
 
 std::string ComparisonCsv(const Comparison& comparison) {
   Csv csv;
-  for (const char* column : {"generator", "contacts", "policy", "method", "arithmetic", "friction", "measure",
-                             "a_count", "a_of", "a_rate", "a_low", "a_high", "b_count", "b_of", "b_rate", "b_low",
-                             "b_high", "difference", "p", "p_corrected", "more_than_noise"})
+  for (const char* column :
+       {"generator", "contacts", "policy", "method",     "arithmetic", "friction",    "measure",
+        "a_count",   "a_of",     "a_rate", "a_low",      "a_high",     "b_count",     "b_of",
+        "b_rate",    "b_low",    "b_high", "difference", "p",          "p_corrected", "more_than_noise"})
     csv.Add(column);
   csv.EndRow();
   for (const ComparedRate& rate : comparison.rates) {
@@ -376,8 +414,8 @@ std::string ComparisonCsv(const Comparison& comparison) {
 
 std::string ComparisonStepsCsv(const Comparison& comparison) {
   Csv csv;
-  for (const char* column :
-       {"generator", "contacts", "policy", "method", "arithmetic", "steps", "or_more", "a_problems", "b_problems"})
+  for (const char* column : {"generator", "contacts", "policy", "method", "arithmetic", "steps", "or_more",
+                             "a_problems", "b_problems"})
     csv.Add(column);
   csv.EndRow();
   for (const ComparedSteps& compared : comparison.steps) {

@@ -2,9 +2,10 @@
 // Two campaigns side by side: what differs, and whether by more than noise.
 //
 // What both have counted of one generator, number of contacts, policy, method and arithmetic is compared, as a
-// whole and by friction. Every test is Fisher's (exact_tests.h), steps by how many runs took more than the median
-// of both together (the median test of Brown and Mood, A. M. Mood, Introduction to the Theory of Statistics, 1950:
-// exact, too, given the pooled steps); all are corrected together (Holm). They take problems for independent draws.
+// whole and by friction. Every test is Fisher's (exact_tests.h), steps by how many runs took more than the
+// median of both together (the median test of Brown and Mood, A. M. Mood, Introduction to the Theory of
+// Statistics, 1950: exact, too, given the pooled steps); all are corrected together (Holm). They take problems
+// for independent draws.
 
 #ifndef STICTION_REPORTS_COMPARISON_H_
 #define STICTION_REPORTS_COMPARISON_H_
@@ -55,8 +56,8 @@ struct Comparison {
   bool MoreThanNoise() const;
 };
 
-// InputError, which names the files, where there is nothing to compare: stores of one campaign, or no generator,
-// size and policy that both have run.
+// InputError, which names the files, where there is nothing to compare: stores of one campaign, or no
+// generator, size and policy that both have run.
 Comparison Compare(const Store& a, const std::string& file_a, const Store& b, const std::string& file_b);
 
 // As plain text, `a` and `b` being the names of the two.
@@ -66,8 +67,8 @@ std::string ComparisonCsv(const Comparison& comparison);
 // A row per number of steps that occurred.
 std::string ComparisonStepsCsv(const Comparison& comparison);
 
-// comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a whole. Returns where a directory with
-// files of others was moved to, if so.
+// comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a whole. Returns where a directory
+// with files of others was moved to, if so.
 std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& text,
                                       const std::filesystem::path& directory,
                                       Occupied occupied = Occupied::kRefused);

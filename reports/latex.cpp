@@ -24,7 +24,8 @@ std::string LatexTable(const std::string& caption, const std::string& label, con
                        std::size_t names, const std::vector<LatexRow>& rows) {
   std::string columns = std::string(names, 'l') + std::string(header.size() - names, 'r');
   std::string text = fmt::format(
-      "% Written by stiction; needs booktabs and longtable.\n\\begin{{longtable}}{{{0}}}\n\\caption{{{1}}}\\label{{{2}}}\\\\\n"
+      "% Written by stiction; needs booktabs and "
+      "longtable.\n\\begin{{longtable}}{{{0}}}\n\\caption{{{1}}}\\label{{{2}}}\\\\\n"
       "\\toprule\n{3} \\\\\n\\midrule\n\\endfirsthead\n\\toprule\n{3} \\\\\n\\midrule\n\\endhead\n",
       columns, caption, label, fmt::join(header, " & "));
   for (const LatexRow& row : rows) text += fmt::format("{} \\\\\n", fmt::join(row, " & "));
@@ -47,14 +48,17 @@ std::string LoopsTable(const Record& record) {
   std::vector<LatexRow> rows;
   for (const auto& [key, tally] : record.tallies) {
     const std::int64_t loops = LoopsOf(tally);
-    rows.push_back({LatexText(key.generator), LatexText(key.policy), LatexText(key.arithmetic), Grouped(key.contacts),
-                    Grouped(tally.problems), Grouped(loops), Rate(loops, tally.problems)});
+    rows.push_back({LatexText(key.generator), LatexText(key.policy), LatexText(key.arithmetic),
+                    Grouped(key.contacts), Grouped(tally.problems), Grouped(loops),
+                    Rate(loops, tally.problems)});
   }
   return LatexTable(
-      "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact intervals at "
+      "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
+      "intervals at "
       "95\\,\\% (Garwood). They are lower bounds where runs were not all repeated exactly.",
       "tab:stiction-loops",
-      {"generator", "reading", "arithmetic", "contacts", "runs", "loops", "in a million {[95\\,\\%]}"}, 3, rows);
+      {"generator", "reading", "arithmetic", "contacts", "runs", "loops", "in a million {[95\\,\\%]}"}, 3,
+      rows);
 }
 
 // By policy and contacts, over all generators.
@@ -86,11 +90,13 @@ std::string ContactsTable(const Record& record) {
                     Rate(size.loops, size.runs)});
   }
   return LatexTable(
-      "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length zero, and "
-      "with something given up, as shares with exact intervals at 95\\,\\% (Clopper and Pearson); loops confirmed "
+      "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length "
+      "zero, and "
+      "with something given up, as shares with exact intervals at 95\\,\\% (Clopper and Pearson); loops "
+      "confirmed "
       "exactly, in a million runs (Garwood).",
-      "tab:stiction-contacts", {"reading", "contacts", "runs", "steps", "with zero steps", "with give-ups", "loops"},
-      1, rows);
+      "tab:stiction-contacts",
+      {"reading", "contacts", "runs", "steps", "with zero steps", "with give-ups", "loops"}, 1, rows);
 }
 
 std::string MethodsTable(const Record& record) {
@@ -99,22 +105,24 @@ std::string MethodsTable(const Record& record) {
     const auto found = record.agreement.find(contacts);
     const AgreementTally agreement = found == record.agreement.end() ? AgreementTally{} : found->second;
     rows.push_back({Grouped(contacts), Grouped(existence.problems), Grouped(existence.solved),
-                    Grouped(existence.with_folds), Grouped(existence.with_descents), Grouped(agreement.compared),
-                    Grouped(agreement.enumerated), Grouped(agreement.disagreements)});
+                    Grouped(existence.with_folds), Grouped(existence.with_descents),
+                    Grouped(agreement.compared), Grouped(agreement.enumerated),
+                    Grouped(agreement.disagreements)});
   }
   return LatexTable(
       "Complete driving on the problems that were given to it, and methods held against each other (published "
-      "algorithm, complete driving, Lemke's method; all contact modes tried of some), by number of contacts. Each "
+      "algorithm, complete driving, Lemke's method; all contact modes tried of some), by number of contacts. "
+      "Each "
       "solution was verified exactly.",
       "tab:stiction-methods",
-      {"contacts", "given", "solved", "with folds", "with descents", "compared", "all modes", "disagreements"}, 0,
-      rows);
+      {"contacts", "given", "solved", "with folds", "with descents", "compared", "all modes", "disagreements"},
+      0, rows);
 }
 
 // ---- Figures: columns of numbers, and what draws them ----
 
-// Rows by contacts; for each generator that has loops a rate in a million and how far its interval reaches; nan where there is
-// no run or no loop, which a logarithmic axis cannot show.
+// Rows by contacts; for each generator that has loops a rate in a million and how far its interval reaches; nan
+// where there is no run or no loop, which a logarithmic axis cannot show.
 struct LoopCurves {
   std::map<std::string, std::map<int, std::pair<std::int64_t, std::int64_t>>> curves;  // loops, runs
 
@@ -195,9 +203,10 @@ std::string StepData(const Record& record) {
     text += std::to_string(steps);
     for (const auto& [key, size] : sizes) {
       if (key.first != "paper") continue;
-      text += size.runs == 0
-                  ? " nan"
-                  : fmt::format(" {:.9g}", static_cast<double>(size.bins[steps]) / static_cast<double>(size.runs));
+      text +=
+          size.runs == 0
+              ? " nan"
+              : fmt::format(" {:.9g}", static_cast<double>(size.bins[steps]) / static_cast<double>(size.runs));
     }
     text += "\n";
   }
@@ -205,14 +214,16 @@ std::string StepData(const Record& record) {
 }
 
 std::string StepFigure(const Record& record) {
-  std::string text = FigureHead(fmt::format(
-      "xlabel={{steps of a run ({} stands for more, too)}}, ylabel={{share of the runs}}, legend pos=outer north east, "
-      "no markers, const plot",
-      Tally::kBins - 1));
+  std::string text =
+      FigureHead(fmt::format("xlabel={{steps of a run ({} stands for more, too)}}, ylabel={{share of the "
+                             "runs}}, legend pos=outer north east, "
+                             "no markers, const plot",
+                             Tally::kBins - 1));
   for (const auto& [key, size] : BySize(record)) {
     if (key.first != "paper") continue;
-    text += fmt::format("\\addplot table[x=steps, y=c{0}] {{\\stictiondata/steps.dat}};\n\\addlegendentry{{{0} {1}}}\n",
-                        key.second, key.second == 1 ? "contact" : "contacts");
+    text += fmt::format(
+        "\\addplot table[x=steps, y=c{0}] {{\\stictiondata/steps.dat}};\n\\addlegendentry{{{0} {1}}}\n",
+        key.second, key.second == 1 ? "contact" : "contacts");
   }
   return text + "\\end{axis}\n\\end{tikzpicture}\n";
 }
@@ -251,16 +262,42 @@ std::string LatexText(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '\\': escaped += "\\textbackslash{}"; break;
-      case '~': escaped += "\\textasciitilde{}"; break;
-      case '^': escaped += "\\textasciicircum{}"; break;
-      case '<': escaped += "\\textless{}"; break;
-      case '>': escaped += "\\textgreater{}"; break;
-      case '"': escaped += "{''}"; break;
-      case '[': escaped += "{[}"; break;  // behind \\ it would be a length
-      case ']': escaped += "{]}"; break;
-      case '&': case '%': case '$': case '#': case '_': case '{': case '}': escaped += '\\'; escaped += c; break;
-      default: escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+      case '\\':
+        escaped += "\\textbackslash{}";
+        break;
+      case '~':
+        escaped += "\\textasciitilde{}";
+        break;
+      case '^':
+        escaped += "\\textasciicircum{}";
+        break;
+      case '<':
+        escaped += "\\textless{}";
+        break;
+      case '>':
+        escaped += "\\textgreater{}";
+        break;
+      case '"':
+        escaped += "{''}";
+        break;
+      case '[':
+        escaped += "{[}";
+        break;  // behind \\ it would be a length
+      case ']':
+        escaped += "{]}";
+        break;
+      case '&':
+      case '%':
+      case '$':
+      case '#':
+      case '_':
+      case '{':
+      case '}':
+        escaped += '\\';
+        escaped += c;
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     }
   }
   return escaped;

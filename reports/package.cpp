@@ -46,8 +46,7 @@ Json Entry(const Discovery& discovery, const std::map<std::string, std::string>&
     problems.push_back({{"file", name}, {"digest", ProblemDigest(ParseProblem(files.at(name), name).problem)}});
   }
   for (const auto& [name, problem] : CertificatesOf(discovery)) {
-    certificates.push_back(
-        {{"file", name}, {"claim", ClaimOf(files.at(name), name)}, {"problem", problem}});
+    certificates.push_back({{"file", name}, {"claim", ClaimOf(files.at(name), name)}, {"problem", problem}});
   }
   const Finding& finding = *discovery.representative;
   return {{"signature", discovery.signature},

@@ -15,8 +15,8 @@ namespace stiction {
 inline constexpr std::size_t kTextWidth = 100;
 
 // Words on lines of at most kTextWidth columns; a longer word stands on a line of its own, and
-// what stands in brackets is one word. Each line begins with `indent` spaces and ends with a line feed. Characters
-// that would steer a terminal become '?'.
+// what stands in brackets is one word. Each line begins with `indent` spaces and ends with a line feed.
+// Characters that would steer a terminal become '?'.
 std::string Paragraph(std::string_view text, std::size_t indent = 2);
 
 // A title and the line below it.

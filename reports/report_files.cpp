@@ -45,11 +45,16 @@ std::map<std::string, std::string> FilesOf(const Discovery& discovery) {
 }
 
 std::map<std::string, std::string> TablesOf(const Record& total, const std::vector<Discovery>& discoveries) {
-  return {{"statistics.csv", StatisticsCsv(total)},   {"verdicts.csv", VerdictsCsv(total)},
-          {"strata.csv", StrataCsv(total)},           {"steps.csv", StepsCsv(total)},
-          {"loops.csv", LoopsCsv(total)},             {"zero_steps.csv", ZeroStepsCsv(total)},
-          {"agreement.csv", AgreementCsv(total)},     {"solutions.csv", SolutionsCsv(total)},
-          {"findings.csv", FindingsCsv(discoveries)}, {"ipopt.csv", IpoptCsv(discoveries)}};
+  return {{"statistics.csv", StatisticsCsv(total)},
+          {"verdicts.csv", VerdictsCsv(total)},
+          {"strata.csv", StrataCsv(total)},
+          {"steps.csv", StepsCsv(total)},
+          {"loops.csv", LoopsCsv(total)},
+          {"zero_steps.csv", ZeroStepsCsv(total)},
+          {"agreement.csv", AgreementCsv(total)},
+          {"solutions.csv", SolutionsCsv(total)},
+          {"findings.csv", FindingsCsv(discoveries)},
+          {"ipopt.csv", IpoptCsv(discoveries)}};
 }
 
 }  // namespace stiction

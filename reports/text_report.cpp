@@ -49,7 +49,7 @@ std::string InWords(const std::string& label) {
 }
 
 std::string RateSentence(std::int64_t count, std::int64_t runs) {
-  return fmt::format("{} in a million", RateText(count, runs));
+  return fmt::format("{} in a million runs", RateText(count, runs));
 }
 
 // "1 is", "2 are".
@@ -62,9 +62,10 @@ std::string Command(const std::string& text) { return "    " + text + "\n"; }
 // ---- Sentences, each of one subject ----
 
 std::string HeadLine(const StoreTotals& t, const Store& store, const std::string& file) {
-  std::string text =
-      fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"), Counted(t.units, "unit"), store.identity().seed);
-  if (t.runs != t.problems) text += fmt::format("; {} runs, each problem under every reading asked for", Grouped(t.runs));
+  std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
+                                 Counted(t.units, "unit"), store.identity().seed);
+  if (t.runs != t.problems)
+    text += fmt::format("; {} runs, each problem under every reading asked for", Grouped(t.runs));
   return Paragraph(text, 0);
 }
 
@@ -79,19 +80,20 @@ std::string LoopsText(const StoreTotals& t) {
   const std::int64_t met = t.LoopsMet();
   if (t.runs == 0) return "";
   if (met == 0) {
-    return Paragraph(fmt::format("No run of the published algorithm was found to loop: {}.", RateSentence(0, t.runs)));
+    return Paragraph(
+        fmt::format("No run of the published algorithm was found to loop: {}.", RateSentence(0, t.runs)));
   }
-  std::string text = Paragraph(
-      fmt::format("The published algorithm loops for ever in {}: {}. A state of such a run stands again, in exact "
-                  "arithmetic or, in space, by intervals: so it never ends.",
-                  Counted(met, "run"), RateSentence(met, t.runs)));
+  std::string text = Paragraph(fmt::format(
+      "The published algorithm loops for ever in {}: {}. A state of such a run stands again, in exact "
+      "arithmetic or, in space, by intervals: so it never ends.",
+      Counted(met, "run"), RateSentence(met, t.runs)));
   text += Paragraph(fmt::format("They are of {}; {} under every reading of the paper, as minimized.",
-                                Counted(t.LoopGroups(), "kind"),
-                                Verb(t.whole_grid, "loops", "loop")));
+                                Counted(t.LoopGroups(), "kind"), Verb(t.whole_grid, "loops", "loop")));
   if (t.loops.loops > 0) {
-    text += Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",
-                                  Counted(t.loops.loops, "loop"), Verb(t.loops.without_zero_steps, "has", "have"),
-                                  Verb(t.loops.of_zero_steps_alone, "has", "have")));
+    text +=
+        Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",
+                              Counted(t.loops.loops, "loop"), Verb(t.loops.without_zero_steps, "has", "have"),
+                              Verb(t.loops.of_zero_steps_alone, "has", "have")));
   }
   return text;
 }
@@ -111,28 +113,30 @@ std::string ExistenceText(const StoreTotals& t) {
     text += Paragraph("Whether solutions exist was not asked: no problem was given to complete driving.");
   } else {
     const std::int64_t missed = e.problems - e.solved;
-    text += Paragraph(fmt::format(
-        "{}: of {} given to complete driving {} solved, each solution verified exactly ({} with folds, where the "
-        "published algorithm gives up).",
-        missed == 0 ? "Complete driving never failed" : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
-        Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
+    text +=
+        Paragraph(fmt::format("{}: of {} given to complete driving {} solved, each solution verified exactly "
+                              "({} with folds, where the "
+                              "published algorithm gives up).",
+                              missed == 0 ? "Complete driving never failed"
+                                          : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
+                              Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
   }
-  text += Paragraph(fmt::format(
-      "Methods held against each other on {} (all contact modes tried of {}): {}.", Counted(a.compared, "problem"),
-      Grouped(a.enumerated), Counted(a.disagreements, "disagreement")));
+  text += Paragraph(fmt::format("Methods held against each other on {} (all contact modes tried of {}): {}.",
+                                Counted(a.compared, "problem"), Grouped(a.enumerated),
+                                Counted(a.disagreements, "disagreement")));
   if (a.safety_decided > 0)
-    text += Paragraph(fmt::format("Safe, all reduced determinants being positive: {} of {}; {} gave up something "
-                                  "under apex=suspended.",
-                                  Grouped(a.safe), Counted(a.safety_decided, "audited problem"),
-                                  Grouped(a.safe_gave_up)));
+    text += Paragraph(
+        fmt::format("Safe, all reduced determinants being positive: {} of {}; {} gave up something "
+                    "under apex=suspended.",
+                    Grouped(a.safe), Counted(a.safety_decided, "audited problem"), Grouped(a.safe_gave_up)));
   return text;
 }
 
 std::string DoublesText(const StoreTotals& t) {
-  return Paragraph(fmt::format(
-      "Doubles: {} of {} confirmed exactly; {} of {} misjudged; {} wrong, though called solved.",
-      Grouped(t.confirmed), Counted(t.suspicions, "suspicion"), Grouped(t.misjudged), Counted(t.audited, "audited run"),
-      Counted(t.wrong, "answer")));
+  return Paragraph(
+      fmt::format("Doubles: {} of {} confirmed exactly; {} of {} misjudged; {} wrong, though called solved.",
+                  Grouped(t.confirmed), Counted(t.suspicions, "suspicion"), Grouped(t.misjudged),
+                  Counted(t.audited, "audited run"), Counted(t.wrong, "answer")));
 }
 
 // What the rates are worth: how much was audited, and what came of it.
@@ -144,17 +148,18 @@ std::string WorthText(const StoreTotals& t) {
   if (t.audited + t.suspicions == t.runs) {
     text += fmt::format("Every run was repeated exactly{}.", misjudged);
   } else {
-    text += fmt::format("Rates are lower bounds: loops that doubles take for solutions are not counted. Of {} without "
-                        "a suspicion {} were audited{}.",
-                        Counted(t.runs - t.suspicions, "run"), Grouped(t.audited), misjudged);
+    text += fmt::format(
+        "Rates are lower bounds: loops that doubles take for solutions are not counted. Of {} without "
+        "a suspicion {} were audited{}.",
+        Counted(t.runs - t.suspicions, "run"), Grouped(t.audited), misjudged);
   }
   return Paragraph(text);
 }
 
 std::string FinishText(const StoreTotals& t, const std::string& file) {
-  std::string text =
-      Paragraph(fmt::format("Representatives, one of each kind as far as kept: {} certified and minimized, {} to go.",
-                            Grouped(t.finished), Grouped(t.pending)));
+  std::string text = Paragraph(
+      fmt::format("Representatives, one of each kind as far as kept: {} certified and minimized, {} to go.",
+                  Grouped(t.finished), Grouped(t.pending)));
   if (t.pending > 0) text += Paragraph("What is to go is finished by:") + Command(FinishCommand(file));
   return text;
 }
@@ -272,7 +277,8 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
   const std::string problem = "report/findings/" + FileName(first->signature) + ".json";
   const std::string policy = first->policy == "paper" ? "" : " --policy " + ShellWord(first->policy);
   std::string text = "\n" + Heading("The simplest loop: " + first->signature);
-  text += Paragraph(FindingText(*first) + ".") + ProblemText(ParseProblem(first->minimized, first->signature).problem);
+  text += Paragraph(FindingText(*first) + ".") +
+          ProblemText(ParseProblem(first->minimized, first->signature).problem);
   text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
   text += Command(fmt::format("./run report {} -o report", ShellWord(file)));
   text += Command(fmt::format("./run replay {} --step{}", problem, policy));
@@ -350,8 +356,9 @@ std::string TextReport(const Store& store, const std::string& file, const KnownC
   if (t.runs > 0) {
     text += "\n" + Heading("How often it fails, in exact arithmetic") + GeneratorTables(t.record) + "\n" +
             Heading("The same by friction coefficient") +
-            Paragraph("Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
-                      "units of the tangents make another mu of it.") +
+            Paragraph(
+                "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
+                "units of the tangents make another mu of it.") +
             FrictionTables(t.record);
   }
   return text + SearchedText(store, t);

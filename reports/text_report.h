@@ -16,13 +16,13 @@ namespace stiction {
 // The case of the corpus that shows a loop of this signature; empty if there is none.
 using KnownCase = std::function<std::string_view(std::string_view signature)>;
 
-// Both require a store of problems that were drawn at random: a search with an objective has no rates. `file` is
-// named in the commands that they propose.
+// Both require a store of problems that were drawn at random: a search with an objective has no rates. `file`
+// is named in the commands that they propose.
 
 // A screen: loops, other failures, existence, doubles, what the numbers are worth, the simplest loops.
 std::string SummaryText(const Store& store, const std::string& file);
-// A page: the same, with rates by generator, contacts and friction, the loops that are new, the simplest loop in
-// numbers, what was searched, and commands that replay it.
+// A page: the same, with rates by generator, contacts and friction, the loops that are new, the simplest loop
+// in numbers, what was searched, and commands that replay it.
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as);
 
 }  // namespace stiction

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two stores compared: exact tests that are exact, what is noise called noise, and what is not comparable refused.
+// Two stores compared: exact tests that are exact, what is noise called noise, and what is not comparable
+// refused.
 
 #include "reports/comparison.h"
 
@@ -35,8 +36,9 @@ Rational Binomial(std::int64_t n, std::int64_t k) {
 Rational FisherByDefinition(const Trials& a, const Trials& b) {
   const std::int64_t events = a.count + b.count, all = a.of + b.of;
   const auto weight = [&](std::int64_t x) -> Rational {
-    return x > events || x > a.of || events - x > b.of ? Rational(0)
-                                                       : Rational(Binomial(a.of, x) * Binomial(b.of, events - x));
+    return x > events || x > a.of || events - x > b.of
+               ? Rational(0)
+               : Rational(Binomial(a.of, x) * Binomial(b.of, events - x));
   };
   const Rational seen = weight(a.count);
   Rational p = 0;
@@ -101,7 +103,8 @@ constexpr int kEndsInCycle = static_cast<int>(Outcome::kCycle), kEndsInRay = sta
               kEndsSolved = static_cast<int>(Outcome::kSolved);
 
 CampaignIdentity IdentityWith(std::uint64_t seed, const std::string& mu = "1", int algorithm = 1) {
-  return {R"({"format":"stiction-campaign","version":1,"mu":[")" + mu + R"("]})", seed, R"(["paper"])", algorithm};
+  return {R"({"format":"stiction-campaign","version":1,"mu":[")" + mu + R"("]})", seed, R"(["paper"])",
+          algorithm};
 }
 
 // Loops of so many problems, half of them of 4 steps, the others of `steps`.
@@ -137,7 +140,8 @@ Comparison Compared(const Scratch& scratch, const Record& a, const Record& b) {
                  CampaignStore(scratch / "b", IdentityWith(2), b), "b.store");
 }
 
-const ComparedRate& RateNamed(const Comparison& comparison, const std::string& measure, const std::string& friction = "") {
+const ComparedRate& RateNamed(const Comparison& comparison, const std::string& measure,
+                              const std::string& friction = "") {
   for (const ComparedRate& rate : comparison.rates) {
     if (rate.measure == measure && rate.friction == friction) return rate;
   }
@@ -231,8 +235,10 @@ TEST_CASE("comparison: stores of one campaign, and stores with nothing in common
   const Store a = CampaignStore(scratch / "a", IdentityWith(1), RecordOf(100, 3, 6));
   const Store shard = CampaignStore(scratch / "b", IdentityWith(1), RecordOf(100, 4, 6));
   const Store foreign = CampaignStore(scratch / "c", IdentityWith(2), RecordOf(100, 3, 6, "scenes"));
-  CHECK_THROWS_WITH(Compare(a, "a.store", shard, "b.store"), Contains("two stores of one campaign") && Contains("'merge'"));
-  CHECK_THROWS_WITH(Compare(a, "a.store", foreign, "c.store"), Contains("a.store and c.store: found no generator"));
+  CHECK_THROWS_WITH(Compare(a, "a.store", shard, "b.store"),
+                    Contains("two stores of one campaign") && Contains("'merge'"));
+  CHECK_THROWS_WITH(Compare(a, "a.store", foreign, "c.store"),
+                    Contains("a.store and c.store: found no generator"));
 }
 
 TEST_CASE("comparison: what the campaigns differ in stands first, versions and common seeds with a warning") {
@@ -266,10 +272,11 @@ TEST_CASE("comparison: the tables have a row for every rate and every number of 
   CHECK_THAT(csv, Contains(",0.017,") && Contains(",yes\r\n"));
   CHECK_THAT(csv, Contains("\r\npsd,2,paper,baraff,double,,wrong,0,1000,0,"));
   const std::string steps = ComparisonStepsCsv(c);
-  CHECK(steps == "generator,contacts,policy,method,arithmetic,steps,or_more,a_problems,b_problems\r\n"
-                 "psd,2,paper,baraff,double,4,no,500,1000\r\n"
-                 "psd,2,paper,baraff,double,6,no,500,0\r\n"
-                 "psd,2,paper,baraff,double,9,no,0,1000\r\n");
+  CHECK(steps ==
+        "generator,contacts,policy,method,arithmetic,steps,or_more,a_problems,b_problems\r\n"
+        "psd,2,paper,baraff,double,4,no,500,1000\r\n"
+        "psd,2,paper,baraff,double,6,no,500,0\r\n"
+        "psd,2,paper,baraff,double,9,no,0,1000\r\n");
 }
 
 }  // namespace

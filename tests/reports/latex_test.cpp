@@ -16,9 +16,10 @@ using testing::Scratch;
 
 TEST_CASE("latex: every special character is escaped, brackets stand in braces") {
   CHECK(LatexText("near-degenerate") == "near-degenerate");
-  CHECK(LatexText(R"(a\b{c}$d&e#f_g%h~i^j<k>l"m[n])") ==
-        R"(a\textbackslash{}b\{c\}\$d\&e\#f\_g\%h\textasciitilde{}i\textasciicircum{}j\textless{}k\textgreater{}l)"
-        R"({''}m{[}n{]})");
+  CHECK(
+      LatexText(R"(a\b{c}$d&e#f_g%h~i^j<k>l"m[n])") ==
+      R"(a\textbackslash{}b\{c\}\$d\&e\#f\_g\%h\textasciitilde{}i\textasciicircum{}j\textless{}k\textgreater{}l)"
+      R"({''}m{[}n{]})");
   CHECK(LatexText("a\nb\x7f") == "a?b?");
 }
 

@@ -117,9 +117,9 @@ std::string Flowing(const std::string& text) {
 TEST_CASE("text: loops come before all other findings, as a sentence and in every list") {
   const Scratch scratch;
   const Store store = StoreOf(scratch / "s.store");
-  for (const std::string& text :
-       {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
-    const std::size_t loops = text.find("loops for ever"), kind = text.find("loop for ever  "), ray = text.find("ray");
+  for (const std::string& text : {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
+    const std::size_t loops = text.find("loops for ever"), kind = text.find("loop for ever  "),
+                      ray = text.find("ray");
     CHECK(loops < kind);
     CHECK(kind < ray);
   }
@@ -133,8 +133,7 @@ TEST_CASE("text: loops come before all other findings, as a sentence and in ever
 TEST_CASE("text: what is grave is named before anything was found") {
   const Scratch scratch;
   const Store store = StoreOf(scratch / "s.store", true);
-  for (const std::string& text :
-       {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
+  for (const std::string& text : {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
     CHECK(LinesOf(text).at(1) == "  GRAVE: safe-cycle: safe-cycle-2c-4d-10s-00");
     CHECK(text.find("loop for ever though proved safe") < text.find("loop for ever  "));
   }
@@ -143,8 +142,8 @@ TEST_CASE("text: what is grave is named before anything was found") {
 TEST_CASE("text: every number is a sum over the units") {
   const Scratch scratch;
   const Store store = StoreOf(scratch / "s.store");
-  for (const std::string& text : {Flowing(SummaryText(store, "the.store")),
-                                  Flowing(TextReport(store, "the.store", KnownNone))}) {
+  for (const std::string& text :
+       {Flowing(SummaryText(store, "the.store")), Flowing(TextReport(store, "the.store", KnownNone))}) {
     CHECK_THAT(text, Contains("the.store: 60 problems in 2 units, seed 7; 120 runs"));
     CHECK_THAT(text, Contains("loops for ever in 6 runs: " + RateText(6, 120) + " in a million"));
     CHECK_THAT(text, Contains("of 2 kinds; 0 loop under every reading"));
@@ -154,8 +153,11 @@ TEST_CASE("text: every number is a sum over the units") {
     CHECK_THAT(text, Contains("FAILED on 2: of 26 problems given to complete driving 24 solved"));
     CHECK_THAT(text, Contains("on 34 problems (all contact modes tried of 38): 46 disagreements"));
     CHECK_THAT(text, Contains("62 of 58 audited problems; 74 gave up something"));
-    CHECK_THAT(text, Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 answers wrong"));
-    CHECK_THAT(text, Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
+    CHECK_THAT(
+        text,
+        Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 answers wrong"));
+    CHECK_THAT(text,
+               Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
     CHECK_THAT(text, Contains("2 certified and minimized, 1 to go"));
     CHECK_THAT(text, Contains("./run search --store the.store --finish"));
   }
@@ -164,10 +166,15 @@ TEST_CASE("text: every number is a sum over the units") {
 TEST_CASE("text: the page has exact rates by policy, generator and contacts, and by friction") {
   const Scratch scratch;
   const std::string text = Flowing(TextReport(StoreOf(scratch / "s.store"), "the.store", KnownNone));
-  CHECK_THAT(text, Contains("Reading paper: generator contacts runs loops in a million [95 %] singular rays psd 2 60 4 " +
-                            RateText(4, 60) + " 0 2 "));
-  CHECK_THAT(text, Contains("Reading ties=contacts: generator contacts runs loops in a million [95 %] singular rays psd 2 "
-                            "60 0 " + RateText(0, 60) + " 0 0 "));
+  CHECK_THAT(
+      text,
+      Contains("Reading paper: generator contacts runs loops in a million [95 %] singular rays psd 2 60 4 " +
+               RateText(4, 60) + " 0 2 "));
+  CHECK_THAT(
+      text,
+      Contains("Reading ties=contacts: generator contacts runs loops in a million [95 %] singular rays psd 2 "
+               "60 0 " +
+               RateText(0, 60) + " 0 0 "));
   CHECK_THAT(text, Contains("1/2 60 4 " + RateText(4, 60) + " 0 0 "));
 }
 
@@ -175,7 +182,8 @@ TEST_CASE("text: the simplest loop stands in numbers, with commands that replay 
   const Scratch scratch;
   const std::string text = TextReport(StoreOf(scratch / "s.store"), "a store's", KnownNone);
   CHECK_THAT(text, Contains("The simplest loop: cycle-2c-4d-10s-00"));
-  CHECK_THAT(Flowing(text), Contains("the state after 3 drives stands again 1 drive later; readings: 36 cycle, 1500 solved"));
+  CHECK_THAT(Flowing(text),
+             Contains("the state after 3 drives stands again 1 drive later; readings: 36 cycle, 1500 solved"));
   CHECK_THAT(Flowing(text), Contains("19 -3/23 -1 -3/23 1 29 mu = 5/17"));
   CHECK_THAT(text, Contains("    ./run report 'a store'\\''s' -o report\n"));
   CHECK_THAT(text, Contains("    ./run replay report/findings/cycle-2c-4d-10s-00.json --step\n"));
@@ -201,7 +209,8 @@ TEST_CASE("text: a store without loops says how rare they can be, one of nothing
   Record record;
   record.tallies[{"psd", 2, "paper"}].problems = 1000;
   store.AddUnit({}, 0, record, {});
-  CHECK_THAT(TextReport(store, "s", KnownNone), Contains("was found to loop: " + RateText(0, 1000) + " in a million"));
+  CHECK_THAT(TextReport(store, "s", KnownNone),
+             Contains("was found to loop: " + RateText(0, 1000) + " in a million"));
 }
 
 TEST_CASE("text: no line is longer than 100 columns, and nothing steers a terminal") {
