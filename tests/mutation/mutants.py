@@ -17,7 +17,7 @@ from collections import namedtuple
 LABELS = ("solver", "corpus", "certify", "search", "reports")
 PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "latex_test", "outputs_test",
             "package_test", "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
-            "usage_test", "viewer_data_test")
+            "text_report_test", "usage_test", "viewer_data_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
 MUTANTS = []
