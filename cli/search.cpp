@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "certify/checker_files.h"
 #include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
@@ -20,7 +21,10 @@
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "corpus/store_lock.h"
+#include "reports/comparison.h"
+#include "reports/package.h"
 #include "reports/report.h"
+#include "reports/text_report.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/exponential.h"
 #include "search/known_signatures.h"
@@ -120,6 +124,12 @@ Store OpenSound(const std::string& file) {
   return store;
 }
 
+// For the end of a search, and for `status`.
+std::string SummaryOf(const Store& store, const std::string& file) {
+  const bool optimized = !CampaignOf(store.identity(), file).objective.empty();
+  return optimized ? OptimizedText(store, file) : SummaryText(store, file);
+}
+
 // Grave findings are an alarm.
 int ExitOf(const Store& store, const std::string& file) {
   int grave = 0;
@@ -189,7 +199,7 @@ int RunSearchVerb(const SearchVerb& o) {
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
   } else {
-    std::cout << SummaryText(store, o.store);
+    std::cout << SummaryOf(store, o.store);
   }
   if (report.end == SearchEnd::kInterrupted) {
     fmt::print(stderr,
@@ -252,7 +262,7 @@ void Watch(const std::string& file) {
 int RunStatus(const StatusVerb& o) {
   if (o.watch) Watch(o.store);
   const Store store = OpenSound(o.store);
-  std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryText(store, o.store));
+  std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryOf(store, o.store));
   return kExitDone;
 }
 
@@ -380,21 +390,71 @@ int RunMerge(const MergeVerb& o) {
   }
   made.Keep();
   const Store merged = Store::OpenToRead(o.out);
-  std::cout << (o.json ? JsonText(SummaryToJson(merged)) + "\n" : SummaryText(merged, o.out));
+  std::cout << (o.json ? JsonText(SummaryToJson(merged)) + "\n" : SummaryOf(merged, o.out));
   return ExitOf(merged, o.out);
 }
 
 struct ReportVerb {
-  std::string store, folder;
+  std::string store, other, folder, package;
   std::vector<std::string> benches;
   std::string since;
-  bool replace = false;
+  std::optional<std::int64_t> files;
+  bool replace = false, text = false, latex = false, json = false;
 };
 
+int PrintReport(const ReportVerb& o) {
+  const Store store = OpenSound(o.store);
+  const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
+  if (o.json)
+    std::cout << JsonText(SummaryToJson(store)) << "\n";
+  else
+    std::cout << (optimized ? OptimizedText(store, o.store) : TextReport(store, o.store, KnownAs));
+  return kExitDone;
+}
+
+// A store of problems that were drawn at random.
+Store OpenDrawn(const std::string& file) {
+  Store store = OpenSound(file);
+  if (!CampaignOf(store.identity(), file).objective.empty())
+    throw InputError(
+        fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
+  return store;
+}
+
+// A difference that is more than noise is a disagreement of the two.
+int CompareStores(const ReportVerb& o) {
+  if (!o.package.empty() || !o.benches.empty() || o.latex)
+    throw InputError("report: found two stores, expected one with --package, --bench or --latex");
+  const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(o.other), o.other);
+  const std::string text = ComparisonText(comparison, o.store, o.other);
+  if (!o.folder.empty()) TellAside(WriteComparison(comparison, text, o.folder, OccupiedIf(o.replace)));
+  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n" : text);
+  return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
+}
+
 int RunReport(const ReportVerb& o) {
-  TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
-                        {o.benches.begin(), o.benches.end()}, o.since));
-  fmt::print("{}/index.html\n", o.folder);
+  if (!o.other.empty()) return CompareStores(o);
+  if (o.folder.empty() && o.package.empty() && !o.text)
+    throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
+  if ((o.latex || !o.since.empty()) && o.folder.empty())
+    throw InputError(fmt::format("report: found {} alone, expected -o, a folder to write", o.latex ? "--latex" : "--since"));
+  if (!o.folder.empty())
+    TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
+                          {{o.benches.begin(), o.benches.end()}, o.since, o.latex, o.files.value_or(ReportExtras().files)}));
+  if (!o.package.empty())
+    TellAside(WritePackage(OpenSound(o.store), o.package, CheckerFiles(), OccupiedIf(o.replace)));
+  if (o.text) return PrintReport(o);
+  std::string text;
+  Json written = Json::array();
+  if (!o.folder.empty()) {
+    text += o.folder + "/index.html\n";
+    written.push_back(o.folder);
+  }
+  if (!o.package.empty()) {
+    text += fmt::format("{0}: verify it with: python3 {0}/verify.py\n", o.package);
+    written.push_back(o.package);
+  }
+  SayWhatWasDone("", o.json, text, {{"written", written}});
   return kExitDone;
 }
 
@@ -519,9 +579,17 @@ void AddReport(CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search").Required();
-  verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced").Required();
+  verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead")
+      .Details("Exit 1 if a difference is more than noise");
+  verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
+  verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
+  verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
+  verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
   verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
   verb.Option("--since", o.since, "folder of an earlier report: the page says what is new since");
+  verb.Option("--files", o.files, "findings that have files of their own; tables and page have all; by default all")
+      .AtLeast(0);
+  verb.Flag("--json", o.json, "machine output: what was written, with two stores the comparison, with --text the summary");
   AddReplace(verb, o.replace);
 }
 

@@ -11,6 +11,7 @@
 #include "reports/finding_picture.h"
 #include "reports/findings_data.h"
 #include "reports/page.h"
+#include "reports/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -127,25 +128,18 @@ std::string RunText(const RunFacts& run, const Finding& finding) {
                      finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
 }
 
-// A word as a shell reads it back.
-std::string ShellWord(const std::string& word) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("-_=,@./").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace
 
 std::string CommandsOf(const Discovery& discovery) {
-  const std::string& policy = discovery.representative->policy;
-  std::string text = fmt::format("stiction replay {}", ShellWord(discovery.files.problem));
+  const Finding& finding = *discovery.representative;
+  const std::string& policy = finding.policy;
+  const bool written = !discovery.files.problem.empty();
+  const std::string problem = written ? ShellWord(discovery.files.problem) : "problem.json";
+  std::string text = "stiction replay " + problem;
   if (policy != "paper") text += " --policy " + ShellWord(policy);
   text = fmt::format("{0} --step\n{0} --html replay.html", text);
+  if (!written)
+    return fmt::format("stiction problem STORE {} {} -o problem.json\n{}", finding.unit, finding.index, text);
   if (!discovery.files.certificate.empty())
     text += fmt::format("\nstiction check {}", ShellWord(discovery.files.certificate));
   return text;
@@ -157,6 +151,7 @@ Html FileLinks(const FindingFiles& files) {
   const auto link = [](const std::string& file, std::string_view title) {
     return Tag("a", {{"href", file}})(title);
   };
+  if (files.problem.empty()) return Tag("p", {{"class", "note"}})("Files: left out of this report.");
   Html links = link(files.problem, "problem") + Html(" · ") + link(files.original, "as found");
   if (!files.certificate.empty()) links += Html(" · ") + link(files.certificate, "certificate");
   if (!files.existence.empty()) links += Html(" · ") + link(files.existence, "a solution exists");

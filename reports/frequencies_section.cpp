@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "corpus/intervals.h"
-#include "corpus/rational.h"
+#include "reports/friction_order.h"
 #include "reports/page.h"
 
 namespace stiction {
@@ -72,15 +72,6 @@ Html FrequencyTable(const Record& total) {
   }
   return table.Done();
 }
-
-// "1/10" < "1/2" < "mixed".
-struct ByFriction {
-  bool operator()(const std::string& left, const std::string& right) const {
-    const bool left_mixed = left == kMixedFriction, right_mixed = right == kMixedFriction;
-    if (left_mixed || right_mixed) return !left_mixed && right_mixed;
-    return ParseRational(left) < ParseRational(right);
-  }
-};
 
 struct LoopCount {
   std::int64_t runs = 0, loops = 0;

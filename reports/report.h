@@ -7,6 +7,7 @@
 //   figures/NAME.csv              what the figures of the page draw (figures.h)
 //   campaign.json                 what was searched, for another search
 //   since.csv                     what changed since an earlier report, if one was given (since.h)
+//   citation.bib                  how to cite it (latex.h)
 //   SHA256SUMS                    of every file but itself
 //   findings/NAME.json            the minimized problem; as found while there is none
 //   findings/NAME.original.json   the problem as found
@@ -18,7 +19,9 @@
 #ifndef STICTION_REPORTS_REPORT_H_
 #define STICTION_REPORTS_REPORT_H_
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "corpus/store.h"
@@ -26,14 +29,19 @@
 
 namespace stiction {
 
-// `benches`: files of bench --csv, which the page draws. `since`: an earlier report, beside which the page says
-// what is new. Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report
-// stays. The same content of a store gives the same bytes. Returns where a directory with files of others was
-// moved to, if so.
+// What a report has besides the content of its store.
+struct ReportExtras {
+  std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
+  std::filesystem::path since;  // an earlier report, beside which the page says what is new
+  bool latex = false;           // tables and figures for papers, too (latex.h)
+  // Only the first so many findings have files; tables and page have all.
+  std::int64_t files = std::numeric_limits<std::int64_t>::max();
+};
+
+// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same content of
+// a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
-                                  Occupied occupied = Occupied::kRefused,
-                                  const std::vector<std::filesystem::path>& benches = {},
-                                  const std::filesystem::path& since = {});
+                                  Occupied occupied = Occupied::kRefused, const ReportExtras& extras = {});
 
 }  // namespace stiction
 

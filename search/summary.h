@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store in a few lines, for the end of a search.
+// A store as JSON, for the end of a search; that of a search with an objective also in a few lines. All others
+// have theirs in reports/text_report.h.
 
 #ifndef STICTION_SEARCH_SUMMARY_H_
 #define STICTION_SEARCH_SUMMARY_H_
@@ -11,8 +12,8 @@
 namespace stiction {
 
 Json SummaryToJson(const Store& store);
-// `file` is named in the commands that it proposes.
-std::string SummaryText(const Store& store, const std::string& file);
+// Requires a search with an objective. `file` is named in the commands that it proposes.
+std::string OptimizedText(const Store& store, const std::string& file);
 
 }  // namespace stiction
 

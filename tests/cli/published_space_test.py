@@ -166,9 +166,10 @@ class Solve(cli.TestCase):
         store = self.folder / "space.store"
         out = self.succeeds("search", "--generator", "space", "--contacts", "2", "--problems", "30000", "--threads", "2",
                             "--store", store).out
-        self.assertRegex(out, r"(?m)^  cycle  ")
-        self.assertRegex(out, r"existence: (\d+) of \1 problems")
-        self.assertRegex(out, r"cycle-2c-\d+d .*in space, over intervals")
+        self.assertRegex(out, r"(?m)^  loop for ever +cycle  ")
+        flowing = " ".join(out.split())
+        self.assertRegex(flowing, r"of (\S+) problems given to complete driving \1 solved")
+        self.assertRegex(flowing, r"cycle-2c-\d+d 2 contacts, .*in space, over intervals")
         self.assertNotIn("disagreement-of-methods", out)
         self.succeeds("report", store, "-o", self.folder / "report")
         found = sorted((self.folder / "report/findings").glob("cycle-*d.json"))

@@ -15,7 +15,9 @@
 #include "corpus/store_rows.h"
 #include "reports/csv.h"
 #include "reports/page.h"
+#include "reports/text_report.h"
 #include "search/campaign.h"
+#include "search/known_signatures.h"
 #include "search/summary.h"
 #include "search/testimony.h"
 #include "solver/problem/check.h"
@@ -268,6 +270,7 @@ bool ReadAll(const Store& store, const StoreFolder& folder) {
   read([&store] { ReadUnits(store); });
   read([&store] { ReadFindings(store); });
   read([&store] { SummaryText(store, "input"); });
+  read([&store] { TextReport(store, "input", KnownAs); });
   read([&store] { JsonText(SummaryToJson(store)); });
   read([&] {
     fs::remove(folder / "merged");

@@ -15,9 +15,9 @@ from collections import namedtuple
 
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "corpus", "certify", "search", "reports")
-PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "outputs_test",
-            "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
-            "usage_test", "viewer_data_test")
+PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "latex_test", "outputs_test",
+            "package_test", "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
+            "text_report_test", "usage_test", "viewer_data_test")
 
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
 MUTANTS = []
@@ -598,16 +598,6 @@ bug("no-word-of-two", "contacts.size() <= kMostContactsWithWord", "contacts.size
     "loops of two contacts have no word")
 bug("all-steps-zero", "step.s == 0", "step.s >= 0", "words do not tell zero steps from others")
 
-bug = in_file("search/summary.cpp", "^search: summary")
-bug("all-confirmed", "if (exact == inexact && !undecided) digest.confirmed += tally.verdicts[inexact][exact];",
-    "digest.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
-bug("grave-not-named", "if (IsGrave(finding.kind)) digest.grave.push_back(finding);", "", "grave findings are not named")
-bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
-    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
-bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
-    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
-bug("misjudged-not-summed", "digest.misjudged += tally.misjudged;", "", "misjudged runs are not told")
-
 bug = in_file("search/campaign.cpp", "^search: campaign")
 bug("units-too-small", "campaign.unit_problems >> std::max(0, task.contacts - 2)",
     "campaign.unit_problems >> std::max(0, task.contacts - 1)", "units of two contacts are half as large")
@@ -619,6 +609,16 @@ bug("a-round-too-many", "if (round >= WeightOf(contacts)) continue;", "if (round
 bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here", "false", "a policy may stand twice")
 
 # ---- corpus --------------------------------------------------------------------------
+
+bug = in_file("corpus/store_totals.cpp", "^search: summary|^reports: text")
+bug("all-confirmed", "if (exact == inexact && !undecided) totals.confirmed += tally.verdicts[inexact][exact];",
+    "totals.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
+bug("grave-not-named", "if (IsGrave(finding.kind)) totals.grave.push_back(finding);", "", "grave findings are not named")
+bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
+    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
+bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
+    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
+bug("misjudged-not-summed", "totals.misjudged += tally.misjudged;", "", "misjudged runs are not told")
 
 bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: store")
 bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
@@ -747,7 +747,7 @@ bug("unrepresented", "if (discovery.representative != nullptr) sorted.push_back(
 bug("file-names-collide", "if (name == signature && !name.empty()) return name;", "return name;",
     "two signatures have one file")
 
-bug = in_file("reports/report.cpp", "^reports: ")
+bug = in_file("reports/report_files.cpp", "^reports: ")
 bug("certificate-of-the-original", "own.empty() ? finding.certificate : own", "finding.certificate",
     "the minimized problem has the certificate of another")
 
@@ -765,7 +765,7 @@ bug = in_file("reports/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
 bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
 
-bug = in_file("reports/findings_section.cpp", "^reports: ")
+bug = in_file("reports/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 
@@ -794,6 +794,36 @@ bug("all-solved", 'all.solved == all.problems ? "Solutions exist, and are found.
 
 bug = in_file("reports/template.cpp", "^reports: ")
 bug("mark-twice", "page.find(mark, at + 1) == page.npos", "true", "a mark that stands twice is filled once")
+
+bug = in_file("reports/text_report.cpp", "^reports: text")
+bug("stalls-are-no-loops", "loops += of(Outcome::kCycle) + of(Outcome::kStall);", "loops += of(Outcome::kRay);",
+    "rates of loops count something else")
+bug("known-is-new", "known_as(signature).empty()", "true", "loops of the corpus are new ones")
+bug("grave-at-the-end", "HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
+    "HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
+
+bug = in_file("reports/exact_tests.cpp", "^reports: comparison")
+bug("one-sided", "weight <= seen * kSame ? weight : 0", "weight < seen ? weight : 0", "the table seen does not count")
+bug("bonferroni", "order.size() - k", "order.size()", "every p is corrected for all tests")
+
+bug = in_file("reports/comparison.cpp", "^reports: comparison")
+bug("misjudged-of-all", "Trials{t.misjudged, t.audited}", "Trials{t.misjudged, t.problems}",
+    "misjudged runs are held against all runs")
+bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) return steps;", "the median is the most")
+bug("one-rank", "frictions[key.friction].Merge(stratum);", "frictions[key.friction] = stratum;",
+    "a friction has one rank alone")
+bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one campaign are compared")
+bug("rates-the-wrong-way", 'RateOf(rate.a) > RateOf(rate.b) ? "A" : "B"', 'RateOf(rate.a) < RateOf(rate.b) ? "A" : "B"',
+    "more is said to be less")
+
+bug = in_file("reports/latex.cpp", "^reports: latex|^program: latex")
+bug("control-not-replaced", "static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c", "c",
+    "control characters of a store come through", type="char")
+bug("interval-as-reach", "scale * (count - interval.low)", "scale * interval.low", "error bars begin at the interval's end")
+
+bug = in_file("reports/package.cpp", "^program: package")
+bug("certificate-of-another", "of_original ? files.original : files.problem", "files.original",
+    "a certificate is said to be of the problem as found")
 
 # ---- cli ---------------------------------------------------------------------------
 

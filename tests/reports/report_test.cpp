@@ -1124,7 +1124,7 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
   record.signatures["cycle-gone"] = 3;
   store.AddUnit({}, 0, record, {PendingFinding(kDone, 0), PendingFinding(kPending, 0)});
   WriteReport(store, scratch / "earlier");
-  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused, {}, scratch / "earlier");
+  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused, {.since = scratch / "earlier"});
   std::map<std::string, std::string> changes;
   for (const Row& row : ReadTable(scratch / "out/since.csv")) changes[row.at("signature")] = row.at("change");
   CHECK(changes ==
@@ -1141,7 +1141,7 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
 
   Store more = SampleStore(scratch / "more");
   more.AddUnit({}, 1, SampleRecord(), {});
-  WriteReport(more, scratch / "again", Occupied::kRefused, {}, scratch / "out/findings.csv");
+  WriteReport(more, scratch / "again", Occupied::kRefused, {.since = scratch / "out/findings.csv"});
   const auto rows = ReadTable(scratch / "again/since.csv");
   REQUIRE(rows.size() == 3);
   CHECK(rows[0].at("change") == "more");
@@ -1205,7 +1205,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 13 + 8 + 5 + 1);  // tables, figures, files of the finding, and the list of them
+  CHECK(contents.size() == 14 + 8 + 5 + 1);  // tables, figures, files of the finding, and the list of them
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));

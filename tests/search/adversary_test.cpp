@@ -397,7 +397,7 @@ TEST_CASE("adversary: a store says what was best, and no rate") {
   const Store store = Store::OpenToRead(scratch / "store");
   const auto best = BestOf(store, 1);
   REQUIRE(best.size() == 1);
-  const std::string text = SummaryText(store, "store");
+  const std::string text = OptimizedText(store, "store");
   CHECK(text.find("objective period") != std::string::npos);
   CHECK(text.find("in a million") == std::string::npos);
   const Json json = SummaryToJson(store);

@@ -84,7 +84,7 @@ function details(finding) {
       finding.numbers === null ? element('p', {class: 'note'}, 'Its numbers are too long for a page.') :
                                  numbers(finding.numbers),
       element('pre', {}, element('code', {}, finding.commands)),
-      element('p', {class: 'note'}, 'Files: ', ...files));
+      element('p', {class: 'note'}, 'Files: ', ...(files.length > 0 ? files : ['left out of this report.'])));
 }
 
 function more(finding) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that a report and a data package have in common: those of the findings, and the tables.
+
+#ifndef STICTION_REPORTS_REPORT_FILES_H_
+#define STICTION_REPORTS_REPORT_FILES_H_
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corpus/statistics.h"
+#include "corpus/whole_folder.h"
+#include "reports/discovery.h"
+
+namespace stiction {
+
+// Writes the files of a folder, and at last what they are.
+class ReportFiles {
+ public:
+  explicit ReportFiles(const WholeFolder& folder) : folder_(folder) {}
+
+  void Write(const std::string& name, const std::string& text);
+  // SHA256SUMS, in the format of sha256sum.
+  void WriteSums() const;
+
+ private:
+  const WholeFolder& folder_;
+  std::map<std::string, std::string> digests_;
+};
+
+// Name -> text of the files that discovery.files names. Requires a representative; its problems are parsed, and
+// InputError says what is none.
+std::map<std::string, std::string> FilesOf(const Discovery& discovery);
+
+// Name -> text of the CSV tables (csv.h) but that of bench.
+std::map<std::string, std::string> TablesOf(const Record& total, const std::vector<Discovery>& discoveries);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_REPORT_FILES_H_

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stiction report --text, and report A B: what is printed, what is written, and the exit code."""
+
+import csv
+import hashlib
+import shutil
+
+import cli
+
+
+class TextReport(cli.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = cli.Path(cli.tempfile.mkdtemp(prefix="stiction-text-"))
+        cls.addClassCleanup(shutil.rmtree, cls.made, ignore_errors=True)
+        for name, arguments in {"low": ("--mu", "1/4", "--seed", 1), "high": ("--mu", "5", "--seed", 2),
+                                "again": ("--mu", "5", "--seed", 3)}.items():
+            cls.search(name, "--generator", "conditioned", "--contacts", 2, "--problems", 20000, "--finishing", 100, *arguments)
+        cls.search("best", "--objective", "period", "--generator", "psd", "--contacts", 2, "--problems", 100)
+
+    @classmethod
+    def search(cls, name, *arguments):
+        done = cli.run("search", "--store", cls.made / f"{name}.store", *arguments)
+        assert done.code == 0, done.err
+        setattr(cls, name, cls.made / f"{name}.store")
+        setattr(cls, f"said_by_{name}", done.out)
+
+    def test_a_search_ends_with_the_sentences_of_the_report(self):
+        text = self.succeeds("report", self.high, "--text").out
+        summary = self.succeeds("status", self.high).out
+        self.assertEqual(self.said_by_high, summary)
+        common = [line for line in summary.splitlines() if line in text.splitlines()]
+        self.assertGreater(len(common), 10)
+        loops = sum(count for signature, count in cli.total(self.high)[1].items() if signature.startswith("cycle-"))
+        self.assertGreater(loops, 1)
+        self.assertTrue(any(line.startswith(f"  The published algorithm loops for ever in {loops} runs: ") for line in common))
+        self.assertLess(text.index("loops for ever"), text.index("Complete driving never failed"))
+
+    def test_the_commands_of_the_text_replay_its_loop(self):
+        text = self.succeeds("report", self.high, "--text").out
+        commands = [line.split() for line in text.splitlines() if line.startswith("    ./run ")]
+        self.assertGreaterEqual(len(commands), 4)
+        for command in commands:  # a replay that ends as its file expects exits with 0
+            self.succeeds(*command[1:], cwd=self.folder)
+        self.assertTrue((self.folder / "loop.html").exists())
+
+    def test_a_difference_that_is_more_than_noise_exits_with_1(self):
+        out = self.folder / "comparison"
+        done = self.succeeds("report", self.low, self.high, "-o", out, code=1)
+        self.assertIn("tests find a difference that is more than noise:", done.out)
+        self.assertIn("runs that loop, confirmed exactly: more in B", " ".join(done.out.split()))
+        self.assertEqual((out / "comparison.txt").read_text(), done.out)
+        with open(out / "comparison.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        loops = next(row for row in rows if row["measure"] == "loops" and not row["friction"])
+        for side, store in (("a", self.low), ("b", self.high)):
+            tally, = cli.total(store)[0].values()
+            self.assertEqual(int(loops[f"{side}_of"]), tally["problems"])
+        self.assertEqual(loops["more_than_noise"], "yes")
+        for line in (out / "SHA256SUMS").read_text().splitlines():
+            self.assertEqual(hashlib.sha256((out / line[66:]).read_bytes()).hexdigest(), line[:64])
+        self.assertEqual(self.succeeds("report", self.low, self.high, code=1).out, done.out)
+
+    def test_two_seeds_of_one_campaign_differ_by_noise(self):
+        done = self.succeeds("report", self.high, self.again)
+        self.assertRegex(done.out, r"None of \d+ tests finds a difference that is more than noise")
+
+    def test_what_cannot_be_compared_is_refused(self):
+        self.refuses("report", self.high, self.high, says=["two stores of one campaign", "'merge'"])
+        self.refuses("report", self.high, self.best, says=["best.store", "found an optimized search"])
+        for option in (("--package", self.folder / "p"), ("--latex", "-o", self.folder / "o")):
+            self.refuses("report", self.low, self.high, *option, says="found two stores, expected one")
+
+    def test_an_optimized_search_has_its_best_as_text(self):
+        done = self.succeeds("report", self.best, "--text")
+        self.assertIn("objective period", done.out)
+        self.assertEqual(done.out, self.succeeds("status", self.best).out)
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// A store as text: the most important first, every number a sum over its records, at most 100 columns.
+
+#include "reports/text_report.h"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "corpus/intervals.h"
+#include "corpus/kinds.h"
+#include "reports/plain_text.h"
+#include "tests/scratch.h"
+
+namespace stiction {
+namespace {
+
+using Catch::Matchers::Contains;
+using testing::Scratch;
+
+const std::string kTextProblem =
+    R"({"format":"stiction-problem","version":1,"name":"smaller","dimension":2,)"
+    R"("contacts":[{"kind":"static","mu":"5/17"}],"A":[["19","-3/23"],["-3/23","1"]],"b":["-1","29"]})";
+
+Finding Waiting(const std::string& signature, std::string_view kind, std::int64_t unit) {
+  Finding finding;
+  finding.signature = signature;
+  finding.kind = kind;
+  finding.unit = unit;
+  finding.index = 7;
+  finding.generator = "psd";
+  finding.contacts = 2;
+  finding.policy = "paper";
+  finding.inexact_outcome = finding.exact_outcome = IsLoopKind(kind) ? "cycle" : std::string(kind);
+  finding.problem = kTextProblem;
+  return finding;
+}
+
+Finding MinimizedTo(Finding finding, const std::string& problem, const std::string& grid) {
+  finding.done = true;
+  finding.minimized = problem;
+  finding.facts = R"({"minimized":{"contacts":2,"start":3,"period":1,"grid":)" + grid + R"(}})";
+  return finding;
+}
+
+constexpr int kCycle = static_cast<int>(Outcome::kCycle), kRay = static_cast<int>(Outcome::kRay),
+              kSolved = static_cast<int>(Outcome::kSolved);
+
+// Two policies on the same 30 problems; of one of them 4 suspicions, 3 confirmed.
+Record TwoPolicies() {
+  Record record;
+  Tally& paper = record.tallies[{"psd", 2, "paper"}];
+  paper.problems = 30;
+  paper.verdicts[kCycle][kCycle] = 2;
+  paper.verdicts[kRay][kRay] = 1;
+  paper.verdicts[kRay][kSolved] = 1;
+  paper.audited = 7;
+  paper.misjudged = 5;
+  paper.wrong = 11;
+  Stratum& stratum = paper.strata[{"1/2", 4}];
+  stratum.problems = 30;
+  stratum.exact[kCycle] = 2;
+  record.tallies[{"psd", 2, "ties=contacts"}].problems = 30;
+  record.existence[2] = {13, 12, 0, 6, 8, 0};
+  AgreementTally& agreement = record.agreement[2];
+  agreement.compared = 17;
+  agreement.enumerated = 19;
+  agreement.disagreements = 23;
+  agreement.safety_decided = 29;
+  agreement.safe = 31;
+  agreement.safe_gave_up = 37;
+  record.loops[2].loops = 41;
+  record.loops[2].without_zero_steps = 3;
+  record.loops[2].of_zero_steps_alone = 2;
+  record.loops[3].loops = 5;
+  record.signatures = {{"cycle-2c-4d-10s-00", 2}, {"cycle-2c-4d-12s-00", 1}, {"ray-2c", 40}};
+  return record;
+}
+
+const CampaignIdentity kTextIdentity = {
+    R"({"format":"stiction-campaign","version":1,"generators":["psd"],"contacts":[2]})", 7, R"(["paper"])"};
+
+Store StoreOf(const std::filesystem::path& file, bool grave = false) {
+  Store store(file, kTextIdentity);
+  const Finding cycle = Waiting("cycle-2c-4d-10s-00", "cycle", 0), ray = Waiting("ray-2c", "ray", 0);
+  Record record = TwoPolicies();
+  if (grave) record.signatures["safe-cycle-2c-4d-10s-00"] = 3;
+  store.AddUnit({}, 0, record, {cycle, ray});
+  store.AddUnit({}, 1, record, {Waiting("cycle-2c-4d-12s-00", "cycle", 1)});
+  store.Finish(MinimizedTo(cycle, kTextProblem, R"({"cycle":36,"solved":1500})"));
+  store.Finish(MinimizedTo(ray, "{}", R"({"ray":1536})"));
+  if (grave) store.AddUnit({}, 2, {}, {Waiting("safe-cycle-2c-4d-10s-00", kSafeCycle, 2)});
+  return store;
+}
+
+std::string_view KnownNone(std::string_view) { return {}; }
+std::string_view KnownTenSteps(std::string_view signature) {
+  return signature == "cycle-2c-4d-10s-00" ? "two-contact-cycle" : "";
+}
+
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// As one line, each run of blanks one blank.
+std::string Flowing(const std::string& text) {
+  std::istringstream stream(text);
+  std::string flowing;
+  for (std::string word; stream >> word;) flowing += word + " ";
+  return flowing;
+}
+
+TEST_CASE("text: loops come before all other findings, as a sentence and in every list") {
+  const Scratch scratch;
+  const Store store = StoreOf(scratch / "s.store");
+  for (const std::string& text : {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
+    const std::size_t loops = text.find("loops for ever"), kind = text.find("loop for ever  "),
+                      ray = text.find("ray");
+    CHECK(loops < kind);
+    CHECK(kind < ray);
+  }
+  const std::string summary = SummaryText(store, "the.store");
+  const std::size_t simplest = summary.find("Simplest, proved and minimized");
+  REQUIRE(simplest != std::string::npos);
+  // Though the ray's problem is shorter.
+  CHECK(summary.find("cycle-2c-4d-10s-00", simplest) < summary.find("ray-2c", simplest));
+}
+
+TEST_CASE("text: what is grave is named before anything was found") {
+  const Scratch scratch;
+  const Store store = StoreOf(scratch / "s.store", true);
+  for (const std::string& text : {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
+    CHECK(LinesOf(text).at(1) == "  GRAVE: safe-cycle: safe-cycle-2c-4d-10s-00");
+    CHECK(text.find("loop for ever though proved safe") < text.find("loop for ever  "));
+  }
+}
+
+TEST_CASE("text: every number is a sum over the units") {
+  const Scratch scratch;
+  const Store store = StoreOf(scratch / "s.store");
+  for (const std::string& text :
+       {Flowing(SummaryText(store, "the.store")), Flowing(TextReport(store, "the.store", KnownNone))}) {
+    CHECK_THAT(text, Contains("the.store: 60 problems in 2 units, seed 7; 120 runs"));
+    CHECK_THAT(text, Contains("loops for ever in 6 runs: " + RateText(6, 120) + " in a million"));
+    CHECK_THAT(text, Contains("of 2 kinds; 0 loop under every reading"));
+    CHECK_THAT(text, Contains("of 92 loops 6 have none in the period, and 4 have nothing else there"));
+    CHECK_THAT(text, Contains("loop for ever cycle 6 2 " + RateText(6, 120)));
+    CHECK_THAT(text, Contains("a step without end ray 80 1 " + RateText(80, 120)));
+    CHECK_THAT(text, Contains("FAILED on 2: of 26 problems given to complete driving 24 solved"));
+    CHECK_THAT(text, Contains("on 34 problems (all contact modes tried of 38): 46 disagreements"));
+    CHECK_THAT(text, Contains("62 of 58 audited problems; 74 gave up something"));
+    CHECK_THAT(
+        text,
+        Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 answers wrong"));
+    CHECK_THAT(text,
+               Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
+    CHECK_THAT(text, Contains("2 certified and minimized, 1 to go"));
+    CHECK_THAT(text, Contains("./run search --store the.store --finish"));
+  }
+}
+
+TEST_CASE("text: the page has exact rates by policy, generator and contacts, and by friction") {
+  const Scratch scratch;
+  const std::string text = Flowing(TextReport(StoreOf(scratch / "s.store"), "the.store", KnownNone));
+  CHECK_THAT(
+      text,
+      Contains("Reading paper: generator contacts runs loops in a million [95 %] singular rays psd 2 60 4 " +
+               RateText(4, 60) + " 0 2 "));
+  CHECK_THAT(
+      text,
+      Contains("Reading ties=contacts: generator contacts runs loops in a million [95 %] singular rays psd 2 "
+               "60 0 " +
+               RateText(0, 60) + " 0 0 "));
+  CHECK_THAT(text, Contains("1/2 60 4 " + RateText(4, 60) + " 0 0 "));
+}
+
+TEST_CASE("text: the simplest loop stands in numbers, with commands that replay it") {
+  const Scratch scratch;
+  const std::string text = TextReport(StoreOf(scratch / "s.store"), "a store's", KnownNone);
+  CHECK_THAT(text, Contains("The simplest loop: cycle-2c-4d-10s-00"));
+  CHECK_THAT(Flowing(text),
+             Contains("the state after 3 drives stands again 1 drive later; readings: 36 cycle, 1500 solved"));
+  CHECK_THAT(Flowing(text), Contains("19 -3/23 -1 -3/23 1 29 mu = 5/17"));
+  CHECK_THAT(text, Contains("    ./run report 'a store'\\''s' -o report\n"));
+  CHECK_THAT(text, Contains("    ./run replay report/findings/cycle-2c-4d-10s-00.json --step\n"));
+  CHECK_THAT(text, Contains("    ./run problem 'a store'\\''s' 0 7\n"));
+}
+
+TEST_CASE("text: loops that the corpus has are told from new ones") {
+  const Scratch scratch;
+  const Store store = StoreOf(scratch / "s.store");
+  CHECK_THAT(TextReport(store, "s", KnownNone), Contains("Of 2 kinds 2 are shown by no case of the corpus"));
+  const std::string text = TextReport(store, "s", KnownTenSteps);
+  CHECK_THAT(text, Contains("Of 2 kinds 1 is shown by no case of the corpus"));
+  const std::string unknown = text.substr(text.find("New kinds of loops"));
+  CHECK_THAT(unknown, Contains("cycle-2c-4d-12s-00"));
+  CHECK_THAT(unknown, !Contains("cycle-2c-4d-10s-00"));
+}
+
+TEST_CASE("text: a store without loops says how rare they can be, one of nothing that there is nothing") {
+  const Scratch scratch;
+  Store store(scratch / "s.store", kTextIdentity);
+  CHECK_THAT(SummaryText(store, "s"), Contains("No findings."));
+  CHECK_THAT(TextReport(store, "s", KnownNone), Contains("s: 0 problems in 0 units, seed 7\n"));
+  Record record;
+  record.tallies[{"psd", 2, "paper"}].problems = 1000;
+  store.AddUnit({}, 0, record, {});
+  CHECK_THAT(TextReport(store, "s", KnownNone),
+             Contains("was found to loop: " + RateText(0, 1000) + " in a million"));
+}
+
+TEST_CASE("text: no line is longer than 100 columns, and nothing steers a terminal") {
+  const Scratch scratch;
+  Store store(scratch / "s.store", kTextIdentity);
+  Record record = TwoPolicies();
+  record.signatures["cycle-2c-\x1b[31m-red\r\n"] = 3;
+  store.AddUnit({}, 0, record, {Waiting("cycle-2c-\x1b[31m-red\r\n", "cycle", 0)});
+  store.Finish(MinimizedTo(Waiting("cycle-2c-\x1b[31m-red\r\n", "cycle", 0), kTextProblem, R"({"cycle":1})"));
+  for (const std::string& text : {SummaryText(store, "s"), TextReport(store, "s", KnownNone)}) {
+    CHECK(text.find('\x1b') == std::string::npos);
+    CHECK(text.find('\r') == std::string::npos);
+    for (const std::string& line : LinesOf(text)) CHECK(line.size() <= kTextWidth);
+  }
+}
+
+TEST_CASE("text: paragraphs break between words alone, intervals stay whole") {
+  const std::string filled(kTextWidth - 4, 'x');
+  CHECK(Paragraph(filled + " [1, 2] end") == "  " + filled + "\n  [1, 2] end\n");
+  CHECK(Paragraph("a  b", 0) == "a b\n");
+  CHECK(Paragraph("") == "");
+  const std::string endless(kTextWidth + 10, 'y');
+  CHECK(Paragraph("a " + endless + " b") == "  a\n  " + endless + "\n  b\n");
+  CHECK(Paragraph("open [1, 2") == "  open [1, 2\n");
+}
+
+TEST_CASE("text: a table has its names to the left and its numbers to the right") {
+  TextTable table({"name", "n"}, 1);
+  CHECK(table.Done() == "");
+  table.AddRow({"\xc3\xa9t\xc3\xa9", "1,000"});
+  table.AddRow({"a", "1"});
+  CHECK(table.Done() == "  name      n\n  \xc3\xa9t\xc3\xa9   1,000\n  a         1\n");
+}
+
+}  // namespace
+}  // namespace stiction
