@@ -23,7 +23,8 @@ COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-
            "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY"]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]
-# clang 14 orders some blocks of a module by where they stand in memory, which is another place in every run but for this.
+# clang 14 orders some blocks of a module by where they stand in memory: another place in every run but for this, and
+# with another length of the path of the sources, which is why it sees none of it.
 STEADY = ["setarch", "--addr-no-randomize"]
 
 
@@ -38,8 +39,9 @@ def module():
         headers.mkdir()
         for name, folder in HEADERS.items():
             (headers / name).symlink_to(folder)
+        Path(scratch, "sources").symlink_to(ROOT)
         Path(scratch, "all.cpp").write_text("".join(f'#include "{file}"\n' for file in [*sources(), "cli/live/exports.cpp"]))
-        for words in (["-c", "all.cpp", "-o", "all.o", f"-ffile-prefix-map={ROOT}/=", "-I", ROOT, "-isystem", "headers",
+        for words in (["-c", "all.cpp", "-o", "all.o", "-ffile-prefix-map=sources/=", "-I", "sources", "-isystem", "headers",
                        *COMPILE],
                       ["all.o", "-o", "solver.wasm", *LINK]):
             done = subprocess.run([*STEADY, "emcc", *words], cwd=scratch, capture_output=True, text=True)
