@@ -258,7 +258,8 @@ std::string TextOf(std::string page) {
   return page;
 }
 
-// Every element is closed in its order (in formulas some close themselves), attributes are quoted, no id stands twice.
+// Every element is closed in its order (in formulas some close themselves), attributes are quoted, no id stands
+// twice.
 void RequireWellFormed(const std::string& whole) {
   static const std::set<std::string> kVoid = {"meta", "br"};
   const std::string page = TextOf(whole);
