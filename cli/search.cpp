@@ -423,8 +423,8 @@ Store OpenDrawn(const std::string& file) {
 
 // A difference that is more than noise is a disagreement of the two.
 int CompareStores(const ReportVerb& o) {
-  if (!o.package.empty() || !o.benches.empty() || o.latex)
-    throw InputError("report: found two stores, expected one with --package, --bench or --latex");
+  if (!o.package.empty() || !o.benches.empty() || !o.since.empty() || o.latex)
+    throw InputError("report: found two stores, expected one with --package, --bench, --since or --latex");
   const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(o.other), o.other);
   const std::string text = ComparisonText(comparison, o.store, o.other);
   if (!o.folder.empty()) TellAside(WriteComparison(comparison, text, o.folder, OccupiedIf(o.replace)));
@@ -437,10 +437,12 @@ int RunReport(const ReportVerb& o) {
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
   if ((o.latex || !o.since.empty()) && o.folder.empty())
-    throw InputError(fmt::format("report: found {} alone, expected -o, a folder to write", o.latex ? "--latex" : "--since"));
+    throw InputError(
+        fmt::format("report: found {} alone, expected -o, a folder to write", o.latex ? "--latex" : "--since"));
   if (!o.folder.empty())
-    TellAside(WriteReport(OpenSound(o.store), o.folder, OccupiedIf(o.replace),
-                          {{o.benches.begin(), o.benches.end()}, o.since, o.latex, o.files.value_or(ReportExtras().files)}));
+    TellAside(WriteReport(
+        OpenSound(o.store), o.folder, OccupiedIf(o.replace),
+        {{o.benches.begin(), o.benches.end()}, o.since, o.latex, o.files.value_or(ReportExtras().files)}));
   if (!o.package.empty())
     TellAside(WritePackage(OpenSound(o.store), o.package, CheckerFiles(), OccupiedIf(o.replace)));
   if (o.text) return PrintReport(o);
@@ -587,9 +589,11 @@ void AddReport(CommandLine& program) {
   verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
   verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
   verb.Option("--since", o.since, "folder of an earlier report: the page says what is new since");
-  verb.Option("--files", o.files, "findings that have files of their own; tables and page have all; by default all")
+  verb.Option("--files", o.files,
+              "findings that have files of their own; tables and page have all; by default all")
       .AtLeast(0);
-  verb.Flag("--json", o.json, "machine output: what was written, with two stores the comparison, with --text the summary");
+  verb.Flag("--json", o.json,
+            "machine output: what was written, with two stores the comparison, with --text the summary");
   AddReplace(verb, o.replace);
 }
 

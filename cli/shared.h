@@ -76,8 +76,8 @@ Json StatisticsToJson(const S& statistics) {
   return json;
 }
 
-// What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard error
-// where that file stands there (`output` is "-").
+// What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard
+// error where that file stands there (`output` is "-").
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object);
 
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50

@@ -436,8 +436,11 @@ Json ComparisonToJson(const Comparison& comparison) {
   }
   for (const TallyKey& key : comparison.only_a) only_a.push_back(key_of(key));
   for (const TallyKey& key : comparison.only_b) only_b.push_back(key_of(key));
-  return {{"differences", comparison.differences}, {"tests", comparison.tests}, {"rates", rates},
-          {"only_a", only_a},                      {"only_b", only_b}};
+  return {{"differences", comparison.differences},
+          {"tests", comparison.tests},
+          {"rates", rates},
+          {"only_a", only_a},
+          {"only_b", only_b}};
 }
 
 std::string ComparisonStepsCsv(const Comparison& comparison) {

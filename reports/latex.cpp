@@ -173,7 +173,8 @@ std::string LoopData(const LoopCurves& figure) {
 std::string FigureHead(const std::string& axis) {
   return fmt::format(
       "% Written by stiction; needs pgfplots. Where the data lie: \\newcommand{{\\stictiondata}}{{FOLDER}}\n"
-      "\\providecommand{{\\stictiondata}}{{.}}\n\\begin{{tikzpicture}}\n\\begin{{axis}}[width=0.75\\linewidth, {}]\n",
+      "\\providecommand{{\\stictiondata}}{{.}}\n\\begin{{tikzpicture}}\n\\begin{{axis}}[width=0.75\\linewidth, "
+      "{}]\n",
       axis);
 }
 

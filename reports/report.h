@@ -32,14 +32,14 @@ namespace stiction {
 // What a report has besides the content of its store.
 struct ReportExtras {
   std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
-  std::filesystem::path since;  // an earlier report, beside which the page says what is new
-  bool latex = false;           // tables and figures for papers, too (latex.h)
+  std::filesystem::path since;                 // an earlier report, beside which the page says what is new
+  bool latex = false;                          // tables and figures for papers, too (latex.h)
   // Only the first so many findings have files; tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
 };
 
-// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same content of
-// a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
+// Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
+// content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
                                   Occupied occupied = Occupied::kRefused, const ReportExtras& extras = {});
 

@@ -31,7 +31,9 @@ class Schemas(cli.TestCase):
         problem, scene = cli.ROOT / "corpus/two-contact-cycle.json", cli.ROOT / "corpus/scenes/two-towers.json"
         store, here = self.folder / "s.store", self.folder
         self.succeeds("search", "--generator", "small", "--contacts", 2, "--problems", 3000, "--store", store)
-        for words, code in [(("solve", problem), 0), (("replay", problem, "--step"), 0), (("status", store), 0),
+        self.succeeds("search", "--generator", "small", "--contacts", 2, "--seed", 2, "--problems", 3000, "--store", here / "2.store")
+        for words, code in [(("report", store, here / "2.store"), 0), (("report", store, "-o", here / "report"), 0),
+                            (("report", store, "--text"), 0), (("solve", problem), 0), (("replay", problem, "--step"), 0), (("status", store), 0),
                             (("replay", problem, "--method", "complete"), 0), (("replay", problem, "--all-policies"), 0),
                             (("certify", problem, "-o", here / "c.json"), 0), (("check", here / "c.json"), 0),
                             (("certify", problem, "--safe"), 0), (("minimize", problem, "-o", here / "m.json"), 0),

@@ -14,6 +14,7 @@
 
 #include "corpus/store_rows.h"
 #include "reports/csv.h"
+#include "reports/figures.h"
 #include "reports/page.h"
 #include "reports/text_report.h"
 #include "search/campaign.h"
@@ -244,7 +245,7 @@ void ReadFindings(const Store& store) {
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   FindingsCsv(content.discoveries);
-  Page(content);
+  Page(content, Figures(content));
 }
 
 void ReadTotal(const Store& store) {

@@ -1125,7 +1125,8 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
   record.signatures["cycle-gone"] = 3;
   store.AddUnit({}, 0, record, {PendingFinding(kDone, 0), PendingFinding(kPending, 0)});
   WriteReport(store, scratch / "earlier");
-  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused, {.since = scratch / "earlier"});
+  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused,
+              {{}, scratch / "earlier"});
   std::map<std::string, std::string> changes;
   for (const Row& row : ReadTable(scratch / "out/since.csv")) changes[row.at("signature")] = row.at("change");
   CHECK(changes ==
@@ -1142,7 +1143,7 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
 
   Store more = SampleStore(scratch / "more");
   more.AddUnit({}, 1, SampleRecord(), {});
-  WriteReport(more, scratch / "again", Occupied::kRefused, {.since = scratch / "out/findings.csv"});
+  WriteReport(more, scratch / "again", Occupied::kRefused, {{}, scratch / "out/findings.csv"});
   const auto rows = ReadTable(scratch / "again/since.csv");
   REQUIRE(rows.size() == 3);
   CHECK(rows[0].at("change") == "more");

@@ -70,8 +70,8 @@ TEST_CASE("tables: what doubles said, by generator and in all") {
   const Html section = DoublesSection(SmallRecord());
   const std::string caption = "Suspicions, audits and wrong answers per generator";
   for (const char* row : {"psd", "all"}) {
-    CHECK(RowOf(section, caption, row) == Cells{row, "100", "12 120,000 [62,000, 210,000]", "7 58.3%", "7", "3",
-                                                "4 40,000 [10,900, 102,000]"});
+    CHECK(RowOf(section, caption, row) ==
+          Cells{row, "100", "12 120,000 [62,000, 210,000]", "7 58.3%", "7", "3", "4 40,000 [10,900, 102,000]"});
   }
 }
 
