@@ -162,6 +162,18 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
   return sorted;
 }
 
+const Discovery* SimplestLoop(const std::vector<Discovery>& discoveries) {
+  const auto rank = [](const Discovery& d) {
+    return std::tuple(Gravity(d.kind), d.representative->minimized.size());
+  };
+  const Discovery* simplest = nullptr;
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.IsLoop() || !discovery.minimized) continue;
+    if (simplest == nullptr || rank(discovery) < rank(*simplest)) simplest = &discovery;
+  }
+  return simplest;
+}
+
 std::string FileName(const std::string& signature) {
   std::string name = signature.substr(0, kLongestName);
   std::replace_if(

@@ -80,6 +80,10 @@ struct Discovery {
 // In the order of signature. The findings must outlive what is returned.
 std::vector<Discovery> Discoveries(const Record& record, const std::vector<Finding>& findings);
 
+// The loop with the shortest minimized problem, the gravest first, as StoreTotals has it
+// (corpus/store_totals.h); null if none is minimized.
+const Discovery* SimplestLoop(const std::vector<Discovery>& discoveries);
+
 // The order of interest: grave kinds (kinds.h), fewest contacts, then those that the whole grid shows, then
 // loops, then the most frequent, then by signature. Only those with a representative.
 std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveries);

@@ -104,17 +104,15 @@ Html Tiles(const ReportContent& content) {
       Tile(grave, "of these grave: cycles of safe problems, disagreements of methods", grave > 0 ? "loop" : "");
   tiles += Tile(all.finished, "representatives finished");
   tiles += Tile(all.pending, "representatives pending");
-  tiles += Tile(all.found_grid, "of the finished loop under every policy", "loop");
+  tiles += Tile(all.found_grid, "of the finished loop under every policy, as found", "loop");
   return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
 }
 
 Html Featured(const std::vector<Discovery>& discoveries) {
-  const auto sorted = ByInterest(discoveries);
-  const auto first = std::find_if(sorted.begin(), sorted.end(),
-                                  [](const Discovery* d) { return d->IsLoop() && d->minimized; });
-  if (first == sorted.end()) return {};
-  const Html title = Tag("h3")(Html("The simplest loop: ") + Tag("code")((*first)->signature));
-  return Tag("div", {{"class", "featured"}})(title + FindingDetails(**first)) + Html("\n");
+  const Discovery* simplest = SimplestLoop(discoveries);
+  if (simplest == nullptr) return {};
+  const Html title = Tag("h3")(Html("The simplest loop: ") + Tag("code")(simplest->signature));
+  return Tag("div", {{"class", "featured"}})(title + FindingDetails(*simplest)) + Html("\n");
 }
 
 // ---- Campaign ----

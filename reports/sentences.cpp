@@ -82,21 +82,23 @@ Html LoopSentence(const Sums& sums) {
 }
 
 Html GridSentence(const std::vector<Discovery>& discoveries) {
-  std::int64_t finished = 0, whole = 0;
+  std::int64_t finished = 0, found = 0, minimized = 0;
   int smallest = 0;
   for (const Discovery& discovery : discoveries) {
     if (!discovery.IsLoop() || !discovery.Finished()) continue;
     ++finished;
-    whole += discovery.EveryPolicyLoops();
+    found += discovery.EveryPolicyLoops();
+    minimized += discovery.minimized && discovery.minimized->grid.AllLoop();
     const int contacts = discovery.SmallestContacts();
     smallest = smallest == 0 ? contacts : std::min(smallest, contacts);
   }
   if (finished == 0) return Html();
-  return Sentence(whole > 0 ? "Not a matter of one reading." : "The reading matters.",
-                  fmt::format("Of {} loops of different kinds that were certified and minimized, {} loop under "
-                              "every reading of the "
-                              "text that stiction distinguishes; the smallest has {}.",
-                              Grouped(finished), Grouped(whole), Counted(smallest, "contact")));
+  return Sentence(
+      found + minimized > 0 ? "Not a matter of one reading." : "The reading matters.",
+      fmt::format("Of {} loops of different kinds that were certified and minimized, {} as minimized, "
+                  "and {} as they were found, loop under every reading of the text that stiction "
+                  "distinguishes; the smallest has {}.",
+                  Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
 }
 
 Html OtherFailures(const Sums& sums) {

@@ -45,7 +45,7 @@ class Schemas(cli.TestCase):
                             (("simulate", scene, "-o", here / "sim", "--seconds", "0.02", "--no-svg"), 0),
                             (("slurm", cli.ROOT / "search/campaigns/scenes.json", "--shards", 2, "--problems", 100_000_000,
                               "-o", here / "jobs"), 0)]:
-            yield words[0], self.succeeds(*words, "--json", code=code).json()
+            yield words[0], self.succeeds(*words, "--json", code=code, cwd=cli.ROOT).json()
 
     def test_a_changed_answer_is_refused(self):
         for verb, answer in self.answers():

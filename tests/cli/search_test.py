@@ -206,7 +206,7 @@ class Search(cli.TestCase):
                 self.refuses("report", store, "-o", self.folder / "report", says=store)
         self.assertEqual(text.read_text(), "no store " * 99)
         self.assertFalse((self.folder / "report").exists())
-        self.refuses("status", self.folder / "none.store", says="none.store: no such store")
+        self.refuses("status", self.folder / "none.store", says="none.store: found no such store")
 
     # ---- Output ----
 

@@ -911,6 +911,22 @@ TEST_CASE("report: findings of interest come first") {
                                           other.signature, large.signature});
 }
 
+TEST_CASE("report: the simplest loop has the shortest minimized problem, the gravest first") {
+  Finding longer = Finished(PendingFinding("cycle-2c-1d-2s-a", 0)), shorter = longer;
+  shorter.signature = "cycle-2c-1d-2s-b";
+  longer.minimized += std::string(10, ' ');
+  const auto simplest = [&](const char* kind_of_longer) {
+    longer.kind = kind_of_longer;
+    Record record = SampleByContacts();
+    record.signatures = {{longer.signature, 1}, {shorter.signature, 1}};
+    const std::vector<Finding> findings = {longer, shorter};
+    return SimplestLoop(Discoveries(record, findings))->signature;
+  };
+  CHECK(simplest("cycle") == shorter.signature);
+  CHECK(simplest("safe-cycle") == longer.signature);
+  CHECK(SimplestLoop({}) == nullptr);
+}
+
 TEST_CASE("report: cycles of safe problems and disagreements of methods outrank everything") {
   Finding simple = Finished(PendingFinding("cycle-2c-1d-2s-a", 0)), large = simple, methods = simple,
           safe = simple;
