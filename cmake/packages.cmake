@@ -2,27 +2,26 @@
 # What is installed besides programs and library, and `cpack`: two Debian packages, stiction and libstiction-dev.
 include(GNUInstallDirs)
 
-# compressed(TARGET FILE): FILE.gz in the build, without name and time.
-function(compressed target file)
+# compressed(FILE): FILE.gz in the build, when it is configured; without name and time.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+function(compressed file)
   cmake_path(GET file FILENAME name)
-  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/packages/${name}.gz
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/packages
-    COMMAND gzip -9nc ${file} > ${PROJECT_BINARY_DIR}/packages/${name}.gz DEPENDS ${file} VERBATIM)
-  set_property(TARGET ${target} APPEND PROPERTY SOURCES ${PROJECT_BINARY_DIR}/packages/${name}.gz)
+  execute_process(COMMAND gzip -9nc ${file} OUTPUT_FILE ${PROJECT_BINARY_DIR}/packages/${name}.gz
+                  COMMAND_ERROR_IS_FATAL ANY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
 endfunction()
+compressed(${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
+compressed(${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
 
 # The manual and the completion, written by the program itself.
 set(manual ${PROJECT_BINARY_DIR}/packages/stiction.1)
 set(completion ${PROJECT_BINARY_DIR}/packages/completion)
-add_custom_command(OUTPUT ${manual} ${completion}
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/packages
+add_custom_command(OUTPUT ${manual} ${manual}.gz ${completion}
   COMMAND stiction manual > ${manual}
+  COMMAND gzip -9nc ${manual} > ${manual}.gz
   COMMAND stiction manual --format bash > ${completion}
   DEPENDS stiction COMMENT "Writing the manual" VERBATIM)
-add_custom_target(stiction_manual ALL DEPENDS ${manual} ${completion})
-compressed(stiction_manual ${manual})
-compressed(stiction_manual ${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
-compressed(stiction_manual ${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
+add_custom_target(stiction_manual ALL DEPENDS ${manual}.gz ${completion})
 
 install(FILES ${PROJECT_BINARY_DIR}/packages/stiction.1.gz ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1.gz
         DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
