@@ -23,6 +23,8 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
+sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
+
 from certificate_reader import (brief, dot, exact, fields, integer, items, main, need, one_of,
                                 planar_contacts, rows, times, vector)
 from check_runs import check_runs

@@ -22,6 +22,8 @@ from collections import namedtuple
 from fractions import Fraction
 from functools import cached_property, lru_cache
 
+sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
+
 from certificate_reader import dot, exact, fields, items, main, need, planar_contacts, times
 
 # --- Problems and policies -----------------------------------------------------------
