@@ -3,38 +3,17 @@
 // (the same beside an earlier one) and `large` (ten thousand findings).
 import assert from 'node:assert/strict';
 import {existsSync, readFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-import {pathToFileURL} from 'node:url';
+import {test} from 'node:test';
 
-const {PAGES, PACKAGES, BROWSER} = process.env;
-const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
-let browser;
+import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
 
-before(async () => {
-  browser = await chromium.launch({executablePath: BROWSER, args: ['--no-sandbox', '--disable-dev-shm-usage']});
-});
-after(() => browser.close());
+const {PAGES} = process.env;
 
-// Opens a page, hands it over once all is drawn, and expects that it asked for nothing and complained of
-// nothing.
-async function opened(name, use, {hash = '', ...options} = {}) {
-  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
-  const page = await context.newPage(), url = pathToFileURL(join(PAGES, name, 'index.html')).href + hash,
-        wrong = [];
-  page.on('console', message => wrong.push(`console: ${message.text()}`));
-  page.on('pageerror', error => wrong.push(`error: ${error.message}`));
-  page.on('request', request => {
-    if (request.url() !== url.replace(/#.*/, '')) wrong.push(`request: ${request.url()}`);
-  });
-  await page.goto(url);
-  if (options.javaScriptEnabled !== false)
-    await page.waitForSelector('html[data-drawn]', {timeout: 60000, state: 'attached'});
-  await use(page);
-  assert.deepEqual(wrong, []);
-  await context.close();
-}
+// Opens a report, once all is drawn.
+const opened = (name, use, options = {}) => openFile(
+    join(name, 'index.html'), use,
+    {ready: options.javaScriptEnabled === false ? null : 'html[data-drawn]', ...options});
 
 // The rows of a table of the report, by the names of its columns; no cell of these has a line end in it.
 function csv(report, file) {
@@ -266,29 +245,27 @@ test('beside an earlier report, what is new can be told and filtered', async () 
   });
 });
 
-test(
-    'ten thousand findings open, in two seconds where times are asked for, and all are found',
-    async t => {
-      const times = [];
-      for (let k = 0; k < 3; ++k) {
-        await opened('large', async page => {
-          times.push(await page.evaluate(() => performance.getEntriesByType('navigation')[0].loadEventEnd));
-          assert.match(await said(page), /^1 to 50 of 10,\d\d\d findings$/);
-          const rows = csv('large', 'findings.csv'), last = rows.filter(row => row.state !== 'counted').at(-1);
-          await page.fill('#gallery-search', last.signature);
-          assert.ok((await signatures(page)).includes(last.signature));
-          await page.click('#findings tr.more summary');
-          assertIsProblem(
-              await matrixOf(page, (await signatures(page))[0]), join(PAGES, 'large', last.problem_file));
-          await page.fill('#gallery-search', '');
-          await page.click('#findings .pager button:nth-child(2)');
-          assert.match(await said(page), /^51 to 100 of 10,/);
-        });
-      }
-      const taken = `opened in ${times.map(Math.round).join(', ')} ms`;
-      t.diagnostic(taken);
-      if (process.env.STICTION_TIMES !== undefined) assert.ok(times.sort((a, b) => a - b)[1] < 2000, taken);
+test('ten thousand findings open, in two seconds where times are asked for, and all are found', async t => {
+  const times = [];
+  for (let k = 0; k < 3; ++k) {
+    await opened('large', async page => {
+      times.push(await page.evaluate(() => performance.getEntriesByType('navigation')[0].loadEventEnd));
+      assert.match(await said(page), /^1 to 50 of 10,\d\d\d findings$/);
+      const rows = csv('large', 'findings.csv'), last = rows.filter(row => row.state !== 'counted').at(-1);
+      await page.fill('#gallery-search', last.signature);
+      assert.ok((await signatures(page)).includes(last.signature));
+      await page.click('#findings tr.more summary');
+      assertIsProblem(
+          await matrixOf(page, (await signatures(page))[0]), join(PAGES, 'large', last.problem_file));
+      await page.fill('#gallery-search', '');
+      await page.click('#findings .pager button:nth-child(2)');
+      assert.match(await said(page), /^51 to 100 of 10,/);
     });
+  }
+  const taken = `opened in ${times.map(Math.round).join(', ')} ms`;
+  t.diagnostic(taken);
+  if (process.env.STICTION_TIMES !== undefined) assert.ok(times.sort((a, b) => a - b)[1] < 2000, taken);
+});
 
 // ---- For everybody ----
 
@@ -310,63 +287,36 @@ test('the first key leads past the header, and every control has a name and is r
                             node.textContent.trim() && node.tagName === 'BUTTON' || node.labels?.length > 0))
                    .map(node => node.outerHTML.slice(0, 80)));
     assert.deepEqual(bare, []);
-    const levels = await page.$$eval('h1, h2, h3, h4', all => all.map(node => Number(node.tagName[1])));
-    assert.equal(levels.filter(level => level === 1).length, 1);
-    levels.reduce((before, level) => {
-      assert.ok(level <= before + 1, levels.join(' '));
-      return level;
-    }, 0);
+    await assertHeadings(page);
     assert.ok(await page.$$eval('main section', all => all.every(node => node.querySelector('h2') !== null)));
   });
 });
 
-// Of what a person reads: its contrast with what it stands on.
-const contrasts = page => page.evaluate(() => {
-  const parse = colour => colour.match(/[\d.]+/g).map(Number);
-  const light = ([r, g, b]) => [r, g, b]
-                                   .map(x => x / 255)
-                                   .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)
-                                   .reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
-  const ground = node => {
-    for (let at = node; at !== null; at = at.parentElement) {
-      const colour = parse(getComputedStyle(at).backgroundColor);
-      if (colour.length === 3 || colour[3] === 1) return colour;
-    }
-    return [255, 255, 255];
-  };
-  const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-  const found = {};
-  for (const text
-           of ['h1', 'h2', 'h3', 'p', '.kicker', '.note', '.source', '.source a', 'figcaption', '.answers li',
-               '.tiles strong', '.tiles span', 'th button', 'td.zero', 'td small', '.badge.loop',
-               '.badge.whole', '.said', 'dt', 'dd', 'summary', '.legend li', '.title', 'td.h1', 'td.h2',
-               'td.h3', 'td.h4', 'td.h5', '.choice', 'pre code'])
-    for (const node of [...document.querySelectorAll(text)].slice(0, 3))
-      found[text] = Math.min(
-          found[text] ?? Infinity, ratio(light(parse(getComputedStyle(node).color)), light(ground(node))));
-  for (const node of document.querySelectorAll('.plot-svg text'))
-    found['text of plots'] = Math.min(
-        found['text of plots'] ?? Infinity,
-        ratio(light(parse(getComputedStyle(node).fill)), light(ground(node.closest('figure')))));
-  const marks = {};
-  for (const node of document.querySelectorAll('.plot-svg circle, .plot-svg [aria-label=dot] path')) {
-    const style = getComputedStyle(node), paint = style.fill === 'none' ? style.stroke : style.fill;
-    if (paint !== 'none') marks[paint] ??= ratio(light(parse(paint)), light(ground(node.closest('figure'))));
-  }
-  return {found, marks};
-});
+const texts = [
+  'h1',        'h2',        'h3',         'p',           '.kicker',       '.note',
+  '.source',   '.source a', 'figcaption', '.answers li', '.tiles strong', '.tiles span',
+  'th button', 'td.zero',   'td small',   '.badge.loop', '.badge.whole',  '.said',
+  'dt',        'dd',        'summary',    '.legend li',  '.title',        'td.h1',
+  'td.h2',     'td.h3',     'td.h4',      'td.h5',       '.choice',       'pre code'
+];
 
 test('light and dark have contrast: texts, and what is drawn', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await opened('small', async page => {
-      const paper =
-          await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
-      assert.equal(paper[0] < 128, colorScheme === 'dark');
-      const {found, marks} = await contrasts(page);
-      assert.ok(Object.keys(found).length > 20 && Object.keys(marks).length > 2);
-      for (const [text, contrast] of Object.entries(found))
+      await assertColourScheme(page, colorScheme);
+      const read = await contrasts(
+          page,
+          [...texts.map(selector => ({selector})), {selector: '.plot-svg text', paint: 'fill', on: 'figure'}]);
+      const drawn = await contrasts(page, [{
+                                      selector: '.plot-svg circle, .plot-svg [aria-label=dot] path',
+                                      paint: 'fill',
+                                      on: 'figure',
+                                      byPaint: true
+                                    }]);
+      assert.ok(read.length > 20 && drawn.length > 2);
+      for (const [text, contrast] of read)
         assert.ok(contrast >= 4.5, `${colorScheme}: ${text} has a contrast of ${contrast}`);
-      for (const [mark, contrast] of Object.entries(marks))
+      for (const [mark, contrast] of drawn)
         assert.ok(contrast >= 3, `${colorScheme}: ${mark} has a contrast of ${contrast}`);
     }, {colorScheme});
   }
@@ -428,16 +378,4 @@ test('indices stand below their letter', async () => {
   });
 });
 
-test('no script but its own runs', async () => {
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  await page.goto(pathToFileURL(join(PAGES, 'small', 'index.html')).href);
-  const ran = await page.evaluate(() => {
-    const script = document.createElement('script');
-    script.textContent = 'window.ran = true;';
-    document.body.append(script);
-    return window.ran === true;
-  });
-  assert.equal(ran, false);
-  await context.close();
-});
+test('no script but its own runs', () => assertRunsNoOtherScript(join('small', 'index.html')));

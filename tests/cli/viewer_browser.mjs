@@ -4,42 +4,21 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-import {pathToFileURL} from 'node:url';
+import {test} from 'node:test';
 
-const {PAGES, PACKAGES, BROWSER, PROGRAM} = process.env;
-const {chromium} = createRequire(join(PACKAGES, 'package.json'))('playwright-core');
+import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
+
+const {PAGES, PROGRAM} = process.env;
 const names = [
   'loop', 'scene', 'policy', 'space', 'sliding', 'frictionless', 'lemke', 'complete', 'scene-in-space',
   'at-rest'
 ];
 const replayOf = name => JSON.parse(readFileSync(join(PAGES, `${name}.json`), 'utf8'));
-let browser;
 
-before(async () => {
-  browser = await chromium.launch({executablePath: BROWSER, args: ['--no-sandbox', '--disable-dev-shm-usage']});
-});
-after(() => browser.close());
-
-// Opens a page, hands it over, and expects that it asked for nothing and complained of nothing.
-async function opened(name, use, {hash = '', prepare = () => {}, ...options} = {}) {
-  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
-  const page = await context.newPage(), url = pathToFileURL(join(PAGES, `${name}.html`)).href + hash,
-        wrong = [];
-  page.on('console', message => wrong.push(`console: ${message.text()}`));
-  page.on('pageerror', error => wrong.push(`error: ${error.message}`));
-  page.on('request', request => {
-    if (request.url() !== url.replace(/#.*/, '') && !request.url().startsWith('blob:'))
-      wrong.push(`request: ${request.url()}`);
-  });
-  await prepare(page);
-  await page.goto(url);
-  await use(page);
-  assert.deepEqual(wrong, []);
-  await context.close();
-}
+// Runs again in a worker, which is a blob.
+const opened = (name, use, options = {}) =>
+    openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
 
 const heading = (page, run = 0) => page.textContent(`section.run-${run} h3`);
 // A link or a finger moves the page in a later event of the browser.
@@ -234,61 +213,41 @@ test('a narrow window does not scroll sideways, and a finger steps', async () =>
   }, phone);
 });
 
-// Of what a person reads: its contrast with what it stands on.
-const contrasts = page => page.evaluate(() => {
-  const parse = colour => colour.match(/[\d.]+/g).map(Number);
-  const light = ([r, g, b]) => [r, g, b]
-                                   .map(x => x / 255)
-                                   .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)
-                                   .reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
-  const ground = node => {
-    for (let at = node; at !== null; at = at.parentElement) {
-      const colour = parse(getComputedStyle(at).backgroundColor);
-      if (colour.length === 3 || colour[3] === 1) return colour;
-    }
-    return [255, 255, 255];
-  };
-  const texts = [
-    'h1',
-    'h2',
-    'h3',
-    '.note',
-    '.event',
-    '.why',
-    '.end',
-    '.values th',
-    '.values .n:not(.nothing)',
-    '.group',
-    '.place',
-    'figcaption',
-    '.readings p',
-    '.readings em',
-    '.key',
-    'dd',
-    'a',
-    '.matrix td',
-    '.matrix.force td',
-    '#edit summary',
-    '#edit legend',
-    '#edit th',
-    '#edit input',
-    '#edit [type=submit]',
-    '#edited'
-  ];
-  return Object.fromEntries(texts.map(text => {
-    const node = document.querySelector(text);
-    const [a, b] = [light(parse(getComputedStyle(node).color)), light(ground(node))].sort((x, y) => y - x);
-    return [text, (a + 0.05) / (b + 0.05)];
-  }));
-});
+const texts = [
+  'h1',
+  'h2',
+  'h3',
+  '.note',
+  '.event',
+  '.why',
+  '.end',
+  '.values th',
+  '.values .n:not(.nothing)',
+  '.group',
+  '.place',
+  'figcaption',
+  '.readings p',
+  '.readings em',
+  '.key',
+  'dd',
+  'a',
+  '.matrix td',
+  '.matrix.force td',
+  '#edit summary',
+  '#edit legend',
+  '#edit th',
+  '#edit input',
+  '#edit [type=submit]',
+  '#edited'
+];
 
 test('light and dark have contrast', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await opened('loop', async page => {
-      const paper =
-          await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
-      assert.equal(paper[0] < 128, colorScheme === 'dark');
-      for (const [text, contrast] of Object.entries(await contrasts(page)))
+      await assertColourScheme(page, colorScheme);
+      const read = await contrasts(page, texts.map(selector => ({selector})));
+      assert.deepEqual(read.map(([text]) => text), texts);
+      for (const [text, contrast] of read)
         assert.ok(contrast >= 4.5, `${colorScheme}: ${text} has a contrast of ${contrast}`);
     }, {hash: '#step-5', colorScheme});
   }
@@ -318,12 +277,7 @@ test('everything that can be pressed or seen has a name', async () => {
           'button, input, svg[role=img], [role=group], nav, section.run',
           all => all.filter(node => !node.getAttribute('aria-label')).map(node => node.outerHTML.slice(0, 80)));
       assert.deepEqual(bare, []);
-      const levels = await page.$$eval('h1, h2, h3, h4', all => all.map(node => Number(node.tagName[1])));
-      assert.equal(levels.filter(level => level === 1).length, 1);
-      levels.reduce((before, level) => {
-        assert.ok(level <= before + 1, levels.join(' '));
-        return level;
-      }, 0);
+      await assertHeadings(page);
       await press(page, 'ArrowRight');
       assert.match(await page.textContent('#said'), /^Step 1: ./);
     });
@@ -595,16 +549,4 @@ test('in space it is said why nothing runs', async () => {
   });
 });
 
-test('no script but its own runs', async () => {
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  await page.goto(pathToFileURL(join(PAGES, 'loop.html')).href);
-  const ran = await page.evaluate(() => {
-    const script = document.createElement('script');
-    script.textContent = 'window.ran = true;';
-    document.body.append(script);
-    return window.ran === true;
-  });
-  assert.equal(ran, false);
-  await context.close();
-});
+test('no script but its own runs', () => assertRunsNoOtherScript('loop.html'));
