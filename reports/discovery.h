@@ -67,6 +67,7 @@ struct Discovery {
   std::optional<WordSketch> words;        // of its loops, where the signature is counts alone
   FindingFiles files;
 
+  bool HasFiles() const { return !files.problem.empty(); }
   bool Finished() const { return representative != nullptr && representative->done; }
   bool IsLoop() const;     // of the published algorithm
   bool WholeGrid() const;  // every policy ends in the outcome of the finding, and that is not `solved`

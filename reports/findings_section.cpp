@@ -133,12 +133,11 @@ std::string RunText(const RunFacts& run, const Finding& finding) {
 std::string CommandsOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   const std::string& policy = finding.policy;
-  const bool written = !discovery.files.problem.empty();
-  const std::string problem = written ? ShellWord(discovery.files.problem) : "problem.json";
+  const std::string problem = discovery.HasFiles() ? ShellWord(discovery.files.problem) : "problem.json";
   std::string text = "stiction replay " + problem;
   if (policy != "paper") text += " --policy " + ShellWord(policy);
   text = fmt::format("{0} --step\n{0} --html replay.html", text);
-  if (!written)
+  if (!discovery.HasFiles())
     return fmt::format("stiction problem STORE {} {} -o problem.json\n{}", finding.unit, finding.index, text);
   if (!discovery.files.certificate.empty())
     text += fmt::format("\nstiction check {}", ShellWord(discovery.files.certificate));

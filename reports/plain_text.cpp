@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "solver/problem/check.h"
 
@@ -96,6 +97,16 @@ std::string PlainValue(const Json& json) {
   std::vector<std::string> parts;
   for (const Json& element : json) parts.push_back(PlainValue(element));
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string ReadingsText(const Record& record) {
+  constexpr std::size_t kMostNamed = 3;
+  std::set<std::string> readings;
+  for (const auto& [key, tally] : record.tallies) readings.insert(key.policy);
+  if (readings.empty()) return "";
+  if (readings.size() == 1) return "the reading " + *readings.begin();
+  const std::string all = fmt::format("{} readings", readings.size());
+  return readings.size() <= kMostNamed ? fmt::format("{} ({})", all, fmt::join(readings, ", ")) : all;
 }
 
 std::string ShellWord(const std::string& word) {

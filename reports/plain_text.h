@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corpus/json_text.h"
+#include "corpus/statistics.h"
 
 namespace stiction {
 
@@ -37,6 +38,10 @@ class TextTable {
 
 // A value of a definition: texts without quotes, elements of arrays behind ", ".
 std::string PlainValue(const Json& json);
+
+// The policies of the runs: "the reading paper", "2 readings (paper, ties=contacts)", "1536 readings"; empty:
+// no runs.
+std::string ReadingsText(const Record& record);
 
 // A word as a shell reads it back.
 std::string ShellWord(const std::string& word);

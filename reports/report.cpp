@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/report.h"
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "corpus/json_text.h"
 #include "reports/discovery.h"
 #include "reports/figures.h"
@@ -21,6 +26,20 @@ std::string CampaignFile(const CampaignIdentity& identity) {
   return JsonText(campaign, 1) + "\n";
 }
 
+// To the first in the order of interest alone; but the simplest loop, which the page shows, comes before all.
+void LeaveFilesTo(std::vector<Discovery>& discoveries, std::int64_t most) {
+  const Discovery* const simplest = SimplestLoop(discoveries);
+  std::vector<const Discovery*> order = ByInterest(discoveries);
+  std::stable_partition(order.begin(), order.end(), [simplest](const Discovery* d) { return d == simplest; });
+  std::set<std::string> kept;
+  for (const Discovery* discovery : order) {
+    if (static_cast<std::int64_t>(kept.size()) < most) kept.insert(discovery->signature);
+  }
+  for (Discovery& discovery : discoveries) {
+    if (!kept.contains(discovery.signature)) discovery.files = {};
+  }
+}
+
 }  // namespace
 
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory, Occupied occupied,
@@ -39,14 +58,9 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   content.total = store.Total();
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
-  std::int64_t written = 0;
-  for (Discovery& discovery : content.discoveries) {
-    if (discovery.representative == nullptr) continue;
-    if (written == extras.files) {
-      discovery.files = {};
-      continue;
-    }
-    ++written;
+  LeaveFilesTo(content.discoveries, extras.files);
+  for (const Discovery& discovery : content.discoveries) {
+    if (!discovery.HasFiles()) continue;
     for (const auto& [name, text] : FilesOf(discovery)) folder.Write(name, text);
   }
   for (const auto& [name, text] : TablesOf(content.total, content.discoveries)) folder.Write(name, text);

@@ -34,7 +34,7 @@ struct ReportExtras {
   std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
   std::filesystem::path since;                 // an earlier report, beside which the page says what is new
   bool latex = false;                          // tables and figures for papers, too (latex.h)
-  // Only the first so many findings have files; tables and page have all.
+  // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
 };
 

@@ -9,6 +9,7 @@
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "reports/page.h"
+#include "reports/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -18,7 +19,7 @@ struct Sums {
   std::int64_t runs = 0, suspicions = 0, refuted = 0, wrong = 0, audited = 0, misjudged = 0;
   Tally::Outcomes exact = {};
   std::set<int> contacts;
-  std::set<std::string> policies, generators;
+  std::set<std::string> generators;
 };
 
 Sums SumsOfTotal(const Record& total) {
@@ -29,7 +30,6 @@ Sums SumsOfTotal(const Record& total) {
     sums.audited += tally.audited;
     sums.misjudged += tally.misjudged;
     sums.contacts.insert(key.contacts);
-    sums.policies.insert(key.policy);
     sums.generators.insert(key.generator);
     for (const Tally::Outcomes& row : tally.verdicts) {
       for (int i = 0; i < kOutcomeCount; ++i) {
@@ -60,11 +60,10 @@ Html Asked(const ReportContent& content, const Sums& sums) {
   if (sums.contacts.empty()) return Html();
   return Tag("p", {{"class", "asked"}})(fmt::format(
              "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run "
-             "under "
-             "{} of its text: {}.",
+             "under {} of its text: {}.",
              Grouped(ProblemsOf(content.total)), Spread(sums.contacts),
              Counted(static_cast<std::int64_t>(sums.generators.size()), "generator"),
-             Counted(static_cast<std::int64_t>(sums.policies.size()), "reading"), Counted(sums.runs, "run"))) +
+             ReadingsText(content.total), Counted(sums.runs, "run"))) +
          Html("\n");
 }
 

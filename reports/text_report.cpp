@@ -80,15 +80,17 @@ std::string LoopsText(const StoreTotals& t) {
   const std::int64_t met = t.LoopsMet();
   if (t.runs == 0) return "";
   if (met == 0) {
-    return Paragraph(
-        fmt::format("No run of the published algorithm was found to loop: {}.", RateSentence(0, t.runs)));
+    return Paragraph(fmt::format("No run of the published algorithm, under {}, was found to loop: {}.",
+                                 ReadingsText(t.record), RateSentence(0, t.runs)));
   }
-  std::string text = Paragraph(fmt::format(
-      "The published algorithm loops for ever in {}: {}. A state of such a run stands again, in exact "
-      "arithmetic or, in space, by intervals: so it never ends.",
-      Counted(met, "run"), RateSentence(met, t.runs)));
-  text += Paragraph(fmt::format("They are of {}; {} under every reading of the paper, as minimized.",
-                                Counted(t.LoopGroups(), "kind"), Verb(t.whole_grid, "loops", "loop")));
+  std::string text =
+      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
+                            "run stands again, in exact "
+                            "arithmetic or, in space, by intervals: so it never ends.",
+                            ReadingsText(t.record), Counted(met, "run"), RateSentence(met, t.runs)));
+  text +=
+      Paragraph(fmt::format("They are of {}; {} under every reading that stiction distinguishes, as minimized.",
+                            Counted(t.LoopGroups(), "kind"), Verb(t.whole_grid, "loops", "loop")));
   if (t.loops.loops > 0) {
     text +=
         Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",

@@ -280,4 +280,10 @@ void RequireSound(const Store& store, const std::string& file) {
     ElitesFromText(text, fmt::format("{}: elites of unit {}", file, unit));
 }
 
+Store OpenSound(const std::string& file) {
+  Store store = Store::OpenToRead(file);
+  RequireSound(store, file);
+  return store;
+}
+
 }  // namespace stiction

@@ -19,6 +19,9 @@ void RequireSound(const Store& store, const std::string& file);
 void RequireSound(const Finding& finding, const Campaign& campaign, const std::string& file);
 void RequireSound(const Record& total, const Campaign& campaign, const std::string& file);
 
+// A store to read, of which all is as it must be.
+Store OpenSound(const std::string& file);
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_TESTIMONY_H_

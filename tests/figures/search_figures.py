@@ -191,7 +191,7 @@ def per_million(kind):
 
 CAMPAIGN_ROWS = (
     ("problems", lambda summary: count(summary["problems"])),
-    ("the published algorithm loops", per_million("cycle")),
+    ("the published algorithm, policy `paper`, loops", per_million("cycle")),
     ("it finds no direction", per_million("singular")),
     ("given to complete driving; not solved by it, verified exactly",
      lambda summary: f"{count(summary['existence_checked'])}; " +

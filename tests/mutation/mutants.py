@@ -742,6 +742,8 @@ bug("refuted-by-cycles", "suspicions.refuted += exact[static_cast<int>(Outcome::
 
 bug = in_file("reports/discovery.cpp", "^reports: ")
 bug("some-loop", "loops > 0 && loops == Total()", "loops > 0", "every policy loops if one does")
+bug("longest-loop", "rank(discovery) < rank(*simplest)", "rank(discovery) > rank(*simplest)",
+    "the page features the longest problem")
 bug("unrepresented", "if (discovery.representative != nullptr) sorted.push_back(&discovery);",
     "sorted.push_back(&discovery);", "groups without a representative are shown")
 bug("file-names-collide", "if (name == signature && !name.empty()) return name;", "return name;",
@@ -785,6 +787,12 @@ bug = in_file("reports/since.cpp", "^reports: ")
 bug("since-always-more", "discovery.met > before->second.met", "discovery.met >= before->second.met",
     "what is as it was is told as news")
 bug("since-gone-hidden", "if (present.count(signature) > 0) continue;", "continue;", "what is gone is not told")
+
+bug = in_file("reports/report.cpp", "^reports: ")
+bug("files-by-interest", "[simplest](const Discovery* d) { return d == simplest; }", "[](const Discovery*) { return false; }",
+    "the simplest loop, which the page shows, has no files")
+bug("one-file-more", "static_cast<std::int64_t>(kept.size()) < most", "static_cast<std::int64_t>(kept.size()) <= most",
+    "one finding more has files")
 
 bug = in_file("reports/sentences.cpp", "^reports: ")
 bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] +", "sums.suspicions +",

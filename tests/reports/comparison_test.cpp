@@ -279,5 +279,27 @@ TEST_CASE("comparison: the tables have a row for every rate and every number of 
         "psd,2,paper,baraff,double,9,no,0,1000\r\n");
 }
 
+TEST_CASE("comparison: as JSON it has every rate that the table has, and what one store alone has") {
+  const Scratch scratch;
+  Record b = RecordOf(2000, 40, 9);
+  b.tallies[{"scenes", 5, "paper"}].problems = 77;
+  const Comparison c = Compared(scratch, RecordOf(1000, 3, 6), b);
+  const Json json = ComparisonToJson(c);
+  REQUIRE(json["rates"].size() == c.rates.size());
+  for (std::size_t i = 0; i < c.rates.size(); ++i) {
+    const Json& row = json["rates"][i];
+    CHECK(row["measure"] == c.rates[i].measure);
+    CHECK(row["a"] == Json{{"count", c.rates[i].a.count}, {"of", c.rates[i].a.of}});
+    CHECK(row["b"] == Json{{"count", c.rates[i].b.count}, {"of", c.rates[i].b.of}});
+    CHECK(row["p"].is_null() == !c.rates[i].p.has_value());
+    if (c.rates[i].p) CHECK(row["p_corrected"] == *c.rates[i].adjusted);
+    CHECK(row["more_than_noise"] == c.rates[i].MoreThanNoise());
+  }
+  CHECK(json["tests"] == c.tests);
+  CHECK(json["only_a"].empty());
+  REQUIRE(json["only_b"].size() == 1);
+  CHECK(json["only_b"][0]["generator"] == "scenes");
+}
+
 }  // namespace
 }  // namespace stiction

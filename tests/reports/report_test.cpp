@@ -911,6 +911,42 @@ TEST_CASE("report: findings of interest come first") {
                                           other.signature, large.signature});
 }
 
+TEST_CASE(
+    "report: --files leaves files to the simplest loop and what is of most interest, and says so of others") {
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  Finding longer = PendingFinding("cycle-2c-1d-2s-a", 0), shorter = longer, counted = longer;
+  shorter.signature = "cycle-2c-1d-2s-b";
+  counted.signature = "cycle-2c-1d-2s-c";
+  Record record = SampleByContacts();
+  for (const Finding* finding : {&longer, &shorter, &counted}) record.signatures[finding->signature] = 1;
+  store.AddUnit({}, 0, record, {longer, shorter, counted});
+  longer = Finished(longer);
+  longer.minimized += std::string(10, ' ');
+  shorter = Finished(shorter);  // the shortest text, though of more contacts
+  const std::string minimized = R"("minimized":{"contacts":1,)";
+  shorter.facts.replace(shorter.facts.find(minimized), minimized.size(), R"("minimized":{"contacts":2,)");
+  store.Finish(longer);
+  store.Finish(shorter);
+  const auto problems_with = [&](std::int64_t files) {
+    WriteReport(store, scratch / "out", Occupied::kRefused, {{}, {}, false, files});
+    std::vector<std::string> names;
+    for (const auto& row : ReadTable(scratch / "out/findings.csv")) {
+      const std::string file = row.at("problem_file");
+      CHECK(file.empty() != fs::exists(scratch / ("out/findings/" + row.at("signature") + ".json")));
+      if (!file.empty()) names.push_back(row.at("signature"));
+    }
+    return names;
+  };
+  CHECK(problems_with(0).empty());
+  CHECK(problems_with(1) == std::vector<std::string>{shorter.signature});
+  const std::string page = ReadText(scratch / "out/index.html");
+  CHECK(Has(page, "Files: left out of this report."));
+  CHECK(Has(page, "stiction problem STORE 0 "));
+  CHECK(problems_with(2) == std::vector<std::string>{longer.signature, shorter.signature});
+  CHECK(problems_with(9).size() == 3);
+}
+
 TEST_CASE("report: the simplest loop has the shortest minimized problem, the gravest first") {
   Finding longer = Finished(PendingFinding("cycle-2c-1d-2s-a", 0)), shorter = longer;
   shorter.signature = "cycle-2c-1d-2s-b";
@@ -1113,7 +1149,8 @@ TEST_CASE("report: sentences say what was found, with its intervals") {
   content.total.agreement[4].disagreements = 1;
   const std::string text = FoundSentences(content).markup();
   for (const char* part :
-       {"4,000,000 random problems of 4 contacts, from 1 generator, were run under 1 reading",
+       {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the reading paper of its "
+        "text",
         "It does not always end.", "3 of 4,000,000 runs repeat a state in exact arithmetic",
         "0.75 [0.155, 2.19] in a million runs", "solved 30 of 30 problems", "The methods disagree.",
         "1 of 23 problems", "Of 10 suspicious runs in doubles 7 are solved in exact arithmetic",
@@ -1141,8 +1178,7 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
   record.signatures["cycle-gone"] = 3;
   store.AddUnit({}, 0, record, {PendingFinding(kDone, 0), PendingFinding(kPending, 0)});
   WriteReport(store, scratch / "earlier");
-  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused,
-              {{}, scratch / "earlier"});
+  WriteReport(SampleStore(scratch / "later"), scratch / "out", Occupied::kRefused, {{}, scratch / "earlier"});
   std::map<std::string, std::string> changes;
   for (const Row& row : ReadTable(scratch / "out/since.csv")) changes[row.at("signature")] = row.at("change");
   CHECK(changes ==

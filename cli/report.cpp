@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction report: what a store holds, as a page, as text, as a data package; and how two stores compare.
+
+#include "reports/report.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certify/checker_files.h"
+#include "cli/shared.h"
+#include "cli/verbs.h"
+#include "corpus/json_text.h"
+#include "reports/comparison.h"
+#include "reports/package.h"
+#include "reports/text_report.h"
+#include "search/campaign.h"
+#include "search/known_signatures.h"
+#include "search/summary.h"
+#include "search/testimony.h"
+
+namespace stiction {
+namespace {
+
+struct ReportVerb {
+  std::string store, other, folder, package;
+  std::vector<std::string> benches;
+  std::string since;
+  std::optional<std::int64_t> files;
+  bool replace = false, text = false, latex = false, json = false;
+};
+
+int PrintReport(const ReportVerb& o, const Store& store) {
+  const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
+  if (o.json)
+    std::cout << JsonText(SummaryToJson(store)) << "\n";
+  else
+    std::cout << (optimized ? OptimizedText(store, o.store) : TextReport(store, o.store, KnownAs));
+  return kExitDone;
+}
+
+// A store of problems that were drawn at random.
+Store OpenDrawn(const std::string& file) {
+  Store store = OpenSound(file);
+  if (!CampaignOf(store.identity(), file).objective.empty())
+    throw InputError(
+        fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
+  return store;
+}
+
+// A difference that is more than noise is a disagreement of the two.
+int CompareStores(const ReportVerb& o) {
+  if (!o.package.empty() || !o.benches.empty() || !o.since.empty() || o.latex || o.files || o.text)
+    throw InputError(
+        "report: found two stores, expected one with --package, --bench, --since, --files, --latex or --text");
+  const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(o.other), o.other);
+  const std::string text = ComparisonText(comparison, o.store, o.other);
+  if (!o.folder.empty()) TellAside(WriteComparison(comparison, text, o.folder, OccupiedIf(o.replace)));
+  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n" : text);
+  return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
+}
+
+// What is made of one store.
+int ReportStore(const ReportVerb& o, const Store& store) {
+  std::string text;
+  Json written = Json::array();
+  if (!o.folder.empty()) {
+    TellAside(WriteReport(
+        store, o.folder, OccupiedIf(o.replace),
+        {{o.benches.begin(), o.benches.end()}, o.since, o.latex, o.files.value_or(ReportExtras().files)}));
+    text += o.folder + "/index.html\n";
+    written.push_back(o.folder);
+  }
+  if (!o.package.empty()) {
+    TellAside(WritePackage(store, o.package, CheckerFiles(), OccupiedIf(o.replace)));
+    text += fmt::format("{0}: verify it with: python3 {0}/verify.py\n", o.package);
+    written.push_back(o.package);
+  }
+  if (o.text) return PrintReport(o, store);
+  SayWhatWasDone("", o.json, text, {{"written", written}});
+  return kExitDone;
+}
+
+// What only the folder of a report has.
+void RequireFolder(const ReportVerb& o) {
+  const std::pair<bool, const char*> rows[] = {{o.latex, "--latex"},
+                                               {!o.since.empty(), "--since"},
+                                               {!o.benches.empty(), "--bench"},
+                                               {o.files.has_value(), "--files"}};
+  for (const auto& [given, name] : rows) {
+    if (given) throw InputError(fmt::format("report: found {} alone, expected -o, a folder to write", name));
+  }
+}
+
+int RunReport(const ReportVerb& o) {
+  if (!o.other.empty()) return CompareStores(o);
+  if (o.folder.empty() && o.package.empty() && !o.text)
+    throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
+  if (o.folder.empty()) RequireFolder(o);
+  return ReportStore(o, OpenSound(o.store));
+}
+
+}  // namespace
+
+void AddReport(CommandLine& program) {
+  auto [verb, o] =
+      program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
+  verb.Positional("STORE", o.store, "store of a search").Required();
+  verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead")
+      .Details("Exit 1 if a difference is more than noise");
+  verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
+  verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
+  verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
+  verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
+  verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
+  verb.Option("--since", o.since, "folder of an earlier report: the page says what is new since");
+  verb.Option("--files", o.files,
+              "findings that have files of their own; tables and page have all; by default all")
+      .AtLeast(0);
+  verb.Flag("--json", o.json,
+            "machine output: what was written, with two stores the comparison, with --text the summary");
+  AddReplace(verb, o.replace);
+}
+
+}  // namespace stiction
