@@ -71,13 +71,15 @@ Html LoopSentence(const Sums& sums) {
   const std::int64_t loops = LoopsOf(sums);
   const std::string rate = RateText(loops, sums.runs);
   if (loops == 0)
-    return Sentence("No loop was seen.",
-                    fmt::format("In exact arithmetic no run repeats a state: {} in a million runs.", rate));
+    return Sentence(
+        "No loop was seen.",
+        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate));
   return Sentence(
       "It does not always end.",
-      fmt::format("{} of {} runs repeat a state in exact arithmetic, and so go on for ever: {} in a million "
-                  "runs.",
-                  Grouped(loops), Grouped(sums.runs), rate));
+      fmt::format(
+          "{} of {} runs repeat a state, in exact arithmetic or, in space, by intervals, and so go on for "
+          "ever: {} in a million runs.",
+          Grouped(loops), Grouped(sums.runs), rate));
 }
 
 Html GridSentence(const std::vector<Discovery>& discoveries) {

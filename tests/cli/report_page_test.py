@@ -115,7 +115,7 @@ class Page(cli.TestCase):
         tallies, _ = cli.total(self.store)
         loops = sum(sum(exact_outcomes(tally)[1:3]) for tally in tallies.values())
         runs = sum(tally["problems"] for tally in tallies.values())
-        self.assertIn(f"{loops:,} of {runs:,} runs repeat a state in exact arithmetic", self.page)
+        self.assertIn(f"{loops:,} of {runs:,} runs repeat a state, in exact arithmetic", self.page)
 
     def test_every_finding_of_the_table_is_in_the_data(self):
         rows = {row["signature"]: row for row in tables(self.report / "findings.csv") if row["state"] != "counted"}

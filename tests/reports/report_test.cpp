@@ -1151,7 +1151,7 @@ TEST_CASE("report: sentences say what was found, with its intervals") {
   for (const char* part :
        {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the reading paper of its "
         "text",
-        "It does not always end.", "3 of 4,000,000 runs repeat a state in exact arithmetic",
+        "It does not always end.", "3 of 4,000,000 runs repeat a state, in exact arithmetic or",
         "0.75 [0.155, 2.19] in a million runs", "solved 30 of 30 problems", "The methods disagree.",
         "1 of 23 problems", "Of 10 suspicious runs in doubles 7 are solved in exact arithmetic",
         "Of 800 runs without a suspicion that were repeated exactly, 2 were misjudged (0.25 % [0.0303, "

@@ -12,70 +12,22 @@
 #include "corpus/kinds.h"
 #include "reports/plain_text.h"
 #include "tests/scratch.h"
+#include "tests/two_policies.h"
 
 namespace stiction {
 namespace {
 
 using Catch::Matchers::Contains;
+using testing::MinimizedTo;
 using testing::Scratch;
+using testing::TwoPolicies;
 
 const std::string kTextProblem =
     R"({"format":"stiction-problem","version":1,"name":"smaller","dimension":2,)"
     R"("contacts":[{"kind":"static","mu":"5/17"}],"A":[["19","-3/23"],["-3/23","1"]],"b":["-1","29"]})";
 
 Finding Waiting(const std::string& signature, std::string_view kind, std::int64_t unit) {
-  Finding finding;
-  finding.signature = signature;
-  finding.kind = kind;
-  finding.unit = unit;
-  finding.index = 7;
-  finding.generator = "psd";
-  finding.contacts = 2;
-  finding.policy = "paper";
-  finding.inexact_outcome = finding.exact_outcome = IsLoopKind(kind) ? "cycle" : std::string(kind);
-  finding.problem = kTextProblem;
-  return finding;
-}
-
-Finding MinimizedTo(Finding finding, const std::string& problem, const std::string& grid) {
-  finding.done = true;
-  finding.minimized = problem;
-  finding.facts = R"({"minimized":{"contacts":2,"start":3,"period":1,"grid":)" + grid + R"(}})";
-  return finding;
-}
-
-constexpr int kCycle = static_cast<int>(Outcome::kCycle), kRay = static_cast<int>(Outcome::kRay),
-              kSolved = static_cast<int>(Outcome::kSolved);
-
-// Two policies on the same 30 problems; of one of them 4 suspicions, 3 confirmed.
-Record TwoPolicies() {
-  Record record;
-  Tally& paper = record.tallies[{"psd", 2, "paper"}];
-  paper.problems = 30;
-  paper.verdicts[kCycle][kCycle] = 2;
-  paper.verdicts[kRay][kRay] = 1;
-  paper.verdicts[kRay][kSolved] = 1;
-  paper.audited = 7;
-  paper.misjudged = 5;
-  paper.wrong = 11;
-  Stratum& stratum = paper.strata[{"1/2", 4}];
-  stratum.problems = 30;
-  stratum.exact[kCycle] = 2;
-  record.tallies[{"psd", 2, "ties=contacts"}].problems = 30;
-  record.existence[2] = {13, 12, 0, 6, 8, 0};
-  AgreementTally& agreement = record.agreement[2];
-  agreement.compared = 17;
-  agreement.enumerated = 19;
-  agreement.disagreements = 23;
-  agreement.safety_decided = 29;
-  agreement.safe = 31;
-  agreement.safe_gave_up = 37;
-  record.loops[2].loops = 41;
-  record.loops[2].without_zero_steps = 3;
-  record.loops[2].of_zero_steps_alone = 2;
-  record.loops[3].loops = 5;
-  record.signatures = {{"cycle-2c-4d-10s-00", 2}, {"cycle-2c-4d-12s-00", 1}, {"ray-2c", 40}};
-  return record;
+  return testing::Waiting(signature, kind, unit, kTextProblem);
 }
 
 const CampaignIdentity kTextIdentity = {

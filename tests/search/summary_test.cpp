@@ -8,63 +8,16 @@
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "tests/scratch.h"
+#include "tests/two_policies.h"
 
 namespace stiction {
 namespace {
 
+using testing::MinimizedTo;
 using testing::Scratch;
 
 Finding Waiting(const std::string& signature, std::string_view kind, std::int64_t unit) {
-  Finding finding;
-  finding.signature = signature;
-  finding.kind = kind;
-  finding.unit = unit;
-  finding.generator = "psd";
-  finding.contacts = 2;
-  finding.policy = "paper";
-  finding.inexact_outcome = finding.exact_outcome = "cycle";
-  finding.problem = "{}";
-  return finding;
-}
-
-Finding MinimizedTo(Finding finding, const std::string& problem, const std::string& grid) {
-  finding.done = true;
-  finding.minimized = problem;
-  finding.facts = R"({"minimized":{"contacts":2,"start":3,"period":4,"grid":)" + grid + R"(}})";
-  return finding;
-}
-
-// Two policies on the same 30 problems; of one of them 4 suspicions, 3 confirmed.
-Record TwoPolicies() {
-  Record record;
-  Tally& paper = record.tallies[{"psd", 2, "paper"}];
-  paper.problems = 30;
-  paper.verdicts[static_cast<int>(Outcome::kCycle)][static_cast<int>(Outcome::kCycle)] = 2;
-  paper.verdicts[static_cast<int>(Outcome::kRay)][static_cast<int>(Outcome::kRay)] = 1;
-  paper.verdicts[static_cast<int>(Outcome::kRay)][static_cast<int>(Outcome::kSolved)] = 1;
-  paper.audited = 7;
-  paper.misjudged = 5;
-  paper.wrong = 11;
-  record.tallies[{"psd", 2, "ties=contacts"}].problems = 30;
-  record.existence[2] = {13, 12, 0, 6, 8, 0};
-  AgreementTally& agreement = record.agreement[2];
-  agreement.compared = 17;
-  agreement.enumerated = 19;
-  agreement.disagreements = 23;
-  agreement.safety_decided = 29;
-  agreement.safe = 31;
-  agreement.safe_gave_up = 37;
-  record.loops[2] = {.loops = 41,
-                     .drives = 200,
-                     .steps = 500,
-                     .zero_steps = 90,
-                     .without_zero_steps = 3,
-                     .of_zero_steps_alone = 2,
-                     .by_zero_steps = {}};
-  record.loops[3].loops = 5;
-  record.signatures = {
-      {"cycle-2c-4d-10s-00", 2}, {"cycle-2c-4d-12s-00", 1}, {"ray-2c", 40}, {"safe-cycle-2c-4d-10s-00", 3}};
-  return record;
+  return testing::Waiting(signature, kind, unit, "{}");
 }
 
 Store StoreWith(const std::filesystem::path& file) {
@@ -73,8 +26,10 @@ Store StoreWith(const std::filesystem::path& file) {
   const Finding cycle = Waiting("cycle-2c-4d-10s-00", "cycle", 0),
                 other = Waiting("cycle-2c-4d-12s-00", "cycle", 0);
   const Finding grave = Waiting("safe-cycle-2c-4d-10s-00", kSafeCycle, 1), ray = Waiting("ray-2c", "ray", 1);
-  store.AddUnit({}, 0, TwoPolicies(), {cycle, other});
-  store.AddUnit({}, 1, TwoPolicies(), {grave, ray});
+  Record record = testing::TwoPolicies();
+  record.signatures[grave.signature] = 3;
+  store.AddUnit({}, 0, record, {cycle, other});
+  store.AddUnit({}, 1, record, {grave, ray});
   store.Finish(MinimizedTo(cycle, "a long problem", R"({"cycle":1536})"));
   store.Finish(MinimizedTo(other, "short", R"({"cycle":36,"solved":1500})"));
   store.Finish(MinimizedTo(grave, "the longest problem of all", R"({"cycle":1536})"));
