@@ -185,7 +185,12 @@ test('findings are filtered by kind, and searched', async () => {
   });
 });
 
-const matrixOf = (page, signature) => page.evaluate(signature => {
+// A finding is filled in a later event of the browser than the one that opens it.
+const matrixOf = async (page, signature) => {
+  await page.waitForSelector('#findings tr.more details[open] .details', {timeout: 20000});
+  return matrixShown(page, signature);
+};
+const matrixShown = (page, signature) => page.evaluate(signature => {
   const head = [...document.querySelectorAll('#findings tr.finding')].find(
       row => row.querySelector('code').textContent === signature);
   return [...head.nextElementSibling.querySelectorAll('.details tbody tr')].map(
