@@ -121,10 +121,14 @@ Html UnsolvedMap(const Record& total) {
   return table.Done();
 }
 
+// No rate of what is solved, which differs from all in digits that a rate does not show.
 std::vector<HtmlCell> OutcomeCells(const Tally& tally) {
   std::vector<HtmlCell> cells = {Count(tally.problems)};
-  for (int i = 0; i < kOutcomeCount; ++i)
-    cells.push_back(CountAndRate(tally.outcomes[i], tally.problems, i > 0));
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    const std::int64_t count = tally.outcomes[i];
+    const bool solved = i == static_cast<int>(Outcome::kSolved);
+    cells.push_back(solved ? Count(count) : CountAndRate(count, tally.problems, true));
+  }
   return cells;
 }
 
@@ -293,7 +297,9 @@ Html OutcomesSection(const Record& total) {
       "outcomes", "Outcomes",
       Html("<p>As the runs in doubles ended. Runs not solved, per million, with exact intervals at 95 %; the "
            "deeper the colour, the more, one shade for each factor of ten:</p>\n") +
-          UnsolvedMap(total) + Html("<p>All outcomes; below each count its rate per million problems:</p>\n") +
+          UnsolvedMap(total) +
+          Html(
+              "<p>All outcomes; below each count of what was not solved its rate per million problems:</p>\n") +
           OutcomeTable(total));
 }
 
