@@ -13,14 +13,14 @@ namespace {
 // A row for each path method.
 struct Narrator {
   std::string_view method;
-  Narration (*exact)(const ProblemFile&, const ExactAnswer&, bool);
-  Narration (*inexact)(const ProblemFile&, const InexactAnswer&, bool);
+  Narration (*exact)(const ProblemFile&, const ExactAnswer&, const Telling&);
+  Narration (*inexact)(const ProblemFile&, const InexactAnswer&, const Telling&);
 
-  Narration operator()(const ProblemFile& file, const ExactAnswer& a, bool all) const {
-    return exact(file, a, all);
+  Narration operator()(const ProblemFile& file, const ExactAnswer& a, const Telling& how) const {
+    return exact(file, a, how);
   }
-  Narration operator()(const ProblemFile& file, const InexactAnswer& a, bool all) const {
-    return inexact(file, a, all);
+  Narration operator()(const ProblemFile& file, const InexactAnswer& a, const Telling& how) const {
+    return inexact(file, a, how);
   }
 };
 
@@ -54,10 +54,11 @@ constexpr std::size_t kMostStepsOfPage = 3000;
 
 }  // namespace
 
-Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution, bool vectors) {
+Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
+                  const Telling& how) {
   const auto narrator =
       std::find_if(kNarrators.begin(), kNarrators.end(), [&method](auto& n) { return n.method == method; });
-  return std::visit([&](const auto& answer) { return (*narrator)(file, answer, vectors); }, solution.answer);
+  return std::visit([&](const auto& answer) { return (*narrator)(file, answer, how); }, solution.answer);
 }
 
 Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,
@@ -77,7 +78,7 @@ Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution&
 FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Solution& solution) {
   FollowedRun run;
   run.title = TitleOf(o);
-  run.narration = Narrate(o.method, file, solution, true);
+  run.narration = Narrate(o.method, file, solution, {.vectors = true});
   run.end = EndOf(solution);
   run.replay = ReplayToJson(o, file, solution, run.narration, true);
   if (const std::size_t steps = run.replay["pivots"].size(); steps > kMostStepsOfPage)

@@ -21,8 +21,9 @@ struct PathOptions {
   Limits limits;
 };
 
-// Requires a path method. `vectors`: whether its objects have them.
-Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution, bool vectors);
+// Requires a path method.
+Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
+                  const Telling& how);
 
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 template <class End>

@@ -7,9 +7,16 @@
 #include <string>
 
 #include "certify/solve.h"
+#include "cli/outcome_text.h"
 #include "corpus/json_text.h"
 
 namespace stiction {
+
+// `vectors`: whether the objects have them, too.
+struct Telling {
+  bool vectors = false;
+  FractionText fractions = FractionText::kFull;  // of the text; objects have them in full
+};
 
 struct Narration {
   std::string table;   // a line for each step
@@ -19,14 +26,14 @@ struct Narration {
   Json told;           // an object for each step, what a page shows of it (reports/web/README.md)
 };
 
-// `file` must outlive the call. Scalar: Rational or double. `vectors`: whether the objects have them, too.
+// `file` must outlive the call. Scalar: Rational or double.
 template <class Scalar>
-Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
 // In the plane over rationals it is told, too, where the published algorithm gives up at a fold.
 template <class Scalar>
-Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
 template <class Scalar>
-Narration NarrateLemke(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors);
+Narration NarrateLemke(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
 
 }  // namespace stiction
 

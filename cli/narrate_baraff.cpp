@@ -6,7 +6,7 @@
 
 namespace stiction {
 
-std::string KindsText(const ExactProblem& problem) {
+std::string KindsText(const ExactProblem& problem, FractionText fractions) {
   const VariableTexts names(problem);
   std::string text;
   for (int i = 0; i < names.layout().ContactCount(); ++i) {
@@ -15,9 +15,10 @@ std::string KindsText(const ExactProblem& problem) {
     if (contact.kind == ContactKind::kBilateral)
       text += fmt::format("Contact {0} is bilateral: {1} stays in C, a_{1} = 0 (4.5).\n", i + 1, normal);
     if (contact.kind != ContactKind::kSliding) continue;
-    const std::string along = names.in_space() ? fmt::format("-{} ({}, {})", Text(contact.mu),
-                                                             Text(contact.slip[0]), Text(contact.slip[1]))
-                                               : Text(Rational(-contact.mu * contact.slip[0]));
+    const std::string along =
+        names.in_space() ? fmt::format("-{} ({}, {})", Text(contact.mu, fractions),
+                                       Text(contact.slip[0], fractions), Text(contact.slip[1], fractions))
+                         : Text(Rational(-contact.mu * contact.slip[0]), fractions);
     text += fmt::format("Contact {0} slides: f_F{0} = {1} f_{2} (24).\n", i + 1, along, normal);
   }
   return text;
@@ -31,22 +32,23 @@ class BaraffNarrator {
   using Step = Pivot<Scalar>;
   using Vector = typename Answer<Scalar>::Vector;
 
-  BaraffNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer)
-      : problem_(file.problem), answer_(answer), names_(file.problem) {}
+  BaraffNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how)
+      : problem_(file.problem), answer_(answer), names_(file.problem), how_(how) {}
 
-  Narration Tell(bool vectors) const {
-    const std::string kinds = KindsText(problem_);
+  Narration Tell() const {
+    const std::string kinds = KindsText(problem_, how_.fractions);
     Narration narration;
     narration.table = kinds + fmt::format("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", "step", "drive", "driven",
                                           "goal", "length", "what happens");
     narration.before = kinds + Beginning(kinds.empty());
-    narration.steps = narration.before;
+    narration.table += MarkAfter(0);
+    narration.steps = narration.before + MarkAfter(0);
     narration.pivots = narration.told = Json::array();
     for (std::size_t k = 0; k < answer_.pivots.size(); ++k) {
-      narration.pivots.push_back(ToJson(answer_.pivots[k], vectors));
-      if (vectors) narration.told.push_back(ToldToJson(k));
-      narration.table += Line(k);
-      narration.steps += Told(k);
+      narration.pivots.push_back(ToJson(answer_.pivots[k]));
+      if (how_.vectors) narration.told.push_back(ToldToJson(k));
+      narration.table += Line(k) + MarkAfter(k + 1);
+      narration.steps += Told(k) + MarkAfter(k + 1);
     }
     narration.steps += "\n";
     const std::string ray = Ray();
@@ -59,23 +61,23 @@ class BaraffNarrator {
   // ---- The parts of a step ----
 
   std::string Beginning(bool nothing_else) const {
-    if (nothing_else) return fmt::format("f = 0, a = b = {}; all sets are empty (4.3).\n", ListText(FirstA()));
+    if (nothing_else) return fmt::format("f = 0, a = b = {}; all sets are empty (4.3).\n", List(FirstA()));
     return fmt::format("Before the first drive f = {}, a = {}; all other variables are in no set (4.3).\n",
-                       ListText(answer_.first_f), ListText(FirstA()));
+                       List(answer_.first_f), List(FirstA()));
   }
 
   std::string Line(std::size_t k) const {
     const Step& step = answer_.pivots[k];
     return fmt::format("{:>4} {:>5} {:>6} {:>9} {:>14}  {}\n", k + 1, step.drive, Driven(step), Name(step.goal),
-                       Text(step.s), Event(step));
+                       Number(step.s), Event(step));
   }
 
   std::string Told(std::size_t k) const {
     const Step& step = answer_.pivots[k];
     const std::string start = BeginsDrive(k) ? fmt::format("\nDrive {}: {}\n", step.drive, Start(k)) : "";
     return start + fmt::format("  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n    {}\n",
-                               ListText(step.df), ListText(step.da), Text(step.s), Event(step),
-                               ListText(step.f), ListText(step.a), Sets(step));
+                               List(step.df), List(step.da), Number(step.s), Event(step), List(step.f),
+                               List(step.a), Sets(step));
   }
 
   bool BeginsDrive(std::size_t k) const {
@@ -85,12 +87,40 @@ class BaraffNarrator {
   // The direction without an end; with sliding contacts the impulsive direction of section 6.
   std::string Ray() const {
     if (answer_.ray.size() == 0) return "";
-    return fmt::format("no limit to the step along df = {}\n", ListText(answer_.ray));
+    return fmt::format("no limit to the step along df = {}\n", List(answer_.ray));
   }
 
   Vector FirstA() const { return FirstAccelerations(problem_, answer_); }
 
+  // ---- The state that recurs ----
+
+  // Drives that have ended after so many steps; of a loop inside one drive the steps themselves.
+  std::int64_t Ended(std::size_t steps) const {
+    if (answer_.outcome != Outcome::kCycle) return static_cast<std::int64_t>(steps);
+    if (steps == 0) return 0;
+    const std::int64_t drive = answer_.pivots[steps - 1].drive;
+    return steps < answer_.pivots.size() && !BeginsDrive(steps) ? drive - 1 : drive;
+  }
+
+  // A line where the state that recurs stands first, and one where it stands again.
+  std::string MarkAfter(std::size_t steps) const {
+    if (!IsLoop(answer_.outcome)) return "";
+    const std::int64_t ended = Ended(steps);
+    if (steps > 0 && ended == Ended(steps - 1)) return "";
+    if (ended == answer_.start) return "---- this state will stand again ----\n";
+    if (ended == answer_.start + answer_.period)
+      return kIsExact<Scalar> ? "---- the same state again: what came since is repeated for ever ----\n"
+                              : "---- the same state again, after rounding ----\n";
+    return "";
+  }
+
   // ---- Words ----
+
+  std::string Number(const Scalar& x) const { return Text(x, how_.fractions); }
+  template <class Numbers>
+  std::string List(const Numbers& numbers) const {
+    return ListText(numbers, how_.fractions);
+  }
 
   // NC+ of the program is NCF of 5.6.
   std::string SetText(IndexSet set) const {
@@ -109,7 +139,7 @@ class BaraffNarrator {
     const Scalar a = k == 0 ? FirstA()[row] : answer_.pivots[k - 1].a[row];
     const std::string driven = Driven(step);
     if (names_.IsNormal(row))
-      return driven + fmt::format(". a_{0} = {1} < 0: increase f_{0} until it is 0 (4.1).", name, Text(a));
+      return driven + fmt::format(". a_{0} = {1} < 0: increase f_{0} until it is 0 (4.1).", name, Number(a));
     if (step.goal == DriveGoal::kZero)
       return driven + fmt::format(". Its friction was given up earlier: first drive f_{} to zero (5.5).",
                                   names_.Variable(row));
@@ -119,7 +149,7 @@ class BaraffNarrator {
   std::string TowardLimit(const Step& step, const Scalar& a) const {
     const bool up = step.df[step.driven] > 0;
     return fmt::format(". a_{0} = {1}: {2} f_{0} until a_{0} = 0 or f_{0} = {3}mu f_{4} (5.2).",
-                       names_.Variable(step.driven), Text(a), up ? "increase" : "decrease", up ? "" : "-",
+                       names_.Variable(step.driven), Number(a), up ? "increase" : "decrease", up ? "" : "-",
                        names_.Variable(step.driven - 1));
   }
 
@@ -128,7 +158,7 @@ class BaraffNarrator {
     const std::array<Scalar, 2> along = {step.df[normal + 1], step.df[normal + 2]};
     return fmt::format(". Until a_{0} = 0 or abs(f_{1}) = mu f_{2} (5.6); f_{1} changes along {3}.",
                        names_.Component(step.driven), names_.Variable(step.driven), names_.Variable(normal),
-                       ListText(along));
+                       List(along));
   }
 
   std::string Reached(const Step& step) const {
@@ -146,7 +176,7 @@ class BaraffNarrator {
 
   std::string Along(const Step& step) const {
     if (!names_.in_space() || step.to != IndexSet::kAtUpper) return "";
-    return " along " + ListText(step.recorded[names_.layout().ContactOf(step.limiting)]);
+    return " along " + List(step.recorded[names_.layout().ContactOf(step.limiting)]);
   }
 
   // Whether ax = 0 is kept, and ay is not (readings.md, 8).
@@ -181,7 +211,7 @@ class BaraffNarrator {
   std::string Member(const Step& step, int row) const {
     const bool slips = names_.in_space() && step.sets[row] == IndexSet::kAtUpper;
     const std::string name = names_.Variable(row);
-    return slips ? name + " along " + ListText(step.recorded[names_.layout().ContactOf(row)]) : name;
+    return slips ? name + " along " + List(step.recorded[names_.layout().ContactOf(row)]) : name;
   }
 
   struct SetMembers {
@@ -230,7 +260,7 @@ class BaraffNarrator {
             {"sets", std::move(sets)}};
   }
 
-  Json ToJson(const Step& step, bool vectors) const {
+  Json ToJson(const Step& step) const {
     Json json = {{"drive", step.drive},
                  {"driven", Driven(step)},
                  {"goal", Name(step.goal)},
@@ -239,7 +269,7 @@ class BaraffNarrator {
                  {"from", SetText(step.from)},
                  {"to", SetText(step.to)}};
     if (step.turned_away) json["turned_away"] = true;
-    if (!vectors) return json;
+    if (!how_.vectors) return json;
     json["df"] = ListJson(step.df);
     json["f"] = ListJson(step.f);
     json["a"] = ListJson(step.a);
@@ -261,16 +291,17 @@ class BaraffNarrator {
   const ExactProblem& problem_;
   const TracedAnswer<Scalar>& answer_;
   VariableTexts names_;
+  Telling how_;
 };
 
 }  // namespace
 
 template <class Scalar>
-Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors) {
-  return BaraffNarrator<Scalar>(file, answer).Tell(vectors);
+Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how) {
+  return BaraffNarrator<Scalar>(file, answer, how).Tell();
 }
 
-template Narration NarrateBaraff(const ProblemFile&, const ExactAnswer&, bool);
-template Narration NarrateBaraff(const ProblemFile&, const InexactAnswer&, bool);
+template Narration NarrateBaraff(const ProblemFile&, const ExactAnswer&, const Telling&);
+template Narration NarrateBaraff(const ProblemFile&, const InexactAnswer&, const Telling&);
 
 }  // namespace stiction

@@ -34,35 +34,41 @@ class CompleteNarrator {
  public:
   using Step = Pivot<Scalar>;
 
-  CompleteNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer)
-      : answer_(answer), names_(file.problem) {
+  CompleteNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how)
+      : answer_(answer), names_(file.problem), how_(how) {
     if constexpr (kIsExact<Scalar>) {
       if (!names_.in_space()) published_ = RunExact(file.problem, {}).trace.pivots;
     }
   }
 
-  Narration Tell(bool vectors) const {
+  Narration Tell() const {
     Narration narration;
     narration.table = fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", "piece", "driven", "det", "length",
                                   "cells", "what happens");
-    narration.before = fmt::format("Before the first piece f = {}.\n", ListText(answer_.first_f));
+    narration.before = fmt::format("Before the first piece f = {}.\n", List(answer_.first_f));
     narration.steps = narration.before;
     narration.pivots = narration.told = Json::array();
-    for (std::size_t k = 0; k < answer_.pivots.size(); ++k) Add(k, vectors, narration);
+    for (std::size_t k = 0; k < answer_.pivots.size(); ++k) Add(k, narration);
     return narration;
   }
 
  private:
-  void Add(std::size_t k, bool vectors, Narration& narration) const {
+  void Add(std::size_t k, Narration& narration) const {
     const Step& step = answer_.pivots[k];
     const std::string event = Event(k), driven = names_.Variable(step.driven);
-    narration.pivots.push_back(ToJson(step, event, vectors));
-    if (vectors) narration.told.push_back(ToldToJson(k, event));
+    narration.pivots.push_back(ToJson(step, event));
+    if (how_.vectors) narration.told.push_back(ToldToJson(k, event));
     narration.table += fmt::format("{:>5} {:>6} {:>4} {:>14}  {:12} {}\n", k + 1, driven, step.determinant,
-                                   Text(step.s), step.word, event);
-    narration.steps += fmt::format("\nPiece {}: {}\n  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n",
-                                   k + 1, Why(step), ListText(step.df), ListText(step.da), Text(step.s), event,
-                                   ListText(step.f), ListText(step.a));
+                                   Number(step.s), step.word, event);
+    narration.steps +=
+        fmt::format("\nPiece {}: {}\n  df = {}   da = {}\n  s = {}: {}\n    f = {}   a = {}\n", k + 1,
+                    Why(step), List(step.df), List(step.da), Number(step.s), event, List(step.f), List(step.a));
+  }
+
+  std::string Number(const Scalar& x) const { return Text(x, how_.fractions); }
+  template <class Numbers>
+  std::string List(const Numbers& numbers) const {
+    return ListText(numbers, how_.fractions);
   }
 
   std::string Why(const Step& step) const {
@@ -121,11 +127,11 @@ class CompleteNarrator {
             {"mark", Mark(k)},     {"da", ListJson(step.da)}};
   }
 
-  Json ToJson(const Step& step, const std::string& event, bool vectors) const {
+  Json ToJson(const Step& step, const std::string& event) const {
     Json json = {{"drive", step.drive},    {"driven", names_.Variable(step.driven)},
                  {"word", step.word},      {"determinant", step.determinant},
                  {"step", InJson(step.s)}, {"event", event}};
-    if (!vectors) return json;
+    if (!how_.vectors) return json;
     json["df"] = ListJson(step.df);
     json["f"] = ListJson(step.f);
     json["a"] = ListJson(step.a);
@@ -134,6 +140,7 @@ class CompleteNarrator {
 
   const TracedAnswer<Scalar>& answer_;
   VariableTexts names_;
+  Telling how_;
   std::vector<Step> published_;  // the published algorithm, in the plane over rationals
 };
 
@@ -153,41 +160,42 @@ Json LemkePivotToJson(const Pivot<Scalar>& pivot, bool vectors) {
 }
 
 template <class Scalar>
-Json LemkeToldToJson(const Pivot<Scalar>& pivot, const std::string& leaving) {
+Json LemkeToldToJson(const Pivot<Scalar>& pivot, const std::string& leaving, FractionText fractions) {
   const std::string event =
-      fmt::format("{} enters, {} leaves; z0 = {}", pivot.entering, leaving, Text(pivot.cover));
+      fmt::format("{} enters, {} leaves; z0 = {}", pivot.entering, leaving, Text(pivot.cover, fractions));
   return {{"group", pivot.drive}, {"label", pivot.entering}, {"why", ""}, {"event", event}, {"mark", ""}};
 }
 
 }  // namespace
 
 template <class Scalar>
-Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, bool vectors) {
-  return CompleteNarrator<Scalar>(file, answer).Tell(vectors);
+Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how) {
+  return CompleteNarrator<Scalar>(file, answer, how).Tell();
 }
 
 template <class Scalar>
-Narration NarrateLemke(const ProblemFile&, const TracedAnswer<Scalar>& answer, bool vectors) {
+Narration NarrateLemke(const ProblemFile&, const TracedAnswer<Scalar>& answer, const Telling& how) {
   Narration narration;
   narration.table =
       fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", "pivot", "enters", "leaves", "length", "z0");
   narration.pivots = narration.told = Json::array();
   for (const Pivot<Scalar>& pivot : answer.pivots) {
     const std::string leaving = pivot.leaving.empty() ? "(ray)" : pivot.leaving;
-    narration.pivots.push_back(LemkePivotToJson(pivot, vectors));
-    if (vectors) narration.told.push_back(LemkeToldToJson(pivot, leaving));
+    narration.pivots.push_back(LemkePivotToJson(pivot, how.vectors));
+    if (how.vectors) narration.told.push_back(LemkeToldToJson(pivot, leaving, how.fractions));
     narration.table += fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", pivot.drive, pivot.entering, leaving,
-                                   Text(pivot.s), Text(pivot.cover));
-    narration.steps += fmt::format("\nPivot {}: {} enters, by {}; {} leaves\n    z0 = {}   f = {}   a = {}\n",
-                                   pivot.drive, pivot.entering, Text(pivot.s), leaving, Text(pivot.cover),
-                                   ListText(pivot.f), ListText(pivot.a));
+                                   Text(pivot.s, how.fractions), Text(pivot.cover, how.fractions));
+    narration.steps +=
+        fmt::format("\nPivot {}: {} enters, by {}; {} leaves\n    z0 = {}   f = {}   a = {}\n", pivot.drive,
+                    pivot.entering, Text(pivot.s, how.fractions), leaving, Text(pivot.cover, how.fractions),
+                    ListText(pivot.f, how.fractions), ListText(pivot.a, how.fractions));
   }
   return narration;
 }
 
-template Narration NarrateComplete(const ProblemFile&, const ExactAnswer&, bool);
-template Narration NarrateComplete(const ProblemFile&, const InexactAnswer&, bool);
-template Narration NarrateLemke(const ProblemFile&, const ExactAnswer&, bool);
-template Narration NarrateLemke(const ProblemFile&, const InexactAnswer&, bool);
+template Narration NarrateComplete(const ProblemFile&, const ExactAnswer&, const Telling&);
+template Narration NarrateComplete(const ProblemFile&, const InexactAnswer&, const Telling&);
+template Narration NarrateLemke(const ProblemFile&, const ExactAnswer&, const Telling&);
+template Narration NarrateLemke(const ProblemFile&, const InexactAnswer&, const Telling&);
 
 }  // namespace stiction

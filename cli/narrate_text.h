@@ -15,14 +15,11 @@
 
 namespace stiction {
 
-inline std::string Text(const Rational& x) { return ToString(x); }
-inline std::string Text(double x) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
-
 // "(1, -2/3)".
 template <class Numbers>
-std::string ListText(const Numbers& numbers) {
+std::string ListText(const Numbers& numbers, FractionText fractions = FractionText::kFull) {
   std::string text;
-  for (const auto& x : numbers) text += (text.empty() ? "" : ", ") + Text(x);
+  for (const auto& x : numbers) text += (text.empty() ? "" : ", ") + Text(x, fractions);
   return "(" + text + ")";
 }
 
@@ -79,7 +76,7 @@ typename Answer<Scalar>::Vector FirstAccelerations(const ExactProblem& problem, 
 }
 
 // What bilateral and sliding contacts do all the time, a line each.
-std::string KindsText(const ExactProblem& problem);
+std::string KindsText(const ExactProblem& problem, FractionText fractions);
 
 }  // namespace stiction
 

@@ -12,6 +12,17 @@ Json NumberToJson(double x) {
   return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x));
 }
 
+std::string Text(const Rational& x, FractionText fractions) {
+  constexpr std::size_t kLong = 12;
+  std::string text = ToString(x);
+  if (fractions == FractionText::kFull || text.size() <= kLong) return text;
+  const double nearest = ToDouble(x);
+  if (!std::isfinite(nearest)) return text;
+  return Rational(nearest) == x ? fmt::format("{}", nearest) : fmt::format("~{:.6g}", nearest);
+}
+
+std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
+
 std::string Describe(const Verdict& verdict) {
   const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
   if (IsLoop(verdict.outcome)) {

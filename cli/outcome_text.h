@@ -7,6 +7,7 @@
 #include <string>
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -19,6 +20,13 @@ Json NumbersToJson(const Numbers& numbers) {
   for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
   return json;
 }
+
+// Numbers over rationals, for people: as they are, or rounded where they are long.
+enum class FractionText { kFull, kShort };
+// "-2/3". Short: what takes more than twelve characters is the decimal of the double that it is, or, where it
+// is none, six digits behind a ~.
+std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
+std::string Text(double x, FractionText = FractionText::kFull);  // six digits
 
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 std::string Describe(const Verdict& verdict);

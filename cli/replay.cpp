@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <map>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "certify/exact.h"
 #include "certify/published_space.h"
 #include "certify/solve.h"
 #include "cli/followed.h"
 #include "cli/narrate_text.h"
+#include "cli/problem_text.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "cli/words.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
 #include "reports/viewer.h"
@@ -31,10 +36,13 @@ struct ReplayOptions {
   bool all_policies = false;
   bool step = false;
   bool json = false;
+  bool list = false;       // with all_policies: every policy
+  bool fractions = false;  // for people, in full
   std::string record, html;
   Limits limits;
 
   PathOptions path() const { return {method, policy, limits}; }
+  FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
 
 SolveRequest RequestOf(const ReplayOptions& o, const ProblemFile& file, const Policy& policy) {
@@ -63,14 +71,15 @@ Solution SolveFile(const ReplayOptions& o, const ProblemFile& file, const SolveR
 // ---- One policy ------------------------------------------------------------------------------
 
 template <class Scalar>
-void PrintEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
+std::string WholeEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
   const bool proved = kIsExact<Scalar>;
+  std::string text;
   if (solution.suspected)
-    fmt::print("{}\nrun again{}: ", EndText(*solution.suspected, false),
-               proved ? ", exactly" : " in long double, with finer tolerances");
-  fmt::print("{}\n", EndText(answer, proved));
-  if (!proved && answer.outcome == Outcome::kCycle) fmt::print("({})\n", kNoProof);
-  if (!answer.word.empty()) fmt::print("cells {}\n", answer.word);
+    text = fmt::format("{}\nrun again{}: ", EndText(*solution.suspected, false),
+                       proved ? ", exactly" : " in long double, with finer tolerances");
+  text += EndText(answer, proved) + "\n";
+  if (!proved && answer.outcome == Outcome::kCycle) text += fmt::format("({})\n", kNoProof);
+  return answer.word.empty() ? text : text + fmt::format("cells {}\n", answer.word);
 }
 
 void PrintForPeople(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
@@ -78,10 +87,12 @@ void PrintForPeople(const ReplayOptions& o, const ProblemFile& file, const Solut
   std::visit(
       [&](const auto& answer) {
         const std::string reading = o.method == "baraff" ? "policy " + o.policy : "method " + o.method;
-        fmt::print("{}: {} contacts{}, {}, {}\n{}", file.name, file.problem.contacts.size(),
+        const std::string told = (o.step ? narration.steps : narration.table) + WholeEnd(answer, solution);
+        fmt::print("{}: {} contacts{}, {}, {}\n{}{}", file.name, file.problem.contacts.size(),
                    file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
-                   o.step ? narration.steps : narration.table);
-        PrintEnd(answer, solution);
+                   o.step ? ProblemText(file.problem, o.as()) : "", told);
+        if (o.step)
+          fmt::print("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
       },
       solution.answer);
 }
@@ -128,7 +139,7 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const Policy policy = ParsePolicy(o.policy);
   const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
   const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
-  Narration narration = Narrate(o.method, file, solution, o.step || !o.json);
+  Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(o, file, policy, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
   if (o.html == "-") return ExitOf(solution.outcome(), expected);
@@ -203,6 +214,43 @@ Outcomes RunGridInSpace(const ReplayOptions& o, const ProblemFile& file) {
   return outcomes;
 }
 
+// What the policies have in common on a switch that others of the grid have not: "file=yes", "scan=lowest or
+// highest"; empty: nothing.
+std::string InCommon(const PolicySwitchRow& row, const std::vector<Policy>& some,
+                     const std::vector<Policy>& grid) {
+  const auto values = [&row](const std::vector<Policy>& policies) {
+    std::set<int> found;
+    for (const Policy& policy : policies) found.insert(row.get(policy));
+    return found;
+  };
+  const std::set<int> of_some = values(some);
+  if (of_some == values(grid)) return "";
+  std::vector<std::string_view> names;
+  for (const int value : of_some) names.push_back(row.values[value].name);
+  return fmt::format("{}={}", row.name, fmt::join(names, " or "));
+}
+
+// "cycle: 768 of 1536 policies, all with file=yes". With --list a line for every policy before that.
+void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, const Json& outcomes) {
+  std::map<std::string, std::vector<Policy>> by_outcome;
+  for (const Policy& policy : grid) {
+    const std::string name = PolicyName(policy), outcome = outcomes[name]["outcome"].get<std::string>();
+    by_outcome[outcome].push_back(policy);
+    if (o.list) fmt::print("{:10} {}\n", outcome, name);
+  }
+  for (const auto& [outcome, some] : by_outcome) {
+    std::vector<std::string> common;
+    for (const PolicySwitchRow& row : PolicySwitches()) {
+      if (const std::string text = InCommon(row, some, grid); !text.empty()) common.push_back(text);
+    }
+    const bool all = some.size() == grid.size();
+    fmt::print("{}: {} policies{}{}\n", outcome,
+               all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
+               common.empty() ? "" : ", all with ", fmt::join(common, ", "));
+  }
+  if (!o.list && by_outcome.size() > 1) fmt::print("(--list: a line for every policy)\n");
+}
+
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   const bool in_space = file.problem.dimension == 3;
   const Outcomes by_name = in_space ? RunGridInSpace(o, file) : RunGrid(o, file.problem);
@@ -224,10 +272,7 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   if (o.json) {
     std::cout << JsonText({{"policies", outcomes}, {"counts", counts}, {"unexpected", unexpected}}) << "\n";
   } else {
-    for (const auto& [name, entry] : outcomes.items()) {
-      fmt::print("{:10} {}\n", entry["outcome"].get<std::string>(), name);
-    }
-    for (const auto& [outcome, count] : counts.items()) fmt::print("{}: {} policies\n", outcome, count.dump());
+    PrintOutcomes(o, in_space ? GridInSpace() : PlanarGrid(), outcomes);
     if (!unexpected.empty())
       fmt::print("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
                  unexpected.size());
@@ -264,13 +309,16 @@ void AddReplay(CommandLine& program) {
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("--all-policies", o.all_policies,
             "the outcome under every policy of the planar grid, or of those that are built for space");
+  verb.Flag("--list", o.list, "a line for every policy, before the summary").Needs("--all-policies");
   verb.Option("--record", o.record, "write the problem with what happened as its `expect`")
       .Needs("--all-policies");
   verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
   verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
       .OneOf({"exact", "float", "double", "long-double", "quad", "filtered"});
   verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4").Check(CheckSides);
-  verb.Flag("--step", o.step, "directions, forces and sets at every step");
+  verb.Flag("--step", o.step, "the problem; directions, forces and sets at every step; what the words mean");
+  verb.Flag("--fractions", o.fractions,
+            "long fractions in full, which are rounded otherwise, in text for people");
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
   verb.Flag("--json", o.json, "machine output");

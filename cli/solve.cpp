@@ -5,9 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "cli/answer_text.h"
+#include "cli/narrate_text.h"
+#include "cli/problem_text.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
@@ -25,6 +28,7 @@ struct SolveVerb {
   std::string law = "baraff";
   SolveOptions options;
   double seconds = 0;
+  bool fractions = false;  // for people, in full
   bool json = false;
 };
 
@@ -33,14 +37,90 @@ int ExitOf(Outcome outcome) {
   return outcome == Outcome::kLimit || outcome == Outcome::kUndecided ? kExitUndecided : kExitNotSo;
 }
 
-void PrintForPeople(const Json& result) {
-  fmt::print("{}", result["outcome"].get<std::string>());
+// ---- Text for people ---------------------------------------------------------------------------
+
+// The most important: how it ended, and what that means.
+std::string OutcomeSentence(const Json& result) {
+  const std::string outcome = result["outcome"], arithmetic = result["arithmetic"];
+  const bool exact = arithmetic == "exact", proved = exact || arithmetic == "interval";
+  const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
+  if (outcome == "solved" && exact) return "solved: these forces meet every condition, exactly";
+  if (outcome == "solved" && proved) return "solved: forces within these bounds meet every condition, proved";
+  if (outcome == "solved" && result.contains("residual"))
+    return fmt::format("solved: these forces meet every condition but for a relative residual of {:.2g}",
+                       result["residual"].get<double>());
+  if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
   if (result.contains("period"))
-    fmt::print(", start {}, period {}", result["start"].dump(), result["period"].dump());
-  fmt::print("\n");
+    return fmt::format("{}: {}the state after {} drives stands again {} drives later{}", outcome,
+                       proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),
+                       proved ? ", for ever" : "");
+  if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;
+  if (outcome == "singular")
+    return "singular: no direction keeps what the method keeps, it cannot go on" + reason;
+  return outcome + reason;
+}
+
+// "1/3", "0.5", "[0.49, 0.51]".
+std::string NumberText(const Json& x, FractionText fractions) {
+  if (x.is_array()) return fmt::format("[{}, {}]", NumberText(x[0], fractions), NumberText(x[1], fractions));
+  if (!x.is_string()) return x.dump();
+  const auto exact = ParseRational(x.get<std::string>());
+  return exact ? Text(*exact, fractions) : x.get<std::string>();
+}
+
+// Force and acceleration of every variable, and the impulsive direction where there is one.
+std::string VariablesTable(const ExactProblem& problem, const Json& result, FractionText fractions) {
+  std::vector<std::string> columns;
+  for (const char* name : {"f", "a", "ray"}) {
+    if (result.contains(name) && result[name].is_array() && !result[name].empty()) columns.emplace_back(name);
+  }
+  if (columns.empty()) return "";
+  const VariableTexts names(problem);
+  Cells rows = {{""}};
+  rows[0].insert(rows[0].end(), columns.begin(), columns.end());
+  for (int i = 0; i < problem.rows(); ++i) {
+    auto& row = rows.emplace_back(std::vector<std::string>{names.Component(i)});
+    for (const std::string& column : columns) row.push_back(NumberText(result[column][i], fractions));
+  }
+  return AlignedTable(rows);
+}
+
+std::string WithBlanks(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// "pieces 5, folds 1".
+std::string FieldsText(const Json& object) {
+  std::string text;
+  for (const auto& [key, value] : object.items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", WithBlanks(key),
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  return text;
+}
+
+// Names of the assumptions that fail; their witnesses are what `certify` writes.
+std::string AssumptionsText(const Json& assumptions, const std::string& file) {
+  std::vector<std::string> names;
+  for (const Json& failed : assumptions) names.push_back(failed["assumption"]);
+  if (names.empty()) return "all of the paper's hold";
+  return fmt::format("of the paper's these fail: {}; the proof: stiction certify {} --claim {} -o -",
+                     fmt::join(names, ", "), file, names[0]);
+}
+
+void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Json& result) {
+  const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
+  fmt::print("{}\n{}", OutcomeSentence(result), VariablesTable(problem, result, fractions));
   for (const auto& [key, value] : result.items()) {
-    if (key == "outcome" || key == "start" || key == "period") continue;
-    fmt::print("{:12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
+                      key == "ray" || key == "reason";
+    if (told) continue;
+    const std::string text = key == "assumptions"        ? AssumptionsText(value, o.file)
+                             : value.contains("meaning") ? value["meaning"].get<std::string>()
+                             : value.is_object()         ? FieldsText(value)
+                             : value.is_string()         ? value.get<std::string>()
+                                                         : value.dump();
+    fmt::print("{:15} {}\n", WithBlanks(key), text);
   }
 }
 
@@ -106,7 +186,7 @@ int RunSolve(const SolveVerb& o) {
   if (o.json) {
     std::cout << JsonText(result) << "\n";
   } else {
-    PrintForPeople(result);
+    PrintForPeople(o, file.problem, result);
   }
   return ExitOf(solution.outcome());
 }
@@ -144,6 +224,8 @@ void AddSolve(CommandLine& program) {
       .Details("0, the default: 1e-6 over float, 1e-8 over wider numbers.");
   verb.Option("--seconds", o.seconds, "after so long the best forces so far are told, undecided; 0: never")
       .Range(0, 1e9);
+  verb.Flag("--fractions", o.fractions,
+            "long fractions in full, which are rounded otherwise, in text for people");
   verb.Flag("--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
   AddTolerances(verb, o.options.tolerances);

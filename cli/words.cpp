@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <iostream>
-#include <stdexcept>
+#include <vector>
 
 #include "cli/help.h"
 #include "cli/verbs.h"
@@ -40,7 +41,8 @@ constexpr std::array kWords = {
          "solver/published/readings.md"},
     Word{"half", "in space: friction of which one tangent is at rest and the other not yet", "5.6"},
     Word{"bounce", "a variable wants back into the set that it has just left, at a step of length zero", "5.5"},
-    Word{"give up", "what the paper does at a bounce: the variable leaves all sets, and is driven again later",
+    Word{"give up, given up",
+         "what the paper does at a bounce: the variable leaves all sets, and is driven again later",
          "5.4, 5.5"},
     Word{"loop", "a run that never ends: the same state stands again and again; a cycle or a stall", ""},
     Word{"cycle", "a loop over drives: a state between two drives recurs exactly", ""},
@@ -59,7 +61,7 @@ constexpr std::array kWords = {
          "solver/complete/complete_driving.md"},
     Word{"piece", "in complete driving: a stretch of the path along which no contact changes its cell",
          "solver/complete/complete_driving.md"},
-    Word{"cell",
+    Word{"cell, cells",
          "what a contact does: B breaks, S sticks, + and - slip or are about to (friction at its upper, at its "
          "lower limit), ? not driven yet; in space V and E, corners and edges of a polygon",
          "solver/complete/complete_driving.md"},
@@ -76,6 +78,29 @@ constexpr std::array kWords = {
 std::string TextOf(const Word& word) {
   const std::string source = word.source.empty() ? "" : fmt::format(" ({})", word.source);
   return HelpEntry(std::string(word.name), std::string(word.meaning) + source);
+}
+
+// "start, period" -> both.
+std::vector<std::string_view> NamesOf(const Word& word) {
+  std::vector<std::string_view> names;
+  for (std::string_view rest = word.name; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(", "), rest.size());
+    names.push_back(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 2, rest.size()));
+  }
+  return names;
+}
+
+// Whether a word stands in a text by itself: NC does not in "NC+" nor in "_NC".
+bool StandsIn(std::string_view text, std::string_view word) {
+  const auto belongs = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-';
+  };
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !belongs(text[at - 1])) && (end == text.size() || !belongs(text[end]))) return true;
+  }
+  return false;
 }
 
 struct WordsOptions {
@@ -97,16 +122,14 @@ int List(const WordsOptions& o) {
 
 std::span<const Word> AllWords() { return kWords; }
 
-std::string Glossary(const std::vector<std::string_view>& names) {
-  for (const std::string_view name : names) {
-    if (std::none_of(kWords.begin(), kWords.end(), [name](const Word& word) { return word.name == name; }))
-      throw std::logic_error(fmt::format("no word {}", name));
-  }
-  std::string text;
+std::string GlossaryOf(std::string_view text) {
+  const auto stands = [text](std::string_view name) { return StandsIn(text, name); };
+  std::string glossary;
   for (const Word& word : kWords) {
-    if (std::find(names.begin(), names.end(), word.name) != names.end()) text += TextOf(word);
+    const auto names = NamesOf(word);
+    if (std::any_of(names.begin(), names.end(), stands)) glossary += TextOf(word);
   }
-  return text;
+  return glossary;
 }
 
 void AddWords(CommandLine& program) {

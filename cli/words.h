@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace stiction {
 
@@ -20,9 +19,8 @@ struct Word {
 
 std::span<const Word> AllWords();
 
-// The meanings of some words, a line or more each, in the order of the table; std::logic_error for a name that
-// it lacks.
-std::string Glossary(const std::vector<std::string_view>& names);
+// The meanings of the words that stand in a text, a line or more each, in the order of the table.
+std::string GlossaryOf(std::string_view text);
 
 }  // namespace stiction
 

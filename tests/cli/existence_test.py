@@ -49,7 +49,7 @@ class Existence(cli.TestCase):
                     done = self.succeeds("solve", problem, *options, "--json", code=1).json()
                     self.assertEqual((done["outcome"], done["method"], done["f"]), ("no-solution", "enumerate", None))
                     self.assertIn("no mode", done["reason"])
-            self.assertTrue(self.succeeds("solve", problem, code=1).out.startswith("no-solution\n"))
+            self.assertTrue(self.succeeds("solve", problem, code=1).out.startswith("no-solution: no forces meet all conditions, proved"))
         wedge = SOURCES / "corpus/no-solution-scripted-wedge.json"  # takes three linear programs
         done = self.succeeds("solve", wedge, "--method", "enumerate", "--max-pivots", 1, "--json", code=3).json()
         self.assertEqual(done["outcome"], "limit")  # nothing is proved

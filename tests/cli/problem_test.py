@@ -75,7 +75,7 @@ class Solve(cli.TestCase):
         self.assertEqual((result["method"], result["arithmetic"], result["policy"]), ("baraff", "exact", "paper"))
         self.assertGreater(result["statistics"]["drives"], 0)
         text = self.succeeds("solve", file).out
-        self.assertEqual(text.splitlines()[0], "solved")
+        self.assertEqual(text.splitlines()[0], "solved: these forces meet every condition, exactly")
         self.assertIn('["1/2","-1/3"]', text)
 
     def test_other_readings_solve_what_the_reference_policy_does_not(self):
@@ -92,7 +92,7 @@ class Solve(cli.TestCase):
         file = self.file("p.json", cli.REFERENCE)
         result = self.succeeds("solve", file, "--json", "--method", "baraff", code=1).json()
         self.assertEqual((result["outcome"], result["start"], result["period"]), ("cycle", 3, 4))
-        self.assertEqual(self.succeeds("solve", file, "--method", "baraff", code=1).out.splitlines()[0], "cycle, start 3, period 4")
+        self.assertEqual(self.succeeds("solve", file, "--method", "baraff", code=1).out.splitlines()[0], "cycle: the state after 3 drives stands again 4 drives later, for ever")
 
     def test_no_contacts_at_all_are_solved(self):
         file = self.file("p.json", changed(cli.SOLVED, contacts=[], A=[], b=[]))
@@ -273,11 +273,13 @@ class Replay(cli.TestCase):
         lines = self.succeeds("replay", file, code=1).out.splitlines()
         self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper, exact")
         self.assertEqual(lines[-1], "cycle: the state after 3 drives stands again 4 drives later, for ever")
-        self.assertEqual([line.split()[4] for line in lines[2:-1]][-10:], cli.PERIOD)
+        first, again = [k for k, line in enumerate(lines) if line.startswith("----")]
+        self.assertEqual([line.split()[4] for line in lines[first + 1:again]], cli.PERIOD)
+        self.assertEqual(again, len(lines) - 2)
         steps = self.succeeds("replay", file, "--step", code=1).out
         for text in ["f = 0, a = b = (2, -1, -2, 2)", "Drive 7:", "df = (", "s = 65/63:", "CF = {"]:
             self.assertIn(text, steps)
-        self.assertEqual(steps.splitlines()[-1], lines[-1])
+        self.assertIn(f"\n{lines[-1]}\n", steps)
 
     def test_expect_decides_the_exit_code(self):
         for problem, expect, code in [
@@ -312,8 +314,27 @@ class Replay(cli.TestCase):
         self.assertEqual(result["policies"]["paper"], {"outcome": "cycle", "start": 3, "period": 4})
         self.assertEqual(len(result["unexpected"]), 1536 - counts["solved"])
         text = self.succeeds("replay", file, "--all-policies", code=1).out
-        self.assertIn(f"cycle: {counts['cycle']} policies", text)
-        self.assertIn("cycle      paper\n", text)
+        self.assertLess(len(text.splitlines()), 10)
+        for outcome, count in counts.items():
+            line = next(line for line in text.splitlines() if line.startswith(f"{outcome}: "))
+            self.assertIn("all 1536 policies" if count == 1536 else f"{count} of 1536 policies", line)
+        listed = self.succeeds("replay", file, "--all-policies", "--list", code=1).out
+        self.assertIn("cycle      paper\n", listed)
+        self.assertEqual(len(listed.splitlines()), 1536 + len(text.splitlines()) - ("--list" in text))
+
+        # What the summary says of switches holds for each policy that it counts.
+        mixed = cli.ROOT / "corpus" / "cycle-or-singular-by-policy.json"
+        by_policy = cli.run("replay", mixed, "--all-policies", "--json").json()["policies"]
+        for line in cli.run("replay", mixed, "--all-policies").out.splitlines():
+            if " all with " not in line:
+                continue
+            outcome = line.split(":")[0]
+            for words in line.split(" all with ")[1].split(", "):
+                switch, values = words.split("=")
+                default = {"admit": "lazy", "file": "no"}[switch]
+                found = {dict(w.split("=") for w in name.split(",") if "=" in w).get(switch, default)
+                         for name, entry in by_policy.items() if entry["outcome"] == outcome}
+                self.assertEqual(found, set(values.split(" or ")), line)
 
         # Each of some policies alone ends as in the grid.
         for policy in list(result["policies"])[::311]:

@@ -100,7 +100,8 @@ class Solve(cli.TestCase):
             self.assertGreaterEqual(high, expected)
             self.assertLess(high - low, 1e-9)
         self.assertEqual((result["statistics"]["drives"], result["statistics"]["redirects"]), (3, 0))
-        self.assertEqual(self.succeeds("solve", self.file("p.json", CIRCLE), "--method", "baraff").out.splitlines()[0], "solved")
+        self.assertEqual(self.succeeds("solve", self.file("p.json", CIRCLE), "--method", "baraff").out.splitlines()[0],
+                         "solved: forces within these bounds meet every condition, proved")
 
     def test_rounded_arithmetics(self):
         for arithmetic in ["float", "double", "long-double"]:

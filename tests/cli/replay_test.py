@@ -2,6 +2,7 @@
 """stiction replay: what is printed of a run, in the plane and in space, is what the run did."""
 
 import json
+import re
 from fractions import Fraction
 
 import cli
@@ -50,6 +51,61 @@ class Plane(cli.TestCase):
         self.assertEqual((replay["outcome"], replay["arithmetic"]), ("solved", "double"))
         self.refuses("replay", self.file("p.json", cli.SOLVED), "--arithmetic", "double", "--all-policies",
                      says=["double", "exact"])
+
+
+class ForPeople(cli.TestCase):
+    def test_a_step_by_step_replay_begins_with_the_problem_and_ends_with_its_words(self):
+        file = self.file("p.json", cli.REFERENCE)
+        out = self.succeeds("replay", file, "--step", code=1).out
+        rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.startswith("    a_")}
+        self.assertEqual([rows[f"a_{name}"] for name in ("N1", "F1", "N2", "F2")],
+                         [row + [b] for row, b in zip(cli.REFERENCE["A"], cli.REFERENCE["b"])])
+        self.assertIn("contact 1 mu = 1, contact 2 mu = 1", out)
+        self.assertLess(out.index("a_F2"), out.index("Drive 1"))
+        words = out[out.index("The words"):]
+        for word in ("N1", "CF", "NC+", "given up", "cycle"):
+            self.assertRegex(words, rf"(?m)^  ([^ ].*, )?{re.escape(word)} ")
+        for word in ("fold", "ray", "NCF", "singular", "cell"):
+            self.assertNotRegex(words, rf"(?m)^  {word} ")
+        self.assertRegex(self.succeeds("replay", file, "--method", "complete", "--step").out, r"(?m)^  cell, cells ")
+
+    def test_the_state_that_recurs_is_marked_where_it_stands(self):
+        file = cli.ROOT / "corpus" / "cycle-every-policy-mu-1.json"
+        run = self.succeeds("replay", file, "--json", "--step").json()
+        for style in ((), ("--step",)):
+            out = self.succeeds("replay", file, *style).out
+            parts = out.split("----\n")
+            self.assertEqual(len(parts), 3)
+            drives = [pivot["drive"] for pivot in run["pivots"]]
+            told = [len(re.findall(r"(?m)^  s = " if style else r"(?m)^ +\d+ +\d+ ", part)) for part in parts]
+            self.assertEqual(told, [drives.count(1) + drives.count(2), len(drives) - told[0], 0])
+        forces = [re.findall(r"(?m)^    f = .*\n    C = .*", part)[-1] for part in parts[:2]]
+        self.assertEqual(forces[0], forces[1])
+        self.assertNotIn("----", self.succeeds("replay", self.file("s.json", cli.SOLVED), "--step").out)
+
+    def test_long_fractions_are_rounded_unless_asked_for(self):
+        problem = dict(cli.SOLVED, A=[[3.1, 0.1], [0.1, 3.1]], b=[-1.7, 0.3])
+        file = self.file("p.json", problem)
+        for verb in ("replay", "solve"):
+            words = (verb, file) + (("--step",) if verb == "replay" else ())
+            short, full = self.succeeds(*words).out, self.succeeds(*words, "--fractions").out
+            self.assertNotRegex(short, r"\d{8}/\d")
+            self.assertRegex(full, r"\d{8}/\d")
+            self.assertRegex(short, r"~\d\.\d+")
+        self.assertRegex(self.succeeds("replay", file, "--step").out, r"a_N1 +3\.1 +0\.1 +-1\.7\n")
+        self.assertIn(str(Fraction(3.1)), self.succeeds("replay", file, "--step", "--fractions").out)
+
+    def test_an_answer_is_a_sentence_and_a_table_without_json(self):
+        for name, begins in [("cycle-every-policy-mu-1", "solved: these forces meet every condition, exactly"),
+                             ("no-solution-zero-matrix", "no-solution: no forces meet all conditions, proved")]:
+            for method in ((), ("--method", "baraff"), ("--arithmetic", "double")):
+                out = cli.run("solve", cli.ROOT / "corpus" / f"{name}.json", *method).out
+                self.assertNotRegex(out, r'["{}]')
+                if not method:
+                    self.assertTrue(out.startswith(begins), out)
+        out = self.succeeds("solve", cli.ROOT / "corpus" / "cycle-every-policy-mu-1.json").out
+        f = dict(re.findall(r"(?m)^  ([NF]\d) +(\S+) ", out))
+        self.assertEqual(f, {"N1": "1/3", "F1": "1/3", "N2": "2/3", "F2": "2/3"})
 
 
 class Space(cli.TestCase):

@@ -1189,7 +1189,8 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
       page,
       "Since the earlier report: 1 new, 1 finished that were not, and 0 met more often, of 3 groups; it had "
       "3. 1 of those are not here"));
-  for (const Json& finding : DataOf(page)["findings"])
+  const Json findings = DataOf(page)["findings"];
+  for (const Json& finding : findings)
     CHECK(finding["change"] == (finding["signature"] == kDone ? "finished" : ""));
   CHECK(Has(page, "<span class=\"badge change\">finished</span>"));
 
