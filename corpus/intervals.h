@@ -23,9 +23,14 @@ Interval CountInterval(std::int64_t count);
 // Biometrika 26, 1934. 0 to 1 where there was no trial, or the numbers are not those of trials.
 Interval ShareInterval(std::int64_t count, std::int64_t of);
 
-// "0.8 [0.218, 2.05]": so many in a million, and the interval; "" where total is 0.
+// How many digits, three or six or more (`at_least`), keep the ends of an interval apart from its value: of
+// 124.254 [124.036, 124.473] four.
+int DigitsToTell(double value, Interval interval, int at_least);
+
+// "0.8 [0.218, 2.05]": so many in a million, and the interval, in three digits or as many as tell
+// its ends from the value; "" where total is 0.
 std::string RateText(std::int64_t count, std::int64_t total);
-// "1.52 % [0.187, 5.38]"; "" where total is 0.
+// "1.52 % [0.187, 5.38]", "100 % [99.99996, 100]"; "" where total is 0.
 std::string ShareText(std::int64_t count, std::int64_t total);
 
 }  // namespace stiction

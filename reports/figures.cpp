@@ -19,8 +19,8 @@ namespace stiction {
 namespace {
 
 // As text and as a number alike.
-double SixDigits(double x) {
-  const std::string text = fmt::format("{:.6g}", x);
+double RoundedTo(int digits, double x) {
+  const std::string text = fmt::format("{:.{}g}", x, digits);
   double rounded = 0;
   std::from_chars(text.data(), text.data() + text.size(), rounded);
   return rounded;
@@ -28,17 +28,20 @@ double SixDigits(double x) {
 
 std::string CellText(const Json& cell) { return cell.is_string() ? cell.get<std::string>() : JsonText(cell); }
 
+// In six digits, or as many as tell the ends from the value.
+void AddWithInterval(Json& row, double value, Interval interval) {
+  const int digits = DigitsToTell(value, interval, 6);
+  for (const double x : {value, interval.low, interval.high}) row.push_back(RoundedTo(digits, x));
+}
+
 void AddRate(Json& row, std::int64_t count, std::int64_t runs) {
   const Interval interval = CountInterval(count);
   const double scale = 1e6 / static_cast<double>(runs);
-  for (const double x : {static_cast<double>(count), interval.low, interval.high})
-    row.push_back(SixDigits(scale * x));
+  AddWithInterval(row, scale * static_cast<double>(count), {scale * interval.low, scale * interval.high});
 }
 
 void AddShare(Json& row, std::int64_t count, std::int64_t of) {
-  const Interval interval = ShareInterval(count, of);
-  for (const double x : {static_cast<double>(count) / static_cast<double>(of), interval.low, interval.high})
-    row.push_back(SixDigits(x));
+  AddWithInterval(row, static_cast<double>(count) / static_cast<double>(of), ShareInterval(count, of));
 }
 
 // ---- Exact rates ----

@@ -284,11 +284,10 @@ Html IpoptText(const std::vector<Discovery>& discoveries) {
   if (asked + unavailable == 0) return Html();
   std::string text = fmt::format("Ipopt could not be asked about {}.", Counted(unavailable, "finding"));
   if (asked > 0) {
-    const Interval share = ShareInterval(solved, asked);
     text = fmt::format(
         "Ipopt’s feasibility solve led to a solution, verified over rationals, of {} of {} "
-        "finished findings ({:.1f} to {:.1f} %), after {} starts in the mean; ",
-        Grouped(solved), Grouped(asked), 100 * share.low, 100 * share.high, Mean(starts, solved));
+        "finished findings, {}, after {} starts in the mean; ",
+        Grouped(solved), Grouped(asked), ShareText(solved, asked), Mean(starts, solved));
     text += unavailable > 0 ? fmt::format("it could not be asked about {}; each is in ", unavailable)
                             : "each is in ";
   }

@@ -77,6 +77,16 @@ TEST_CASE("intervals: each end leaves 2.5 % beyond it") {
   }
 }
 
+TEST_CASE("intervals: of many events, on both sides of where they are expanded, and of more than a century has") {
+  const Interval below = CountInterval(1000000000), above = CountInterval(1000000001);
+  CHECK(above.low - below.low == Approx(1).margin(1e-3));
+  CHECK(above.high - below.high == Approx(1).margin(1e-3));
+  const Interval many = CountInterval(std::int64_t{1} << 60);
+  const double deviation = 1.959963985 * std::pow(2.0, 30);
+  CHECK(many.low == Approx(std::pow(2.0, 60) - deviation).epsilon(1e-15));
+  CHECK(many.high == Approx(std::pow(2.0, 60) + deviation).epsilon(1e-15));
+}
+
 TEST_CASE("intervals: texts") {
   CHECK(RateText(0, 1000000) == "0 [0, 3.69]");
   CHECK(RateText(4, 5000000) == "0.8 [0.218, 2.05]");
@@ -84,6 +94,25 @@ TEST_CASE("intervals: texts") {
   CHECK(RateText(1, 0).empty());
   CHECK(ShareText(2, 13) == "15.4 % [1.92, 45.4]");
   CHECK(ShareText(0, 0).empty());
+}
+
+TEST_CASE("intervals: texts have as many digits as tell the ends from the value") {
+  CHECK(RateText(1242522, 10000000000) == "124.3 [124.0, 124.5]");
+  CHECK(RateText(378629, 10000000000) == "37.9 [37.7, 38]");  // three do
+  CHECK(RateText(12000000, 30000000) == "400,000 [399,800, 400,200]");
+  CHECK(RateText(25000001, 10000000000) == "2,500 [2,499, 2,501]");
+  CHECK(ShareText(10000000, 10000000) == "100 % [99.99996, 100]");
+  CHECK(ShareText(0, 10000000) == "0 % [0, 3.69e-05]");
+  for (const std::int64_t count : {std::int64_t{1}, std::int64_t{999}, std::int64_t{1000000}, std::int64_t{1} << 40}) {
+    for (const std::string& text : {RateText(count, count * 3), ShareText(count, count * 3)}) {
+      const auto open = text.find('['), comma = text.find(", ", open);
+      const std::string value = text.substr(0, text.find(' '));
+      CHECK(text.substr(open + 1, comma - open - 1) != value);
+      CHECK(text.substr(comma + 2, text.size() - comma - 3) != value);
+    }
+  }
+  CHECK(DigitsToTell(124.254, {124.036, 124.473}, 3) == 4);
+  CHECK(DigitsToTell(0, {0, 3.7}, 3) == 3);
 }
 
 }  // namespace stiction

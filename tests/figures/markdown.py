@@ -54,10 +54,30 @@ def spread(values, digits=three):
     return f"{median} ({low} - {high})"
 
 
+def digits_of(number, digits):
+    """So many digits, thousands separated; whole numbers below a thousand are exact."""
+    if number == round(number) and number < 1000:
+        return f"{number:.0f}"
+    if digits == 3 or number == 0:
+        return three(number)
+    if number < 1000 - 500 * 10.0 ** -digits:
+        return f"{number:#.{digits}g}"
+    left = digits - len(str(round(number)))
+    return f"{round(number, left):,.{max(left, 0)}f}"
+
+
+def with_ends(value, low, high, unit=""):
+    """A value and its interval, in three digits or as many as tell the ends from it."""
+    digits = 3
+    while digits < 15 and any(end != value and f"{end:.{digits}g}" == f"{value:.{digits}g}" for end in (low, high)):
+        digits += 1
+    return f"{digits_of(value, digits)}{unit} [{digits_of(low, digits)}, {digits_of(high, digits)}]"
+
+
 def rate(number, of, unit=1_000_000):
     """How many of `number` a million, with Garwood's interval."""
     low, high = (end * unit / of for end in intervals.garwood(number))
-    return f"{three(number * unit / of)} [{three(low)}, {three(high)}]"
+    return with_ends(number * unit / of, low, high)
 
 
 def share(number, of):
@@ -65,4 +85,4 @@ def share(number, of):
     if of == 0:
         return "-"
     low, high = intervals.clopper_pearson(number, of)
-    return f"{three(100 * number / of)} % [{three(100 * low)}, {three(100 * high)}]"
+    return with_ends(100 * number / of, 100 * low, 100 * high, " %")

@@ -620,6 +620,11 @@ bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoo
     "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
 bug("misjudged-not-summed", "totals.misjudged += tally.misjudged;", "", "misjudged runs are not told")
 
+bug = in_file("corpus/intervals.cpp", "^intervals: ")
+bug("ends-vanish", "alike(interval.low, digits) || alike(interval.high, digits)", "false",
+    "the ends of a narrow interval are shown as its value")
+bug("series-of-many", "if (n > 1e9) return OfManyEvents(n);", "", "intervals of many events throw")
+
 bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: store")
 bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
     "the largest problem represents its group")

@@ -504,7 +504,7 @@ TEST_CASE("report: what Ipopt made of each finished finding, and how often it le
   std::map<std::string, std::string> answers;
   for (const Row& row : table) answers[row.at("signature")] = row.at("outcome") + " " + row.at("starts");
   CHECK(answers == std::map<std::string, std::string>{{kDone, "solved 2"}, {kPending, "undecided 20"}});
-  CHECK(Has(ReadText(scratch / "out/index.html"), "of 1 of 2 finished findings (1.3 to 98.7 %), after 2"));
+  CHECK(Has(ReadText(scratch / "out/index.html"), "of 1 of 2 finished findings, 50 % [1.26, 98.7], after 2"));
   absent.facts.replace(absent.facts.find(solved), solved.size(), R"("outcome":"unavailable","starts":0)");
   store.Finish(absent);
   WriteReport(store, scratch / "again");

@@ -15,10 +15,18 @@ export const rate = x => x.toLocaleString('en', {maximumSignificantDigits: 3});
 export const share = x => `${rate(100 * x)} %`;
 export const contactsOf = n => n === 1 ? '1 contact' : `${n} contacts`;
 
-// "3 of 10: 30 % [6.67 %, 65.2 %]"
-export const told = line =>
-    `${count(line.count ?? line.solved)} of ${count(line.of ?? line.asked)}: ${share(line.share)} ` +
-    `[${share(line.low)}, ${share(line.high)}]`;
+// "30 % [6.67, 65.2]": in three digits, or as many as tell the ends from the value.
+export function withInterval(value, low, high, unit = '') {
+  let digits = 3;
+  while (digits < 15 && [low, high].some(end => end !== value && end.toPrecision(digits) === value.toPrecision(digits)))
+    ++digits;
+  const text = x => x.toLocaleString('en', {maximumSignificantDigits: digits});
+  return `${text(value)}${unit} [${text(low)}, ${text(high)}]`;
+}
+
+// "3 of 10: 30 % [6.67, 65.2]"
+export const told = line => `${count(line.count ?? line.solved)} of ${count(line.of ?? line.asked)}: ` +
+    withInterval(100 * line.share, 100 * line.low, 100 * line.high, ' %');
 
 const isPowerOfTen = x => Math.abs(Math.log10(x) - Math.round(Math.log10(x))) < 1e-9;
 

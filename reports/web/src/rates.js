@@ -19,9 +19,7 @@ const numberOf = text => {
 };
 
 const titleOf = by => row => `${row.generator}, ${p.contactsOf(row.contacts)}, ${names[by]} ${row.value}: ` +
-    `${p.count(row.count)} of ${p.count(row.runs)} runs, ${p.rate(row.rate)} [${p.rate(row.low)}, ${
-                                 p.rate(row.high)}] ` +
-    'in a million';
+    `${p.count(row.count)} of ${p.count(row.runs)} runs, ${p.withInterval(row.rate, row.low, row.high)} in a million`;
 
 // As many of the values as there is room for.
 const fitting = (values, width) =>
