@@ -15,6 +15,7 @@
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
 #include "certify/space.h"
+#include "cli/narrate_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/digest.h"
@@ -50,17 +51,32 @@ EnumerationOptions WithProgress(EnumerationOptions options) {
   return options;
 }
 
+// ["slip-", "stick"] -> "slip- stick".
+std::string WordText(const Json& word) {
+  std::string text;
+  for (const Json& mode : word) text += (text.empty() ? "" : " ") + mode.get<std::string>();
+  return text;
+}
+
+std::string SolutionsText(const Enumeration& modes) {
+  std::string text = fmt::format(
+      "{} of the contact modes {} solutions, with {} distinct witness{}{} ({} linear programs)\n",
+      modes.solutions.size(), modes.solutions.size() == 1 ? "has" : "have", modes.distinct_witnesses,
+      modes.distinct_witnesses == 1 ? "" : "es",
+      modes.end == EnumerationEnd::kComplete ? "" : " so far: not all were looked at", modes.programs);
+  for (const WordSolution& solution : modes.solutions)
+    text += fmt::format("  {}: f = {}{}\n", WordText(WordToJson(solution.word)),
+                        ListText(solution.f, FractionText::kShort), solution.unique ? "" : ", and others");
+  return text;
+}
+
 // All words that have solutions, with a witness each.
 int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   const Enumeration modes = EnumerateModes(file.problem, WithProgress({}));
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
-    const Json word = WordToJson(solution.word);
-    words.push_back({{"modes", word}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
-    if (!o.json) {
-      fmt::print("{}{}: f = {}\n", word.dump(), solution.unique ? "" : " (more than one)",
-                 VectorToJson(solution.f).dump());
-    }
+    words.push_back(
+        {{"modes", WordToJson(solution.word)}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
   }
   const bool complete = modes.end == EnumerationEnd::kComplete;
   if (o.json) {
@@ -70,8 +86,7 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
                            {"programs", modes.programs}})
               << "\n";
   } else {
-    fmt::print("{} words with solutions, {} distinct witnesses; {} linear programs{}\n", words.size(),
-               modes.distinct_witnesses, modes.programs, complete ? "" : "; not complete");
+    fmt::print("{}", SolutionsText(modes));
   }
   return complete ? kExitDone : kExitUndecided;
 }
@@ -144,7 +159,7 @@ void AddCondition(const ExactProblem& problem, Json& result) {
 
 std::string ThresholdText(const Json& threshold) {
   return fmt::format("mu* in [{}, {}], by {}", threshold["low"].get<std::string>(),
-                     threshold["high"].get<std::string>(), threshold["word"].dump());
+                     threshold["high"].get<std::string>(), WordText(threshold["word"]));
 }
 
 std::string WeakSafetyText(const Json& result) {
@@ -152,10 +167,10 @@ std::string WeakSafetyText(const Json& result) {
   std::string text = fmt::format("{} words of determinant zero; ", result["vanishing_words"].get<int>());
   text += result["weakly_safe"].get<bool>()
               ? "none negative, so weakly safe: complete driving neither folds nor descends\n"
-              : fmt::format("negative: {}\n", result["negative_word"].dump());
+              : fmt::format("negative: {}\n", WordText(result["negative_word"]));
   text += limit["safe"].get<bool>()
               ? "safe in the limit: A + eps I is safe for all small eps > 0\n"
-              : fmt::format("not safe in the limit: A + eps I is unsafe by {}\n", limit["word"].dump());
+              : fmt::format("not safe in the limit: A + eps I is unsafe by {}\n", WordText(limit["word"]));
   return text + (limit.contains("threshold")
                      ? "uniform mu: safe in the limit below " + ThresholdText(limit["threshold"]) + "\n"
                      : "safe in the limit for every uniform mu > 0\n");
@@ -306,9 +321,20 @@ CheckReport CheckFile(const std::string& file, const std::string& digest) {
   return CheckCertificate(ParseJson(text, file), file, digest);
 }
 
+std::string ValueText(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+std::string ValuesText(const Json& values) {
+  std::string text;
+  for (const Json& value : values) text += (text.empty() ? "" : " ") + ValueText(value);
+  return text;
+}
+
 std::string ReportText(const CheckReport& report) {
   if (!report.accepted) return "REJECTED: " + report.reason;
-  return fmt::format("accepted: {} {}, problem {}", report.claim, report.facts.dump(), report.digest);
+  std::string facts;
+  for (const auto& [name, value] : report.facts.items())
+    facts += fmt::format("{} {}, ", name, value.is_array() ? ValuesText(value) : ValueText(value));
+  return fmt::format("accepted: {}, {}problem {}", report.claim, facts, report.digest);
 }
 
 Json ReportToJson(const std::string& file, const CheckReport& report) {

@@ -13,7 +13,7 @@ Json NumberToJson(double x) {
 }
 
 std::string Text(const Rational& x, FractionText fractions) {
-  constexpr std::size_t kLong = 12;
+  constexpr std::size_t kLong = 20;
   std::string text = ToString(x);
   if (fractions == FractionText::kFull || text.size() <= kLong) return text;
   const double nearest = ToDouble(x);

@@ -23,7 +23,7 @@ Json NumbersToJson(const Numbers& numbers) {
 
 // Numbers over rationals, for people: as they are, or rounded where they are long.
 enum class FractionText { kFull, kShort };
-// "-2/3". Short: what takes more than twelve characters is the decimal of the double that it is, or, where it
+// "-2/3". Short: what takes more than twenty characters is the decimal of the double that it is, or, where it
 // is none, six digits behind a ~.
 std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
 std::string Text(double x, FractionText = FractionText::kFull);  // six digits

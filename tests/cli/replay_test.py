@@ -107,6 +107,15 @@ class ForPeople(cli.TestCase):
         f = dict(re.findall(r"(?m)^  ([NF]\d) +(\S+) ", out))
         self.assertEqual(f, {"N1": "1/3", "F1": "1/3", "N2": "2/3", "F2": "2/3"})
 
+    def test_modes_and_facts_are_words_without_json(self):
+        corpus = cli.ROOT / "corpus"
+        out = self.succeeds("certify", corpus / "three-solutions-one-contact.json", "--all").out
+        self.assertEqual(out.splitlines(), ["3 of the contact modes have solutions, with 3 distinct witnesses (4 linear programs)",
+                                            "  break: f = (0, 0)", "  stick: f = (3, -2)", "  slip+: f = (1, -1)"])
+        for words in (("certify", corpus / "two-contact-cycle.json", "--safe"),
+                      ("check", corpus / "certificates" / "counterexample.json")):
+            self.assertNotRegex(self.succeeds(*words).out, r'["{}]')
+
 
 class Space(cli.TestCase):
     def replay(self, file, *more, code=0):

@@ -48,7 +48,7 @@ class Data(cli.TestCase):
                 replay = self.replay(*words)
                 for key, value in run["replay"].items():
                     self.assertEqual(value, replay[key], key)
-                told = cli.run("replay", *arguments(words), "--step").out
+                told = cli.run("replay", *arguments(words), "--step", "--fractions").out
                 for pivot, step in zip(run["replay"]["pivots"], run["told"], strict=True):
                     for text in (step["why"], step["event"] if "entering" not in pivot else step["label"]):
                         self.assertIn(text, told)
