@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction._stiction: problems, and what solves, replays, certifies and checks them, for the Python package.
+//
+// Answers are those of the program's --json, as dictionaries and lists; stiction/__init__.py gives them types.
+// Whatever computes does so without the interpreter's lock.
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "certify/certificate.h"
+#include "certify/condition.h"
+#include "certify/existence.h"
+#include "certify/safe.h"
+#include "certify/solve.h"
+#include "cli/answer_text.h"
+#include "cli/followed.h"
+#include "corpus/atomic_file.h"
+#include "corpus/digest.h"
+#include "corpus/output_error.h"
+
+namespace stiction {
+namespace {
+
+namespace py = pybind11;
+
+// A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at.
+struct PythonProblem {
+  ProblemFile file;
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+
+  explicit PythonProblem(ProblemFile of) : file(std::move(of)) {
+    A = file.problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
+    b = file.problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  }
+};
+
+py::object ToPython(const Json& json) {
+  if (json.is_null()) return py::none();
+  if (json.is_boolean()) return py::bool_(json.get<bool>());
+  if (json.is_number_integer()) return py::int_(json.get<std::int64_t>());
+  if (json.is_number()) return py::float_(json.get<double>());
+  if (json.is_string()) return py::str(json.get<std::string>());
+  if (json.is_array()) {
+    py::list list;
+    for (const Json& value : json) list.append(ToPython(value));
+    return list;
+  }
+  py::dict dict;
+  for (const auto& [key, value] : json.items()) dict[py::str(key)] = ToPython(value);
+  return dict;
+}
+
+// ---- Problems ----
+
+// One contact as a problem file has it.
+Json ContactToJson(const std::string& kind, const std::string& mu) {
+  Json contact = {{"kind", kind}};
+  if (kind == "static") contact["mu"] = mu;
+  return contact;
+}
+
+// The reader of files judges contacts; A and b are not of its making, so that they pass through no text.
+std::vector<Contact<Rational>> ReadContacts(const std::vector<std::string>& kinds,
+                                            const std::vector<std::string>& mu, int dimension) {
+  Json contacts = Json::array();
+  int rows = 0;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] == "sliding")
+      throw InputError("Problem", "kinds[" + std::to_string(i) + "]", "sliding",
+                       "static, frictionless or bilateral: sliding contacts have a direction, and come from files");
+    contacts.push_back(ContactToJson(kinds[i], mu[i]));
+    rows += kinds[i] == "static" ? dimension : 1;
+  }
+  Json row = Json::array(), A = Json::array();
+  for (int i = 0; i < rows; ++i) row.push_back("0");
+  for (int i = 0; i < rows; ++i) A.push_back(row);
+  const Json json = {{"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
+                     {"contacts", contacts},         {"A", A},       {"b", row}};
+  return ProblemFromJson(json, "Problem", "", false).contacts;
+}
+
+void RequireShape(const std::string& name, py::ssize_t found, py::ssize_t expected) {
+  if (found != expected)
+    throw InputError("Problem", name, std::to_string(found) + " rows or columns",
+                     std::to_string(expected) + ", as the contacts ask for");
+}
+
+Rational FiniteRational(double x, const std::string& place) {
+  if (!std::isfinite(x)) throw InputError("Problem", place, "a number that is not finite", "a finite one");
+  return Rational(x);
+}
+
+ExactProblem WithContacts(const std::vector<std::string>& kinds, const std::vector<std::string>& mu,
+                          int dimension) {
+  if (kinds.size() != mu.size())
+    throw InputError("Problem", "mu", std::to_string(mu.size()) + " coefficients",
+                     std::to_string(kinds.size()) + ", one for each contact");
+  ExactProblem problem;
+  problem.dimension = dimension;
+  problem.contacts = ReadContacts(kinds, mu, dimension);
+  return problem;
+}
+
+using Strided = py::array_t<double, 0>;
+
+// Doubles, each of which is a rational; read where they lie.
+PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<std::string>& mu,
+                          const std::vector<std::string>& kinds, int dimension, const std::string& name) {
+  ExactProblem problem = WithContacts(kinds, mu, dimension);
+  const int rows = RowCount(problem.contacts, dimension);
+  const auto entries = A.unchecked<2>();
+  const auto free = b.unchecked<1>();
+  RequireShape("A", entries.shape(0), rows);
+  RequireShape("A", entries.shape(1), rows);
+  RequireShape("b", free.shape(0), rows);
+  problem.A.resize(rows, rows);
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    problem.b(i) = FiniteRational(free(i), "b[" + std::to_string(i) + "]");
+    for (int j = 0; j < rows; ++j)
+      problem.A(i, j) =
+          FiniteRational(entries(i, j), "A[" + std::to_string(i) + "][" + std::to_string(j) + "]");
+  }
+  return PythonProblem({name, problem, {}, {}, {}});
+}
+
+PythonProblem FromTexts(const std::vector<std::vector<std::string>>& A, const std::vector<std::string>& b,
+                        const std::vector<std::string>& mu, const std::vector<std::string>& kinds, int dimension,
+                        const std::string& name) {
+  Json contacts = Json::array();
+  if (kinds.size() != mu.size()) WithContacts(kinds, mu, dimension);  // which refuses it
+  for (std::size_t i = 0; i < kinds.size(); ++i) contacts.push_back(ContactToJson(kinds[i], mu[i]));
+  const Json json = {{"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
+                     {"contacts", contacts},         {"A", A},       {"b", b}};
+  return PythonProblem({name, ProblemFromJson(json, "Problem", "", false), {}, {}, {}});
+}
+
+// The memory is the problem's: it lives as long as the array does, and is not written to.
+template <class Numbers>
+py::array View(const Numbers& numbers, const py::object& owner) {
+  py::array view = py::cast(&numbers, py::return_value_policy::reference_internal, owner);
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
+// ---- Solving ----
+
+SolveRequest RequestOf(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
+                       const std::string& policy) {
+  SolveRequest request{.method = method};
+  request.options.policy = ParsePolicy(policy);
+  if (method != "baraff" && request.options.policy != Policy{})
+    throw InputError("policy " + policy + ": expected method baraff, of which it is a reading");
+  if (method != kAutomatic && FindMethodFacts(method) == nullptr)
+    throw InputError("method: found " + method + ", expected one that 'stiction methods' lists");
+  request.arithmetic = UsualArithmetic(method, problem.file.problem).arithmetic;
+  if (!arithmetic.empty()) {
+    const auto found = FindArithmetic(arithmetic);
+    if (!found) throw InputError("arithmetic: found " + arithmetic + ", expected one that 'stiction methods' lists");
+    request.arithmetic = *found;
+  }
+  const std::string refusal = Refusal(method, problem.file.problem.dimension, request.arithmetic);
+  if (!refusal.empty()) throw InputError(refusal);
+  return request;
+}
+
+py::object SolveProblem(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
+                        const std::string& policy) {
+  const SolveRequest request = RequestOf(problem, method, arithmetic, policy);
+  Json json;
+  {
+    const py::gil_scoped_release released;
+    json = SolutionToJson(SolveIn(problem.file.problem, request), problem.file.problem.dimension);
+  }
+  return ToPython(json);
+}
+
+py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method) {
+  const MethodFacts* facts = FindMethodFacts(method);
+  if (facts == nullptr || !facts->has_path)
+    throw InputError("method: found " + method + ", expected one with a path: baraff, complete or lemke");
+  const int dimension = problem.file.problem.dimension;
+  const bool exact = Refusal(method, dimension, Arithmetic::kExact).empty();
+  SolveRequest request = RequestOf(problem, method, exact ? "exact" : "double", policy);
+  request.trace = KeepTrace::kYes;
+  Json json;
+  {
+    const py::gil_scoped_release released;
+    const Solution solution = SolveIn(problem.file.problem, request);
+    json = ReplayToJson({method, policy, {}}, problem.file, solution,
+                        Narrate(method, problem.file, solution, {.vectors = true}), true);
+  }
+  return ToPython(json);
+}
+
+// ---- Certificates ----
+
+Json Certify(const ExactProblem& problem, const std::string& claim, const std::vector<Policy>& policies) {
+  if (claim == "solution-exists") return DecideExistence(problem, {}, {}).certificate;
+  if (claim == "symmetric") return SymmetryCertificate(problem);
+  if (claim == "psd") return SemidefiniteCertificate(problem);
+  if (claim == "definite") return DefiniteCertificate(problem);
+  if (claim == "in-range") return RangeCertificate(problem);
+  if (claim == "h") return HypothesisCertificate(problem);
+  if (claim == "safe-by-condition") return ConditionCertificate(problem).value_or(Json());
+  if (claim == "cycle") return CycleCertificate(problem, policies, {});
+  if (claim == "counterexample") return CounterexampleCertificate(problem, policies, {});
+  throw InputError("claim: found " + claim +
+                   ", expected solution-exists, symmetric, psd, definite, in-range, h, safe-by-condition, cycle "
+                   "or counterexample");
+}
+
+// The text of the certificate; None where nothing that was run shows the claim or its negation.
+std::optional<std::string> CertifyProblem(const PythonProblem& problem, const std::string& claim,
+                                          const std::string& policy) {
+  const bool of_runs = claim == "cycle" || claim == "counterexample";
+  if (of_runs && problem.file.problem.dimension != 2)
+    throw InputError("Problem", "dimension", "3", "2: loops are claimed of planar problems");
+  const std::vector<Policy> policies =
+      policy == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(policy)};
+  const py::gil_scoped_release released;
+  const Json certificate = Certify(problem.file.problem, claim, policies);
+  if (certificate.is_null()) return std::nullopt;
+  return JsonText(certificate, 1) + "\n";
+}
+
+// (accepted, claim, reason).
+std::tuple<bool, std::string, std::string> CheckText(const PythonProblem& problem, const std::string& text) {
+  const py::gil_scoped_release released;
+  if (text.size() > kMostBytesOfCertificate)
+    throw InputError("certificate", "", std::to_string(text.size()) + " bytes",
+                     "at most " + std::to_string(kMostBytesOfCertificate));
+  const CheckReport report = CheckCertificate(ParseJson(text, "certificate"), "certificate",
+                                              ProblemDigest(problem.file.problem));
+  return {report.accepted, report.claim, report.reason};
+}
+
+std::vector<std::string> Texts(const auto& numbers) {
+  std::vector<std::string> texts;
+  for (const Rational& x : numbers) texts.push_back(ToString(x));
+  return texts;
+}
+
+std::vector<std::vector<std::string>> ExactA(const PythonProblem& problem) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& row : problem.file.problem.A.rowwise()) {
+    std::vector<std::string>& texts = rows.emplace_back();
+    for (int j = 0; j < row.size(); ++j) texts.push_back(ToString(row(j)));
+  }
+  return rows;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_stiction, module) {
+  module.doc() = "The library of stiction; use the package stiction, which types it.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const OutputError& error) {
+      PyErr_SetString(PyExc_OSError, error.what());
+    }
+  });
+  py::class_<PythonProblem>(module, "Problem")
+      .def_static("from_doubles", &FromDoubles)
+      .def_static("from_texts", &FromTexts)
+      .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
+      .def("text", [](const PythonProblem& p) { return Print(p.file); })
+      .def("digest", [](const PythonProblem& p) { return ProblemDigest(p.file.problem); })
+      .def_property_readonly("name", [](const PythonProblem& p) { return p.file.name; })
+      .def_property_readonly("dimension", [](const PythonProblem& p) { return p.file.problem.dimension; })
+      .def_property_readonly("A", [](const py::object& p) { return View(p.cast<PythonProblem&>().A, p); })
+      .def_property_readonly("b", [](const py::object& p) { return View(p.cast<PythonProblem&>().b, p); })
+      .def("exact_A", &ExactA)
+      .def("exact_b", [](const PythonProblem& p) { return Texts(p.file.problem.b); })
+      .def("exact_mu",
+           [](const PythonProblem& p) {
+             std::vector<std::string> texts;
+             for (const auto& contact : p.file.problem.contacts) texts.push_back(ToString(contact.mu));
+             return texts;
+           })
+      .def("kinds", [](const PythonProblem& p) {
+        std::vector<std::string> kinds;
+        for (const auto& contact : p.file.problem.contacts) kinds.emplace_back(Name(contact.kind));
+        return kinds;
+      });
+  module.def("solve", &SolveProblem);
+  module.def("replay", &ReplayProblem);
+  module.def("certify", &CertifyProblem);
+  module.def("check", &CheckText);
+}
+
+}  // namespace stiction

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""package_test.py PROGRAM SOURCES: the Python package says what the program says."""
+import inspect
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import stiction
+
+PROGRAM, SOURCES = sys.argv[1], Path(sys.argv[2])
+LOOP = SOURCES / "corpus/cycle-every-policy-mu-1.json"
+A = [[3, -4, 2, 0], [-4, 7, -4, 1], [2, -4, 7, -6], [0, 1, -6, 7]]
+B = [-1, 0, 0, -2]
+
+
+def said(*arguments):
+    """What the program prints with --json."""
+    return json.loads(subprocess.run([PROGRAM, *map(str, arguments), "--json"], stdout=subprocess.PIPE).stdout)
+
+
+class Problems(unittest.TestCase):
+    def test_doubles_integers_and_files_are_one_problem(self):
+        digests = {stiction.load(LOOP).digest, stiction.Problem(A, B, 1).digest,
+                   stiction.Problem(np.array(A, float), np.array(B, float), [1, 1]).digest,
+                   stiction.Problem(np.array(A, float, order="F")[:, :], np.array(B), "1").digest}
+        self.assertEqual(len(digests), 1)
+
+    def test_fractions_are_exact(self):
+        problem = stiction.Problem([[1, 0], [0, "1/3"]], [Fraction(-1, 7), 0.1], Fraction(1, 5))
+        self.assertEqual(problem.exact_A[1][1], Fraction(1, 3))
+        self.assertEqual(problem.exact_b, [Fraction(-1, 7), Fraction(0.1)])
+        self.assertEqual(problem.mu, [Fraction(1, 5)])
+
+    def test_views_share_the_problem_s_memory_and_outlive_it(self):
+        problem = stiction.Problem(A, B, 1)
+        view = problem.A
+        self.assertTrue(np.shares_memory(view, problem.A))
+        self.assertFalse(view.flags.owndata)
+        self.assertFalse(view.flags.writeable)
+        del problem
+        np.testing.assert_array_equal(view, A)
+
+    def test_what_is_saved_is_loaded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stiction.Problem(A, B, 1).save(Path(folder) / "p.json")
+            self.assertEqual(stiction.load(Path(folder) / "p.json").digest, stiction.load(LOOP).digest)
+
+    def test_bad_input_is_one_line(self):
+        nan = np.array(A, float)
+        nan[1, 2] = np.nan
+        for arguments, named in [((nan, np.array(B, float), 1), r"A\[1\]\[2\]"), ((A, B[:3], 1), "Problem"),
+                                 ((A, B, [1, -1]), "mu"), ((np.eye(3), np.zeros(3), [1, 1]), "A: found 3"),
+                                 ((A, B, 1, ["static", "sticky"]), "sticky")]:
+            with self.assertRaisesRegex(ValueError, named) as raised:
+                stiction.Problem(*arguments)
+            self.assertNotIn("\n", str(raised.exception))
+        with self.assertRaises(OSError):
+            stiction.load("/nowhere.json")
+        with self.assertRaisesRegex(ValueError, "method"):
+            stiction.solve(stiction.load(LOOP), "guess")
+
+
+class SameAsTheProgram(unittest.TestCase):
+    FILES = sorted((SOURCES / "corpus").glob("cycle-*.json"))[:6]
+
+    def test_solve(self):
+        for file in self.FILES:
+            theirs = said("solve", file, "--method", "complete")
+            ours = stiction.solve(stiction.load(file)).json
+            self.assertEqual(ours, {key: theirs[key] for key in theirs if key not in ("why", "assumptions")})
+
+    def test_replay(self):
+        for file in self.FILES:
+            theirs = said("replay", file, "--step")
+            theirs.pop("expected")
+            self.assertEqual(stiction.replay(stiction.load(file)).json, theirs)
+
+
+class Headline(unittest.TestCase):
+    def test_the_loop_its_solution_and_the_certificate(self):
+        problem = stiction.Problem(A, B, 1)
+        run = stiction.replay(problem)
+        self.assertEqual((run.outcome, run.start, run.period), ("cycle", 2, 5))
+        self.assertEqual(run.pivots[0].step, Fraction(1, 3))
+        answer = stiction.solve(problem)
+        self.assertEqual(answer.outcome, "solved")
+        exact = np.array(problem.exact_A, object) @ answer.f + problem.exact_b
+        self.assertEqual(tuple(exact), answer.a)
+        certificate = stiction.certify(problem, "counterexample")
+        self.assertEqual(certificate.kind, "counterexample")
+        self.assertTrue(stiction.check(problem, certificate))
+        with self.assertRaisesRegex(ValueError, "digest|problem"):
+            stiction.check(stiction.Problem(A, B, 2), certificate)
+
+
+class Documented(unittest.TestCase):
+    def test_public_names_have_docstrings_and_types(self):
+        for name in stiction.__all__:
+            thing = getattr(stiction, name)
+            self.assertTrue(thing.__doc__, name)
+            if inspect.isfunction(thing):
+                signature = inspect.signature(thing)
+                self.assertIsNot(signature.return_annotation, inspect.Signature.empty, name)
+                for parameter in signature.parameters.values():
+                    self.assertIsNot(parameter.annotation, inspect.Parameter.empty, f"{name}: {parameter}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
