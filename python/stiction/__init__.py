@@ -174,8 +174,8 @@ class Certificate:
 def solve(problem: Problem, method: str = "complete", arithmetic: str = "", policy: str = "paper") -> Answer:
     """Solves a problem. `arithmetic`: by default that of the command line."""
     said = _stiction.solve(problem._problem, method, arithmetic, policy)
-    return Answer(said["outcome"], said["method"], said["arithmetic"], _numbers(said.get("f", ())),
-                  _numbers(said.get("a", ())), said.get("reason", ""), said.get("statistics", {}), said)
+    return Answer(said["outcome"], said["method"], said["arithmetic"], _numbers(said.get("f") or ()),
+                  _numbers(said.get("a") or ()), said.get("reason", ""), said.get("statistics", {}), said)
 
 
 def replay(problem: Problem, policy: str = "paper", method: str = "baraff") -> Replay:

@@ -98,6 +98,14 @@ class Headline(unittest.TestCase):
             stiction.check(stiction.Problem(A, B, 2), certificate)
 
 
+class NoForces(unittest.TestCase):
+    def test_a_problem_without_solution_has_none(self):
+        problem = stiction.load(SOURCES / "corpus/no-solution-zero-matrix.json")
+        answer = stiction.solve(problem, "enumerate")
+        self.assertEqual((answer.outcome, answer.f, answer.a), ("no-solution", (), ()))
+        self.assertEqual(stiction.certify(problem).kind, "no-solution")
+
+
 class Documented(unittest.TestCase):
     def test_public_names_have_docstrings_and_types(self):
         for name in stiction.__all__:
