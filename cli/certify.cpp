@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <iostream>
 
+#include "answers/narrate_text.h"
 #include "certify/certificate.h"
+#include "certify/claims.h"
 #include "certify/condition.h"
-#include "certify/existence.h"
 #include "certify/robust.h"
 #include "certify/robust_scene.h"
 #include "certify/safe.h"
 #include "certify/safety_threshold.h"
-#include "certify/space.h"
-#include "cli/narrate_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/digest.h"
@@ -72,6 +71,7 @@ std::string SolutionsText(const Enumeration& modes) {
 
 // All words that have solutions, with a witness each.
 int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
+  RequirePlanar(file.problem, o.file);
   const Enumeration modes = EnumerateModes(file.problem, WithProgress({}));
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
@@ -89,32 +89,6 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
     fmt::print("{}", SolutionsText(modes));
   }
   return complete ? kExitDone : kExitUndecided;
-}
-
-// The best bound that was found, or null.
-Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
-  SpaceOptions options;
-  options.law = FrictionLaw::kCoulomb;
-  options.limits = limits;
-  const SpaceSolution solution = SolveInSpace(problem, options);
-  if (solution.outcome != Outcome::kSolved || solution.bound <= 0) return nullptr;
-  return CoulombCertificate(problem, solution.f, solution.bound);
-}
-
-Json Certify(const CertifyOptions& o, const ProblemFile& file) {
-  if (o.claim == "solution-exists")
-    return DecideExistence(file.problem, o.limits, WithProgress({})).certificate;
-  if (o.claim == "coulomb-solution") return CertifyCoulomb(file.problem, o.limits);
-  if (o.claim == "symmetric") return SymmetryCertificate(file.problem);
-  if (o.claim == "psd") return SemidefiniteCertificate(file.problem);
-  if (o.claim == "definite") return DefiniteCertificate(file.problem);
-  if (o.claim == "in-range") return RangeCertificate(file.problem);
-  if (o.claim == "h") return HypothesisCertificate(file.problem);
-  if (o.claim == "safe") return SafetyCertificate(file.problem);
-  if (o.claim == "safe-by-condition") return ConditionCertificate(file.problem).value_or(Json());
-  const std::vector<Policy> policies = PoliciesNamed(o.policy);
-  if (o.claim == "cycle") return CycleCertificate(file.problem, policies, o.limits);
-  return CounterexampleCertificate(file.problem, policies, o.limits);
 }
 
 // ---- Safety ----
@@ -201,6 +175,7 @@ std::string SafetyText(const Json& result, bool has_words) {
 }
 
 int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
+  RequireHandled(file.problem, o.file, "safety");
   const bool has_words = HasFewWords(file.problem);
   const auto by_condition = ConditionCertificate(file.problem);
   Json result = {{"safe", by_condition ? Json(true) : Json()}};
@@ -245,6 +220,7 @@ void ShowRadiusOf(const std::string& policy, const std::optional<Rational>& radi
 }
 
 int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
+  RequireHandled(file.problem, o.file, "robustness");
   const auto scene = ReadTouchingScene(o, file);
   Json rows = Json::array();
   bool all = true;
@@ -265,32 +241,18 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
-bool SpeaksOfRuns(std::string_view claim) { return claim == "cycle" || claim == "counterexample"; }
-
-// Loops are claimed, and modes listed, of planar problems; safety is one of static and frictionless contacts;
-// Coulomb's law is that of problems in space.
-ProblemFile ReadFor(const CertifyOptions& o) {
-  if (o.robust) return ReadHandledProblem(o.file, "robustness");
-  if (o.all || SpeaksOfRuns(o.claim)) return ReadPlanarProblem(o.file);
-  if (o.claim == "coulomb-solution") {
-    ProblemFile file = ReadProblem(o.file);
-    if (file.problem.dimension == 3) return file;
-    throw InputError(o.file, "dimension", "2", "3: in the plane the claim is solution-exists");
-  }
-  return o.safe || o.claim.starts_with("safe") ? ReadHandledProblem(o.file, "safety") : ReadProblem(o.file);
-}
-
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all && !o.safe && !o.robust)
     throw InputError("certify: expected -o CERT, --all, --safe or --robust");
   if (o.robust && (o.all || o.safe || !o.output.empty()))
     throw InputError(
         "certify: found --robust with --all, --safe or -o, expected it alone: it writes no certificate");
-  const ProblemFile file = ReadFor(o);
+  const ProblemFile file = ReadProblem(o.file);
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
-  const Json certificate = Certify(o, file);
+  const Json certificate =
+      CertifyClaim(file.problem, o.file, o.claim, {PoliciesNamed(o.policy), o.limits, WithProgress({})});
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");
@@ -366,24 +328,20 @@ int RunCheck(const CheckOptions& o) {
   return exit;
 }
 
+std::vector<AllowedValue> ClaimChoices() {
+  std::vector<AllowedValue> choices;
+  for (const Claim& claim : AllClaims())
+    choices.push_back({std::string(claim.name), std::string(claim.meaning)});
+  return choices;
+}
+
 }  // namespace
 
 void AddCertify(CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
   verb.Positional("FILE", o.file, "stiction-problem file").Required();
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
-  verb.Option("--claim", o.claim, "what to certify, or its negation if that holds")
-      .Choices({{"solution-exists", "forces that meet all conditions"},
-                {"coulomb-solution", "the same for Coulomb's law, in space"},
-                {"symmetric", "A = A'"},
-                {"psd", "A is positive semidefinite"},
-                {"definite", "A is positive definite"},
-                {"in-range", "b is in the range of A"},
-                {"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
-                {"safe", "A is safe for the published algorithm"},
-                {"safe-by-condition", "its condition number alone shows that it is"},
-                {"cycle", "the published algorithm repeats a state of its outer loop"},
-                {"counterexample", "it does, though A is definite and there is a solution: all in one file"}});
+  verb.Option("--claim", o.claim, "what to certify, or its negation if that holds").Choices(ClaimChoices());
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");

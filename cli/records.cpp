@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "certify/claims.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
@@ -35,7 +36,9 @@ int Add(const RecordsVerb& o) {
       o.random_command.empty())
     throw InputError(
         "records: --add asks for --frontier, --what, --objective, --command, --seconds and --random-command");
-  FrontierRecord record = MakeRecord(*FindObjective(o.objective), ReadPlanarProblem(o.add), o.limits);
+  const ProblemFile added = ReadProblem(o.add);
+  RequirePlanar(added.problem, o.add);
+  FrontierRecord record = MakeRecord(*FindObjective(o.objective), added, o.limits);
   record.frontier = o.frontier;
   record.what = o.what;
   record.command = o.command;

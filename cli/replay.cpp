@@ -9,12 +9,12 @@
 #include <set>
 #include <vector>
 
+#include "answers/followed.h"
+#include "answers/narrate_text.h"
+#include "answers/problem_text.h"
 #include "certify/exact.h"
 #include "certify/published_space.h"
 #include "certify/solve.h"
-#include "cli/followed.h"
-#include "cli/narrate_text.h"
-#include "cli/problem_text.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"

@@ -49,26 +49,6 @@ void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
 
 }  // namespace
 
-ProblemFile ReadPlanarProblem(const std::string& file) {
-  ProblemFile problem = ReadProblem(file);
-  if (problem.problem.dimension != 2) {
-    throw InputError(file, "dimension", std::to_string(problem.problem.dimension),
-                     "2: built for the plane only");
-  }
-  return problem;
-}
-
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& what) {
-  ProblemFile problem = ReadPlanarProblem(file);
-  for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
-    const ContactKind kind = problem.problem.contacts[i].kind;
-    if (kind == ContactKind::kFrictionless || kind == ContactKind::kStatic) continue;
-    throw InputError(file, fmt::format("contacts[{}].kind", i), std::string(Name(kind)),
-                     fmt::format("frictionless or static: {} is a property of problems of these", what));
-  }
-  return problem;
-}
-
 std::string PolicyError(const std::string& text, Grid grid) {
   if (text == "*" && grid == Grid::kAllowed) return "";
   try {

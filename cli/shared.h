@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/outcome_text.h"
+#include "answers/outcome_text.h"
 #include "cli/verb.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
@@ -19,13 +19,6 @@
 #include "solver/problem/solution.h"
 
 namespace stiction {
-
-// A planar problem of frictionless and static contacts, of which alone `what` is said; InputError that names
-// the contact otherwise.
-ProblemFile ReadHandledProblem(const std::string& file, const std::string& what);
-
-// A planar problem of any kinds; InputError otherwise.
-ProblemFile ReadPlanarProblem(const std::string& file);
 
 // --policy; the value is checked while parsing. `*`, the whole planar grid, only where it makes sense.
 enum class Grid { kRefused, kAllowed };

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "cli/answer_text.h"
-#include "cli/narrate_text.h"
-#include "cli/problem_text.h"
+#include "answers/answer_text.h"
+#include "answers/narrate_text.h"
+#include "answers/problem_text.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
@@ -39,16 +39,35 @@ int ExitOf(Outcome outcome) {
 
 // ---- Text for people ---------------------------------------------------------------------------
 
+// Which conditions the forces of an answer are held to.
+std::string ConditionsOf(const Json& result) {
+  if (!result.contains("law")) return "every condition";
+  return result["law"] == "coulomb" ? "every condition of Coulomb's law"
+                                    : "(21), (22) and every other condition";
+}
+
+std::string SolvedSentence(const Json& result, const Solution& solution) {
+  const std::string conditions = ConditionsOf(result);
+  if (result.contains("bound") && result["bound"] != "1")
+    return fmt::format(
+        "solved: these forces meet {} but that of slipping friction, for which `bound`, proved, is at most "
+        "|fF| / (mu fN) times the cosine between fF and -aF",
+        conditions);
+  if (std::holds_alternative<ExactAnswer>(solution.answer))
+    return fmt::format("solved: these forces meet {}, exactly", conditions);
+  if (!std::get<InexactAnswer>(solution.answer).f_enclosed.empty())
+    return fmt::format("solved: forces within these bounds meet {}, proved", conditions);
+  return fmt::format("solved: these forces meet {} but for a relative residual of {:.2g}", conditions,
+                     std::get<InexactAnswer>(solution.answer).residual);
+}
+
 // The most important: how it ended, and what that means.
-std::string OutcomeSentence(const Json& result) {
-  const std::string outcome = result["outcome"], arithmetic = result["arithmetic"];
-  const bool exact = arithmetic == "exact", proved = exact || arithmetic == "interval";
+std::string OutcomeSentence(const Json& result, const Solution& solution) {
+  const std::string outcome = result["outcome"];
+  const bool proved = std::holds_alternative<ExactAnswer>(solution.answer) ||
+                      !std::get<InexactAnswer>(solution.answer).f_enclosed.empty();
   const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
-  if (outcome == "solved" && exact) return "solved: these forces meet every condition, exactly";
-  if (outcome == "solved" && proved) return "solved: forces within these bounds meet every condition, proved";
-  if (outcome == "solved" && result.contains("residual"))
-    return fmt::format("solved: these forces meet every condition but for a relative residual of {:.2g}",
-                       result["residual"].get<double>());
+  if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
   if (result.contains("period"))
     return fmt::format("{}: {}the state after {} drives stands again {} drives later{}", outcome,
@@ -103,14 +122,15 @@ std::string FieldsText(const Json& object) {
 std::string AssumptionsText(const Json& assumptions, const std::string& file) {
   std::vector<std::string> names;
   for (const Json& failed : assumptions) names.push_back(failed["assumption"]);
-  if (names.empty()) return "all of the paper's hold";
+  if (names.empty()) return "none of the paper's was found to fail (A symmetric, semidefinite, b in its range)";
   return fmt::format("of the paper's these fail: {}; the proof: stiction certify {} --claim {} -o -",
                      fmt::join(names, ", "), file, names[0]);
 }
 
-void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Json& result) {
+void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solution& solution,
+                    const Json& result) {
   const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
-  fmt::print("{}\n{}", OutcomeSentence(result), VariablesTable(problem, result, fractions));
+  fmt::print("{}\n{}", OutcomeSentence(result, solution), VariablesTable(problem, result, fractions));
   for (const auto& [key, value] : result.items()) {
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
                       key == "ray" || key == "reason";
@@ -186,7 +206,7 @@ int RunSolve(const SolveVerb& o) {
   if (o.json) {
     std::cout << JsonText(result) << "\n";
   } else {
-    PrintForPeople(o, file.problem, result);
+    PrintForPeople(o, file.problem, solution, result);
   }
   return ExitOf(solution.outcome());
 }

@@ -16,7 +16,7 @@
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
-#include "cli/answer_text.h"
+#include "answers/answer_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"

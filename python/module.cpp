@@ -12,13 +12,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/answer_text.h"
+#include "answers/followed.h"
 #include "certify/certificate.h"
-#include "certify/condition.h"
-#include "certify/existence.h"
-#include "certify/safe.h"
+#include "certify/claims.h"
 #include "certify/solve.h"
-#include "cli/answer_text.h"
-#include "cli/followed.h"
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"
@@ -72,16 +70,16 @@ std::vector<Contact<Rational>> ReadContacts(const std::vector<std::string>& kind
   int rows = 0;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] == "sliding")
-      throw InputError("Problem", "kinds[" + std::to_string(i) + "]", "sliding",
-                       "static, frictionless or bilateral: sliding contacts have a direction, and come from files");
+      throw InputError(
+          "Problem", "kinds[" + std::to_string(i) + "]", "sliding",
+          "static, frictionless or bilateral: sliding contacts have a direction, and come from files");
     contacts.push_back(ContactToJson(kinds[i], mu[i]));
     rows += kinds[i] == "static" ? dimension : 1;
   }
-  Json row = Json::array(), A = Json::array();
-  for (int i = 0; i < rows; ++i) row.push_back("0");
-  for (int i = 0; i < rows; ++i) A.push_back(row);
-  const Json json = {{"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
-                     {"contacts", contacts},         {"A", A},       {"b", row}};
+  const Json nothing = {{"size", rows}, {"entries", Json::array()}};
+  const Json json = {
+      {"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
+      {"contacts", contacts},         {"A", nothing}, {"b", std::vector<std::string>(rows, "0")}};
   return ProblemFromJson(json, "Problem", "", false).contacts;
 }
 
@@ -131,8 +129,8 @@ PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<
 }
 
 PythonProblem FromTexts(const std::vector<std::vector<std::string>>& A, const std::vector<std::string>& b,
-                        const std::vector<std::string>& mu, const std::vector<std::string>& kinds, int dimension,
-                        const std::string& name) {
+                        const std::vector<std::string>& mu, const std::vector<std::string>& kinds,
+                        int dimension, const std::string& name) {
   Json contacts = Json::array();
   if (kinds.size() != mu.size()) WithContacts(kinds, mu, dimension);  // which refuses it
   for (std::size_t i = 0; i < kinds.size(); ++i) contacts.push_back(ContactToJson(kinds[i], mu[i]));
@@ -162,7 +160,8 @@ SolveRequest RequestOf(const PythonProblem& problem, const std::string& method, 
   request.arithmetic = UsualArithmetic(method, problem.file.problem).arithmetic;
   if (!arithmetic.empty()) {
     const auto found = FindArithmetic(arithmetic);
-    if (!found) throw InputError("arithmetic: found " + arithmetic + ", expected one that 'stiction methods' lists");
+    if (!found)
+      throw InputError("arithmetic: found " + arithmetic + ", expected one that 'stiction methods' lists");
     request.arithmetic = *found;
   }
   const std::string refusal = Refusal(method, problem.file.problem.dimension, request.arithmetic);
@@ -201,31 +200,13 @@ py::object ReplayProblem(const PythonProblem& problem, const std::string& policy
 
 // ---- Certificates ----
 
-Json Certify(const ExactProblem& problem, const std::string& claim, const std::vector<Policy>& policies) {
-  if (claim == "solution-exists") return DecideExistence(problem, {}, {}).certificate;
-  if (claim == "symmetric") return SymmetryCertificate(problem);
-  if (claim == "psd") return SemidefiniteCertificate(problem);
-  if (claim == "definite") return DefiniteCertificate(problem);
-  if (claim == "in-range") return RangeCertificate(problem);
-  if (claim == "h") return HypothesisCertificate(problem);
-  if (claim == "safe-by-condition") return ConditionCertificate(problem).value_or(Json());
-  if (claim == "cycle") return CycleCertificate(problem, policies, {});
-  if (claim == "counterexample") return CounterexampleCertificate(problem, policies, {});
-  throw InputError("claim: found " + claim +
-                   ", expected solution-exists, symmetric, psd, definite, in-range, h, safe-by-condition, cycle "
-                   "or counterexample");
-}
-
 // The text of the certificate; None where nothing that was run shows the claim or its negation.
 std::optional<std::string> CertifyProblem(const PythonProblem& problem, const std::string& claim,
                                           const std::string& policy) {
-  const bool of_runs = claim == "cycle" || claim == "counterexample";
-  if (of_runs && problem.file.problem.dimension != 2)
-    throw InputError("Problem", "dimension", "3", "2: loops are claimed of planar problems");
-  const std::vector<Policy> policies =
-      policy == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(policy)};
+  ClaimOptions options;
+  options.policies = policy == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(policy)};
   const py::gil_scoped_release released;
-  const Json certificate = Certify(problem.file.problem, claim, policies);
+  const Json certificate = CertifyClaim(problem.file.problem, "Problem", claim, options);
   if (certificate.is_null()) return std::nullopt;
   return JsonText(certificate, 1) + "\n";
 }
@@ -236,8 +217,8 @@ std::tuple<bool, std::string, std::string> CheckText(const PythonProblem& proble
   if (text.size() > kMostBytesOfCertificate)
     throw InputError("certificate", "", std::to_string(text.size()) + " bytes",
                      "at most " + std::to_string(kMostBytesOfCertificate));
-  const CheckReport report = CheckCertificate(ParseJson(text, "certificate"), "certificate",
-                                              ProblemDigest(problem.file.problem));
+  const CheckReport report =
+      CheckCertificate(ParseJson(text, "certificate"), "certificate", ProblemDigest(problem.file.problem));
   return {report.accepted, report.claim, report.reason};
 }
 
@@ -273,7 +254,7 @@ PYBIND11_MODULE(_stiction, module) {
       .def_static("from_doubles", &FromDoubles)
       .def_static("from_texts", &FromTexts)
       .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
-      .def("text", [](const PythonProblem& p) { return Print(p.file); })
+      .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, Print(p.file)); })
       .def("digest", [](const PythonProblem& p) { return ProblemDigest(p.file.problem); })
       .def_property_readonly("name", [](const PythonProblem& p) { return p.file.name; })
       .def_property_readonly("dimension", [](const PythonProblem& p) { return p.file.problem.dimension; })

@@ -7,8 +7,8 @@
 #include <new>
 #include <vector>
 
-#include "cli/followed.h"
-#include "cli/replay_page.h"
+#include "answers/followed.h"
+#include "answers/replay_page.h"
 #include "corpus/problem_file.h"
 
 namespace stiction {

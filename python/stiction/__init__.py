@@ -109,9 +109,8 @@ class Problem:
         return self._problem.digest()
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes a problem file."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self._problem.text())
+        """Writes a problem file, whole or not at all."""
+        self._problem.save(str(path))
 
 
 def load(path: str | PathLike[str]) -> Problem:
@@ -187,7 +186,7 @@ def replay(problem: Problem, policy: str = "paper", method: str = "baraff") -> R
 
 
 def certify(problem: Problem, claim: str = "solution-exists", policy: str = "paper") -> Certificate | None:
-    """A certificate of the claim or of its negation; None where nothing that was run shows either."""
+    """A certificate of the claim, one that `stiction certify --claim` knows, or of its negation; None where nothing that was run shows either."""
     text = _stiction.certify(problem._problem, claim, policy)
     return None if text is None else Certificate(json.loads(text)["claim"], text)
 

@@ -101,7 +101,7 @@ class Solve(cli.TestCase):
             self.assertLess(high - low, 1e-9)
         self.assertEqual((result["statistics"]["drives"], result["statistics"]["redirects"]), (3, 0))
         self.assertEqual(self.succeeds("solve", self.file("p.json", CIRCLE), "--method", "baraff").out.splitlines()[0],
-                         "solved: forces within these bounds meet every condition, proved")
+                         "solved: forces within these bounds meet (21), (22) and every other condition, proved")
 
     def test_rounded_arithmetics(self):
         for arithmetic in ["float", "double", "long-double"]:

@@ -107,6 +107,20 @@ class ForPeople(cli.TestCase):
         f = dict(re.findall(r"(?m)^  ([NF]\d) +(\S+) ", out))
         self.assertEqual(f, {"N1": "1/3", "F1": "1/3", "N2": "2/3", "F2": "2/3"})
 
+    def test_an_answer_claims_no_more_than_was_shown(self):
+        space, plane = SPACE / "three-sliding-contacts.json", cli.ROOT / "corpus" / "cycle-every-policy-mu-1.json"
+        for words, code, says in [
+                ((space, "--law", "coulomb", "--method", "complete"), 0, "but that of slipping friction, for which `bound`"),
+                ((space, "--method", "complete"), 0, "meet (21), (22) and every other condition, exactly"),
+                ((plane, "--arithmetic", "filtered"), 0, "forces within these bounds meet every condition, proved"),
+                ((plane, "--arithmetic", "filtered", "--method", "baraff"), 1, "5 drives later, for ever"),
+                ((plane, "--method", "fast"), 0, "but for a relative residual of"),
+                ((SPACE / "cycle-under-both-slips.json", "--method", "baraff", "--arithmetic", "double"), 1,
+                 "cycle: after rounding, ")]:
+            first = self.succeeds("solve", *words, code=code).out.splitlines()[0]
+            self.assertIn(says, first)
+            self.assertEqual("exactly" in first, says.endswith("exactly"))
+
     def test_modes_and_facts_are_words_without_json(self):
         corpus = cli.ROOT / "corpus"
         out = self.succeeds("certify", corpus / "three-solutions-one-contact.json", "--all").out

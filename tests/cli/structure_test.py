@@ -14,7 +14,9 @@ FOLDERS = {
     "certify": ["corpus", "scene", "solver"],
     "reports": ["corpus", "scene", "solver"],
     "search": ["certify", "corpus", "scene", "solver"],
-    "cli": ["reports", "search", "certify", "corpus", "scene", "solver"],
+    "answers": ["certify", "corpus", "scene", "solver"],
+    "python": ["answers", "certify", "corpus", "scene", "solver"],
+    "cli": ["answers", "reports", "search", "certify", "corpus", "scene", "solver"],
     "bench": ["reports", "search", "certify", "corpus", "scene", "solver"],
 }
 ROOMS = {

@@ -46,7 +46,7 @@ def build(targets, jobs):
     if not (BUILD / "build.ninja").exists():
         subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, "-DCMAKE_CXX_COMPILER=clang++",
                         "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -gline-tables-only",
-                        "-DSTICTION_FUZZ=ON"], check=True, stdout=subprocess.DEVNULL)
+                        "-DSTICTION_FUZZ=ON", "-DSTICTION_PYTHON=OFF"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", BUILD, "-j", str(jobs), *(f"fuzz_{name}" for name in targets)], check=True)
 
 

@@ -842,13 +842,35 @@ bug("certificate-of-another", "of_original ? files.original : files.problem", "f
 
 VIEWER = "^program: viewer_data"
 
-bug = in_file("cli/partings.cpp", VIEWER)
+bug = in_file("answers/narrate_baraff.cpp", "^program: replay")
+bug("mark-late", "(ended == answer_.start)", "(ended == answer_.start + 1)", "the state that recurs is marked a drive late")
+bug("mark-inside", "ended == Ended(steps - 1)", "false", "every step of a drive is marked")
+
+bug = in_file("answers/outcome_text.cpp", "^program: replay")
+bug("all-rounded", "text.size() <= kLong", "text.size() <= 2", "short fractions are rounded, too")
+bug("none-rounded", "fractions == FractionText::kFull", "true", "long fractions stand in full")
+
+bug = in_file("cli/words.cpp", "^program: replay")
+bug("part-of-a-word", "belongs(text[at - 1])", "false", "F is found in NCF")
+
+bug = in_file("cli/replay.cpp", "^program: problem")
+bug("nothing-in-common", "of_some == values(grid)", "true", "what policies share is not told")
+
+bug = in_file("cli/solve.cpp", "^program: replay")
+bug("bound-untold", 'result.contains("bound") && result["bound"] != "1"', "false", "friction up to a bound is called exact")
+
+bug = in_file("certify/claims.cpp", "^program: (usage|certificate|existence)")
+bug("claims-in-space", "problem.dimension != 2", "false", "loops are claimed of problems in space")
+bug("claims-of-any-kind", "kind == ContactKind::kFrictionless || kind == ContactKind::kStatic", "true",
+    "safety is claimed of sliding contacts")
+
+bug = in_file("answers/partings.cpp", VIEWER)
 bug("parting-without-sets", "left.sets == right.sets", "true", "runs that differ in their sets part a step late")
 bug("parting-own-value", "value == row.get(policy)", "false", "a run is compared with itself alone",
     equivalent="a run that is compared with itself parts nowhere")
 bug("parting-at-the-end", "step < both", "true", "a run that is the same is said to part")
 
-bug = in_file("cli/replay_page.cpp", VIEWER)
+bug = in_file("answers/replay_page.cpp", VIEWER)
 bug("loop-from", 'pivots[from]["drive"] <= replay["start"]', 'pivots[from]["drive"] < replay["start"]',
     "the state that stands again is marked a drive early")
 bug("reading-of-friction", "row.id != PolicySwitch::kDrop || !on_normal", "row.id != PolicySwitch::kDrop",

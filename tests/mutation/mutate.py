@@ -33,7 +33,7 @@ sys.dont_write_bytecode = True  # beside the sources
 from mutants import LABELS, MUTANTS, PROGRAMS  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
+SOURCES = ("answers", "bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
 TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 FLAGS = "-O1 -fno-ivopts -DNDEBUG"  # built in half of the time; ivopts of gcc 12 at -O1 miscompiles a generator
@@ -146,7 +146,7 @@ def build(folder, jobs):
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     binary = folder / "build"
     subprocess.run(["cmake", *generator, "-S", folder / "sources", "-B", binary, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSTICTION_WERROR=OFF", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
+                    "-DSTICTION_WERROR=OFF", "-DSTICTION_PYTHON=OFF", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
                    check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", binary, "--parallel", str(jobs), "--target", *TARGETS], check=True)
     return binary

@@ -61,6 +61,8 @@ class Problems(unittest.TestCase):
             self.assertNotIn("\n", str(raised.exception))
         with self.assertRaises(OSError):
             stiction.load("/nowhere.json")
+        with self.assertRaises(OSError):
+            stiction.load(LOOP).save("/nowhere/p.json")
         with self.assertRaisesRegex(ValueError, "method"):
             stiction.solve(stiction.load(LOOP), "guess")
 
@@ -104,6 +106,23 @@ class NoForces(unittest.TestCase):
         answer = stiction.solve(problem, "enumerate")
         self.assertEqual((answer.outcome, answer.f, answer.a), ("no-solution", (), ()))
         self.assertEqual(stiction.certify(problem).kind, "no-solution")
+
+
+class Claims(unittest.TestCase):
+    def test_all_of_the_program_can_be_asked_for_and_others_are_refused(self):
+        problem = stiction.load(LOOP)
+        self.assertEqual(stiction.certify(problem, "safe").kind, "unsafe")
+        with self.assertRaisesRegex(ValueError, "claim: found safest, expected one of .*safe-by-condition"):
+            stiction.certify(problem, "safest")
+        with self.assertRaisesRegex(ValueError, "dimension"):
+            stiction.certify(problem, "coulomb-solution")
+
+    def test_a_check_rejects_what_is_changed(self):
+        problem = stiction.load(LOOP)
+        text = stiction.certify(problem).text
+        self.assertTrue(stiction.check(problem, text))
+        with self.assertRaises(ValueError):
+            stiction.check(problem, text.replace('"1/3"', '"1/4"', 1))
 
 
 class Documented(unittest.TestCase):

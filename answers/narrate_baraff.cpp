@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published algorithm, step by step, in the words of the paper.
 
-#include "cli/narrate.h"
-#include "cli/narrate_text.h"
+#include "answers/narrate.h"
+#include "answers/narrate_text.h"
 
 namespace stiction {
 

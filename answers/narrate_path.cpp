@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "answers/narrate.h"
+#include "answers/narrate_text.h"
 #include "certify/exact.h"
-#include "cli/narrate.h"
-#include "cli/narrate_text.h"
 
 namespace stiction {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An answer in JSON, over any arithmetic.
 
-#ifndef STICTION_CLI_ANSWER_TEXT_H_
-#define STICTION_CLI_ANSWER_TEXT_H_
+#ifndef STICTION_ANSWERS_ANSWER_TEXT_H_
+#define STICTION_ANSWERS_ANSWER_TEXT_H_
 
 #include "certify/solve.h"
 #include "corpus/json_text.h"
@@ -36,4 +36,4 @@ Json CountersToJson(const std::vector<Counter>& counters);
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_ANSWER_TEXT_H_
+#endif  // STICTION_ANSWERS_ANSWER_TEXT_H_

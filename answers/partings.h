@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the other readings of a policy's switches leave its path: which step is the text's, and which a choice.
 
-#ifndef STICTION_CLI_PARTINGS_H_
-#define STICTION_CLI_PARTINGS_H_
+#ifndef STICTION_ANSWERS_PARTINGS_H_
+#define STICTION_ANSWERS_PARTINGS_H_
 
 #include <vector>
 
@@ -25,4 +25,4 @@ std::vector<Parting> PartingsOf(const ExactProblem& problem, const Policy& polic
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_PARTINGS_H_
+#endif  // STICTION_ANSWERS_PARTINGS_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/replay_page.h"
+#include "answers/replay_page.h"
 
-#include "cli/narrate_text.h"
+#include "answers/narrate_text.h"
 
 namespace stiction {
 namespace {

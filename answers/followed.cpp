@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/followed.h"
+#include "answers/followed.h"
 
 #include <algorithm>
 #include <array>
 
-#include "cli/narrate_text.h"
+#include "answers/narrate_text.h"
 #include "corpus/grouped.h"
 
 namespace stiction {

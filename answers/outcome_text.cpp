@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/outcome_text.h"
+#include "answers/outcome_text.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a path method for people and for programs: a line for each step, or all of its numbers.
 
-#ifndef STICTION_CLI_NARRATE_H_
-#define STICTION_CLI_NARRATE_H_
+#ifndef STICTION_ANSWERS_NARRATE_H_
+#define STICTION_ANSWERS_NARRATE_H_
 
 #include <string>
 
+#include "answers/outcome_text.h"
 #include "certify/solve.h"
-#include "cli/outcome_text.h"
 #include "corpus/json_text.h"
 
 namespace stiction {
@@ -37,4 +37,4 @@ Narration NarrateLemke(const ProblemFile& file, const TracedAnswer<Scalar>& answ
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_NARRATE_H_
+#endif  // STICTION_ANSWERS_NARRATE_H_

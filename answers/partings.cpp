@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/partings.h"
+#include "answers/partings.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/problem_text.h"
+#include "answers/problem_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "cli/narrate_text.h"
+#include "answers/narrate_text.h"
 
 namespace stiction {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a path method, told: for `replay`, for its page, and for the page that runs again in a browser.
 
-#ifndef STICTION_CLI_FOLLOWED_H_
-#define STICTION_CLI_FOLLOWED_H_
+#ifndef STICTION_ANSWERS_FOLLOWED_H_
+#define STICTION_ANSWERS_FOLLOWED_H_
 
 #include <fmt/format.h>
 
 #include <string>
 
+#include "answers/answer_text.h"
+#include "answers/outcome_text.h"
+#include "answers/replay_page.h"
 #include "certify/solve.h"
-#include "cli/answer_text.h"
-#include "cli/outcome_text.h"
-#include "cli/replay_page.h"
 
 namespace stiction {
 
@@ -48,4 +48,4 @@ FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Soluti
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_FOLLOWED_H_
+#endif  // STICTION_ANSWERS_FOLLOWED_H_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A problem for people: what stands before a replay; tables of its variables.
 
-#ifndef STICTION_CLI_PROBLEM_TEXT_H_
-#define STICTION_CLI_PROBLEM_TEXT_H_
+#ifndef STICTION_ANSWERS_PROBLEM_TEXT_H_
+#define STICTION_ANSWERS_PROBLEM_TEXT_H_
 
 #include <string>
 #include <vector>
 
-#include "cli/outcome_text.h"
+#include "answers/outcome_text.h"
 #include "corpus/problem_file.h"
 
 namespace stiction {
@@ -23,4 +23,4 @@ std::string ProblemText(const ExactProblem& problem, FractionText fractions);
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_PROBLEM_TEXT_H_
+#endif  // STICTION_ANSWERS_PROBLEM_TEXT_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and outcomes, for programs and for people.
 
-#ifndef STICTION_CLI_OUTCOME_TEXT_H_
-#define STICTION_CLI_OUTCOME_TEXT_H_
+#ifndef STICTION_ANSWERS_OUTCOME_TEXT_H_
+#define STICTION_ANSWERS_OUTCOME_TEXT_H_
 
 #include <string>
 
@@ -33,4 +33,4 @@ std::string Describe(const Verdict& verdict);
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_OUTCOME_TEXT_H_
+#endif  // STICTION_ANSWERS_OUTCOME_TEXT_H_

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the narrations of all path methods need: numbers, names of variables, kinds of contacts.
 
-#ifndef STICTION_CLI_NARRATE_TEXT_H_
-#define STICTION_CLI_NARRATE_TEXT_H_
+#ifndef STICTION_ANSWERS_NARRATE_TEXT_H_
+#define STICTION_ANSWERS_NARRATE_TEXT_H_
 
 #include <fmt/format.h>
 
 #include <string>
 #include <vector>
 
-#include "cli/outcome_text.h"
+#include "answers/outcome_text.h"
 #include "corpus/problem_file.h"
 #include "solver/problem/answer.h"
 
@@ -80,4 +80,4 @@ std::string KindsText(const ExactProblem& problem, FractionText fractions);
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_NARRATE_TEXT_H_
+#endif  // STICTION_ANSWERS_NARRATE_TEXT_H_

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of path methods on one problem, as the viewer wants them.
 
-#ifndef STICTION_CLI_REPLAY_PAGE_H_
-#define STICTION_CLI_REPLAY_PAGE_H_
+#ifndef STICTION_ANSWERS_REPLAY_PAGE_H_
+#define STICTION_ANSWERS_REPLAY_PAGE_H_
 
 #include <string>
 #include <vector>
 
-#include "cli/narrate.h"
-#include "cli/partings.h"
+#include "answers/narrate.h"
+#include "answers/partings.h"
 
 namespace stiction {
 
@@ -25,4 +25,4 @@ Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vec
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_REPLAY_PAGE_H_
+#endif  // STICTION_ANSWERS_REPLAY_PAGE_H_
