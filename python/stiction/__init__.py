@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction: contact forces with friction by pivoting, from Python.
 
-Names are those of the command line. Bad input is a ValueError with the program's one line, a file that cannot be
-written or opened an OSError. Exact numbers are fractions.Fraction, those of floating point float.
+Names are those of the command line. Bad input, a place to write that is none among it, is a ValueError with the
+program's one line; a file that cannot be opened, and a full disk, an OSError. Exact numbers are fractions.Fraction, those of floating point float.
 """
 from __future__ import annotations
 
@@ -186,7 +186,10 @@ def replay(problem: Problem, policy: str = "paper", method: str = "baraff") -> R
 
 
 def certify(problem: Problem, claim: str = "solution-exists", policy: str = "paper") -> Certificate | None:
-    """A certificate of the claim, one that `stiction certify --claim` knows, or of its negation; None where nothing that was run shows either."""
+    """A certificate of a claim that `stiction certify --claim` knows, or of its negation.
+
+    None where nothing that was run shows either.
+    """
     text = _stiction.certify(problem._problem, claim, policy)
     return None if text is None else Certificate(json.loads(text)["claim"], text)
 

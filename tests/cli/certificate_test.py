@@ -106,6 +106,21 @@ class Certificates(cli.TestCase):
             self.assertEqual(done.code, 74, done.err)
             self.assertIn("/dev/full: cannot be written", done.err)
 
+    def test_a_claim_is_made_of_problems_of_its_kind_alone(self):
+        sliding = cli.ROOT / "corpus" / "sliding" / "rod-without-solution.json"
+        space = cli.ROOT / "corpus" / "space" / "cycle-under-both-slips.json"
+        plane, out = self.file("p.json", cli.SOLVED), self.folder / "c.json"
+        for file, words, says in [
+                (sliding, ("--claim", "safe"), ["contacts[0].kind", "sliding", "frictionless or static: safety"]),
+                (sliding, ("--claim", "safe-by-condition"), ["contacts[0].kind", "safety"]),
+                (space, ("--claim", "cycle"), ["dimension", "the plane only"]),
+                (space, ("--claim", "counterexample"), ["dimension", "the plane only"]),
+                (plane, ("--claim", "coulomb-solution"), ["dimension", "solution-exists"])]:
+            self.refuses("certify", file, "-o", out, *words, says=[file, *says])
+        for words in (("--safe",), ("--robust",)):
+            self.refuses("certify", sliding, *words, says=["contacts[0].kind", "frictionless or static"])
+        self.refuses("certify", space, "--all", says=["dimension", "the plane only"])
+
     def test_an_asymmetric_matrix_is_not_called_semidefinite(self):
         file = self.file("p.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})
         self.refuses("certify", file, "-o", self.folder / "c.json", "--claim", "psd")

@@ -325,9 +325,9 @@ class Replay(cli.TestCase):
         # What the summary says of switches holds for each policy that it counts.
         mixed = cli.ROOT / "corpus" / "cycle-or-singular-by-policy.json"
         by_policy = cli.run("replay", mixed, "--all-policies", "--json").json()["policies"]
-        for line in cli.run("replay", mixed, "--all-policies").out.splitlines():
-            if " all with " not in line:
-                continue
+        lines = [line for line in cli.run("replay", mixed, "--all-policies").out.splitlines() if " all with " in line]
+        self.assertEqual([line.split(":")[0] for line in lines], ["cycle", "singular", "solved"])
+        for line in lines:
             outcome = line.split(":")[0]
             for words in line.split(" all with ")[1].split(", "):
                 switch, values = words.split("=")

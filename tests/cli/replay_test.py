@@ -67,7 +67,11 @@ class ForPeople(cli.TestCase):
             self.assertRegex(words, rf"(?m)^  ([^ ].*, )?{re.escape(word)} ")
         for word in ("fold", "ray", "NCF", "singular", "cell"):
             self.assertNotRegex(words, rf"(?m)^  {word} ")
-        self.assertRegex(self.succeeds("replay", file, "--method", "complete", "--step").out, r"(?m)^  cell, cells ")
+        complete = self.succeeds("replay", file, "--method", "complete", "--step").out
+        self.assertIn("is driven", complete)
+        words = complete[complete.index("The words"):]
+        self.assertRegex(words, r"(?m)^  cell, cells ")
+        self.assertNotRegex(words, r"(?m)^  drive ")
 
     def test_the_state_that_recurs_is_marked_where_it_stands(self):
         file = cli.ROOT / "corpus" / "cycle-every-policy-mu-1.json"

@@ -477,8 +477,8 @@ bug = in_file("certify/filtered.cpp", FILTERED)
 bug("no-second-rung", "Rung::kDoubleDouble <= rungs.last", "false", "double-doubles are never asked")
 bug("rungs-beyond-last", "rungs.last != Rung::kExact", "false", "rationals are asked where they were not wanted",
     equivalent="the verdict is the same, only slower")
-bug("complete-upper-lower", "return Mode::kSlipMinus;  // fF = mu fN", "return Mode::kSlipPlus;",
-    "the last word slides the wrong way, and rationals must help")
+bug("complete-upper-lower", "Mode::kSlipMinus", "Mode::kSlipPlus",
+    "the last word slides the wrong way, and rationals must help", context="return Mode::kSlipMinus;  // fF = mu fN")
 bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)", "TryPublished<dd_real>(remaining, options, nullptr)",
     "zeros of singular matrices are unsure")
 
@@ -501,7 +501,8 @@ bug("wrong-answer-threshold", "!(residual() <= kWrongAnswer)", "!(residual() <= 
 bug("misjudged-not-counted", "tally.misjudged += misjudged;", "", "misjudged runs are not counted")
 bug("misjudged-stratum-not-counted", "stratum.misjudged += misjudged;", "", "misjudged runs are not counted by friction and rank")
 bug("exact-stratum-not-counted", "++stratum.exact[static_cast<int>(exact)];", "", "exact outcomes are not counted by friction and rank")
-bug("loop-words-unkept", "if (!loop.named) result_.record.words", "if (loop.named) result_.record.words", "words are kept where the signature has one")
+bug("loop-words-unkept", "!loop.named", "loop.named", "words are kept where the signature has one",
+    context="if (!loop.named) result_.record.words")
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
 bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
     "wrong solutions are counted as solved")
@@ -556,7 +557,7 @@ bug("lanes-singular", "singular_directions_ += Select(driving_ & singular, All(1
     "singular directions are not counted in lanes")
 bug("lanes-inconsistent", "Leave(driving_ & inconsistent);", "", "lanes go on where a direction system has no solution")
 bug("lanes-infinite", "Leave(driving_ & ~(sum <= __DBL_MAX__));", "", "lanes go on with numbers that are not finite")
-bug("lanes-power", "~along & ", "", "lanes take friction that pushes for one that holds",
+bug("lanes-power", "~along", "~(along & ~along)", "lanes take friction that pushes for one that holds",
     context="return ~(slack < -force_tolerance_) & ~along & (~(a_positive | a_negative) | ~(slack > force_tolerance_));")
 bug("lanes-second-limit", "second.exists & ~(first.exists & ~(second.s < first.s))", "second.exists & ~first.exists",
     "in lanes the second limit of a friction never comes first")
@@ -658,7 +659,8 @@ bug("work-added", "work.Unite(ReadWorkRow(row));", "work.Add(ReadWorkRow(row));"
 
 bug = in_file("search/backlog.cpp", "^search: backlog")
 bug("no-bound", "size >= *most_", "false", "the backlog has no bound")
-bug("grave-waits-not", "!IsGrave(finding.kind) && ", "", "a grave finding may be left out")
+bug("grave-waits-not", "IsGrave(finding.kind)", "false", "a grave finding may be left out",
+    context="!IsGrave(finding.kind) && !finding.done")
 bug("outdated-back", "admitted->second.unit != entry.finding.unit", "false", "what was replaced meanwhile waits again")
 
 bug = in_file("search/finishing_time.h", "^search: finishing")
@@ -794,16 +796,17 @@ bug("since-always-more", "discovery.met > before->second.met", "discovery.met >=
 bug("since-gone-hidden", "if (present.count(signature) > 0) continue;", "continue;", "what is gone is not told")
 
 bug = in_file("reports/report.cpp", "^reports: ")
-bug("files-by-interest", "[simplest](const Discovery* d) { return d == simplest; }", "[](const Discovery*) { return false; }",
+bug("files-by-interest", "d == simplest", "false",
     "the simplest loop, which the page shows, has no files")
 bug("one-file-more", "static_cast<std::int64_t>(kept.size()) < most", "static_cast<std::int64_t>(kept.size()) <= most",
     "one finding more has files")
 
 bug = in_file("reports/sentences.cpp", "^reports: ")
-bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] +", "sums.suspicions +",
+bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] + sums.exact[static_cast<int>(Outcome::kStall)]",
+    "sums.suspicions",
     "every suspicion is told as a loop")
-bug("all-solved", 'all.solved == all.problems ? "Solutions exist, and are found."',
-    'true ? "Solutions exist, and are found."', "problems that were not solved are not told")
+bug("all-solved", 'all.solved == all.problems', "true", "problems that were not solved are not told",
+    context='all.solved == all.problems ? "Solutions')
 
 bug = in_file("reports/template.cpp", "^reports: ")
 bug("mark-twice", "page.find(mark, at + 1) == page.npos", "true", "a mark that stands twice is filled once")
@@ -851,7 +854,7 @@ bug("all-rounded", "text.size() <= kLong", "text.size() <= 2", "short fractions 
 bug("none-rounded", "fractions == FractionText::kFull", "true", "long fractions stand in full")
 
 bug = in_file("cli/words.cpp", "^program: replay")
-bug("part-of-a-word", "belongs(text[at - 1])", "false", "F is found in NCF")
+bug("part-of-a-word", "belongs(text[end])", "false", "drive is found in driven")
 
 bug = in_file("cli/replay.cpp", "^program: problem")
 bug("nothing-in-common", "of_some == values(grid)", "true", "what policies share is not told")

@@ -57,6 +57,15 @@ def place(mutant, text):
     return begin, begin + len(mutant.original)
 
 
+def is_expression(code):
+    """As far as one can tell without a compiler: nothing, half of a ?:, a statement or an operator without its operand is none."""
+    code = re.sub(r'"[^"]*"|\'[^\']*\'', "0", code).strip()
+    body = re.sub(r"\{.*\}", "{}", code)
+    return (code != "" and ";" not in body and not re.match(r"(return|if|for|while|else)\b", code)
+            and not re.match(r"([/%+<>=|^?:,]|[*&-] |&&)", code) and not re.search(r"[&|+*/%<>=^?:,!~-]$", code)
+            and body.count("?") <= len(re.findall(r"(?<!:):(?!:)", body)))
+
+
 def check_form(mutant):
     """Only an expression, or statements that declare nothing, can be chosen between."""
     for code in (mutant.original, mutant.mutated):
@@ -69,6 +78,8 @@ def check_form(mutant):
             raise Refused(f"{mutant.id}: found a bracket without its partner in {code!r}")
         if code.endswith(";") and re.match(r"(const|auto|bool|int)\b", code):
             raise Refused(f"{mutant.id}: found a declaration, expected its value alone: {code!r}")
+        if not mutant.original.endswith(";") and not is_expression(code):
+            raise Refused(f"{mutant.id}: found {code!r}, expected an expression, since what it replaces ends in no ';'")
 
 
 def numbered():
@@ -130,7 +141,7 @@ def copy_sources(target):
     """The sources, with the mutants; what is no longer there goes."""
     mutated, kept = mutated_files(), set()
     folders = [path for name in SOURCES for path in (ROOT / name).rglob("*") if path.is_file()]
-    for path in [ROOT / "CMakeLists.txt", *folders]:
+    for path in [ROOT / "CMakeLists.txt", ROOT / "CITATION.cff", *folders]:
         name = path.relative_to(ROOT)
         if "__pycache__" in name.parts:
             continue

@@ -61,7 +61,7 @@ class Problems(unittest.TestCase):
             self.assertNotIn("\n", str(raised.exception))
         with self.assertRaises(OSError):
             stiction.load("/nowhere.json")
-        with self.assertRaises(OSError):
+        with self.assertRaisesRegex(ValueError, "/nowhere/p.json: cannot be written"):
             stiction.load(LOOP).save("/nowhere/p.json")
         with self.assertRaisesRegex(ValueError, "method"):
             stiction.solve(stiction.load(LOOP), "guess")
