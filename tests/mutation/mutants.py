@@ -475,8 +475,7 @@ bug("ball-earliest", "(gap.Size() - gap.radius()) / (rate.Size() + rate.radius()
 
 bug = in_file("certify/filtered.cpp", FILTERED)
 bug("no-second-rung", "Rung::kDoubleDouble <= rungs.last", "false", "double-doubles are never asked")
-bug("rungs-beyond-last", "rungs.last != Rung::kExact", "false", "rationals are asked where they were not wanted",
-    equivalent="the verdict is the same, only slower")
+bug("rungs-beyond-last", "rungs.last != Rung::kExact", "false", "rationals are asked where they were not wanted")
 bug("complete-upper-lower", "Mode::kSlipMinus", "Mode::kSlipPlus",
     "the last word slides the wrong way, and rationals must help", context="return Mode::kSlipMinus;  // fF = mu fN")
 bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)", "TryPublished<dd_real>(remaining, options, nullptr)",
@@ -562,8 +561,7 @@ bug("lanes-power", "~along", "~(along & ~along)", "lanes take friction that push
 bug("lanes-second-limit", "second.exists & ~(first.exists & ~(second.s < first.s))", "second.exists & ~first.exists",
     "in lanes the second limit of a friction never comes first")
 bug("lanes-give-up", "Leave(moves & ~is_driven_[row] & (wants_ == last_left_[row]) & zero);", "",
-    "what is given up does not leave the lanes",
-    equivalent="a variable that wants back in a step of length zero does so again and again, until the bound on steps")
+    "what is given up does not leave the lanes")
 bug = in_file("search/finish.cpp", "^search: finish")
 bug("safe-once-minimized", 'if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;',
     "", "a cycle that is safe once minimized is one like others")
