@@ -82,17 +82,16 @@ std::string WholeEnd(const TracedAnswer<Scalar>& answer, const Solution& solutio
   return answer.word.empty() ? text : text + fmt::format("cells {}\n", answer.word);
 }
 
-void PrintForPeople(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
-                    const Narration& narration) {
-  std::visit(
+// The run as text, to its outcome.
+std::string ToldForPeople(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
+                          const Narration& narration) {
+  return std::visit(
       [&](const auto& answer) {
         const std::string reading = o.method == "baraff" ? "policy " + o.policy : "method " + o.method;
-        const std::string told = (o.step ? narration.steps : narration.table) + WholeEnd(answer, solution);
-        fmt::print("{}: {} contacts{}, {}, {}\n{}{}", file.name, file.problem.contacts.size(),
-                   file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
-                   o.step ? ProblemText(file.problem, o.as()) : "", told);
-        if (o.step)
-          fmt::print("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
+        return fmt::format("{}: {} contacts{}, {}, {}\n{}{}{}", file.name, file.problem.contacts.size(),
+                           file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
+                           o.step ? ProblemText(file.problem, o.as()) : "",
+                           o.step ? narration.steps : narration.table, WholeEnd(answer, solution));
       },
       solution.answer);
 }
@@ -149,9 +148,12 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     json["expected"] = expected;
     std::cout << JsonText(json) << "\n";
   } else {
-    PrintForPeople(o, file, solution, narration);
-    if (proved) fmt::print("{}\n", OverIntervalsText(*proved));
-    if (!expected.empty() && expected != Name(solution.outcome())) fmt::print("expected: {}\n", expected);
+    std::string told = ToldForPeople(o, file, solution, narration);
+    if (proved) told += OverIntervalsText(*proved) + "\n";
+    if (!expected.empty() && expected != Name(solution.outcome())) told += "expected: " + expected + "\n";
+    fmt::print("{}", told);
+    if (o.step)
+      fmt::print("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
   }
   return ExitOf(solution.outcome(), expected);
 }

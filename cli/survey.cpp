@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "answers/answer_text.h"
 #include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/exact.h"
@@ -16,7 +17,6 @@
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
-#include "answers/answer_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"

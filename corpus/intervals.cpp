@@ -42,8 +42,9 @@ std::string WithInterval(double value, Interval interval, double scale, const ch
                      Rounded(ends.high, digits));
 }
 
-// Quantiles of the gamma distribution by the expansion of E. A. Cornish and R. A. Fisher (1937): its next term is
-// below 1e-4 from 1e9 events on, where the series of the library take too long and, from some 5e10 on, throw.
+// Quantiles of the gamma distribution by the expansion of E. A. Cornish and R. A. Fisher (1937): its next term
+// is below 1e-4 from 1e9 events on, where the series of the library take too long and, from some 5e10 on,
+// throw.
 Interval OfManyEvents(double n) {
   const double z = boost::math::constants::root_two<double>() * boost::math::erfc_inv(2 * kTail);
   const double skew = (z * z - 1) / 3;

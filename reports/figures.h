@@ -18,7 +18,8 @@ struct ReportContent;
 struct FigureTable {
   std::string name;
   std::vector<std::string> columns;
-  Json rows = Json::array();  // of arrays of texts, integers, and doubles of six digits or as many as an interval takes
+  Json rows =
+      Json::array();  // of arrays of texts, integers, and doubles of six digits or as many as an interval takes
 };
 
 // Those that have something to draw, in the order of the page. Rates are in a million runs, shares of 1; `low`

@@ -2,7 +2,8 @@
 """stiction: contact forces with friction by pivoting, from Python.
 
 Names are those of the command line. Bad input, a place to write that is none among it, is a ValueError with the
-program's one line; a file that cannot be opened, and a full disk, an OSError. Exact numbers are fractions.Fraction, those of floating point float.
+program's one line; a file that cannot be opened, and a full disk, an OSError. Exact numbers are fractions.Fraction,
+those of floating point float.
 """
 from __future__ import annotations
 

@@ -72,6 +72,8 @@ class ForPeople(cli.TestCase):
         words = complete[complete.index("The words"):]
         self.assertRegex(words, r"(?m)^  cell, cells ")
         self.assertNotRegex(words, r"(?m)^  drive ")
+        loop = self.succeeds("replay", SPACE / "cycle-under-both-slips.json", "--step").out
+        self.assertLess(loop.index("over intervals, proved"), loop.index("The words"))
 
     def test_the_state_that_recurs_is_marked_where_it_stands(self):
         file = cli.ROOT / "corpus" / "cycle-every-policy-mu-1.json"

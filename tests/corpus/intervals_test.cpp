@@ -77,7 +77,8 @@ TEST_CASE("intervals: each end leaves 2.5 % beyond it") {
   }
 }
 
-TEST_CASE("intervals: of many events, on both sides of where they are expanded, and of more than a century has") {
+TEST_CASE(
+    "intervals: of many events, on both sides of where they are expanded, and of more than a century has") {
   const Interval below = CountInterval(1000000000), above = CountInterval(1000000001);
   CHECK(above.low - below.low == Approx(1).margin(1e-3));
   CHECK(above.high - below.high == Approx(1).margin(1e-3));
@@ -103,7 +104,8 @@ TEST_CASE("intervals: texts have as many digits as tell the ends from the value"
   CHECK(RateText(25000001, 10000000000) == "2,500 [2,499, 2,501]");
   CHECK(ShareText(10000000, 10000000) == "100 % [99.99996, 100]");
   CHECK(ShareText(0, 10000000) == "0 % [0, 3.69e-05]");
-  for (const std::int64_t count : {std::int64_t{1}, std::int64_t{999}, std::int64_t{1000000}, std::int64_t{1} << 40}) {
+  for (const std::int64_t count :
+       {std::int64_t{1}, std::int64_t{999}, std::int64_t{1000000}, std::int64_t{1} << 40}) {
     for (const std::string& text : {RateText(count, count * 3), ShareText(count, count * 3)}) {
       const auto open = text.find('['), comma = text.find(", ", open);
       const std::string value = text.substr(0, text.find(' '));
