@@ -26,15 +26,15 @@ int BecomeBench(const BenchCommand& o) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(program.c_str(), arguments.data());
-  throw InputError(
-      fmt::format("{}: cannot be run: {}; expected the program stiction-bench, which `./run bench` builds",
-                  program.string(), std::strerror(errno)));
+  throw InputError(fmt::format("{}: cannot be run: {}; expected the program stiction-bench beside this one",
+                               program.string(), std::strerror(errno)));
 }
 
 }  // namespace
 
 void AddBench(CommandLine& program) {
   auto [verb, o] = program.Add("bench", "Benchmark tables", BecomeBench);
+  verb.footer = "Its words are read by the program stiction-bench: `stiction bench --help` has them.";
   verb.rest = &o.words;
 }
 

@@ -2,7 +2,6 @@
 // stiction certify, stiction check: claims with exact witnesses, made and verified.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
@@ -36,15 +35,14 @@ struct CertifyOptions {
   Limits limits;
 };
 
-void ShowProgress(const EnumerationProgress& progress) {
-  fmt::print(stderr, "\r\033[K{:.1f} % of all mode words, {} linear programs, {} solutions",
-             100 * progress.decided, progress.programs, progress.solutions);
-}
-
-EnumerationOptions WithProgress(EnumerationOptions options) {
-  if (isatty(STDERR_FILENO) == 0) return options;
-  options.progress = [](const EnumerationProgress& progress) {
-    if (progress.prefixes % 64 == 0) ShowProgress(progress);
+// Of an enumeration, from when it begins to when the bar goes.
+EnumerationOptions Shown(ProgressBar& bar) {
+  EnumerationOptions options;
+  options.progress = [&bar](const EnumerationProgress& progress) {
+    if (progress.prefixes % 64 == 0) {
+      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {} linear programs, {} solutions",
+                                             100 * progress.decided, progress.programs, progress.solutions));
+    }
     return true;
   };
   return options;
@@ -72,7 +70,9 @@ std::string SolutionsText(const Enumeration& modes) {
 // All words that have solutions, with a witness each.
 int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   RequirePlanar(file.problem, o.file);
-  const Enumeration modes = EnumerateModes(file.problem, WithProgress({}));
+  ProgressBar bar;
+  const Enumeration modes = EnumerateModes(file.problem, Shown(bar));
+  bar.Clear();
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
     words.push_back(
@@ -158,9 +158,14 @@ std::string ConditionText(const Json& condition) {
 
 std::string SafetyText(const Json& result, bool has_words) {
   const Json& safe = result["safe"];
-  std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
-                     : safe.get<bool>() ? "safe\n"
-                                        : "unsafe\n";
+  std::string text =
+      safe.is_null() ? "undecided: too many words, and the condition does not tell\n"
+      : safe.get<bool>()
+          ? "safe: the determinants of all words are positive, so complete driving has no fold, and the "
+            "published\n"
+            "algorithm under apex=suspended, ties apart, nothing to give up\n"
+          : "unsafe: a word has a determinant that is not positive; there complete driving may fold, and the\n"
+            "published algorithm give up\n";
   if (result.contains("threshold")) {
     text += "uniform mu: safe below " + ThresholdText(result["threshold"]) + "\n";
   } else if (has_words) {
@@ -251,8 +256,10 @@ int RunCertify(const CertifyOptions& o) {
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
+  ProgressBar bar;
   const Json certificate =
-      CertifyClaim(file.problem, o.file, o.claim, {PoliciesNamed(o.policy), o.limits, WithProgress({})});
+      CertifyClaim(file.problem, o.file, o.claim, {PoliciesNamed(o.policy), o.limits, Shown(bar)});
+  bar.Clear();
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");

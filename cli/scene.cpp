@@ -252,7 +252,7 @@ class SimulationProgress {
  public:
   void Show(std::int64_t done, std::int64_t steps, double time) {
     const auto now = Clock::now();
-    if (!bar_.IsShown() || now - shown_ < std::chrono::milliseconds(500)) return;
+    if (now - shown_ < std::chrono::milliseconds(500)) return;
     shown_ = now;
     const double fraction = static_cast<double>(done) / static_cast<double>(steps);
     const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;

@@ -106,12 +106,20 @@ const std::atomic<bool>& Interruption() {
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressBar::Show(double fraction, const std::string& text) const {
+void ProgressBar::Show(double fraction, const std::string& text) {
   constexpr int kWidth = 20;
-  if (!terminal_) return;
+  if (!terminal_) return Log(fraction, text);
   const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
   fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
   std::fflush(stderr);
+}
+
+void ProgressBar::Log(double fraction, const std::string& text) {
+  constexpr double kFirst = 10, kLast = 600;  // seconds between lines
+  const double now = watch_.Seconds();
+  if (now - last_ < std::clamp(now / 20, kFirst, kLast)) return;
+  last_ = now;
+  fmt::print(stderr, "{:.0f} s, {:.0f} %: {}\n", now, 100 * std::clamp(fraction, 0.0, 1.0), text);
 }
 
 void ProgressBar::Clear() const {

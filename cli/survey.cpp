@@ -427,6 +427,71 @@ void PrintEntry(const Json& entry) {
   if (entry.contains("symmetrized")) PrintRuns("  (A + A')/2", "", "0", entry["symmetrized"]);
 }
 
+// ---- In sentences ----------------------------------------------------------------------------
+
+std::string AssumptionsText(const Json& facts) {
+  if (facts["meets assumptions"] == true)
+    return "meets the paper's assumptions: A is symmetric and semidefinite, b in its range";
+  if (facts["meets assumptions"].is_null())
+    return "may meet the paper's assumptions: nothing fails, but bounds do not decide them all";
+  std::vector<std::string> failing;
+  if (facts["asymmetry"]["difference"] != 0) failing.emplace_back("A is not symmetric");
+  if (facts["curvature"]["psd"] == false) failing.emplace_back("A is not semidefinite");
+  if (facts["range"]["in-range"] == false) failing.emplace_back("b is not in the range of A");
+  return fmt::format("does not meet the paper's assumptions: {}", fmt::join(failing, ", "));
+}
+
+// The first run that says whether there is a solution, and what the published algorithm does.
+std::string RunsText(const Json& facts) {
+  std::string existence = "no method that was tried solved it", published;
+  bool found = false;
+  for (const Json& run : facts["runs"]) {
+    const std::string method = run["method"].get<std::string>(), outcome = run["outcome"].get<std::string>();
+    const bool exact = run.value("arithmetic", "") == "exact";
+    if (method == "baraff") {
+      const bool loops = outcome == Name(Outcome::kCycle);
+      published = fmt::format("; the published algorithm {} {}",
+                              loops                 ? "loops for ever"
+                              : outcome == "solved" ? "solves it"
+                                                    : "ends in " + outcome,
+                              exact ? "(policy paper, exactly)" : "(policy paper, over doubles)");
+    }
+    if (found || (outcome != "solved" && outcome != "no-solution")) continue;
+    found = true;
+    existence = outcome == "no-solution"
+                    ? "it has no solution, as a certificate says"
+                    : fmt::format("{} solves it {}, with a residual of {}", method,
+                                  exact ? "exactly" : "over doubles", Short(run["residual"].get<double>()));
+  }
+  return existence + published;
+}
+
+std::string SentencesText(const Json& entry) {
+  std::string text =
+      fmt::format("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
+  if (!entry.contains("symmetrized")) return text;
+  const Json& symmetrized = entry["symmetrized"];
+  return text + fmt::format("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n",
+                            AssumptionsText(symmetrized), RunsText(symmetrized));
+}
+
+// Of many problems, how many meet the assumptions.
+std::string MeetingText(const Json& entries) {
+  int meet = 0, fail = 0, open = 0, unread = 0;
+  for (const Json& entry : entries) {
+    if (entry.contains("error")) {
+      ++unread;
+    } else {
+      const Json& meets = entry["meets assumptions"];
+      ++(meets == true ? meet : meets == false ? fail : open);
+    }
+  }
+  std::string text = fmt::format("Of {} problems {} meet the paper's assumptions, {} do not, {} are undecided",
+                                 entries.size(), meet, fail, open);
+  if (unread > 0) text += fmt::format(", {} could not be read", unread);
+  return text + ".\n";
+}
+
 // How often each method ended how.
 void PrintCounts(const Json& entries, bool suspicions) {
   std::map<std::string, std::map<std::string, int>> counts;
@@ -437,7 +502,8 @@ void PrintCounts(const Json& entries, bool suspicions) {
       ++counts[method][run["outcome"].get<std::string>()];
     }
   }
-  fmt::print("\n{} problems{}\n", entries.size(), suspicions ? "; exact: those that doubles leave open" : "");
+  fmt::print("\n{}Each method, and how it ended{}:\n", MeetingText(entries),
+             suspicions ? "; exact: those that doubles leave open" : "");
   for (const auto& [method, outcomes] : counts) {
     std::vector<std::string> parts;
     for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
@@ -453,21 +519,29 @@ int Survey(const SurveyOptions& o) {
     fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "residual", "seconds",
                "outcome");
   }
-  for (const std::filesystem::path& file : FilesOf(o.paths)) {
+  ProgressBar bar;
+  const std::vector<std::filesystem::path> files = FilesOf(o.paths);
+  for (const std::filesystem::path& file : files) {
+    bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
+             fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
     try {
       Json entry = Judge(ReadAny(file), file.string(), o);
       entry["file"] = file.string();
+      bar.Clear();
       if (!o.json) PrintEntry(entry);
       std::fflush(stdout);
       entries.push_back(std::move(entry));
     } catch (const InputError& error) {
       exit = kExitBadInput;
+      bar.Clear();
       fmt::print(stderr, "stiction: {}\n", error.what());
       entries.push_back({{"file", file.string()}, {"error", error.what()}});
     }
   }
   if (o.json) std::cout << JsonText(entries) << "\n";
   if (!o.json && entries.size() > 1) PrintCounts(entries, o.suspicions);
+  if (!o.json && entries.size() == 1 && entries[0].contains("runs"))
+    fmt::print("{}", SentencesText(entries[0]));
   return exit;
 }
 

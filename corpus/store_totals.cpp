@@ -10,6 +10,7 @@
 
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
+#include "corpus/program_name.h"
 
 namespace stiction {
 namespace {
@@ -129,7 +130,7 @@ std::string TimeText(const ProcessorTime& time) {
 }
 
 std::string FinishCommand(const std::string& file) {
-  return fmt::format("./run search --store {} --finish", file);
+  return fmt::format("{} search --store {} --finish", ProgramName(), file);
 }
 
 }  // namespace stiction

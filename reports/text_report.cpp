@@ -13,6 +13,7 @@
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
+#include "corpus/program_name.h"
 #include "corpus/store_totals.h"
 #include "reports/discovery.h"
 #include "reports/friction_order.h"
@@ -282,11 +283,12 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
   text += Paragraph(FindingText(*first) + ".") +
           ProblemText(ParseProblem(first->minimized, first->signature).problem);
   text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
-  text += Command(fmt::format("./run report {} -o report", ShellWord(file)));
-  text += Command(fmt::format("./run replay {} --step{}", problem, policy));
-  text += Command(fmt::format("./run replay {} --html loop.html{}", problem, policy));
+  text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
+  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, policy));
+  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, policy));
   text += Paragraph("The problem as the search drew it:");
-  text += Command(fmt::format("./run problem {} {} {}", ShellWord(file), first->unit, first->index));
+  text +=
+      Command(fmt::format("{} problem {} {} {}", ProgramName(), ShellWord(file), first->unit, first->index));
   return text;
 }
 
@@ -347,8 +349,8 @@ std::string SummaryText(const Store& store, const std::string& file) {
   return HeadLine(t, store, file) + GraveLines(t) + Findings(t) + FinishText(t, file) +
          Paragraph(TimeText(t.work.time)) + SimplestText(t) +
          "More, as text, and all, as a page with files to replay and check; the same search again goes on:\n" +
-         Command(fmt::format("./run report {} --text", ShellWord(file))) +
-         Command(fmt::format("./run report {} -o report", ShellWord(file)));
+         Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
+         Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
 }
 
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as) {

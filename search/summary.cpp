@@ -6,6 +6,7 @@
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
+#include "corpus/program_name.h"
 #include "corpus/store_totals.h"
 #include "search/adversary/optimized_unit.h"
 
@@ -171,10 +172,10 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);
   text += fmt::format(
-      "The best as a problem file: ./run problem {0} --best -o best.json; all: ./run report {0} -o report; the "
+      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report; the "
       "same "
       "search again goes on.\n",
-      file);
+      file, ProgramName());
   return text;
 }
 

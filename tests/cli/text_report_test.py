@@ -3,7 +3,9 @@
 
 import csv
 import hashlib
+import os
 import shutil
+import subprocess
 
 import cli
 
@@ -39,11 +41,18 @@ class TextReport(cli.TestCase):
 
     def test_the_commands_of_the_text_replay_its_loop(self):
         text = self.succeeds("report", self.high, "--text").out
-        commands = [line.split() for line in text.splitlines() if line.startswith("    ./run ")]
+        commands = [line.split() for line in text.splitlines() if line.startswith("    stiction ")]
         self.assertGreaterEqual(len(commands), 4)
         for command in commands:  # a replay that ends as its file expects exits with 0
             self.succeeds(*command[1:], cwd=self.folder)
         self.assertTrue((self.folder / "loop.html").exists())
+
+    def test_commands_begin_as_the_program_was_called(self):
+        called = dict(os.environ, STICTION_PROGRAM="../run")
+        for words in (("report", self.high, "--text"), ("status", self.high), ("status", self.best)):
+            said = subprocess.run([cli.program, *words], env=called, capture_output=True, text=True).stdout
+            self.assertIn("../run report ", said)
+            self.assertEqual(said.replace("../run ", "stiction "), self.succeeds(*words).out)
 
     def test_a_difference_that_is_more_than_noise_exits_with_1(self):
         out = self.folder / "comparison"

@@ -11,7 +11,7 @@ function obstacleOf({problem, rows}) {
   if (problem.dimension === 3)
     return 'In space forces are irrational: problems of the plane alone can be edited and run again here.';
   if (rows.length > kMostRows)
-    return `Problems of at most ${kMostRows} rows can be edited here; ./run replay takes more.`;
+    return `Problems of at most ${kMostRows} rows can be edited here; stiction replay takes more.`;
   return '';
 }
 
