@@ -5,10 +5,10 @@
 
 #include <iostream>
 
+#include "answers/version.h"
 #include "certify/claims.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "search/adversary/record.h"

@@ -12,10 +12,10 @@
 #include <set>
 #include <thread>
 
+#include "answers/version.h"
 #include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"

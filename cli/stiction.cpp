@@ -8,8 +8,8 @@
 #include <iostream>
 #include <new>
 
+#include "answers/version.h"
 #include "cli/verbs.h"
-#include "cli/version.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/output_error.h"

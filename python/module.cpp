@@ -20,6 +20,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"
+#include "python/search.h"
 
 namespace stiction {
 namespace {
@@ -253,6 +254,8 @@ PYBIND11_MODULE(_stiction, module) {
   py::class_<PythonProblem>(module, "Problem")
       .def_static("from_doubles", &FromDoubles)
       .def_static("from_texts", &FromTexts)
+      .def_static("parse", [](const std::string& text,
+                              const std::string& source) { return PythonProblem(ParseProblem(text, source)); })
       .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
       .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, Print(p.file)); })
       .def("digest", [](const PythonProblem& p) { return ProblemDigest(p.file.problem); })
@@ -277,6 +280,7 @@ PYBIND11_MODULE(_stiction, module) {
   module.def("replay", &ReplayProblem);
   module.def("certify", &CertifyProblem);
   module.def("check", &CheckText);
+  AddSearch(module);
 }
 
 }  // namespace stiction

@@ -97,8 +97,6 @@ Arithmetic ParseSearchArithmetic(const std::string& text) {
   throw InputError(fmt::format("arithmetic: found '{}', expected double, filtered or exact", text));
 }
 
-namespace {
-
 Campaign ParseCampaign(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
@@ -185,8 +183,6 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   if (const auto list = root.Optional("parents")) campaign.parents = ReadList(*list, CandidateFromJson);
   return campaign;
 }
-
-}  // namespace
 
 // A parent is of a task of the campaign.
 static void RequireParents(const Campaign& campaign) {

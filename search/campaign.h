@@ -52,6 +52,8 @@ struct Campaign {
 };
 
 Campaign ReadCampaign(const std::filesystem::path& file);
+// The same of a text; `source` names it in errors.
+Campaign ParseCampaign(const std::string& text, const std::string& source);
 // InputError if what it asks for does not fit together: a generator and its friction coefficients or its
 // gravity, an objective and its policies.
 void RequireConsistent(const Campaign& campaign);

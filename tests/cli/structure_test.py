@@ -15,7 +15,7 @@ FOLDERS = {
     "reports": ["corpus", "scene", "solver"],
     "search": ["certify", "corpus", "scene", "solver"],
     "answers": ["certify", "corpus", "scene", "solver"],
-    "python": ["answers", "certify", "corpus", "scene", "solver"],
+    "python": ["answers", "reports", "search", "certify", "corpus", "scene", "solver"],
     "cli": ["answers", "reports", "search", "certify", "corpus", "scene", "solver"],
     "bench": ["reports", "search", "certify", "corpus", "scene", "solver"],
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A unit of its own, since every commit compiles it again.
-#include "cli/version.h"
+#include "answers/version.h"
 
 #include <fmt/format.h>
 

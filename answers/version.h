@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What this build was made of.
 
-#ifndef STICTION_CLI_VERSION_H_
-#define STICTION_CLI_VERSION_H_
+#ifndef STICTION_ANSWERS_VERSION_H_
+#define STICTION_ANSWERS_VERSION_H_
 
 #include <string>
 
@@ -13,4 +13,4 @@ std::string BuildId();
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_VERSION_H_
+#endif  // STICTION_ANSWERS_VERSION_H_

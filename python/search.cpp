@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/search.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <optional>
+
+#include "answers/version.h"
+#include "corpus/json_text.h"
+#include "reports/csv.h"
+#include "reports/discovery.h"
+#include "reports/report_files.h"
+#include "search/search.h"
+#include "search/testimony.h"
+
+namespace stiction {
+namespace {
+
+namespace py = pybind11;
+
+// Looks for signals of the interpreter, which are handled in its main thread alone. What a handler throws is
+// kept until the search has ended.
+class Signals {
+ public:
+  const std::atomic<bool>* flag() const { return &interrupted_; }
+
+  // Without the interpreter's lock.
+  void Look() {
+    const py::gil_scoped_acquire acquired;
+    if (thrown_ || PyErr_CheckSignals() == 0) return;
+    thrown_.emplace();
+    interrupted_ = true;
+  }
+  // With it.
+  void Throw() {
+    if (thrown_) throw py::error_already_set(*thrown_);
+  }
+
+ private:
+  std::atomic<bool> interrupted_ = false;
+  std::optional<py::error_already_set> thrown_;
+};
+
+// Whether the search came to its end. `campaign`: the text of a campaign file.
+bool RunCampaign(const std::string& campaign_text, const std::string& store,
+                 std::optional<std::int64_t> problems, std::optional<double> minutes, int threads,
+                 std::optional<double> finishing) {
+  const Campaign campaign = ParseCampaign(campaign_text, "campaign");
+  RequireConsistent(campaign);
+  Signals signals;
+  SearchOptions options;
+  options.store = store;
+  options.build = BuildId();
+  options.threads = threads;
+  options.problems = problems;
+  options.minutes = minutes;
+  options.finishing = finishing;
+  options.interrupted = signals.flag();
+  SearchEnd end;
+  {
+    const py::gil_scoped_release released;
+    end = RunSearch(campaign, IdentityOf(campaign), options, [&signals](const SearchProgress&) {
+            signals.Look();
+          }).end;
+  }
+  signals.Throw();
+  return end == SearchEnd::kDone;
+}
+
+// ---- Stores ----
+
+py::dict ToPython(const Discovery& discovery) {
+  py::dict dict;
+  dict["signature"] = discovery.signature;
+  dict["kind"] = discovery.kind;
+  dict["count"] = discovery.met;
+  const Finding& finding = *discovery.representative;
+  dict["finished"] = finding.done;
+  dict["generator"] = finding.generator;
+  dict["contacts"] = finding.contacts;
+  dict["policy"] = finding.policy;
+  dict["inexact_outcome"] = finding.inexact_outcome;
+  dict["exact_outcome"] = finding.exact_outcome;
+  dict["unit"] = finding.unit;
+  dict["index"] = finding.index;
+  dict["problem"] = finding.problem;
+  dict["minimized"] = finding.minimized;
+  dict["certificate"] = finding.certificate;
+  dict["minimized_certificate"] = finding.minimized_certificate;
+  dict["existence"] = finding.existence;
+  dict["minimized_existence"] = finding.minimized_existence;
+  dict["facts"] = finding.facts;
+  return dict;
+}
+
+// A store as it is at this moment.
+class PythonStore {
+ public:
+  explicit PythonStore(const std::string& file) : store_(OpenSound(file)), file_(file) {}
+
+  // The text of a campaign file.
+  std::string Campaign() const {
+    const stiction::Campaign campaign = CampaignOf(store_.identity(), file_);
+    Json json = DefinitionToJson(campaign);
+    json["seed"] = campaign.seed;
+    json["policies"] = Json::array();
+    for (const Policy& policy : campaign.policies) json["policies"].push_back(PolicyName(policy));
+    return JsonText(json, 1) + "\n";
+  }
+
+  // In the order of signature; groups of which no problem was kept stand in the table alone.
+  py::list Findings() const {
+    const std::vector<Finding> findings = store_.Findings();
+    py::list list;
+    for (const Discovery& discovery : Discoveries(store_.Total(), findings)) {
+      if (discovery.representative != nullptr) list.append(ToPython(discovery));
+    }
+    return list;
+  }
+
+  // Name -> rows of texts, the names of the columns first: the tables of a report.
+  std::map<std::string, std::vector<std::vector<std::string>>> Tables() const {
+    const std::vector<Finding> findings = store_.Findings();
+    const Record total = store_.Total();
+    std::map<std::string, std::vector<std::vector<std::string>>> tables;
+    for (const auto& [name, text] : TablesOf(total, Discoveries(total, findings)))
+      tables[name.substr(0, name.rfind('.'))] = ReadCsv(text, name);
+    return tables;
+  }
+
+ private:
+  Store store_;
+  std::string file_;
+};
+
+}  // namespace
+
+void AddSearch(py::module_& module) {
+  module.def("search", &RunCampaign);
+  py::class_<PythonStore>(module, "Store")
+      .def(py::init<const std::string&>())
+      .def("campaign", &PythonStore::Campaign)
+      .def("findings", &PythonStore::Findings)
+      .def("tables", &PythonStore::Tables);
+}
+
+}  // namespace stiction
