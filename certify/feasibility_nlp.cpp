@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/feasibility_nlp.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -68,6 +69,12 @@ std::filesystem::path FindIpoptProgram() {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   for (const char* place : {"", "..", "certify/ipopt", "../certify/ipopt"}) {
     const auto candidate = (folder / place / kName).lexically_normal();
+    if (std::filesystem::is_regular_file(candidate, error)) return candidate;
+  }
+  // The Python package in a build: the executable is the interpreter, and what holds this code a library.
+  if (Dl_info library; dladdr(reinterpret_cast<void*>(&FindIpoptProgram), &library) != 0) {
+    const auto package = std::filesystem::absolute(library.dli_fname, error).parent_path();
+    const auto candidate = (package / "../../.." / kName).lexically_normal();
     if (std::filesystem::is_regular_file(candidate, error)) return candidate;
   }
   return folder / kName;

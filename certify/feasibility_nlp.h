@@ -97,8 +97,8 @@ void ForEachField(S& s, Visit visit) {
   visit("seconds", "time in all", s.seconds);
 }
 
-// `stiction-ipopt` beside the running executable, or where a build directory around it has it. If it is
-// nowhere, the path beside the executable.
+// `stiction-ipopt` beside the running executable, or where a build directory around it, or around the Python
+// package, has it. If it is nowhere, the path beside the executable.
 std::filesystem::path FindIpoptProgram();
 
 class IpoptProcess;
