@@ -19,6 +19,7 @@
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
+#include "corpus/machine.h"
 #include "corpus/store_lock.h"
 #include "reports/text_report.h"
 #include "search/adversary/optimized_unit.h"
@@ -149,6 +150,7 @@ SearchOptions OptionsOf(const SearchVerb& o) {
   SearchOptions options;
   options.store = o.store;
   options.build = BuildId();
+  options.machine = MachineText();
   options.shard = ParseShard(o.shard);
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   options.threads = o.threads > 0 ? o.threads : std::max(1, cores);

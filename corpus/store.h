@@ -6,7 +6,7 @@
 //   units      statistics of single units, of blocks that are not complete yet
 //   findings   one representative per signature, with certificate and minimized form
 //   elites     of an optimized search: the best of every unit
-//   work       of every block and unit: the builds that made it, and their processor time
+//   work       of every block and unit: the builds that made it, the machines, and their processor time
 //
 // Every row carries the SHA-256 of its content (store_rows.h), which is checked when a store is opened: what a
 // disk or a hand has changed is named and refused, never read. Work is no part of what is compared.
@@ -148,7 +148,7 @@ class Store {
 
   // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless
   // as the same block; a block in both with different content is an InternalError that names it.
-  // The work of two copies is that of the longer one, with the builds of both.
+  // The work of two copies is that of the longer one, with the builds and machines of both.
   void MergeFrom(const Store& other);
   // Takes in what is sound of a store that need not be, and what fits to what is here. Returns a line for
   // everything that is left out. InputError if not even its campaign can be read, or is another one.

@@ -204,13 +204,33 @@ void WriteFinding(sqlite3* db, const Finding& f) {
 
 // ---- Work ------------------------------------------------------------------------------------
 
+namespace {
+
+std::set<std::string> ReadNames(const JsonPlace& list, const char* what) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < list.Size(what); ++i) names.insert(list[i].Text(what));
+  return names;
+}
+
+// A list of builds, or, where machines were recorded, {"builds": [...], "machines": [...]}.
+void ReadMakers(Work& work, const JsonPlace& makers) {
+  if (makers.json().is_array()) {
+    work.builds = ReadNames(makers, "a list of names of builds");
+    return;
+  }
+  makers.RequireObject();
+  makers.AllowKeys({"builds", "machines"});
+  work.builds = ReadNames(makers.Required("builds", "a list"), "a list of names of builds");
+  work.machines = ReadNames(makers.Required("machines", "a list"), "a list of machines");
+}
+
+}  // namespace
+
 Work ReadWorkRow(const Statement& row) {
   const std::string source = RowName(StoreTableNamed("work"), row);
   Work work;
-  const Json builds = ParseJson(row.Text(4), source);
-  const JsonPlace list(builds, source, "builds");
-  for (std::size_t i = 0; i < list.Size("a list of builds"); ++i)
-    work.builds.insert(list[i].Text("the name of a build"));
+  const Json makers = ParseJson(row.Text(4), source);
+  ReadMakers(work, JsonPlace(makers, source, "builds"));
   const Json times = ParseJson(row.Text(5), source);
   const JsonPlace parts(times, source, "time");
   parts.RequireObject();
@@ -233,8 +253,8 @@ Work ReadWork(sqlite3* db, const WorkKey& key) {
 }
 
 void WriteWork(sqlite3* db, const WorkKey& key, const Work& work) {
-  Json builds = Json::array(), times = Json::object();
-  for (const std::string& build : work.builds) builds.push_back(build);
+  Json builds = work.builds, times = Json::object();
+  if (!work.machines.empty()) builds = {{"builds", work.builds}, {"machines", work.machines}};
   ForEachPart(work.time, [&times](const char* name, const char*, std::int64_t value) { times[name] = value; });
   PutRow(db, "work",
          {std::int64_t{key.shard.count}, std::int64_t{key.shard.index}, key.block, key.unit, JsonText(builds),

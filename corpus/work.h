@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work: the processor time that a part of a campaign took, and the builds that did it. Outcomes are the same
-// wherever a unit runs, work is not: nothing of it is ever compared.
+// Work: the processor time that a part of a campaign took, the builds that did it, and the machines. Outcomes
+// are the same wherever a unit runs, work is not: nothing of it is ever compared.
 
 #ifndef STICTION_CORPUS_WORK_H_
 #define STICTION_CORPUS_WORK_H_
@@ -52,6 +52,7 @@ inline ProcessorTimeParts PartsOf(const ProcessorTime& time) {
 struct Work {
   std::set<std::string> builds;
   ProcessorTime time;
+  std::set<std::string> machines = {};  // machine.h; empty where none was recorded
 
   // Of two parts of a campaign.
   void Add(const Work& other) {
@@ -67,6 +68,7 @@ struct Work {
   template <class Operation>
   void Combine(const Work& other, Operation operation) {
     builds.insert(other.builds.begin(), other.builds.end());
+    machines.insert(other.machines.begin(), other.machines.end());
     const ProcessorTimeParts theirs = PartsOf(other.time);
     auto next = theirs.begin();
     ForEachPart(time, [&](const char*, const char*, std::int64_t& mine) { mine = operation(mine, *next++); });

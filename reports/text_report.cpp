@@ -335,6 +335,7 @@ std::string SearchedText(const Store& store, const StoreTotals& t) {
   text += Paragraph("readings: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
   text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
   for (const std::string& build : t.work.builds) text += Paragraph("build: " + WithoutFlags(build));
+  for (const std::string& machine : t.work.machines) text += Paragraph("machine: " + machine);
   return text + Paragraph(TimeText(t.work.time));
 }
 

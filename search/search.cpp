@@ -181,7 +181,7 @@ class Search {
     if (!run) return abandoned_ = true;
     const UnitResult& result = *run;
     if (!result.elites.empty()) heritage_.Add(*unit, ElitesFromText(result.elites, "a unit"));
-    const Work work{{options_.build}, result.time};
+    const Work work = WorkOf(result.time);
     // A group's former representative may be waiting; a smaller one takes its place.
     for (Finding& finding :
          store_.AddUnit(options_.shard, *unit, result.record, result.candidates, result.elites, work)) {
@@ -225,7 +225,7 @@ class Search {
     lock.lock();
     --busy_;
     Spend(time);
-    const Work work{{options_.build}, time};
+    const Work work = WorkOf(time);
     if (finished) {
       store_.Finish(*finished, work);
       ++progress_.finished;
@@ -237,6 +237,12 @@ class Search {
     }
     changed_.notify_all();
     return true;
+  }
+
+  Work WorkOf(const ProcessorTime& time) const {
+    Work work{{options_.build}, time};
+    if (!options_.machine.empty()) work.machines.insert(options_.machine);
+    return work;
   }
 
   void Spend(const ProcessorTime& time) {  // under the mutex

@@ -27,13 +27,14 @@ inline constexpr std::int64_t kMostFinished = 100;          // of one kind and n
 
 struct SearchOptions {
   std::filesystem::path store;
-  std::string build;  // that works
+  std::string build;    // that works
+  std::string machine;  // likewise; empty: not recorded
   Shard shard;
   int threads = 1;
   std::optional<double> minutes;         // wall clock, everything counted
   std::optional<std::int64_t> problems;  // of the whole campaign, rounded up to whole units
   std::optional<double> finishing;  // share of processor time, 0 to 1; by default as above; 0: none, 1: all
-  bool only_finish = false;              // no units: all findings that are not finished
+  bool only_finish = false;         // no units: all findings that are not finished
   const std::atomic<bool>* interrupted = nullptr;
 };
 

@@ -84,12 +84,19 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
     if (!elite.worth.value && objective.of_loops) row["distance"] = -elite.worth.nearness;
     best.push_back(std::move(row));
   }
-  return {{"seed", campaign.seed},           {"objective", objective.name},
-          {"optimizer", campaign.optimizer}, {"units", yield.units},
-          {"candidates", yield.evaluations}, {"confirmations", yield.confirmations},
-          {"denied", yield.denied},          {"best", best},
-          {"finished", kept.finished},       {"pending", kept.pending},
-          {"builds", work.builds},           {"processor_seconds", TimeToJson(work.time)}};
+  return {{"seed", campaign.seed},
+          {"objective", objective.name},
+          {"optimizer", campaign.optimizer},
+          {"units", yield.units},
+          {"candidates", yield.evaluations},
+          {"confirmations", yield.confirmations},
+          {"denied", yield.denied},
+          {"best", best},
+          {"finished", kept.finished},
+          {"pending", kept.pending},
+          {"builds", work.builds},
+          {"machines", work.machines},
+          {"processor_seconds", TimeToJson(work.time)}};
 }
 
 }  // namespace
@@ -109,6 +116,7 @@ Json SummaryToJson(const Store& store) {
   Json summary = {{"seed", store.identity().seed},
                   {"algorithm", store.identity().algorithm},
                   {"builds", totals.work.builds},
+                  {"machines", totals.work.machines},
                   {"processor_seconds", TimeToJson(totals.work.time)},
                   {"units", totals.units},
                   {"problems", totals.problems},

@@ -19,6 +19,8 @@
 
 #include "corpus/input_error.h"
 #include "corpus/kinds.h"
+#include "corpus/machine.h"
+#include "corpus/store_rows.h"
 #include "solver/problem/check.h"
 #include "tests/scratch.h"
 
@@ -27,6 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::Matches;
 using testing::Scratch;
 
 constexpr std::int64_t kBlock = Store::kUnitsPerBlock;
@@ -710,6 +713,51 @@ TEST_CASE("work: copies of a unit or block with other work are the same unit or 
   const fs::path part = make("part", 10, "elsewhere", 100);  // of a block that is whole in the other
   CHECK(Store::OpenToRead(Merged(scratch, "1", {part, a})).TotalWork() == Store::OpenToRead(a).TotalWork());
   CHECK(Store::OpenToRead(Merged(scratch, "2", {a, part})).TotalWork() == Store::OpenToRead(a).TotalWork());
+}
+
+TEST_CASE("work: machines are kept beside builds, and no part of what is compared") {
+  const Scratch scratch;
+  const auto make = [&](const std::string& name, const std::string& machine) {
+    Store store(scratch / name, Identity());
+    Work work = WorkOf("build", 1);
+    if (!machine.empty()) work.machines.insert(machine);
+    for (std::int64_t unit = 0; unit < kBlock + 1; ++unit)
+      store.AddUnit({}, unit, RecordOf(unit), CandidatesOf(unit), {}, work);
+    return scratch / name;
+  };
+  const fs::path a = make("a", "one"), b = make("b", "another"), old = make("old", "");
+  CHECK(Store::OpenToRead(a).TotalWork().machines == std::set<std::string>{"one"});
+  CHECK(Store::OpenToRead(old).TotalWork().machines.empty());
+  CHECK(Store::OpenToRead(old).TotalWork().builds == std::set<std::string>{"build"});
+  CHECK((Content(Merged(scratch, "ab", {a, b, old})) == Content(a)));
+  CHECK((Content(Merged(scratch, "ba", {old, b, a, b})) == Content(a)));
+  CHECK(Store::OpenToRead(scratch / "ab").TotalWork().machines == std::set<std::string>{"another", "one"});
+  CHECK(Store::OpenToRead(scratch / "ba").TotalWork() == Store::OpenToRead(scratch / "ab").TotalWork());
+}
+
+TEST_CASE("work: a list of builds alone, as stores without machines have it, is read") {
+  const Scratch scratch;
+  const fs::path file = scratch / "old.store";
+  {
+    Store store(file, Identity());
+    store.AddUnit({}, 0, RecordOf(0), CandidatesOf(0), {}, WorkOf("build", 1));
+  }
+  sqlite3* db = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+  {
+    Statement row(db, "SELECT builds FROM work");
+    REQUIRE(row.Step());
+    CHECK(row.Text(0) == "[\"build\"]");
+  }
+  sqlite3_close(db);
+}
+
+TEST_CASE("machine: the processor's name, and no name of the host") {
+  CHECK(ProcessorModel("processor\t: 0\nmodel\t\t: 85\nmodel name\t: Xeon 8 @ 2 GHz\nmodel name\t: b") ==
+        "Xeon 8 @ 2 GHz");
+  CHECK(ProcessorModel("model name\t:\n").empty());
+  CHECK(ProcessorModel("processor: 0\nBogoMIPS: 1").empty());
+  CHECK_THAT(MachineText(), Matches("(.+, )?\\d+ cores?, \\d+ GiB, Linux \\S+ \\S+"));
 }
 
 // ---- A running search ------------------------------------------------------------------------
