@@ -184,8 +184,8 @@ Html Navigation(const ReportContent& content) {
                                      {"#existence", "Existence and agreement"},
                                      {"#findings", "Findings"}});
   }
-  if (!content.rungs.empty()) sections.emplace_back("#rungs", "Speed against accuracy");
-  sections.insert(sections.end(), {{"#again", "Reproducing it"}, {"#files", "Files"}});
+  sections.insert(sections.end(),
+                  {{"#rungs", "Speed against accuracy"}, {"#again", "Reproducing it"}, {"#files", "Files"}});
   Html links;
   for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
   return links;
@@ -222,8 +222,7 @@ Html FilesSection() {
 
 // All but what was found.
 Html Results(const ReportContent& content) {
-  const Html rungs = content.rungs.empty() ? Html() : RungsSection(content.rungs);
-  const Html end = rungs + AgainSection(content) + FilesSection();
+  const Html end = RungsSection(content.rungs) + AgainSection(content) + FilesSection();
   if (content.units == 0) return end;
   return FrequenciesSection(content.total) + OutcomesSection(content.total) + DoublesSection(content.total) +
          StepsSection(content.total) + MethodsSection(content) + ExistenceSection(content.total) +
@@ -304,6 +303,9 @@ Html AgainSection(const ReportContent& content) {
   list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
   list.Add("version of the algorithm", std::to_string(content.identity.algorithm));
   for (const std::string& build : content.work.builds) list.Add("searched by", build);
+  for (const std::string& machine : content.work.machines) list.Add("on", machine);
+  if (content.units > 0 && content.work.machines.empty())
+    list.Add("on", "machines that the store does not name");
   list.Add("problems", Grouped(ProblemsOf(content.total)));
   list.Add("units", Grouped(content.units));
   list.Add("complete blocks",
@@ -315,12 +317,11 @@ Html AgainSection(const ReportContent& content) {
                 "on any machine and any number of threads:</p>\n") +
                 AgainCommands(content)
           : Html();
-  return Section(
-      "again", "Reproducing it",
-      commands + list.Done() +
-          Html("<p class=\"note\">On which processors it ran the store does not say; nothing here depends on "
-               "them but the processor time, which other runs of the same campaign need not repeat.</p>\n") +
-          TimeTable(content.work.time));
+  return Section("again", "Reproducing it",
+                 commands + list.Done() +
+                     Html("<p class=\"note\">Nothing here depends on the machines but the processor time, "
+                          "which other runs of the same campaign need not repeat.</p>\n") +
+                     TimeTable(content.work.time));
 }
 
 std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {

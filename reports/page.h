@@ -31,7 +31,7 @@ struct ReportContent {
   Record total;
   Work work;
   std::vector<Discovery> discoveries;
-  std::vector<RungLine> rungs;  // of a benchmark; empty: no such section
+  std::vector<RungLine> rungs;  // of a benchmark; empty: none was measured
   std::optional<Since> since;   // an earlier report
 };
 

@@ -162,6 +162,15 @@ std::vector<std::pair<std::string, std::vector<RungSum>>> Families(const std::ve
   return sums;
 }
 
+Html NotMeasured() {
+  return Html(
+      "<p>Not measured for this report: how fast each method is over each arithmetic, and how often it "
+      "errs, on ordinary and on extreme problems. In the folder of the sources:</p>\n"
+      "<pre><code>./run bench --suite trade --csv trade.csv\n"
+      "./run bench --suite extremes --csv extremes.csv\n"
+      "./run report STORE --bench trade.csv extremes.csv -o DIR</code></pre>\n");
+}
+
 }  // namespace
 
 std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
@@ -211,10 +220,12 @@ FigureTable RungsFigure(const std::vector<RungLine>& lines) {
 }
 
 Html RungsSection(const std::vector<RungLine>& lines) {
+  constexpr const char* kTitle = "Speed against accuracy";
+  if (lines.empty()) return Section("rungs", kTitle, NotMeasured());
   Html tables;
   for (const auto& [family, sums] : Families(lines))
     tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
-  return Section("rungs", "Speed against accuracy",
+  return Section("rungs", kTitle,
                  FigurePlace("rungs",
                              "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends "
                              "wrongly or undecided. A dot is a method over an arithmetic; filtered and exact "

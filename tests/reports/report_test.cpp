@@ -28,6 +28,7 @@
 #include "reports/page.h"
 #include "reports/since.h"
 #include "reports/template.h"
+#include "reports/text_report.h"
 #include "scene/simulate.h"
 #include "solver/problem/check.h"
 #include "tests/scratch.h"
@@ -725,6 +726,33 @@ TEST_CASE("report: the page says what the store holds, with separated thousands"
   CHECK(Has(page, "stiction replay findings/" + kDone + ".json --step"));
   CHECK(Has(page, "stiction check findings/" + kDone + ".certificate.json"));
   CHECK(Has(page, "the state after 5 drives stands again 6 drives later"));
+}
+
+TEST_CASE("report: the page names the machines that searched, or says that the store does not") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "unnamed");
+  CHECK(Has(ReadText(scratch / "unnamed/index.html"), "<dd>machines that the store does not name</dd>"));
+  Store store(scratch / "t", kIdentity);
+  Work work{{"a build"}, {}};
+  work.machines = {"Processor <9>, 8 cores", "another"};
+  store.AddUnit({}, 0, SampleRecord(), {}, {}, work);
+  WriteReport(store, scratch / "named");
+  const std::string page = ReadText(scratch / "named/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "<dt>on</dt><dd>Processor &lt;9&gt;, 8 cores</dd>"));
+  CHECK(Has(page, "<dt>on</dt><dd>another</dd>"));
+  CHECK(!Has(page, "does not name"));
+  CHECK(Has(TextReport(store, "t", {}), "machine: Processor <9>, 8 cores"));
+}
+
+TEST_CASE("report: a page without measurements names the commands that make them") {
+  const Scratch scratch;
+  WriteReport(SampleStore(scratch / "s"), scratch / "out");
+  const std::string page = ReadText(scratch / "out/index.html");
+  CHECK(Has(page, "<a href=\"#rungs\">Speed against accuracy</a>"));
+  CHECK(Has(page, "./run bench --suite trade --csv trade.csv\n"));
+  CHECK(Has(page, "./run report STORE --bench trade.csv extremes.csv -o DIR"));
+  CHECK(!Has(page, "data-figure=\"rungs\""));
 }
 
 TEST_CASE("report: the page says how often runs fail exactly, with intervals and what was audited") {
