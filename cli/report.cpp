@@ -58,9 +58,10 @@ int CompareStores(const ReportVerb& o) {
     throw InputError(
         "report: found two stores, expected one with --package, --bench, --since, --files, --latex or --text");
   const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(o.other), o.other);
-  const std::string text = ComparisonText(comparison, o.store, o.other);
-  if (!o.folder.empty()) TellAside(WriteComparison(comparison, text, o.folder, OccupiedIf(o.replace)));
-  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n" : text);
+  if (!o.folder.empty())
+    TellAside(WriteComparison(comparison, o.store, o.other, o.folder, OccupiedIf(o.replace)));
+  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n"
+                       : ComparisonText(comparison, o.store, o.other));
   return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
 }
 

@@ -14,6 +14,7 @@
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
+#include "reports/comparison_page.h"
 #include "reports/csv.h"
 #include "reports/friction_order.h"
 #include "reports/plain_text.h"
@@ -201,6 +202,10 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
 
 // ---- Text ----
 
+double RateOf(const Trials& t) { return static_cast<double>(t.count) / static_cast<double>(t.of); }
+
+}  // namespace
+
 std::string NameOf(const TallyKey& key) {
   std::string name = fmt::format("{}, {} contacts", key.generator, key.contacts);
   if (key.policy != "paper") name += ", reading " + key.policy;
@@ -211,7 +216,7 @@ std::string NameOf(const TallyKey& key) {
 
 std::string PText(double p) { return p == 0 ? "< 1e-300" : fmt::format("{:.2g}", p); }
 
-double RateOf(const Trials& t) { return static_cast<double>(t.count) / static_cast<double>(t.of); }
+bool MoreInA(const ComparedRate& rate) { return RateOf(rate.a) > RateOf(rate.b); }
 
 std::string SentenceOf(const ComparedRate& rate) {
   const auto side = [](const Trials& t) {
@@ -219,34 +224,49 @@ std::string SentenceOf(const ComparedRate& rate) {
   };
   return fmt::format("{}{}: {}: more in {}: A {}; B {}; p = {} corrected.", NameOf(rate.key),
                      rate.friction.empty() ? "" : ", mu = " + rate.friction, rate.meaning,
-                     RateOf(rate.a) > RateOf(rate.b) ? "A" : "B", side(rate.a), side(rate.b),
-                     PText(*rate.adjusted));
+                     MoreInA(rate) ? "A" : "B", side(rate.a), side(rate.b), PText(*rate.adjusted));
 }
 
-std::string NoiseText(const Comparison& c) {
+std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison) {
   std::vector<const ComparedRate*> beyond;
-  for (const ComparedRate& rate : c.rates) {
+  for (const ComparedRate& rate : comparison.rates) {
     if (rate.MoreThanNoise()) beyond.push_back(&rate);
   }
-  if (beyond.empty())
-    return Paragraph(
-        fmt::format("None of {} tests finds a difference that is more than noise.", Grouped(c.tests)), 0);
   std::stable_sort(beyond.begin(), beyond.end(), [](const ComparedRate* left, const ComparedRate* right) {
     return *left->adjusted < *right->adjusted;
   });
-  std::string text = Paragraph(
-      fmt::format("{} of {} tests find a difference that is more than noise:", beyond.size(), Grouped(c.tests)),
-      0);
-  for (const ComparedRate* rate : beyond) text += Paragraph(SentenceOf(*rate));
-  return text;
+  return beyond;
+}
+
+std::string NoiseSentence(const Comparison& comparison) {
+  const std::size_t beyond = BeyondNoise(comparison).size();
+  const std::string tests = Grouped(comparison.tests);
+  return beyond == 0 ? fmt::format("None of {} tests finds a difference that is more than noise.", tests)
+                     : fmt::format("{} of {} tests find a difference that is more than noise:", beyond, tests);
 }
 
 std::string AboutTests() {
-  return Paragraph(
-      "Fisher's exact test of each rate, two-sided; steps by the runs above the median of both together. p is "
-      "corrected by Holm for all tests that the counts leave open; at most 0.05 is called more than noise. In "
-      "brackets: exact intervals at 95 %.",
-      0);
+  return "Fisher's exact test of each rate, two-sided; steps by the runs above the median of both together. p "
+         "is corrected by Holm for all tests that the counts leave open; at most 0.05 is called more than "
+         "noise. In brackets: exact intervals at 95 %.";
+}
+
+std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name) {
+  if (keys.empty()) return "";
+  std::map<std::string, std::set<int>> generators;
+  for (const TallyKey& key : keys) generators[key.generator].insert(key.contacts);
+  std::string text;
+  for (const auto& [generator, contacts] : generators)
+    text += fmt::format("{}{} ({} contacts)", text.empty() ? "" : "; ", generator, fmt::join(contacts, ", "));
+  return fmt::format("Only in {}, and not compared: {}.", name, text);
+}
+
+namespace {
+
+std::string NoiseText(const Comparison& c) {
+  std::string text = Paragraph(NoiseSentence(c), 0);
+  for (const ComparedRate* rate : BeyondNoise(c)) text += Paragraph(SentenceOf(*rate));
+  return text;
 }
 
 // "near-degenerate, 2", and what is not as usual.
@@ -319,16 +339,6 @@ std::string StepTable(const Comparison& c) {
                         });
 }
 
-std::string OnlyText(const std::vector<TallyKey>& keys, const char* name) {
-  if (keys.empty()) return "";
-  std::map<std::string, std::set<int>> generators;
-  for (const TallyKey& key : keys) generators[key.generator].insert(key.contacts);
-  std::string text;
-  for (const auto& [generator, contacts] : generators)
-    text += fmt::format("{}{} ({} contacts)", text.empty() ? "" : "; ", generator, fmt::join(contacts, ", "));
-  return Paragraph(fmt::format("Only in {}, and not compared: {}.", name, text), 0);
-}
-
 void AddTallyKey(Csv& csv, const TallyKey& key) {
   csv.Add(key.generator).Add(key.contacts).Add(key.policy).Add(key.method).Add(key.arithmetic);
 }
@@ -385,8 +395,9 @@ std::string ComparisonText(const Comparison& c, const std::string& file_a, const
   std::string text = Paragraph("A: " + file_a, 0) + Paragraph("B: " + file_b, 0) + "\n" +
                      Heading("How the two campaigns differ");
   for (const std::string& line : c.differences) text += Paragraph(line);
-  text += "\n" + Heading("What is more than noise") + NoiseText(c) + AboutTests();
-  text += OnlyText(c.only_a, "A") + OnlyText(c.only_b, "B");
+  text += "\n" + Heading("What is more than noise") + NoiseText(c) + Paragraph(AboutTests(), 0);
+  for (const std::string& only : {OnlyIn(c.only_a, "A"), OnlyIn(c.only_b, "B")})
+    text += only.empty() ? "" : Paragraph(only, 0);
   text += "\n" + Heading("Loops, confirmed exactly") + LoopTable(c);
   return text + "\n" + Heading("Steps of a run: mean and quantiles") + StepTable(c);
 }
@@ -460,11 +471,13 @@ std::string ComparisonStepsCsv(const Comparison& comparison) {
   return csv.text();
 }
 
-std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& text,
-                                      const std::filesystem::path& directory, Occupied occupied) {
+std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& file_a,
+                                      const std::string& file_b, const std::filesystem::path& directory,
+                                      Occupied occupied) {
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
-  folder.Write("comparison.txt", text);
+  folder.Write("comparison.txt", ComparisonText(comparison, file_a, file_b));
+  folder.Write("index.html", ComparisonPage(comparison, file_a, file_b));
   folder.Write("comparison.csv", ComparisonCsv(comparison));
   folder.Write("comparison_steps.csv", ComparisonStepsCsv(comparison));
   folder.WriteSums();

@@ -70,10 +70,25 @@ Json ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
 std::string ComparisonStepsCsv(const Comparison& comparison);
 
-// comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a whole. Returns where a directory
-// with files of others was moved to, if so.
-std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& text,
-                                      const std::filesystem::path& directory,
+// ---- In words, for text and page alike ----
+
+// Differences that are more than noise, the surest first.
+std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison);
+bool MoreInA(const ComparedRate& rate);
+// "psd, 2 contacts", and what is not as usual.
+std::string NameOf(const TallyKey& key);
+std::string PText(double p);
+std::string SentenceOf(const ComparedRate& rate);
+// How many tests find a difference that is more than noise.
+std::string NoiseSentence(const Comparison& comparison);
+std::string AboutTests();
+// What was counted in the store of this name alone; empty: nothing.
+std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name);
+
+// index.html (comparison_page.h), comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a
+// whole. Returns where a directory with files of others was moved to, if so.
+std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& file_a,
+                                      const std::string& file_b, const std::filesystem::path& directory,
                                       Occupied occupied = Occupied::kRefused);
 
 }  // namespace stiction

@@ -168,12 +168,17 @@ class Page(cli.TestCase):
         shutil.copy(self.store, large)
         add_findings(large, MANY)
         self.succeeds("report", large, "-o", self.pages / "large", timeout=600)
-        script = Path(__file__).with_name("report_browser.mjs")
-        done = subprocess.run(["node", "--test", script], capture_output=True, text=True, timeout=900, env=dict(
+        for name, mu, seed in (("low", "1/4", 1), ("high", 5, 2)):
+            self.succeeds("search", "--store", self.pages / f"{name}.store", "--generator", "conditioned", "scenes",
+                          "--contacts", 1, 2, "--problems", 20000, "--mu", mu, "--seed", seed, "--finishing", 100)
+        self.succeeds("report", self.pages / "low.store", self.pages / "high.store", "-o", self.pages / "compared",
+                      code=1)
+        scripts = [Path(__file__).with_name(f"{name}_browser.mjs") for name in ("report", "comparison")]
+        done = subprocess.run(["node", "--test", *scripts], capture_output=True, text=True, timeout=900, env=dict(
             os.environ, PAGES=str(self.pages), PACKAGES=str(packages), BROWSER=browser))
         self.assertEqual(done.returncode, 0, done.stdout[-8000:] + done.stderr[-2000:])
         passed = re.search(r"^# pass (\d+)$|^ℹ pass (\d+)$", done.stdout, re.M)
-        self.assertGreaterEqual(int(passed[1] or passed[2]), 15, done.stdout[-2000:])
+        self.assertGreaterEqual(int(passed[1] or passed[2]), 19, done.stdout[-2000:])
 
 
 if __name__ == "__main__":

@@ -3,7 +3,9 @@
 
 import csv
 import hashlib
+import json
 import os
+import re
 import shutil
 import subprocess
 
@@ -70,6 +72,50 @@ class TextReport(cli.TestCase):
         for line in (out / "SHA256SUMS").read_text().splitlines():
             self.assertEqual(hashlib.sha256((out / line[66:]).read_bytes()).hexdigest(), line[:64])
         self.assertEqual(self.succeeds("report", self.low, self.high, code=1).out, done.out)
+
+    def compared(self, a, b, out, code):
+        self.succeeds("report", a, b, "-o", out, code=code)
+        page = (out / "index.html").read_text()
+        return page, json.loads(re.search(r'id="data">(.*?)</script>', page, re.S)[1])["figures"]
+
+    def test_the_page_draws_the_cells_of_the_tables(self):
+        out = self.folder / "comparison"
+        page, figures = self.compared(self.low, self.high, out, 1)
+        for name in ("comparison", "comparison_steps"):
+            with open(out / f"{name}.csv", newline="") as file:
+                columns, *rows = csv.reader(file)
+            self.assertEqual(figures[name], {"columns": columns, "rows": rows})
+        with open(out / "comparison.csv", newline="") as file:
+            beyond = [row for row in csv.DictReader(file) if row["more_than_noise"] == "yes"]
+        table = re.search(r"<table>\s*<caption>Differences that are more than noise.*?</table>", page, re.S)[0]
+        self.assertEqual(table.count("<tr") - 1, len(beyond))
+        for row in beyond:
+            for side in "ab":
+                self.assertIn(f"{int(row[side + '_count']):,} of {int(row[side + '_of']):,}", table)
+        ids = re.findall(r'<section id="(\w+)"', page)
+        self.assertEqual(ids, ["design", "noise", "rates", "steps", "again", "files"])
+        self.assertIn("<li>mu: A: 1/4; B: 5</li>", page)
+
+    def test_the_page_is_the_same_again_and_replaces_its_folder_as_a_whole(self):
+        out = self.folder / "comparison"
+        page, _ = self.compared(self.low, self.high, out, 1)
+        sums = (out / "SHA256SUMS").read_text()
+        self.assertEqual(sorted(line[66:] for line in sums.splitlines()),
+                         ["comparison.csv", "comparison.txt", "comparison_steps.csv", "index.html"])
+        (out / "old.txt").write_text("of an older report")
+        self.assertEqual(self.compared(self.low, self.high, out, 1)[0], page)
+        self.assertEqual((out / "SHA256SUMS").read_text(), sums)
+        self.assertFalse((out / "old.txt").exists())
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "mine.txt").write_text("mine")
+        self.refuses("report", self.low, self.high, "-o", other, says="other")
+        self.assertEqual([file.name for file in other.iterdir()], ["mine.txt"])
+
+    def test_the_page_says_what_is_noise(self):
+        page, _ = self.compared(self.high, self.again, self.folder / "noise", 0)
+        self.assertRegex(page, r"None of \d+ tests finds a difference that is more than noise\.</p>")
+        self.assertNotIn("<caption>Differences that are more than noise", page)
 
     def test_two_seeds_of_one_campaign_differ_by_noise(self):
         done = self.succeeds("report", self.high, self.again)

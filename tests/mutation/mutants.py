@@ -827,7 +827,7 @@ bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) 
 bug("one-rank", "frictions[key.friction].Merge(stratum);", "frictions[key.friction] = stratum;",
     "a friction has one rank alone")
 bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one campaign are compared")
-bug("rates-the-wrong-way", 'RateOf(rate.a) > RateOf(rate.b) ? "A" : "B"', 'RateOf(rate.a) < RateOf(rate.b) ? "A" : "B"',
+bug("rates-the-wrong-way", "return RateOf(rate.a) > RateOf(rate.b);", "return RateOf(rate.a) < RateOf(rate.b);",
     "more is said to be less")
 
 bug = in_file("reports/latex.cpp", "^reports: latex|^program: latex")

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The places of figures in the page: what can be chosen there, and when they are drawn.
 import {element} from './dom.js';
-import {figures} from './figures.js';
 
 // Objects by the names of the columns.
 const rowsOf = ({columns, rows}) =>
@@ -39,8 +38,8 @@ class Place {
   }
 }
 
-// Draws one after the other, so that the page can be read meanwhile, and again where the width changes.
-export function drawFigures(tables) {
+// `tables` and `figures` by name. Draws one after the other, so that the page can be read meanwhile, and again where the width changes.
+export function drawFigures(tables, figures) {
   const places = [];
   for (const node of document.querySelectorAll('figure[data-figure]')) {
     const name = node.dataset.figure, table = tables[name.split('.')[0]];
