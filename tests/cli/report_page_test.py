@@ -170,7 +170,7 @@ class Page(cli.TestCase):
         self.succeeds("report", large, "-o", self.pages / "large", timeout=600)
         for name, mu, seed in (("low", "1/4", 1), ("high", 5, 2)):
             self.succeeds("search", "--store", self.pages / f"{name}.store", "--generator", "conditioned", "scenes",
-                          "--contacts", 1, 2, "--problems", 20000, "--mu", mu, "--seed", seed, "--finishing", 100)
+                          "--contacts", 2, 3, "--problems", 40000, "--mu", mu, "--seed", seed, "--finishing", 100)
         self.succeeds("report", self.pages / "low.store", self.pages / "high.store", "-o", self.pages / "compared",
                       code=1)
         scripts = [Path(__file__).with_name(f"{name}_browser.mjs") for name in ("report", "comparison")]

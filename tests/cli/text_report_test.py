@@ -102,15 +102,12 @@ class TextReport(cli.TestCase):
         sums = (out / "SHA256SUMS").read_text()
         self.assertEqual(sorted(line[66:] for line in sums.splitlines()),
                          ["comparison.csv", "comparison.txt", "comparison_steps.csv", "index.html"])
-        (out / "old.txt").write_text("of an older report")
+        self.assertNotEqual(self.compared(self.high, self.low, out, 1)[0], page)
         self.assertEqual(self.compared(self.low, self.high, out, 1)[0], page)
         self.assertEqual((out / "SHA256SUMS").read_text(), sums)
-        self.assertFalse((out / "old.txt").exists())
-        other = self.folder / "other"
-        other.mkdir()
-        (other / "mine.txt").write_text("mine")
-        self.refuses("report", self.low, self.high, "-o", other, says="other")
-        self.assertEqual([file.name for file in other.iterdir()], ["mine.txt"])
+        (out / "mine.txt").write_text("of others")
+        self.refuses("report", self.high, self.low, "-o", out, says="found 'mine.txt', which 'report' did not write")
+        self.assertEqual((out / "index.html").read_text(), page)
 
     def test_the_page_says_what_is_noise(self):
         page, _ = self.compared(self.high, self.again, self.folder / "noise", 0)
