@@ -8,6 +8,8 @@
 
 namespace stiction {
 
+std::string Version() { return std::string(build_id::kVersion); }
+
 std::string BuildId() {
   using namespace build_id;
   return fmt::format("{} {}, {} {}, {}", kVersion, kCommit, kCompiler, kBuildType, kFlags);

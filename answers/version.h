@@ -10,6 +10,7 @@ namespace stiction {
 
 // "VERSION COMMIT, COMPILER BUILD_TYPE, FLAGS"
 std::string BuildId();
+std::string Version();
 
 }  // namespace stiction
 

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "answers/version.h"
 #include "certify/claims.h"
+#include "cli/known_frontiers.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
@@ -17,7 +19,7 @@ namespace stiction {
 namespace {
 
 struct RecordsVerb {
-  std::string folder = "corpus/records";
+  std::string folder;  // empty: RecordsFolder()
   std::string add, frontier, what, objective, command;
   std::string random, random_command;
   std::optional<double> seconds;
@@ -30,6 +32,8 @@ std::string Shown(const Rational& value) {
   return value.get_den() <= 100000 && value.get_num() <= 100000 ? ToString(value)
                                                                 : fmt::format("{:.6g}", ToDouble(value));
 }
+
+std::string FolderOf(const RecordsVerb& o) { return o.folder.empty() ? RecordsFolder().string() : o.folder; }
 
 int Add(const RecordsVerb& o) {
   if (o.frontier.empty() || o.what.empty() || o.objective.empty() || o.command.empty() || !o.seconds ||
@@ -52,7 +56,7 @@ int Add(const RecordsVerb& o) {
   }
   record.random_evaluations = o.random_evaluations;
   record.random_command = o.random_command;
-  const std::string file = o.folder + "/" + o.frontier + ".json";
+  const std::string file = FolderOf(o) + "/" + o.frontier + ".json";
   WriteText(file, Print(record));
   fmt::print("{}: {}\n", file, Shown(record.value));
   return kExitDone;
@@ -62,7 +66,7 @@ int RunRecords(const RecordsVerb& o) {
   if (!o.add.empty()) return Add(o);
   int faults = 0;
   Json rows = Json::array();
-  for (const FrontierRecord& record : ReadRecords(o.folder)) {
+  for (const FrontierRecord& record : ReadRecords(FolderOf(o))) {
     const std::string fault = o.check ? FaultOf(record, o.limits) : "";
     faults += !fault.empty();
     Json row = {{"frontier", record.frontier},
@@ -93,12 +97,34 @@ int RunRecords(const RecordsVerb& o) {
 
 }  // namespace
 
+std::filesystem::path RecordsFolder() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const char* place : {"../../corpus/records", "../share/stiction/corpus/records"}) {
+    std::error_code error;
+    auto folder = (program / place).lexically_normal();
+    if (std::filesystem::is_directory(folder, error)) return folder;
+  }
+  return "corpus/records";
+}
+
+std::vector<FrontierLine> KnownFrontiers() {
+  std::vector<FrontierLine> lines;
+  if (!std::filesystem::is_directory(RecordsFolder())) return lines;
+  for (const FrontierRecord& record : ReadRecords(RecordsFolder())) {
+    lines.push_back({record.frontier, record.what, std::string(record.objective->name),
+                     record.objective->sign > 0, ToString(record.value), record.status, record.command,
+                     record.random_value ? ToString(*record.random_value) : "", record.random_evaluations,
+                     record.random_command});
+  }
+  return lines;
+}
+
 void AddRecords(CommandLine& program) {
   auto [verb, o] =
       program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
   std::vector<std::string> objectives;
   for (const Objective& objective : Objectives()) objectives.emplace_back(objective.name);
-  verb.Option("--folder", o.folder, "of records");
+  verb.Option("--folder", o.folder, "of records; by default those of the repository or of the package");
   verb.Flag("--check", o.check, "compute every value anew, and check every certificate");
   verb.Option("--add", o.add, "instead: make a record of this problem file");
   verb.Option("--frontier", o.frontier, "its name, and that of its file");

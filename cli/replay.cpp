@@ -12,6 +12,7 @@
 #include "answers/followed.h"
 #include "answers/narrate_text.h"
 #include "answers/problem_text.h"
+#include "answers/version.h"
 #include "certify/exact.h"
 #include "certify/published_space.h"
 #include "certify/solve.h"
@@ -19,8 +20,10 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "cli/words.h"
+#include "corpus/digest.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
+#include "reports/plain_text.h"
 #include "reports/viewer.h"
 #include "solver/published/published_space.h"
 
@@ -119,6 +122,26 @@ int ExitOf(Outcome outcome, const std::string& expected) {
 
 // ---- The page ----------------------------------------------------------------------------------
 
+// The command with what is not as usual; where the page goes is said by who makes it again.
+std::string CommandOf(const ReplayOptions& o) {
+  const ReplayOptions usual;
+  std::string command = "stiction replay " + ShellWord(o.file);
+  const auto add = [&command](const std::string& name, const auto& value, const auto& as_usual) {
+    if (value != as_usual) command += fmt::format(" --{} {}", name, ShellWord(fmt::format("{}", value)));
+  };
+  add("policy", o.policy, usual.policy);
+  add("method", o.method, usual.method);
+  add("arithmetic", o.arithmetic, usual.arithmetic);
+  add("sides", o.sides, usual.sides);
+  Limits limits = o.limits, usual_limits;
+  ForEachField(limits, [&](const NumberRow& row, std::int64_t value) {
+    ForEachField(usual_limits, [&](const NumberRow& other, std::int64_t as_usual) {
+      if (std::string_view(row.name) == other.name) add(std::string(row.name), value, as_usual);
+    });
+  });
+  return command + " --html OUT";
+}
+
 // The run itself, with what intervals say of it, and beside it complete driving.
 void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
                const std::optional<Verdict>& over_intervals) {
@@ -130,7 +153,8 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
   beside.arithmetic = "";
   if (o.method != beside.method)
     runs.push_back(Followed(beside.path(), file, SolveFile(beside, file, RequestOf(beside, file, {}))));
-  WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs)));
+  WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs),
+                               {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
 int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/checker_files.h"
+#include "cli/known_frontiers.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
@@ -70,9 +71,12 @@ int ReportStore(const ReportVerb& o, const Store& store) {
   std::string text;
   Json written = Json::array();
   if (!o.folder.empty()) {
-    TellAside(WriteReport(
-        store, o.folder, OccupiedIf(o.replace),
-        {{o.benches.begin(), o.benches.end()}, o.since, o.latex, o.files.value_or(ReportExtras().files)}));
+    TellAside(WriteReport(store, o.folder, OccupiedIf(o.replace),
+                          {{o.benches.begin(), o.benches.end()},
+                           o.since,
+                           KnownFrontiers(),
+                           o.latex,
+                           o.files.value_or(ReportExtras().files)}));
     text += o.folder + "/index.html\n";
     written.push_back(o.folder);
   }

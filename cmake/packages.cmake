@@ -32,7 +32,7 @@ install(PROGRAMS certify/check_certificate.py certify/check_runs.py
 install(FILES certify/certificate_reader.py DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
 install(DIRECTORY corpus/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/corpus COMPONENT program
         FILES_MATCHING PATTERN "*.json" PATTERN "formats" EXCLUDE PATTERN "large" EXCLUDE PATTERN "peers" EXCLUDE
-                       PATTERN "space" EXCLUDE PATTERN "records" EXCLUDE)
+                       PATTERN "space" EXCLUDE)
 install(DIRECTORY search/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
         FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY cli/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program

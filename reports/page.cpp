@@ -184,6 +184,7 @@ Html Navigation(const ReportContent& content) {
                                      {"#existence", "Existence and agreement"},
                                      {"#findings", "Findings"}});
   }
+  if (!content.frontiers.empty()) sections.emplace_back("#frontiers", "Frontiers");
   sections.insert(sections.end(),
                   {{"#rungs", "Speed against accuracy"}, {"#again", "Reproducing it"}, {"#files", "Files"}});
   Html links;
@@ -222,7 +223,8 @@ Html FilesSection() {
 
 // All but what was found.
 Html Results(const ReportContent& content) {
-  const Html end = RungsSection(content.rungs) + AgainSection(content) + FilesSection();
+  const Html end = FrontiersSection(content.frontiers) + RungsSection(content.rungs) + AgainSection(content) +
+                   FilesSection();
   if (content.units == 0) return end;
   return FrequenciesSection(content.total) + OutcomesSection(content.total) + DoublesSection(content.total) +
          StepsSection(content.total) + MethodsSection(content) + ExistenceSection(content.total) +

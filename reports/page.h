@@ -14,6 +14,7 @@
 #include "corpus/store.h"
 #include "reports/discovery.h"
 #include "reports/figures.h"
+#include "reports/frontiers.h"
 #include "reports/html.h"
 #include "reports/rungs.h"
 #include "reports/since.h"
@@ -31,8 +32,9 @@ struct ReportContent {
   Record total;
   Work work;
   std::vector<Discovery> discoveries;
-  std::vector<RungLine> rungs;  // of a benchmark; empty: none was measured
-  std::optional<Since> since;   // an earlier report
+  std::vector<FrontierLine> frontiers;  // the records that are known
+  std::vector<RungLine> rungs;          // of a benchmark; empty: none was measured
+  std::optional<Since> since;           // an earlier report
 };
 
 // `figures`: those of the content.

@@ -49,6 +49,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   for (const auto& file : extras.benches) {
     for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));
   }
+  content.frontiers = extras.frontiers;
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   const std::vector<Finding> findings = store.Findings();
@@ -67,6 +68,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   folder.Write("citation.bib", Citation(store));
   folder.Write("campaign.json", CampaignFile(content.identity));
   if (content.since) folder.Write("since.csv", SinceCsv(*content.since, content.discoveries));
+  if (!content.frontiers.empty()) folder.Write("frontiers.csv", FrontiersCsv(content.frontiers));
   if (extras.latex) {
     for (const auto& [name, text] : LatexFiles(store)) folder.Write(name, text);
   }

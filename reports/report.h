@@ -6,6 +6,7 @@
 //   steps.csv findings.csv agreement.csv solutions.csv
 //   figures/NAME.csv              what the figures of the page draw (figures.h)
 //   campaign.json                 what was searched, for another search
+//   frontiers.csv                 the worst problems that are known, if records were given (frontiers.h)
 //   since.csv                     what changed since an earlier report, if one was given (since.h)
 //   citation.bib                  how to cite it (latex.h)
 //   SHA256SUMS                    of every file but itself
@@ -26,6 +27,7 @@
 
 #include "corpus/store.h"
 #include "corpus/whole_folder.h"
+#include "reports/frontiers.h"
 
 namespace stiction {
 
@@ -33,6 +35,7 @@ namespace stiction {
 struct ReportExtras {
   std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
   std::filesystem::path since;                 // an earlier report, beside which the page says what is new
+  std::vector<FrontierLine> frontiers = {};    // records, told on the page
   bool latex = false;                          // tables and figures for papers, too (latex.h)
   // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();

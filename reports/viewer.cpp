@@ -8,9 +8,20 @@
 
 namespace stiction {
 
-std::string ViewerPage(const std::string& title, const Json& data) {
+namespace {
+
+Html OriginRows(const ViewerOrigin& origin) {
+  return Html("<dt>made by</dt>") + Tag("dd")(Tag("code")(origin.command)) + Html("\n<dt>version</dt>") +
+         Tag("dd")("stiction " + origin.version) + Html("\n<dt>problem</dt>") +
+         Tag("dd")(Tag("code")(origin.digest));
+}
+
+}  // namespace
+
+std::string ViewerPage(const std::string& title, const Json& data, const ViewerOrigin& origin) {
   const std::string page(std::begin(kViewerTemplate), std::end(kViewerTemplate));
-  return FilledTemplate(page, {{"title", Text(title)}, {"data", ScriptData(JsonText(data))}});
+  return FilledTemplate(
+      page, {{"title", Text(title)}, {"data", ScriptData(JsonText(data))}, {"origin", OriginRows(origin)}});
 }
 
 }  // namespace stiction

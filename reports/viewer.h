@@ -12,8 +12,16 @@
 
 namespace stiction {
 
+// What makes the page again where it lies alone. Not the commit: a page that is kept beside the sources could
+// not name its own.
+struct ViewerOrigin {
+  std::string command;  // as a shell reads it
+  std::string version;  // of the program
+  std::string digest;   // of the problem (corpus/digest.h)
+};
+
 // `data`: web/README.md has its keys.
-std::string ViewerPage(const std::string& title, const Json& data);
+std::string ViewerPage(const std::string& title, const Json& data, const ViewerOrigin& origin);
 
 }  // namespace stiction
 

@@ -127,6 +127,20 @@ class Page(cli.TestCase):
             self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
             self.assertEqual(finding["files"][0], row["problem_file"])
 
+    def test_the_records_stand_in_the_page(self):
+        rows = tables(self.report / "frontiers.csv")
+        records = json.loads(cli.run("records", "--json").out)
+        self.assertGreater(len(records), 20)
+        self.assertEqual([[row["frontier"], row["value"], row["random_value"] or None, int(row["random_evaluations"])]
+                          for row in rows],
+                         [[record[key] for key in ("frontier", "value", "random", "random_evaluations")]
+                          for record in records])
+        section = html.unescape(re.search(r'<section id="frontiers">.*?</section>', self.page, re.S)[0])
+        for record in records:
+            self.assertIn(record["what"], section)
+            self.assertIn(record["command"], section)
+        self.assertIn('href="#frontiers"', self.page)
+
     def test_commands_run_in_the_folder_of_the_report(self):
         featured = re.search(r'<div class="featured">.*?<pre><code>(.*?)</code></pre>', self.page, re.S)[1]
         commands = html.unescape(featured).split("\n")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of a replay holds what the program found, in the words of --step and the numbers of --json."""
 
+import html
 import json
 import re
 
@@ -148,6 +149,18 @@ class Data(cli.TestCase):
         self.assertTrue(done.out.startswith("<!DOCTYPE html>") and done.out.endswith("</html>\n"))
         self.refuses("replay", cli.ROOT / LOOP, "--html", "x.html", "--all-policies", says=["--html", "one policy"])
         self.refuses("replay", cli.ROOT / "corpus/scenes/two-towers.json", says=["independent problems", "expected one"])
+
+    def test_the_foot_of_the_page_names_the_command_the_version_and_the_digest(self):
+        out = self.folder / "p.html"
+        certificate = cli.ROOT / "corpus/certificates/counterexample.json"
+        digest = re.search(r"sha256:[0-9a-f]{64}", self.succeeds("check", certificate).out)[0]
+        for options in ((), ("--policy", "ties=contacts"), ("--max-drives", "7")):
+            cli.run("replay", cli.ROOT / LOOP, *options, "--html", out)
+            foot = re.search(r'<footer id="origin">.*?</footer>', out.read_text(), re.S)[0]
+            command = html.unescape(re.search(r"<code>(stiction replay .*?) --html OUT</code>", foot)[1]).split()
+            self.assertEqual(command, ["stiction", "replay", str(cli.ROOT / LOOP), *options])
+            self.assertIn(digest, foot)
+            self.assertIn(f"stiction {cli.run('--version').out.split()[1]}<", foot)
 
     def test_the_example_is_what_its_command_gives(self):
         example = cli.ROOT / "reports/examples/counterexample.html"

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The records that stand beside the program.
+
+#ifndef STICTION_CLI_KNOWN_FRONTIERS_H_
+#define STICTION_CLI_KNOWN_FRONTIERS_H_
+
+#include <filesystem>
+#include <vector>
+
+#include "reports/frontiers.h"
+
+namespace stiction {
+
+// Of the repository that the program was built in, or of the package that installed it.
+std::filesystem::path RecordsFolder();
+// As a report tells them; none where there is no such folder. InputError if a record cannot be read.
+std::vector<FrontierLine> KnownFrontiers();
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_KNOWN_FRONTIERS_H_
