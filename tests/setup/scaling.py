@@ -43,9 +43,9 @@ def status(program, store):
 
 
 def total(program, store):
-    """Without what another run of the same changes: builds, machines and times."""
+    """Without what another run of the same changes: builds and times."""
     answer = status(program, store)
-    return {key: answer[key] for key in answer if key not in ("builds", "machines", "processor_seconds")}
+    return {key: answer[key] for key in answer if key not in ("builds", "processor_seconds")}
 
 
 def make_shards(program, folder, shards, units, threads):
