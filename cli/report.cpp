@@ -74,9 +74,9 @@ int ReportStore(const ReportVerb& o, const Store& store) {
     TellAside(WriteReport(store, o.folder, OccupiedIf(o.replace),
                           {{o.benches.begin(), o.benches.end()},
                            o.since,
-                           KnownFrontiers(),
                            o.latex,
-                           o.files.value_or(ReportExtras().files)}));
+                           o.files.value_or(ReportExtras().files),
+                           KnownFrontiers()}));
     text += o.folder + "/index.html\n";
     written.push_back(o.folder);
   }

@@ -53,6 +53,7 @@ struct FindingFiles {
   std::string certificate;
   std::string existence;           // of the problem
   std::string original_existence;  // of the problem as found, if that is another one
+  std::string picture = {};        // of the scene of the problem as found, if it has one
 };
 
 struct Discovery {

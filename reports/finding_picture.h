@@ -4,6 +4,8 @@
 #ifndef STICTION_REPORTS_FINDING_PICTURE_H_
 #define STICTION_REPORTS_FINDING_PICTURE_H_
 
+#include <string>
+
 #include "corpus/store.h"
 #include "reports/html.h"
 
@@ -11,6 +13,8 @@ namespace stiction {
 
 // A figure of the scene as found, with its contacts; empty where there is none that can be drawn.
 Html PictureOfFinding(const Finding& finding);
+// The same as a file of its own.
+std::string SvgOfFinding(const Finding& finding);
 
 }  // namespace stiction
 

@@ -20,7 +20,8 @@ Json NumbersToJson(const ExactProblem& problem) {
 }
 
 Json FilesToJson(const FindingFiles& files) {
-  return {files.problem, files.original, files.certificate, files.existence, files.original_existence};
+  return {files.problem,   files.original,           files.certificate,
+          files.existence, files.original_existence, files.picture};
 }
 
 Json FindingToJson(const Discovery& discovery, const std::optional<Since>& since) {

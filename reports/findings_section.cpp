@@ -156,6 +156,7 @@ Html FileLinks(const FindingFiles& files) {
   if (!files.existence.empty()) links += Html(" · ") + link(files.existence, "a solution exists");
   if (!files.original_existence.empty())
     links += Html(" · ") + link(files.original_existence, "likewise, as found");
+  if (!files.picture.empty()) links += Html(" · ") + link(files.picture, "picture");
   return Tag("p", {{"class", "note"}})(Html("Files: ") + links);
 }
 

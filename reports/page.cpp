@@ -215,7 +215,8 @@ Html FilesSection() {
       Tag("li")(Html(
           "<code>findings/</code>: of every representative the minimized problem (or, until there "
           "is one, the problem as found), the problem as found (<code>.original.json</code>), "
-          "its certificate (<code>.certificate.json</code>), and the certificates that both have a solution "
+          "its certificate (<code>.certificate.json</code>), its scene if it has one (<code>.svg</code>), and "
+          "the certificates that both have a solution "
           "(<code>.existence.certificate.json</code>, <code>.original.existence.certificate.json</code>)")) +
       Html("\n");
   return Section("files", "Files beside this page", Tag("ul")(list));

@@ -9,6 +9,7 @@
 #include "corpus/json_text.h"
 #include "reports/discovery.h"
 #include "reports/figures.h"
+#include "reports/finding_picture.h"
 #include "reports/latex.h"
 #include "reports/page.h"
 #include "reports/report_files.h"
@@ -60,9 +61,13 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   LeaveFilesTo(content.discoveries, extras.files);
-  for (const Discovery& discovery : content.discoveries) {
+  for (Discovery& discovery : content.discoveries) {
     if (!discovery.HasFiles()) continue;
     for (const auto& [name, text] : FilesOf(discovery)) folder.Write(name, text);
+    const std::string picture = SvgOfFinding(*discovery.representative);
+    if (picture.empty()) continue;
+    discovery.files.picture = "findings/" + FileName(discovery.signature) + ".svg";
+    folder.Write(discovery.files.picture, picture);
   }
   for (const auto& [name, text] : TablesOf(content.total, content.discoveries)) folder.Write(name, text);
   folder.Write("citation.bib", Citation(store));

@@ -11,6 +11,7 @@
 //   citation.bib                  how to cite it (latex.h)
 //   SHA256SUMS                    of every file but itself
 //   findings/NAME.json            the minimized problem; as found while there is none
+//   findings/NAME.svg             the scene of the problem as found, if it has one
 //   findings/NAME.original.json   the problem as found
 //   findings/NAME.certificate.json  of the minimized problem, otherwise of the problem as found
 //   findings/NAME.existence.certificate.json            that NAME.json has a solution
@@ -35,10 +36,10 @@ namespace stiction {
 struct ReportExtras {
   std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
   std::filesystem::path since;                 // an earlier report, beside which the page says what is new
-  std::vector<FrontierLine> frontiers = {};    // records, told on the page
   bool latex = false;                          // tables and figures for papers, too (latex.h)
   // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
+  std::vector<FrontierLine> frontiers = {};  // records, told on the page
 };
 
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same

@@ -127,6 +127,17 @@ class Page(cli.TestCase):
             self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
             self.assertEqual(finding["files"][0], row["problem_file"])
 
+    def test_every_scene_has_its_picture(self):
+        pictures = 0
+        for finding in self.data()["findings"]:
+            problem = json.loads((self.report / finding["files"][1]).read_text())
+            picture = finding["files"][5]
+            self.assertEqual(picture != "", "scene" in problem, finding["signature"])
+            if picture:
+                pictures += 1
+                self.assertIn("<svg", (self.report / picture).read_text())
+        self.assertGreater(pictures, 0)
+
     def test_the_records_stand_in_the_page(self):
         rows = tables(self.report / "frontiers.csv")
         records = json.loads(cli.run("records", "--json").out)

@@ -74,7 +74,7 @@ function numbers({names, A, b, mu}) {
       element('table', {}, element('thead', {}, head), element('tbody', {}, ...body)));
 }
 
-const fileTitles = ['problem', 'as found', 'certificate', 'a solution exists', 'likewise, as found'];
+const fileTitles = ['problem', 'as found', 'certificate', 'a solution exists', 'likewise, as found', 'picture'];
 
 function details(finding) {
   const files = finding.files.flatMap(
