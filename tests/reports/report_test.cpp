@@ -742,7 +742,8 @@ TEST_CASE("report: the page names the machines that searched, or says that the s
   CHECK(Has(page, "<dt>on</dt><dd>Processor &lt;9&gt;, 8 cores</dd>"));
   CHECK(Has(page, "<dt>on</dt><dd>another</dd>"));
   CHECK(!Has(page, "does not name"));
-  CHECK(Has(TextReport(store, "t", {}), "machine: Processor <9>, 8 cores"));
+  CHECK(Has(TextReport(store, "t", [](std::string_view) { return std::string_view(); }),
+            "machine: Processor <9>, 8 cores"));
 }
 
 TEST_CASE("report: a page without measurements names the commands that make them") {
@@ -750,8 +751,8 @@ TEST_CASE("report: a page without measurements names the commands that make them
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
   const std::string page = ReadText(scratch / "out/index.html");
   CHECK(Has(page, "<a href=\"#rungs\">Speed against accuracy</a>"));
-  CHECK(Has(page, "./run bench --suite trade --csv trade.csv\n"));
-  CHECK(Has(page, "./run report STORE --bench trade.csv extremes.csv -o DIR"));
+  CHECK(Has(page, "stiction bench --suite trade --csv trade.csv\n"));
+  CHECK(Has(page, "stiction report STORE --bench trade.csv extremes.csv -o DIR"));
   CHECK(!Has(page, "data-figure=\"rungs\""));
 }
 

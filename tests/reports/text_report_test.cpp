@@ -113,7 +113,7 @@ TEST_CASE("text: every number is a sum over the units") {
     CHECK_THAT(text,
                Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
     CHECK_THAT(text, Contains("2 certified and minimized, 1 to go"));
-    CHECK_THAT(text, Contains("./run search --store the.store --finish"));
+    CHECK_THAT(text, Contains("stiction search --store the.store --finish"));
   }
 }
 
@@ -139,9 +139,9 @@ TEST_CASE("text: the simplest loop stands in numbers, with commands that replay 
   CHECK_THAT(Flowing(text),
              Contains("the state after 3 drives stands again 1 drive later; readings: 36 cycle, 1500 solved"));
   CHECK_THAT(Flowing(text), Contains("19 -3/23 -1 -3/23 1 29 mu = 5/17"));
-  CHECK_THAT(text, Contains("    ./run report 'a store'\\''s' -o report\n"));
-  CHECK_THAT(text, Contains("    ./run replay report/findings/cycle-2c-4d-10s-00.json --step\n"));
-  CHECK_THAT(text, Contains("    ./run problem 'a store'\\''s' 0 7\n"));
+  CHECK_THAT(text, Contains("    stiction report 'a store'\\''s' -o report\n"));
+  CHECK_THAT(text, Contains("    stiction replay report/findings/cycle-2c-4d-10s-00.json --step\n"));
+  CHECK_THAT(text, Contains("    stiction problem 'a store'\\''s' 0 7\n"));
 }
 
 TEST_CASE("text: loops that the corpus has are told from new ones") {
