@@ -18,6 +18,7 @@
 #include "corpus/grouped.h"
 #include "corpus/output_error.h"
 #include "corpus/scene_file.h"
+#include "reports/animation.h"
 #include "reports/draw.h"
 #include "reports/rounded_scene.h"
 #include "scene/simulate.h"
@@ -200,6 +201,27 @@ class SimulationWriter {
     Flush();
   }
 
+  // The problems of forces of the step that a frame, the number of it in the run, shows, while there is room.
+  void AddProblems(const SimulationIn<Kind>& simulation, std::int64_t frame, Picture& picture) {
+    const auto& islands = simulation.model().islands;
+    std::size_t entries = 0;
+    for (const auto& island : islands) entries += static_cast<std::size_t>(island.rows) * island.rows;
+    if (!has_room_ || entries > kMostEntries) {
+      picture.remark = entries > kMostEntries ? "large" : "room";
+      return;
+    }
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      const std::string name = fmt::format("{}-{:05}-{}", simulation.scene().name, frame, i + 1);
+      const Json origin = {{"scene", simulation.scene().name},
+                           {"frame", frame},
+                           {"level", "forces"},
+                           {"rounded", "J, A and b to doubles"}};
+      picture.problems.push_back(Print(ExactFile(simulation.model().Problem(i), name, origin)));
+      room_ -= std::min(room_, picture.problems.back().size());
+    }
+    has_room_ = room_ > 0;
+  }
+
   // Where a file is while the folder of the output is not whole.
   fs::path Place(const fs::path& path) const { return folder_.Place(path); }
 
@@ -209,7 +231,7 @@ class SimulationWriter {
     for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
     const double newton = ForceScale(view_, std::move(largest));
     folder_.Write("animation.html",
-                  DrawAnimation(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
+                  AnimationPage(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
     SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
       SetPoses(moved, pictures_[k]);
@@ -227,6 +249,9 @@ class SimulationWriter {
   const Drift& worst() const { return worst_; }
 
  private:
+  // What problems a page holds: of a frame with at most so many entries of A, and about so many characters.
+  static constexpr std::size_t kMostEntries = 10'000, kMostText = 4'000'000;
+
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -245,6 +270,8 @@ class SimulationWriter {
   Drift worst_;
   View view_;
   std::vector<Picture> pictures_;
+  std::size_t room_ = kMostText;
+  bool has_room_ = true;
 };
 
 // About twice a second, of runs that take more than that.
@@ -282,12 +309,17 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
     const double time = simulation.time();
     const auto start = shown ? std::optional(simulation.scene()) : std::nullopt;
     simulation.Step();
-    if (start) writer.AddPicture(*start, RecordFrame(*start, time, MarksOf(simulation)));
+    if (start) {
+      auto picture = RecordFrame(*start, time, MarksOf(simulation));
+      writer.AddProblems(simulation, k, picture);
+      writer.AddPicture(*start, std::move(picture));
+    }
     writer.AddState(simulation);
     progress.Show(k + 1, steps, simulation.time());
   }
-  writer.AddPicture(simulation.scene(),
-                    RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation)));
+  auto picture = RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation));
+  picture.remark = "last";
+  writer.AddPicture(simulation.scene(), std::move(picture));
 }
 
 void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const SimulateCommand& o) {
@@ -339,7 +371,9 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
     WriteProblem(writer.Place(at), file.scene.name, simulation.statistics().frames, "undecided", error.problem);
     auto marks = MarksOf(simulation);
     marks.forces.clear();  // they are of the step before
-    writer.AddPicture(simulation.scene(), RecordFrame(simulation.scene(), simulation.time(), std::move(marks)));
+    auto picture = RecordFrame(simulation.scene(), simulation.time(), std::move(marks));
+    picture.remark = "undecided";
+    writer.AddPicture(simulation.scene(), std::move(picture));
     writer.WritePictures(scene);
     writer.Commit();
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";

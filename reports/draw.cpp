@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "corpus/json_text.h"
 #include "reports/draw_bodies.h"
 #include "scene/simulate.h"
 
@@ -156,65 +155,6 @@ Html Svg(const Screen& screen, const Html& content) {
          Html("\n");
 }
 
-// Number k of `frames`: time, transforms of the bodies, and what is drawn where it is.
-template <class Kind>
-Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const FrameIn<Kind>& frame,
-               double newton) {
-  return {frame.time, Transforms(moved, screen), Marks(moved, screen, frame.marks, newton).markup()};
-}
-
-const Html& PlayerStyle() {
-  static const Html style(
-      "<style>body{font-family:sans-serif;margin:1em} svg{border:1px solid #ccc;max-width:100%} "
-      "input{width:60%;vertical-align:middle}</style>\n");
-  return style;
-}
-
-const Html& PlayerControls() {
-  static const Html controls(
-      "<p><button id=\"play\">Pause</button> <input id=\"frame\" type=\"range\" min=\"0\" value=\"0\"> "
-      "<span id=\"time\"></span></p>\n");
-  return controls;
-}
-
-// Plays `frames` at `rate` frames a second.
-const Html& Player() {
-  static const Html player(R"js(
-const slider = document.getElementById('frame'), play = document.getElementById('play');
-const label = document.getElementById('time'), marks = document.getElementById('marks');
-const bodies = [...document.querySelectorAll('#bodies > g')];
-slider.max = frames.length - 1;
-function show(k) {
-  const [time, transforms, drawn] = frames[k];
-  transforms.forEach((transform, i) => bodies[i].setAttribute('transform', transform));
-  marks.innerHTML = drawn;
-  slider.value = k;
-  label.textContent = `t = ${time.toFixed(3)} s`;
-}
-let playing = true, began = null, first = 0;
-// The last picture up to a time, which starts again after the last one.
-function at(time) {
-  const last = frames.length - 1, span = frames[last][0] - frames[0][0] + 1 / rate;
-  const t = frames[0][0] + (time - frames[0][0]) % span;
-  let k = 0;
-  while (k < last && frames[k + 1][0] <= t + 1e-9) ++k;
-  return k;
-}
-function tick(now) {
-  if (playing) {
-    if (began === null) { began = now; first = +slider.value; }
-    show(at(frames[first][0] + (now - began) / 1000));
-  }
-  requestAnimationFrame(tick);
-}
-play.onclick = () => { playing = !playing; began = null; play.textContent = playing ? 'Pause' : 'Play'; };
-slider.oninput = () => { playing = false; began = null; play.textContent = 'Play'; show(+slider.value); };
-show(0);
-requestAnimationFrame(tick);
-)js");
-  return player;
-}
-
 }  // namespace
 
 template <class Kind>
@@ -236,37 +176,13 @@ Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const Mark
          Html("\n");
 }
 
-template <class Kind>
-std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
-                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate) {
-  const Screen screen(view);
-  Html bodies("\n");
-  for (const Html& picture : BodyPictures(scene, screen)) bodies += Tag("g")(picture) + Html("\n");
-  Json data = Json::array();
-  SceneIn<Kind, double> moved = scene;
-  for (const auto& frame : frames) {
-    SetPoses(moved, frame);
-    data.push_back(FrameJson(moved, screen, frame, newton));
-  }
-  const Html picture = Tag("g", {{"id", "bodies"}})(bodies) + Html("\n") + Tag("g", {{"id", "marks"}})("");
-  const Html script = Html("\nconst rate = ") + ScriptData(JsonText(rate)) + Html(";\nconst frames = ") +
-                      ScriptData(JsonText(data)) + Html(";") + Player();
-  const Html head = Html("<meta charset=\"utf-8\">") + Tag("title")(scene.name) + Html("\n") + PlayerStyle();
-  const Html body = Tag("h1")(scene.name) + Html("\n") + Svg(screen, picture + Html("\n")) + PlayerControls() +
-                    Tag("script")(script);
-  return Document(Tag("head")(head), Tag("body")(body));
-}
-
 #define STICTION_INSTANTIATE(Kind)                                                                       \
   template void View::Include(const SceneIn<Kind, double>&);                                             \
   template MarksIn<Kind> MarksOf(const SimulationIn<Kind>&);                                             \
   template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);               \
   template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                  \
   template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double); \
-  template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&,              \
-                           const std::string&);                                                          \
-  template std::string DrawAnimation(const SceneIn<Kind, double>&, const View&,                          \
-                                     const std::vector<FrameIn<Kind>>&, double, double)
+  template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, const std::string&)
 
 STICTION_INSTANTIATE(Plane);
 STICTION_INSTANTIATE(Space);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draw: a state as an SVG, a run as one HTML page that moves. Text only; no file is written here.
+// Draw: a state as an SVG. Text only; no file is written here. animation.h has the page of a run.
 //
 // Fixed bodies are dark or grey, others have the colour of their level; joints are white circles, contacts
 // green ones, forces of contacts red arrows, as they act on the body that moves, or on the later one of two. An
@@ -54,6 +54,8 @@ struct FrameIn {
   double time = 0;  // s
   std::vector<Pose> bodies;
   MarksIn<Kind> marks;
+  std::vector<std::string> problems = {};  // that the forces solve, as texts of stiction-problem files
+  std::string remark = {};                 // what is to be said of it
 };
 template <class Kind>
 FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>& scene, double time, MarksIn<Kind> marks);
@@ -80,10 +82,6 @@ std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const 
 template <class Kind>
 Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
                 const std::string& label);
-// `scene` gives shapes and colours, frames the poses. `rate`: frames a second when played.
-template <class Kind>
-std::string DrawAnimation(const SceneIn<Kind, double>& scene, const View& view,
-                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate);
 
 }  // namespace stiction
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "scene/motion.h"
 #include "scene/parallel.h"
@@ -267,7 +268,7 @@ template <class Kind>
 auto SimulationIn<Kind>::Accelerations() -> Changes {
   std::vector<bool> held(contacts_.size(), false), closing(contacts_.size(), false);
   for (int round = 0;; ++round) {
-    const Model model = AssembleAt(Level::kForces, held, closing);
+    Model model = AssembleAt(Level::kForces, held, closing);
     const bool all_held = std::find(held.begin(), held.end(), false) == held.end();
     Forces f;
     if (!Solve(model, Level::kForces, f)) {
@@ -281,7 +282,7 @@ auto SimulationIn<Kind>::Accelerations() -> Changes {
     statistics_.stopped += reversing;
     const int back = KeepClosing(model, accelerations, closing);
     if ((reversing == 0 && back == 0) || round >= kHoldRounds) {
-      KeepForces(model, f);
+      KeepForces(std::move(model), f);
       return accelerations;
     }
   }
@@ -323,7 +324,7 @@ int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerat
 }
 
 template <class Kind>
-void SimulationIn<Kind>::KeepForces(const Model& model, const Forces& f) {
+void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
   forces_.clear();
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     int at = 0;
@@ -333,17 +334,22 @@ void SimulationIn<Kind>::KeepForces(const Model& model, const Forces& f) {
       force.bodies = constraint.bodies;
       force.from_joint = constraint.from_joint;
       force.force.setZero();
-      for (const auto& row : constraint.rows)
-        force.force += row.J[0].template head<Kind::kDimension>() * f[i][at++];
+      force.law = constraint.law;
+      for (const auto& row : constraint.rows) {
+        force.ways.push_back(row.J[0].template head<Kind::kDimension>());
+        force.rows.push_back(f[i][at++]);
+        force.force += force.ways.back() * force.rows.back();
+      }
       if (constraint.from_joint) {
         const auto& joint = scene_.joints[constraint.source];
         force.point = scene_.bodies[joint.a].At(joint.at_a);
       } else {
         force.point = contacts_[constraint.source].point;
       }
-      forces_.push_back(force);
+      forces_.push_back(std::move(force));
     }
   }
+  model_ = std::move(model);
 }
 
 template <class Kind>

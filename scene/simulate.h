@@ -133,6 +133,9 @@ struct AppliedForceIn {
   std::array<int, 2> bodies = {0, 0};
   typename Kind::template Vector<double> point, force;
   bool from_joint = false;
+  Contact<double> law = {};
+  std::vector<double> rows = {};  // the same by rows: normal, then tangential, N
+  std::vector<typename Kind::template Vector<double>> ways = {};  // of a unit force of each, on bodies[0]
 };
 
 struct Energy {
@@ -167,6 +170,8 @@ class SimulationIn {
   // Of the last step.
   const std::vector<Applied>& forces() const { return forces_; }
   const std::vector<Touch>& contacts() const { return contacts_; }
+  // Whose islands are the problems that those forces solve, in the order of forces(). Empty before a step.
+  const ModelIn<Kind, double>& model() const { return model_; }
 
  private:
   using Model = ModelIn<Kind, double>;
@@ -193,7 +198,7 @@ class SimulationIn {
   Changes Accelerations();
   int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
   int KeepClosing(const Model& model, const Changes& accelerations, std::vector<bool>& closing) const;
-  void KeepForces(const Model& model, const Forces& f);
+  void KeepForces(Model model, const Forces& f);
   void Move(const Changes& accelerations);
 
   SceneType scene_;
@@ -209,6 +214,7 @@ class SimulationIn {
   std::vector<Touch> contacts_;
   std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
   std::vector<Applied> forces_;
+  Model model_;
   std::size_t failed_ = 0;  // island
 };
 using Simulation = SimulationIn<Plane>;

@@ -14,7 +14,7 @@ import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const pages = ['viewer', 'report', 'comparison'];
+const pages = ['animation', 'viewer', 'report', 'comparison'];
 
 async function bundle(file, define = {}) {
   const result = await build({

@@ -64,11 +64,11 @@ function arrow(from, to, style) {
 export const forceArrow = arrow;
 
 class ConeInPlane {
-  constructor(runs, layout) {
+  constructor(runs, layout, [leastAcross = 0, leastUp = 0] = []) {
     this.layout = layout;
     const points = runs.flatMap(run => Array.from({length: run.last + 1}, (_, k) => pointOf(run.f(k), layout)));
-    const right = Math.max(...points.map(p => Math.abs(p[0])));
-    const top = Math.max(0, ...points.map(p => p[1])), low = Math.min(0, ...points.map(p => p[1]));
+    const right = Math.max(leastAcross, ...points.map(p => Math.abs(p[0])));
+    const top = Math.max(leastUp, ...points.map(p => p[1])), low = Math.min(0, ...points.map(p => p[1]));
     const fit = size => size === 0 ? Infinity : size;
     let across = (kWidth / 2 - kMargin) / fit(right), up = (kHeight - 2 * kMargin) / fit(top - low);
     if (across === 0 && up === 0) across = up = 1;
@@ -118,14 +118,14 @@ class ConeInPlane {
 }
 
 class DiscInSpace {
-  constructor(runs, layout) {
+  constructor(runs, layout, [least = 0] = []) {
     this.layout = layout;
     this.isToScale = true;
     const sizes = runs.flatMap(run => Array.from({length: run.last + 1}, (_, k) => {
       const f = run.f(k).slice(layout.first, layout.first + 3).map(toDouble);
       return Math.max(Math.hypot(f[1], f[2]), toDouble(layout.contact.mu) * f[0]);
     }));
-    const largest = Math.max(...sizes);
+    const largest = Math.max(least, ...sizes);
     this.scale = largest === 0 ? 1 : (kHeight / 2 - 10) / largest;
   }
 
@@ -163,13 +163,14 @@ class DiscInSpace {
 
 // A figure for each contact, with the forces of all runs.
 export class Cones {
-  constructor(data, runs) {
+  // `reach`: forces that the scales include, such as those of other frames (N across and up, of a disc one).
+  constructor(data, runs, reach = []) {
     this.runs = runs;
     this.figures =
         layoutOf(data.problem).map((layout, i) => ({
                                      layout,
                                      number: i + 1,
-                                     picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(runs, layout)
+                                     picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(runs, layout, reach)
                                    }));
     this.node = element('div', {class: 'cones'});
   }

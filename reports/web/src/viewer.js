@@ -6,6 +6,7 @@ import {byId, element, icon} from './dom.js';
 import {decoded, Draft, encoded} from './draft.js';
 import {Editor} from './editor.js';
 import {Picture} from './picture.js';
+import {button, icons} from './player.js';
 import {Run, whereTheyPart} from './run.js';
 import {tellReadings, tellStep} from './steps.js';
 import {Timeline} from './timeline.js';
@@ -99,20 +100,10 @@ function play(on) {
   controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
 }
 
-const icons = {
-  back: 'M12 2v12L4 8z',
-  next: 'M4 2v12l8-6z',
-  play: 'M4 1.5v13L14 8z',
-  pause: 'M3.5 2H7v12H3.5zM9 2h3.5v12H9z',
-  first: 'M2 2h2.2v12H2zM14 2v12L5 8z',
-  last: 'M11.8 2H14v12h-2.2zM2 2v12l9-6z',
-};
 const stop = handler => () => {
   play(false);
   handler();
 };
-const button = (shape, label, click, title = label) =>
-    element('button', {type: 'button', 'aria-label': label, title, click}, icon(shape));
 const controls = {
   first: button(icons.first, 'First', stop(() => go(0)), 'First (Home)'),
   back: button(icons.back, 'Back', stop(() => go(shown.moment - 1)), 'Back (←)'),

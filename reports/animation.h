@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a run of a scene: one file that needs nothing else, which plays it, and shows the forces of each
+// frame with their numbers. Bundled ahead of time (web/), like viewer.h.
+
+#ifndef STICTION_REPORTS_ANIMATION_H_
+#define STICTION_REPORTS_ANIMATION_H_
+
+#include <string>
+#include <vector>
+
+#include "reports/draw.h"
+
+namespace stiction {
+
+// `scene` gives shapes, colours and names, frames the poses. `newton` as in draw.h, `rate`: frames a second
+// when played.
+template <class Kind>
+std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
+                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_ANIMATION_H_

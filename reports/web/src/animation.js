@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that moves. The address says what is shown: #frame=12, counted from 0.
+import {Cones, forceArrow} from './cones.js';
+import {byId, element, icon, svgElement} from './dom.js';
+import {short} from './numbers.js';
+import {button, icons} from './player.js';
+
+const kCones = 12;      // contacts of a frame that have a figure each
+const kLongest = 0.25;  // arrow, of the picture's height
+
+const data = JSON.parse(byId('data').textContent), frames = data.frames, last = frames.length - 1;
+const shown = {frame: 0, began: null, from: 0, request: null};
+
+// ---- Forces ----------------------------------------------------------------------------------
+
+const tangential = f => Math.hypot(...f.slice(1));
+const limit = force => force.mu * force.f[0];
+
+// What is known of a contact by its force alone: at the limit it may rest or begin to slide.
+function modeOf(force) {
+  if (force.kind !== 'static') return force.kind;
+  if (Math.hypot(...force.f) === 0) return 'no force';
+  const most = limit(force), size = tangential(force.f);
+  return size < most - 1e-6 * Math.max(size, most) ? 'sticking' : 'at the limit';
+}
+
+// The largest forces of all frames, so that a cone keeps its scale.
+function reachOf() {
+  let across = 0, up = 0, radius = 0;
+  for (const {forces} of frames) {
+    for (const force of forces) {
+      across = Math.max(across, tangential(force.f));
+      up = Math.max(up, force.f[0]);
+      radius = Math.max(radius, tangential(force.f), force.mu === undefined ? 0 : limit(force));
+    }
+  }
+  return data.dimension === 3 ? [radius] : [across, up];
+}
+const reach = reachOf();
+
+const value = x => element('data', {value: String(x)}, short(x));
+const cell = x => element('td', {class: 'n'}, x === undefined ? '–' : value(x));
+const inSpace = data.dimension === 3;
+
+function row(force, i) {
+  const f = force.f, most = force.mu === undefined ? undefined : limit(force);
+  return element(
+      'tr', {}, element('th', {scope: 'row'}, String(i + 1)),
+      element('td', {class: 'pair'}, force.bodies.map(body => data.names[body]).join(' on ')), cell(f[0]),
+      ...inSpace ? [cell(f[1]), cell(f[2])] : [], cell(f.length > 1 ? tangentialShown(f) : undefined),
+      cell(most), cell(force.mu), element('td', {}, modeOf(force)));
+}
+// In the plane with its sign.
+const tangentialShown = f => inSpace ? tangential(f) : f[1];
+
+function table(forces) {
+  if (forces.length === 0) return element('p', {class: 'note'}, 'No contact bears a force in this frame.');
+  const names = [
+    'Contact', 'Bodies', 'fN', ...inSpace ? ['fFx', 'fFy'] : [], inSpace ? '|fF|' : 'fF', 'μ fN', 'μ', 'Mode'
+  ];
+  return element(
+      'table', {class: 'values'}, element('caption', {}, 'Forces of the contacts of this frame, in newtons'),
+      element(
+          'thead', {}, element('tr', {}, ...names.map(name => element('th', {scope: 'col'}, name)))),
+      element('tbody', {}, ...forces.map(row)));
+}
+
+function cones(forces) {
+  const few = forces.slice(0, kCones);
+  const run = {last: 0, f: () => few.flatMap(force => force.f)};
+  const contacts = few.map(({kind, mu}) => ({kind, mu: mu === undefined ? undefined : Number(short(mu))}));
+  const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reach);
+  figures.show([0]);
+  const more = forces.length - few.length;
+  return [
+    figures.node,
+    more > 0 ? element('p', {class: 'note'}, `The first ${few.length}; the table has all ${forces.length}.`) : '',
+  ];
+}
+
+// ---- The picture -----------------------------------------------------------------------------
+
+const [width, height] = data.size;
+const bodies = data.bodies.map(markup => {
+  const group = svgElement('g');
+  group.innerHTML = markup;  // drawn by the program, which escapes what it draws
+  return group;
+});
+const placed = svgElement('g'), marks = svgElement('g', {class: 'marks'});
+const svg = svgElement(
+    'svg', {viewBox: `0 0 ${width} ${height}`, role: 'img'},
+    svgElement('rect', {width: '100%', height: '100%'}), ...bodies, placed, marks);
+
+function arrow({at, along: [x, y]}) {
+  const size = Math.hypot(x, y), longest = kLongest * height, share = size > longest ? longest / size : 1;
+  const style = `force run-0${size > longest ? ' cut' : ''}`;
+  return forceArrow(at, [at[0] + share * x, at[1] + share * y], style);
+}
+
+function drawPicture(frame) {
+  frame.transforms.forEach((transform, i) => bodies[i].setAttribute('transform', transform));
+  placed.innerHTML = frame.placed;  // as above
+  const numbered = frame.forces.length <= kCones;
+  marks.replaceChildren(
+      ...frame.points.map(([cx, cy]) => svgElement('circle', {class: 'touch', cx, cy, r: 3})),
+      ...frame.forces.filter(({along}) => along[0] !== 0 || along[1] !== 0).map(arrow),
+      ...numbered ? frame.forces.flatMap(({at: [x, y]}, i) => [
+        svgElement('circle', {class: 'contact', cx: x, cy: y, r: 9}),
+        svgElement('text', {class: 'contact', x, y: y + 5, 'text-anchor': 'middle'}, String(i + 1)),
+      ]) : []);
+  svg.setAttribute(
+      'aria-label', `${data.name} at ${frame.time.toFixed(3)} s, ${frame.forces.length} contacts with forces`);
+}
+
+// ---- The problem of a frame ------------------------------------------------------------------
+
+const command = () => element('code', {}, 'stiction simulate SCENE -o FOLDER --problems PROBLEMS');
+const remarks = {
+  last: () => ['No step follows this frame, so it has no problem: contacts and forces are those of the step before.'],
+  undecided: () => ['The step from here has no answer; its problem is in ', element('code', {}, 'undecided.json'), '.'],
+  large: () => ['A of this frame has more than 10,000 entries, too many for a page. ', command(),
+                ' writes its problem.'],
+  room: () => ['The problems of frames before this one fill what a page holds, 4 MB. ', command(),
+               ' writes all.'],
+};
+
+function save(text) {
+  const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
+  element('a', {href: url, download: `${JSON.parse(text).name.replace(/[^\w.-]/g, '_')}.json`}).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+function problems({problems: texts, remark}) {
+  if (remark !== '') return remarks[remark]();
+  if (texts.length === 0) return ['Nothing touches, and nothing is joined: there is no problem.'];
+  return texts.map(
+      (text, i) => element(
+          'button', {type: 'button', class: 'save', click: () => save(text)},
+          texts.length === 1 ? 'Problem of this frame' : `Problem ${i + 1} of ${texts.length} of this frame`));
+}
+
+// ---- The player ------------------------------------------------------------------------------
+
+const isPlaying = () => shown.request !== null;
+
+function draw() {
+  const frame = frames[shown.frame];
+  drawPicture(frame);
+  controls.slider.value = shown.frame;
+  controls.slider.setAttribute('aria-valuetext', `frame ${shown.frame}, ${frame.time.toFixed(3)} s`);
+  controls.place.textContent = `${shown.frame} / ${last} · ${frame.time.toFixed(3)} s`;
+  controls.link.href = `#frame=${shown.frame}`;
+  controls.back.disabled = controls.first.disabled = shown.frame === 0;
+  controls.next.disabled = controls.last.disabled = shown.frame === last;
+  byId('forces').replaceChildren(table(frame.forces));
+  byId('cones').replaceChildren(...frame.forces.length > 0 ? cones(frame.forces) : []);
+  if (isPlaying()) return;
+  byId('problem').replaceChildren(...problems(frame));
+  byId('said').textContent = `Frame ${shown.frame}, ${frame.time.toFixed(3)} s`;
+}
+
+function go(frame) {
+  shown.frame = Math.max(0, Math.min(last, frame));
+  draw();
+  try {
+    if (!isPlaying()) history.replaceState(null, '', `#frame=${shown.frame}`);
+  } catch {
+    // Some browsers allow only so many a second.
+  }
+}
+
+// The last frame up to a time.
+function frameAt(time) {
+  let k = shown.frame;
+  while (k < last && frames[k + 1].time <= time + 1e-9) ++k;
+  return k;
+}
+
+function tick(now) {
+  if (shown.began === null) Object.assign(shown, {began: now, from: frames[shown.frame].time});
+  const next = frameAt(shown.from + Number(controls.speed.value) * (now - shown.began) / 1000);
+  shown.request = requestAnimationFrame(tick);
+  if (next !== shown.frame) go(next);
+  if (shown.frame === last) play(false);
+}
+
+function play(on) {
+  if (isPlaying()) cancelAnimationFrame(shown.request);
+  shown.request = null;
+  shown.began = null;
+  if (on && shown.frame === last) go(0);
+  if (on) shown.request = requestAnimationFrame(tick);
+  controls.play.replaceChildren(icon(on ? icons.pause : icons.play));
+  controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
+  if (!on) go(shown.frame);
+}
+
+const to = frameOf => () => {
+  const frame = frameOf();
+  play(false);
+  go(frame);
+};
+const speeds = [['0.1', '1/10'], ['0.25', '1/4'], ['0.5', '1/2'], ['1', '1'], ['2', '2'], ['4', '4']];
+const controls = {
+  first: button(icons.first, 'First', to(() => 0), 'First (Home)'),
+  back: button(icons.back, 'Back', to(() => shown.frame - 1), 'Back (←)'),
+  play: button(icons.play, 'Play', () => play(!isPlaying()), 'Play (Space)'),
+  next: button(icons.next, 'Forward', to(() => shown.frame + 1), 'Forward (→)'),
+  last: button(icons.last, 'Last', to(() => last), 'Last (End)'),
+  slider: element('input', {
+    type: 'range', min: 0, max: last, step: 1, 'aria-label': 'Frame',
+    input: to(() => Number(controls.slider.value))
+  }),
+  place: element('span', {class: 'place'}),
+  speed: element(
+      'select', {'aria-label': 'Speed', change: () => (shown.began = null)},
+      ...speeds.map(([value, name]) => element('option', {value, selected: value === '1'}, `${name} ×`))),
+  link: element('a', {href: '#frame=0', class: 'link', title: 'The address of this frame'}, 'link'),
+};
+const keys = {
+  ArrowRight: controls.next, ArrowLeft: controls.back, Home: controls.first, End: controls.last
+};
+
+function onKey(event) {
+  if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
+  if (event.target.closest?.('select')) return;
+  if (event.key === ' ' && !event.target.closest?.('button, a'))
+    play(!isPlaying());
+  else if (keys[event.key] !== undefined)
+    keys[event.key].click();
+  else
+    return;
+  event.preventDefault();
+}
+
+function followAddress() {
+  const found = location.hash.match(/^#frame=(\d{1,9})$/);
+  if (isPlaying()) play(false);
+  go(found === null ? 0 : Number(found[1]));
+}
+
+byId('name').textContent = data.name;
+byId('picture').prepend(element('div', {class: 'drawing'}, svg));
+byId('player').append(...Object.values(controls));
+document.addEventListener('keydown', onKey);
+addEventListener('hashchange', followAddress);
+let before = 0;
+addEventListener('beforeprint', () => {  // the first frame
+  if (isPlaying()) play(false);
+  before = shown.frame;
+  shown.frame = 0;
+  draw();
+});
+addEventListener('afterprint', () => go(before));
+followAddress();
