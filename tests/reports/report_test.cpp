@@ -19,6 +19,7 @@
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/problem_file.h"
+#include "reports/animation.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
 #include "reports/draw.h"
@@ -688,15 +689,15 @@ TEST_CASE("draw: a page escapes the name of its scene, and its frames are JSON, 
     view.AddMargin();
     MarksIn<Kind> marks;
     marks.contacts.push_back(scene.bodies[0].position);
-    const std::string page = DrawAnimation<Kind>(scene, view, {RecordFrame(scene, 0.5, marks)}, 1, 30);
-    CHECK(Has(page, "<h1>a&lt;b&gt;</h1>"));
-    const std::string begin = "const frames = ";
-    const std::size_t from = page.find(begin) + begin.size(), to = page.find(";\n", from);
-    const Json frames = ParseJson(page.substr(from, to - from), "frames");
-    REQUIRE(frames.size() == 1);
-    CHECK(frames[0][0] == 0.5);
-    CHECK(frames[0][1].size() == transforms);
-    CHECK(Has(frames[0][2].get<std::string>(), "#30c030"));
+    const std::string page = AnimationPage<Kind>(scene, view, {RecordFrame(scene, 0.5, marks)}, 1, 30);
+    CHECK(Has(page, "<title>a&lt;b&gt;</title>"));
+    const std::string begin = "id=\"data\">";
+    const std::size_t from = page.find(begin) + begin.size(), to = page.find("</script>", from);
+    const Json data = ParseJson(page.substr(from, to - from), "data");
+    REQUIRE(data["frames"].size() == 1);
+    CHECK(data["frames"][0]["time"] == 0.5);
+    CHECK(data["frames"][0]["transforms"].size() == transforms);
+    CHECK(data["frames"][0]["points"].size() == 1);
     CHECK(Has(DrawSvg(scene, view, marks, 1), "#30c030"));
   };
   Scene<double> disc;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a run of a scene in a browser; run by animation_test.py, which writes the pages.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {readFileSync} from 'node:fs';
+import {test} from 'node:test';
+
+import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
+
+const {PROGRAM} = process.env;
+const names = ['plane', 'space', 'large'];
+const opened = (name, use, options = {}) => openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
+const dataOf = page => page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
+const frame = page => page.$eval('#player input', slider => Number(slider.value));
+const numbers = page => page.$$eval('#forces tbody tr', rows => rows.map(
+    row => [...row.querySelectorAll('data')].map(data => Number(data.value))));
+
+test('frames are stepped by keys, buttons, slider and address', async () => {
+  await opened('plane', async page => {
+    const last = (await dataOf(page)).frames.length - 1;
+    for (const [key, at] of [['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['End', last], ['Home', 0]]) {
+      await page.keyboard.press(key);
+      assert.equal(await frame(page), at);
+    }
+    await page.click('button[aria-label="Forward"]');
+    assert.equal(await page.evaluate(() => location.hash), '#frame=1');
+    await page.$eval('#player input', slider => {
+      slider.value = 4;
+      slider.dispatchEvent(new Event('input'));
+    });
+    assert.equal(await frame(page), 4);
+    await page.evaluate(() => { location.hash = '#frame=7'; });
+    await page.waitForFunction(() => document.querySelector('#player input').value === '7');
+  });
+  await opened('plane', async page => assert.equal(await frame(page), 5), {hash: '#frame=5'});
+});
+
+test('playing goes to the last frame, and stops there', async () => {
+  await opened('plane', async page => {
+    await page.selectOption('#player select', '4');
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press(' ');
+    await page.waitForSelector('button[aria-label="Pause"]');
+    const last = (await dataOf(page)).frames.length - 1;
+    await page.waitForFunction(last => Number(document.querySelector('#player input').value) === last, last);
+    await page.waitForSelector('button[aria-label="Play"]');
+  });
+});
+
+test('the tab key reaches the controls in their order', async () => {
+  await opened('plane', async page => {
+    const seen = [];
+    for (let i = 0; i < 6; ++i) {
+      await page.keyboard.press('Tab');
+      seen.push(await page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent));
+    }
+    assert.deepEqual(seen, ['Play', 'Forward', 'Last', 'Frame', 'Speed', 'link']);
+  });
+});
+
+test('the table has the numbers of the frame, and the problem that is saved gives them', async () => {
+  await opened('plane', async page => {
+    const {forces} = (await dataOf(page)).frames[0], shown = await numbers(page);
+    assert.deepEqual(shown.map(row => row.slice(0, 2)), forces.map(({f}) => f));
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('.save')]);
+    const file = await download.path();
+    assert.equal(JSON.parse(readFileSync(file, 'utf8')).format, 'stiction-problem');
+    const solved = JSON.parse(execFileSync(PROGRAM, ['solve', file, '--method', 'fast', '--arithmetic', 'double', '--json']));
+    const expected = forces.flatMap(({f}) => f);
+    solved.f.forEach((f, i) => assert.ok(Math.abs(Number(f) - expected[i]) < 1e-6 * (1 + Math.abs(expected[i])), `${f}, ${expected[i]}`));
+    await page.keyboard.press('End');
+    assert.match(await page.textContent('#problem'), /No step follows/);
+  });
+});
+
+test('narrow, dark and printed pages can be read', async () => {
+  for (const name of names) {
+    for (const colorScheme of ['light', 'dark']) {
+      await opened(name, async page => {
+        await assertColourScheme(page, colorScheme);
+        await assertHeadings(page);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+        assert.ok(wide <= 390, `${wide} pixels wide`);
+        for (const [what, contrast] of await contrasts(page, [{selector: 'p, th, td, h1, h2, button, select, figcaption, .cones figcaption *'}]))
+          assert.ok(contrast >= 4.5, `${what}: ${contrast}`);
+      }, {viewport: {width: 390, height: 800}, colorScheme});
+    }
+  }
+  await opened('plane', async page => {
+    await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+    assert.equal(await frame(page), 0);
+    await page.emulateMedia({media: 'print'});
+    assert.equal(await page.isVisible('#player'), false);
+    await page.emulateMedia({media: 'screen'});
+    await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+    assert.equal(await frame(page), 3);
+  }, {hash: '#frame=3'});
+});
+
+test('no other script runs', () => assertRunsNoOtherScript('plane.html'));
