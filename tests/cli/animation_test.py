@@ -16,7 +16,12 @@ from pathlib import Path
 import cli
 from viewer_test import Packages
 
-SCENES = {"plane": "block-in-a-valley", "space": "space/tripod", "large": "large/brick-wall"}
+# With the seconds that each runs.
+SCENES = {
+    "plane": ("block-in-a-valley", 0.5),
+    "space": ("space/tripod", 0.5),
+    "large": ("large/brick-wall", 0.1),
+}
 
 
 @unittest.skipIf(cli.SHORT, "pages are the same in every build")
@@ -25,9 +30,9 @@ class Browser(cli.TestCase):
         browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
         self.assertIsNotNone(browser, "expected a browser: apt-get install chromium")
         packages = Packages.get()
-        for name, scene in SCENES.items():
+        for name, (scene, seconds) in SCENES.items():
             out = self.folder / f"run-{name}"
-            done = cli.run("simulate", cli.ROOT / f"corpus/scenes/{scene}.json", "-o", out, "--seconds", "0.5",
+            done = cli.run("simulate", cli.ROOT / f"corpus/scenes/{scene}.json", "-o", out, "--seconds", seconds,
                            "--no-svg")
             self.assertEqual(done.code, 0, done.err)
             shutil.copy(out / "animation.html", self.folder / f"{name}.html")

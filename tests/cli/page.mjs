@@ -28,12 +28,15 @@ export async function openFile(
     if (request.url() !== url.replace(/#.*/, '') && !mayAsk(request.url()))
       wrong.push(`request: ${request.url()}`);
   });
-  await prepare(page);
-  await page.goto(url);
-  if (ready !== null) await page.waitForSelector(ready, {timeout: 60000, state: 'attached'});
-  await use(page);
-  assert.deepEqual(wrong, []);
-  await context.close();
+  try {
+    await prepare(page);
+    await page.goto(url);
+    if (ready !== null) await page.waitForSelector(ready, {timeout: 60000, state: 'attached'});
+    await use(page);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await context.close();  // or a page that failed plays on beside the next ones
+  }
 }
 
 // The contrast of what is seen with what it stands on, the least of each name: [[name, contrast], ...].

@@ -225,7 +225,7 @@ function onKey(event) {
   if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
   if (event.target.closest?.('select')) return;
   if (event.key === ' ' && !event.target.closest?.('button, a'))
-    play(!isPlaying());
+    controls.play.click();
   else if (keys[event.key] !== undefined)
     keys[event.key].click();
   else
@@ -241,6 +241,7 @@ function followAddress() {
 
 byId('name').textContent = data.name;
 byId('picture').prepend(element('div', {class: 'drawing'}, svg));
+controls.play.disabled = last === 0;
 byId('player').append(...Object.values(controls));
 document.addEventListener('keydown', onKey);
 addEventListener('hashchange', followAddress);
