@@ -24,17 +24,14 @@ function modeOf(force) {
   return size < most - 1e-6 * Math.max(size, most) ? 'sticking' : 'at the limit';
 }
 
-// The largest forces of all frames, so that a cone keeps its scale.
+// The largest forces of all frames, and the widest cones at them, so that a figure keeps its scale.
 function reachOf() {
-  let across = 0, up = 0, radius = 0;
-  for (const {forces} of frames) {
-    for (const force of forces) {
-      across = Math.max(across, tangential(force.f));
-      up = Math.max(up, force.f[0]);
-      radius = Math.max(radius, tangential(force.f), force.mu === undefined ? 0 : limit(force));
-    }
+  let across = 0, up = 0;
+  for (const force of frames.flatMap(({forces}) => forces)) {
+    across = Math.max(across, tangential(force.f), force.mu === undefined ? 0 : limit(force));
+    up = Math.max(up, force.f[0]);
   }
-  return data.dimension === 3 ? [radius] : [across, up];
+  return [across, up];
 }
 const reach = reachOf();
 
@@ -53,15 +50,20 @@ function row(force, i) {
 // In the plane with its sign.
 const tangentialShown = f => inSpace ? tangential(f) : f[1];
 
+const below = index => element('sub', {}, index);
+
 function table(forces) {
   if (forces.length === 0) return element('p', {class: 'note'}, 'No contact bears a force in this frame.');
-  const names = [
-    'Contact', 'Bodies', 'fN', ...inSpace ? ['fFx', 'fFy'] : [], inSpace ? '|fF|' : 'fF', 'μ fN', 'μ', 'Mode'
+  const head = [
+    ['', 'Contact'], ['', 'Bodies'], ['n', 'f', below('N')],
+    ...inSpace ? [['n', 'f', below('Fx')], ['n', 'f', below('Fy')], ['n', '|f', below('F'), '|']] : [['n', 'f', below('F')]],
+    ['n', 'μ f', below('N')], ['n', 'μ'], ['', 'Mode']
   ];
   return element(
       'table', {class: 'values'}, element('caption', {}, 'Forces of the contacts of this frame, in newtons'),
       element(
-          'thead', {}, element('tr', {}, ...names.map(name => element('th', {scope: 'col'}, name)))),
+          'thead', {},
+          element('tr', {}, ...head.map(([style, ...name]) => element('th', {scope: 'col', class: style}, ...name)))),
       element('tbody', {}, ...forces.map(row)));
 }
 
@@ -74,6 +76,7 @@ function cones(forces) {
   const more = forces.length - few.length;
   return [
     figures.node,
+    figures.areToScale ? '' : element('p', {class: 'note'}, 'The axes have scales of their own.'),
     more > 0 ? element('p', {class: 'note'}, `The first ${few.length}; the table has all ${forces.length}.`) : '',
   ];
 }
@@ -106,7 +109,7 @@ function drawPicture(frame) {
       ...frame.forces.filter(({along}) => along[0] !== 0 || along[1] !== 0).map(arrow),
       ...numbered ? frame.forces.flatMap(({at: [x, y]}, i) => [
         svgElement('circle', {class: 'contact', cx: x, cy: y, r: 9}),
-        svgElement('text', {class: 'contact', x, y: y + 5, 'text-anchor': 'middle'}, String(i + 1)),
+        svgElement('text', {class: 'contact', x, y, dy: '0.36em', 'text-anchor': 'middle'}, String(i + 1)),
       ]) : []);
   svg.setAttribute(
       'aria-label', `${data.name} at ${frame.time.toFixed(3)} s, ${frame.forces.length} contacts with forces`);
@@ -153,7 +156,8 @@ function draw() {
   controls.back.disabled = controls.first.disabled = shown.frame === 0;
   controls.next.disabled = controls.last.disabled = shown.frame === last;
   byId('forces').replaceChildren(table(frame.forces));
-  byId('cones').replaceChildren(...frame.forces.length > 0 ? cones(frame.forces) : []);
+  byId('cones').replaceChildren(...cones(frame.forces));
+  byId('cones').parentNode.hidden = frame.forces.length === 0;
   if (isPlaying()) return;
   byId('problem').replaceChildren(...problems(frame));
   byId('said').textContent = `Frame ${shown.frame}, ${frame.time.toFixed(3)} s`;
