@@ -768,6 +768,11 @@ bug = in_file("reports/existence_section.cpp", "^reports: ")
 bug("exceptions-hidden", "Exception(t.problems - t.solved)", "Exception(0)", "unsolved problems are not told")
 bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disagreements are not told")
 
+bug = in_file("reports/animation.cpp", "^reports: (animation|draw)")
+bug("animation-side", "ShownSide(scene, force.bodies) == 0 ? 1 : -1", "1", "forces point into the body that moves")
+bug("animation-of-joints", "if (!force.from_joint) forces.push_back(ForceJson(moved, screen, force, newton));",
+    "forces.push_back(ForceJson(moved, screen, force, newton));", "forces of joints are shown as if of contacts")
+
 bug = in_file("reports/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
 bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
