@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What is installed besides programs and library, and `cpack`: two Debian packages, stiction and libstiction-dev.
+# What is installed besides programs and library, and `cpack`: the Debian packages stiction,
+# libstiction-dev and python3-stiction.
 include(GNUInstallDirs)
 
 # compressed(FILE): FILE.gz in the build, when it is configured; without name and time.
@@ -37,11 +38,18 @@ install(DIRECTORY search/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction
         FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY cli/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
         FILES_MATCHING PATTERN "*.schema.json")
-foreach(package stiction libstiction-dev)
-  set(component library)
-  if(package STREQUAL "stiction")
-    set(component program)
-  endif()
+
+set(components program library)
+set(package_of_program stiction)
+set(package_of_library libstiction-dev)
+if(STICTION_PYTHON)
+  list(APPEND components python)
+  set(package_of_python python3-stiction)
+  install(FILES python/headline.ipynb DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-stiction/examples
+          COMPONENT python)
+endif()
+foreach(component ${components})
+  set(package ${package_of_${component}})
   install(FILES cmake/debian/${package}.copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
           COMPONENT ${component})
   install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
@@ -56,7 +64,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -77,4 +85,16 @@ set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pivoting methods for contact forces with f
 Headers, a static library and CMake files: the published algorithm of D.
 Baraff (1994) under every reading of its text, and complete driving, which
 always ends.")
+# The module is of one version of the interpreter; of numpy it takes what every version has.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-stiction)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS stiction)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/cmake/debian/python3/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/python3/prerm)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "contact forces with friction by pivoting, from Python
+Problems from arrays of numpy or files: solved, replayed step by step,
+certified in exact arithmetic; and campaigns that search for problems on which
+the algorithm of D. Baraff (1994) loops, as findings and tables.")
 include(CPack)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""notebook_test.py PROGRAM SOURCES: the cells of headline.ipynb give the outputs that are stored with them."""
+"""notebook_test.py [PROGRAM] SOURCES: the cells of headline.ipynb give the outputs that are stored with them.
+
+Instead of SOURCES the notebook itself can be named, where there is nothing else of them.
+"""
 import ast
 import contextlib
 import io
@@ -8,7 +11,9 @@ import sys
 import unittest
 from pathlib import Path
 
-NOTEBOOK = Path(sys.argv[2]) / "python/headline.ipynb"
+NOTEBOOK = Path(sys.argv[-1])
+if NOTEBOOK.is_dir():
+    NOTEBOOK /= "python/headline.ipynb"
 
 
 def run(source, names):

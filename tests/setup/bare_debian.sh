@@ -5,8 +5,8 @@
 #
 # Makes a minimal Debian 12 in DIR (new or empty), clones the committed state of this repository into it, and
 # runs the two commands of the README there as root, or each COMMAND given instead, e.g.
-# './run test --matrix'. Of packages: installs both, searches, reports, checks, replays, builds a project with the library,
-# and removes both. Prints every command's exit code and time; exits 0 only if all did.
+# './run test --matrix'. Of packages: installs them, searches, reports, checks, replays, builds a project with the
+# library, runs the headline from Python, and removes them. Prints every command's exit code and time; exits 0 only if all did.
 #
 # Needs root, debootstrap, git and network; about 2 GB in DIR, and some minutes besides the commands' own
 # time. DIR stays, to be looked at and removed with rm -rf. Nothing stays mounted, however the script ends.
@@ -76,6 +76,10 @@ readonly package_jobs=(
   'test -e /usr/share/man/man1/stiction.1.gz'
   'apt-get install -qq -y --no-install-recommends ./libstiction-dev_*.deb g++ cmake ninja-build >/dev/null'
   'cmake -S consumer -B consumer/build -G Ninja >/dev/null && ninja -C consumer/build >/dev/null && consumer/build/consumer'
+  'apt-get install -qq -y --no-install-recommends ./python3-stiction_*.deb >/dev/null'
+  'python3 notebook_test.py /usr/share/doc/python3-stiction/examples/headline.ipynb'
+  'python3 -c "import stiction; print(stiction.solve(stiction.Problem([[1]], [-1], 0, [\"frictionless\"]), \"ipopt\").outcome)"'
+  'apt-get remove -qq -y python3-stiction >/dev/null && ! python3 -c "import stiction" 2>/dev/null && ! ls /usr/lib/python3/dist-packages/stiction'
   'apt-get remove -qq -y stiction libstiction-dev >/dev/null && ! command -v stiction && ! ls /usr/share/stiction'
 )
 
@@ -104,7 +108,8 @@ main() {
   if [[ -n $packages ]]; then
     mkdir "$chroot/root/stiction"
     cp -- "$packages"/*.deb "$chroot/root/stiction/"
-    cp -R -- "$(dirname -- "$0")/../install/consumer" "$chroot/root/stiction/"
+    cp -R -- "$(dirname -- "$0")/../install/consumer" "$(dirname -- "$0")/../python/notebook_test.py" \
+      "$chroot/root/stiction/"
   else
     git clone --quiet --no-hardlinks -- "$(dirname -- "$0")/../.." "$chroot/root/stiction"
   fi
