@@ -16,6 +16,7 @@ from os import PathLike
 from typing import Any, Iterator, Mapping, Sequence, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _stiction
 
@@ -78,12 +79,12 @@ class Problem:
         return self._problem.dimension
 
     @property
-    def A(self) -> np.ndarray:
+    def A(self) -> NDArray[np.float64]:
         """At its nearest doubles: a view of the problem's memory, which cannot be written to."""
         return self._problem.A
 
     @property
-    def b(self) -> np.ndarray:
+    def b(self) -> NDArray[np.float64]:
         """Likewise."""
         return self._problem.b
 
@@ -180,7 +181,8 @@ class Certificate:
 
     def to_json(self) -> dict[str, Any]:
         """The certificate as dictionaries and lists."""
-        return json.loads(self.text)
+        fields: dict[str, Any] = json.loads(self.text)
+        return fields
 
 
 def solve(problem: Problem, method: str = "complete", arithmetic: str = "", policy: str = "paper") -> Answer:
@@ -223,7 +225,7 @@ _TEXTS = frozenset(("generator", "policy", "method", "arithmetic", "inexact_outc
                     "words_exact"))
 _YES_OR_NO_OF_FINDINGS = frozenset(("safe", "minimized_safe"))
 
-Table = dict[str, np.ndarray]
+Table = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -273,12 +275,13 @@ def _finding(row: Mapping[str, Any], seed: int) -> Finding:
         facts.get("found", {}).get("grid", {}), facts)
 
 
-def _column(table: str, name: str, cells: Sequence[str]) -> np.ndarray:
+def _column(table: str, name: str, cells: Sequence[str]) -> NDArray[Any]:
     if name in _TEXTS or (table == "findings" and name in _YES_OR_NO_OF_FINDINGS):
         return np.array(cells, dtype=str)
     empty = [cell == "" for cell in cells]
     numbers = np.array([int(cell or 0) for cell in cells], dtype=np.int64)
-    return np.ma.masked_array(numbers, empty) if any(empty) else numbers
+    masked: NDArray[Any] = np.ma.masked_array(numbers, empty)  # type: ignore[no-untyped-call]
+    return masked if any(empty) else numbers
 
 
 class Store:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """package_test.py PROGRAM SOURCES: the Python package says what the program says."""
+import ast
 import inspect
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -125,6 +127,34 @@ class Claims(unittest.TestCase):
             stiction.check(problem, text.replace('"1/3"', '"1/4"', 1))
 
 
+def members(node, within=""):
+    """Name -> number of parameters, without self, of the functions and properties of a stub."""
+    found = {}
+    for part in node.body:
+        if isinstance(part, ast.ClassDef):
+            found |= members(part, part.name + ".")
+        elif isinstance(part, ast.FunctionDef):
+            names = [argument.arg for argument in part.args.args]
+            found[within + part.name] = len(names) - names.count("self")
+    return found
+
+
+def compiled(thing, within=""):
+    """The same of the compiled module, by the first line of what pybind11 documents."""
+    found = {}
+    for name, part in vars(thing).items():
+        if inspect.isclass(part):
+            found |= compiled(part, name + ".")
+        elif isinstance(part, property):
+            found[within + name] = 0
+        elif callable(part) or isinstance(part, staticmethod):
+            if name.startswith("__") and (name != "__init__" or within == "Problem."):
+                continue
+            line = getattr(thing, name).__doc__.splitlines()[0]
+            found[within + name] = len(re.findall(r"\barg\d+|\b\w+(?=: )", line)) - ("self: " in line)
+    return found
+
+
 class Documented(unittest.TestCase):
     def test_public_names_have_docstrings_and_types(self):
         for name in stiction.__all__:
@@ -135,6 +165,10 @@ class Documented(unittest.TestCase):
                 self.assertIsNot(signature.return_annotation, inspect.Signature.empty, name)
                 for parameter in signature.parameters.values():
                     self.assertIsNot(parameter.annotation, inspect.Parameter.empty, f"{name}: {parameter}")
+
+    def test_the_types_of_the_module_name_all_that_it_has(self):
+        stub = ast.parse((SOURCES / "python/stiction/_stiction.pyi").read_text())
+        self.assertEqual(members(stub), compiled(stiction._stiction))
 
 
 if __name__ == "__main__":
