@@ -71,8 +71,8 @@ std::filesystem::path FindIpoptProgram() {
     const auto candidate = (folder / place / kName).lexically_normal();
     if (std::filesystem::is_regular_file(candidate, error)) return candidate;
   }
-  // The Python package, in a build or below /usr/lib: the executable is an interpreter, which need not be that of
-  // /usr/bin, and what holds this code a library.
+  // The Python package, in a build or below /usr/lib: the executable is an interpreter, which need not be that
+  // of /usr/bin, and what holds this code a library.
   if (Dl_info library; dladdr(reinterpret_cast<void*>(&FindIpoptProgram), &library) != 0) {
     const auto package = std::filesystem::absolute(library.dli_fname, error).parent_path();
     for (const char* place : {"../../..", "../../../../bin"}) {

@@ -98,8 +98,8 @@ void ForEachField(S& s, Visit visit) {
 }
 
 // `stiction-ipopt` beside the running executable, or where a build directory around it, or around the Python
-// package, has it, or in bin/ beside the lib/ that this package is installed in. If it is nowhere, the path beside
-// the executable.
+// package, has it, or in bin/ beside the lib/ that this package is installed in. If it is nowhere, the path
+// beside the executable.
 std::filesystem::path FindIpoptProgram();
 
 class IpoptProcess;

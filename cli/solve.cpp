@@ -11,6 +11,7 @@
 #include "answers/answer_text.h"
 #include "answers/narrate_text.h"
 #include "answers/problem_text.h"
+#include "answers/request.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
@@ -20,13 +21,8 @@
 namespace stiction {
 namespace {
 
-struct SolveVerb {
+struct SolveVerb : Wanted {
   std::string file;
-  std::string method{kAutomatic};
-  std::string arithmetic;  // empty: the usual one
-  std::string policy = "paper";
-  std::string law = "baraff";
-  SolveOptions options;
   double seconds = 0;
   bool fractions = false;  // for people, in full
   bool json = false;
@@ -144,25 +140,6 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
   }
 }
 
-// What is asked for, checked against the table.
-SolveRequest RequestOf(const SolveVerb& o, const ExactProblem& problem) {
-  const int dimension = problem.dimension;
-  SolveRequest request{.method = o.method, .options = o.options};
-  request.options.policy = ParsePolicy(o.policy);
-  request.options.law = o.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
-  if (dimension == 2 && o.law != "baraff")
-    throw InputError(o.file, "dimension", "2", "3: --law chooses a law of friction in space");
-  if (o.method != "baraff" && request.options.policy != Policy{})
-    throw InputError(fmt::format("--policy {}: expected --method baraff, of which it is a reading", o.policy));
-  const bool polygon = o.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
-  if (dimension == 3 && polygon) request.method = "complete";  // which that reading is
-  request.arithmetic = o.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic
-                                            : *FindArithmetic(o.arithmetic);
-  const std::string refusal = Refusal(request.method, dimension, request.arithmetic);
-  if (!refusal.empty()) throw InputError(o.file + ": " + refusal);
-  return request;
-}
-
 Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest& request) {
   const StopAfter stop(o.seconds);
   request.options.limits.stop = stop.flag();
@@ -194,7 +171,7 @@ std::string Meaning(const BackwardError& error, const ProblemFile& file) {
 
 int RunSolve(const SolveVerb& o) {
   const ProblemFile file = ReadProblem(o.file);
-  SolveRequest request = RequestOf(o, file.problem);
+  SolveRequest request = RequestOf(o, file.problem, o.file);
   const Solution solution = SolveFile(o, file.problem, request);
   Json result = SolutionToJson(solution, file.problem.dimension);
   const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);

@@ -4,6 +4,7 @@
 // Answers are those of the program's --json, as dictionaries and lists; stiction/__init__.py gives them types.
 // Whatever computes does so without the interpreter's lock.
 
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -11,9 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "answers/answer_text.h"
 #include "answers/followed.h"
+#include "answers/request.h"
 #include "certify/certificate.h"
 #include "certify/claims.h"
 #include "certify/solve.h"
@@ -21,6 +24,7 @@
 #include "corpus/digest.h"
 #include "corpus/output_error.h"
 #include "python/search.h"
+#include "python/signals.h"
 
 namespace stiction {
 namespace {
@@ -150,53 +154,66 @@ py::array View(const Numbers& numbers, const py::object& owner) {
 
 // ---- Solving ----
 
-SolveRequest RequestOf(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
-                       const std::string& policy) {
-  SolveRequest request{.method = method};
-  request.options.policy = ParsePolicy(policy);
-  if (method != "baraff" && request.options.policy != Policy{})
-    throw InputError("policy " + policy + ": expected method baraff, of which it is a reading");
-  if (method != kAutomatic && FindMethodFacts(method) == nullptr)
-    throw InputError("method: found " + method + ", expected one that 'stiction methods' lists");
-  request.arithmetic = UsualArithmetic(method, problem.file.problem).arithmetic;
-  if (!arithmetic.empty()) {
-    const auto found = FindArithmetic(arithmetic);
-    if (!found)
-      throw InputError("arithmetic: found " + arithmetic + ", expected one that 'stiction methods' lists");
-    request.arithmetic = *found;
-  }
-  const std::string refusal = Refusal(method, problem.file.problem.dimension, request.arithmetic);
-  if (!refusal.empty()) throw InputError(refusal);
-  return request;
+// Names of `stiction solve --help`, with _ for -, of budgets and tolerances.
+using Numbers = std::map<std::string, double>;
+
+void RequireBetween(const std::string& name, double value, double least, double most) {
+  if (!(value >= least && value <= most))
+    throw InputError(fmt::format("{}: found {}, expected {} to {}", name, value, least, most));
+}
+
+void SetNumbers(auto& options, const Numbers& numbers) {
+  ForEachField(options, [&numbers](const NumberRow& row, auto& value) {
+    std::string name(row.name);
+    std::replace(name.begin(), name.end(), '-', '_');
+    const auto given = numbers.find(name);
+    if (given == numbers.end()) return;
+    RequireBetween(name, given->second, row.min, row.max);
+    value = static_cast<std::remove_reference_t<decltype(value)>>(given->second);
+  });
+}
+
+void SetSides(SolveOptions& options, int sides) {
+  if (sides < 4 || sides % 4 != 0)
+    throw InputError(fmt::format("sides: found {}, expected a multiple of 4, at least 4", sides));
+  options.sides = sides;
 }
 
 py::object SolveProblem(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
-                        const std::string& policy) {
-  const SolveRequest request = RequestOf(problem, method, arithmetic, policy);
-  Json json;
-  {
-    const py::gil_scoped_release released;
-    json = SolutionToJson(SolveIn(problem.file.problem, request), problem.file.problem.dimension);
-  }
-  return ToPython(json);
+                        const std::string& policy, const std::string& law, int sides, double residual,
+                        double seconds, const Numbers& numbers) {
+  Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
+  RequireBetween("residual", residual, 0, 1);
+  RequireBetween("seconds", seconds, 0, 1e9);
+  wanted.options.residual = residual;
+  SetSides(wanted.options, sides);
+  SetNumbers(wanted.options.limits, numbers);
+  SetNumbers(wanted.options.tolerances, numbers);
+  SolveRequest request = RequestOf(wanted, problem.file.problem, "Problem");
+  return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
+    request.options.limits.stop = stop;
+    return SolutionToJson(SolveIn(problem.file.problem, request), problem.file.problem.dimension);
+  }));
 }
 
-py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method) {
+py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method,
+                         int sides, const Numbers& numbers) {
   const MethodFacts* facts = FindMethodFacts(method);
   if (facts == nullptr || !facts->has_path)
     throw InputError("method: found " + method + ", expected one with a path: baraff, complete or lemke");
-  const int dimension = problem.file.problem.dimension;
-  const bool exact = Refusal(method, dimension, Arithmetic::kExact).empty();
-  SolveRequest request = RequestOf(problem, method, exact ? "exact" : "double", policy);
+  const bool exact = Refusal(method, problem.file.problem.dimension, Arithmetic::kExact).empty();
+  Wanted wanted{.method = method, .arithmetic = exact ? "exact" : "double", .policy = policy, .dashes = ""};
+  SetSides(wanted.options, sides);
+  SetNumbers(wanted.options.limits, numbers);
+  SolveRequest request = RequestOf(wanted, problem.file.problem, "Problem");
+  request.method = method;  // no other runs under its name
   request.trace = KeepTrace::kYes;
-  Json json;
-  {
-    const py::gil_scoped_release released;
+  return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
+    request.options.limits.stop = stop;
     const Solution solution = SolveIn(problem.file.problem, request);
-    json = ReplayToJson({method, policy, {}}, problem.file, solution,
+    return ReplayToJson({method, policy, wanted.options.limits}, problem.file, solution,
                         Narrate(method, problem.file, solution, {.vectors = true}), true);
-  }
-  return ToPython(json);
+  }));
 }
 
 // ---- Certificates ----
@@ -206,8 +223,11 @@ std::optional<std::string> CertifyProblem(const PythonProblem& problem, const st
                                           const std::string& policy) {
   ClaimOptions options;
   options.policies = policy == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(policy)};
-  const py::gil_scoped_release released;
-  const Json certificate = CertifyClaim(problem.file.problem, "Problem", claim, options);
+  const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
+    options.limits.stop = stop;
+    options.enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
+    return CertifyClaim(problem.file.problem, "Problem", claim, options);
+  });
   if (certificate.is_null()) return std::nullopt;
   return JsonText(certificate, 1) + "\n";
 }

@@ -4,11 +4,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include <atomic>
 #include <optional>
 
 #include "answers/version.h"
 #include "corpus/json_text.h"
+#include "python/signals.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
 #include "reports/report_files.h"
@@ -19,29 +19,6 @@ namespace stiction {
 namespace {
 
 namespace py = pybind11;
-
-// Looks for signals of the interpreter, which are handled in its main thread alone. What a handler throws is
-// kept until the search has ended.
-class Signals {
- public:
-  const std::atomic<bool>* flag() const { return &interrupted_; }
-
-  // Without the interpreter's lock.
-  void Look() {
-    const py::gil_scoped_acquire acquired;
-    if (thrown_ || PyErr_CheckSignals() == 0) return;
-    thrown_.emplace();
-    interrupted_ = true;
-  }
-  // With it.
-  void Throw() {
-    if (thrown_) throw py::error_already_set(*thrown_);
-  }
-
- private:
-  std::atomic<bool> interrupted_ = false;
-  std::optional<py::error_already_set> thrown_;
-};
 
 // Whether the search came to its end. `campaign`: the text of a campaign file.
 bool RunCampaign(const std::string& campaign_text, const std::string& store,

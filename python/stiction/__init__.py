@@ -185,16 +185,33 @@ class Certificate:
         return fields
 
 
-def solve(problem: Problem, method: str = "complete", arithmetic: str = "", policy: str = "paper") -> Answer:
-    """Solves a problem. `arithmetic`: by default that of the command line."""
-    said = _stiction.solve(problem._problem, method, arithmetic, policy)
+def _given(**numbers: float | None) -> dict[str, float]:
+    return {name: value for name, value in numbers.items() if value is not None}
+
+
+def solve(problem: Problem, method: str = "complete", arithmetic: str = "", policy: str = "paper", *,
+          law: str = "baraff", sides: int = 8, residual: float = 0, seconds: float = 0,
+          max_drives: int | None = None, max_pivots: int | None = None, max_bits: int | None = None,
+          acceleration_tolerance: float | None = None, force_tolerance: float | None = None,
+          pivot_tolerance: float | None = None, loop_grain: float | None = None) -> Answer:
+    """Solves a problem. All that can be chosen is what `stiction solve --help` says, with its defaults.
+
+    But `method`, which is 'auto' there. After `seconds`, if they are not 0, and after Ctrl-C, the run ends where its
+    method next looks: with an answer that is undecided, or KeyboardInterrupt.
+    """
+    numbers = _given(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits,
+                     acceleration_tolerance=acceleration_tolerance, force_tolerance=force_tolerance,
+                     pivot_tolerance=pivot_tolerance, loop_grain=loop_grain)
+    said = _stiction.solve(problem._problem, method, arithmetic, policy, law, sides, residual, seconds, numbers)
     return Answer(said["outcome"], said["method"], said["arithmetic"], _numbers(said.get("f") or ()),
                   _numbers(said.get("a") or ()), said.get("reason", ""), said.get("statistics", {}), said)
 
 
-def replay(problem: Problem, policy: str = "paper", method: str = "baraff") -> Replay:
-    """Runs a path method step by step, exactly where it is built so."""
-    said = _stiction.replay(problem._problem, policy, method)
+def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, sides: int = 8,
+           max_drives: int | None = None, max_pivots: int | None = None, max_bits: int | None = None) -> Replay:
+    """Runs a path method step by step, exactly where it is built so. Ctrl-C as in `solve`."""
+    numbers = _given(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits)
+    said = _stiction.replay(problem._problem, policy, method, sides, numbers)
     pivots = [Pivot(p.get("drive", 0), _number(p.get("step")), _numbers(p.get("f", ())), _numbers(p.get("a", ())), p)
               for p in said["pivots"]]
     return Replay(said["outcome"], said["start"], said["period"], pivots, said)

@@ -4,9 +4,11 @@ import ast
 import inspect
 import json
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from fractions import Fraction
 from pathlib import Path
@@ -23,6 +25,12 @@ B = [-1, 0, 0, -2]
 def said(*arguments):
     """What the program prints with --json."""
     return json.loads(subprocess.run([PROGRAM, *map(str, arguments), "--json"], stdout=subprocess.PIPE).stdout)
+
+
+def without_seconds(json):
+    """What two runs have in common."""
+    return {key: {k: v for k, v in value.items() if k != "seconds"} if isinstance(value, dict) else value
+            for key, value in json.items()}
 
 
 class Problems(unittest.TestCase):
@@ -83,6 +91,54 @@ class SameAsTheProgram(unittest.TestCase):
             theirs = said("replay", file, "--step")
             theirs.pop("expected")
             self.assertEqual(stiction.replay(stiction.load(file)).json, theirs)
+
+
+class Options(unittest.TestCase):
+    SPACE = SOURCES / "corpus/space/three-sliding-contacts.json"
+    LONG = """
+import numpy as np, stiction, sys
+draw = np.random.default_rng(1)
+J = draw.integers(-9, 10, (300, 300)).astype(float)
+problem = stiction.Problem(J @ J.T, draw.integers(-9, 10, 300).astype(float), 0.5)
+"""
+
+    def test_solve_has_those_of_the_program(self):
+        text = subprocess.run([PROGRAM, "solve", "--help"], stdout=subprocess.PIPE, text=True).stdout
+        theirs = {name.replace("-", "_") for name in re.findall(r"^ +(?:-h, )?--([a-z-]+)", text, re.M)}
+        ours = set(inspect.signature(stiction.solve).parameters)
+        self.assertEqual(ours - {"problem"}, theirs - {"help", "json", "fractions"})
+
+    def test_they_mean_the_same(self):
+        for chosen in ({"law": "coulomb"}, {"law": "coulomb", "sides": 16}, {"max_pivots": 1},
+                       {"arithmetic": "double", "residual": 1e-17}, {"arithmetic": "double", "pivot_tolerance": 0.01}):
+            flags = [text for name, value in chosen.items() for text in ("--" + name.replace("_", "-"), value)]
+            theirs = said("solve", self.SPACE, "--method", "complete", *flags)
+            ours = stiction.solve(stiction.load(self.SPACE), **chosen).json
+            self.assertEqual(without_seconds(ours), without_seconds({key: theirs[key] for key in theirs if
+                                                                     key not in ("why", "assumptions")}), chosen)
+        self.assertEqual(stiction.replay(stiction.load(LOOP), max_drives=2).outcome, "limit")
+
+    def test_others_are_refused(self):
+        problem = stiction.load(LOOP)
+        for chosen, named in (({"law": "coulomb"}, "dimension: found 2"), ({"law": "amonton"}, "law: found amonton"),
+                              ({"sides": 6}, "sides"), ({"residual": 2}, "residual"), ({"max_bits": 0}, "max_bits"),
+                              ({"seconds": -1}, "seconds"), ({"loop_grain": 0}, "loop_grain"),
+                              ({"arithmetic": "decimal"}, "arithmetic: found decimal")):
+            with self.assertRaisesRegex(ValueError, named):
+                stiction.solve(problem, **chosen)
+
+    def test_time_and_ctrl_c_end_a_long_run(self):
+        names = {}
+        exec(self.LONG, names)
+        answer = stiction.solve(names["problem"], arithmetic="exact", seconds=0.2)
+        self.assertEqual((answer.outcome, answer.reason), ("undecided", "stopped"))
+        run = subprocess.Popen([sys.executable, "-c", self.LONG + "print(flush=True)\nstiction.solve(problem, arithmetic='exact')"],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run.stdout.readline()
+        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)
+        _, error = run.communicate(timeout=60)
+        self.assertTrue(error.rstrip().endswith("KeyboardInterrupt"), error)
 
 
 class Headline(unittest.TestCase):
