@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "answers/answer_text.h"
 #include "answers/followed.h"
@@ -61,31 +62,43 @@ py::object ToPython(const Json& json) {
 
 // ---- Problems ----
 
+// Kind, mu, and the direction of sliding of a contact that slides.
+using ContactTexts = std::tuple<std::string, std::string, std::vector<std::string>>;
+
 // One contact as a problem file has it.
-Json ContactToJson(const std::string& kind, const std::string& mu) {
+Json ContactToJson(const ContactTexts& texts, int dimension) {
+  const auto& [kind, mu, slip] = texts;
   Json contact = {{"kind", kind}};
-  if (kind == "static") contact["mu"] = mu;
+  if (kind == "static" || kind == "sliding") contact["mu"] = mu;
+  if (!slip.empty()) contact["slip"] = dimension == 2 && slip.size() == 1 ? Json(slip[0]) : Json(slip);
   return contact;
 }
 
-// The reader of files judges contacts; A and b are not of its making, so that they pass through no text.
-std::vector<Contact<Rational>> ReadContacts(const std::vector<std::string>& kinds,
-                                            const std::vector<std::string>& mu, int dimension) {
-  Json contacts = Json::array();
-  int rows = 0;
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (kinds[i] == "sliding")
-      throw InputError(
-          "Problem", "kinds[" + std::to_string(i) + "]", "sliding",
-          "static, frictionless or bilateral: sliding contacts have a direction, and come from files");
-    contacts.push_back(ContactToJson(kinds[i], mu[i]));
-    rows += kinds[i] == "static" ? dimension : 1;
+Json ProblemDocument(const Json& contacts, int dimension, const Json& A, const Json& b) {
+  return {{"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
+          {"contacts", contacts},         {"A", A},       {"b", b}};
+}
+
+// The reader of files judges contacts, each in a document of its own: A and b are not of its making. Of all
+// together it tells which one it refuses, before it looks for A.
+std::vector<Contact<Rational>> ReadContacts(const std::vector<ContactTexts>& texts, int dimension) {
+  std::vector<Contact<Rational>> contacts;
+  Json all = Json::array();
+  for (const ContactTexts& one : texts) {
+    all.push_back(ContactToJson(one, dimension));
+    const bool has_friction = std::get<0>(one) == "static" || std::get<0>(one) == "sliding";
+    const int rows = has_friction ? dimension : 1;
+    const Json document =
+        ProblemDocument(Json::array({all.back()}), dimension, {{"size", rows}, {"entries", Json::array()}},
+                        std::vector<std::string>(rows, "0"));
+    try {
+      contacts.push_back(ProblemFromJson(document, "Problem", "", false).contacts.at(0));
+    } catch (const InputError&) {
+      ProblemFromJson(ProblemDocument(all, dimension, {}, {}), "Problem", "", false);
+      throw;
+    }
   }
-  const Json nothing = {{"size", rows}, {"entries", Json::array()}};
-  const Json json = {
-      {"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
-      {"contacts", contacts},         {"A", nothing}, {"b", std::vector<std::string>(rows, "0")}};
-  return ProblemFromJson(json, "Problem", "", false).contacts;
+  return contacts;
 }
 
 void RequireShape(const std::string& name, py::ssize_t found, py::ssize_t expected) {
@@ -99,23 +112,14 @@ Rational FiniteRational(double x, const std::string& place) {
   return Rational(x);
 }
 
-ExactProblem WithContacts(const std::vector<std::string>& kinds, const std::vector<std::string>& mu,
-                          int dimension) {
-  if (kinds.size() != mu.size())
-    throw InputError("Problem", "mu", std::to_string(mu.size()) + " coefficients",
-                     std::to_string(kinds.size()) + ", one for each contact");
-  ExactProblem problem;
-  problem.dimension = dimension;
-  problem.contacts = ReadContacts(kinds, mu, dimension);
-  return problem;
-}
-
 using Strided = py::array_t<double, 0>;
 
 // Doubles, each of which is a rational; read where they lie.
-PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<std::string>& mu,
-                          const std::vector<std::string>& kinds, int dimension, const std::string& name) {
-  ExactProblem problem = WithContacts(kinds, mu, dimension);
+PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<ContactTexts>& contacts,
+                          int dimension, const std::string& name) {
+  ExactProblem problem;
+  problem.dimension = dimension;
+  problem.contacts = ReadContacts(contacts, dimension);
   const int rows = RowCount(problem.contacts, dimension);
   const auto entries = A.unchecked<2>();
   const auto free = b.unchecked<1>();
@@ -134,14 +138,11 @@ PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<
 }
 
 PythonProblem FromTexts(const std::vector<std::vector<std::string>>& A, const std::vector<std::string>& b,
-                        const std::vector<std::string>& mu, const std::vector<std::string>& kinds,
-                        int dimension, const std::string& name) {
-  Json contacts = Json::array();
-  if (kinds.size() != mu.size()) WithContacts(kinds, mu, dimension);  // which refuses it
-  for (std::size_t i = 0; i < kinds.size(); ++i) contacts.push_back(ContactToJson(kinds[i], mu[i]));
-  const Json json = {{"format", "stiction-problem"}, {"version", 1}, {"dimension", dimension},
-                     {"contacts", contacts},         {"A", A},       {"b", b}};
-  return PythonProblem({name, ProblemFromJson(json, "Problem", "", false), {}, {}, {}});
+                        const std::vector<ContactTexts>& contacts, int dimension, const std::string& name) {
+  Json read = Json::array();
+  for (const ContactTexts& one : contacts) read.push_back(ContactToJson(one, dimension));
+  const Json document = ProblemDocument(read, dimension, A, b);
+  return PythonProblem({name, ProblemFromJson(document, "Problem", "", false), {}, {}, {}});
 }
 
 // The memory is the problem's: it lives as long as the array does, and is not written to.
@@ -289,6 +290,16 @@ PYBIND11_MODULE(_stiction, module) {
            [](const PythonProblem& p) {
              std::vector<std::string> texts;
              for (const auto& contact : p.file.problem.contacts) texts.push_back(ToString(contact.mu));
+             return texts;
+           })
+      .def("exact_slips",
+           [](const PythonProblem& p) {
+             std::vector<std::vector<std::string>> texts;
+             for (const auto& contact : p.file.problem.contacts) {
+               auto& slip = texts.emplace_back();
+               if (contact.kind != ContactKind::kSliding) continue;
+               for (int k = 0; k + 1 < p.file.problem.dimension; ++k) slip.push_back(ToString(contact.slip[k]));
+             }
              return texts;
            })
       .def("kinds", [](const PythonProblem& p) {

@@ -44,29 +44,40 @@ def _text(value: Any) -> str:
         raise ValueError(f"Problem: found {value!r}, expected a finite number or a fraction as text") from None
 
 
+def _list(value: Any) -> list[Any]:
+    return [value] if isinstance(value, (str, int, float, Fraction, np.generic)) else list(value)
+
+
 class Problem:
     """a = A f + b with contacts: rows are the normal of a contact, then its friction if it is static.
 
     A is rows x rows in 1/kg, b rows in m/s^2, mu one coefficient for each contact (0 where it has none) or one for
-    all, kinds 'static', 'frictionless' or 'bilateral', by default all static. Arrays of doubles are read where they
-    lie, and each double is the rational that it is; all else is taken exactly. A problem holds rationals.
+    all, kinds 'static', 'sliding', 'frictionless' or 'bilateral', by default all static. Of each contact that slides,
+    slips has the direction: 1 or -1 in the plane, in space a unit vector of two exact numbers, as ('3/5', '4/5');
+    of the others None. Arrays of doubles are read where they lie, and each double is the rational that it is; all
+    else is taken exactly. A problem holds rationals.
     """
 
     def __init__(self, A: Any, b: Any, mu: Any, kinds: Sequence[str] | None = None, dimension: int = 2,
-                 name: str = "problem") -> None:
+                 name: str = "problem", slips: Sequence[Any] | None = None) -> None:
         A, b = (x if isinstance(x, np.ndarray) else np.array(x, dtype=object) for x in (A, b))
         if A.ndim != 2 or b.ndim != 1:
             raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
         if np.ndim(mu) == 0:
-            contacts = len(kinds) if kinds is not None else len(b) // dimension
-            mu = [mu] * contacts
+            count = len(kinds) if kinds is not None else len(b) // dimension
+            mu = [mu] * count
         kinds = ["static"] * len(mu) if kinds is None else list(kinds)
-        coefficients = [_text(x) for x in mu]
+        slips = [None] * len(kinds) if slips is None else list(slips)
+        for of, found in (("mu", len(mu)), ("slips", len(slips))):
+            if found != len(kinds):
+                raise ValueError(f"Problem: {of}: found {found}, expected {len(kinds)}, one for each contact")
+        contacts = [(kind, _text(x), [] if slip is None else [_text(y) for y in _list(slip)])
+                    for kind, x, slip in zip(kinds, mu, slips)]
         if A.dtype == np.float64 and b.dtype == np.float64:
-            self._problem = _stiction.Problem.from_doubles(A, b, coefficients, kinds, dimension, name)
+            self._problem = _stiction.Problem.from_doubles(A, b, contacts, dimension, name)
         else:
             self._problem = _stiction.Problem.from_texts([[_text(x) for x in row] for row in A], [_text(x) for x in b],
-                                                         coefficients, kinds, dimension, name)
+                                                         contacts, dimension, name)
 
     @property
     def name(self) -> str:
@@ -107,6 +118,11 @@ class Problem:
     def kinds(self) -> list[str]:
         """Of each contact."""
         return self._problem.kinds()
+
+    @property
+    def slips(self) -> list[tuple[Fraction, ...] | None]:
+        """Of each contact that slides its direction, of one component in the plane and two in space."""
+        return [tuple(Fraction(x) for x in slip) or None for slip in self._problem.exact_slips()]
 
     @property
     def digest(self) -> str:
@@ -341,10 +357,6 @@ class Store:
     def statistics(self) -> Table:
         """A row per generator, contacts, policy, method and arithmetic: problems, outcomes, all counters."""
         return self.tables["statistics"]
-
-
-def _list(value: Any) -> list[Any]:
-    return [value] if isinstance(value, (str, int, float, Fraction, np.generic)) else list(value)
 
 
 def _campaign(campaign: str | PathLike[str] | Mapping[str, Any] | None, changes: Mapping[str, Any]) -> str:

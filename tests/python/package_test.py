@@ -55,6 +55,25 @@ class Problems(unittest.TestCase):
         del problem
         np.testing.assert_array_equal(view, A)
 
+    def test_sliding_contacts_of_a_file_are_those_of_arrays(self):
+        files = sorted((SOURCES / "corpus/sliding").glob("*.json"))
+        self.assertGreater(len(files), 1)
+        for file in files:
+            theirs = stiction.load(file)
+            for A, b in ((theirs.exact_A, theirs.exact_b), (theirs.A, theirs.b)):
+                ours = stiction.Problem(A, b, theirs.mu, theirs.kinds, theirs.dimension, slips=theirs.slips)
+                self.assertEqual((ours.slips, ours.mu), (theirs.slips, theirs.mu))
+            self.assertEqual(stiction.Problem(theirs.exact_A, theirs.exact_b, theirs.mu, theirs.kinds, theirs.dimension,
+                                              slips=theirs.slips).digest, theirs.digest)
+        self.assertTrue(any("sliding" in stiction.load(file).kinds for file in files))
+        leaning = stiction.Problem(np.eye(3), [-1, 0, 0], 1, ["sliding"], 3, slips=[("3/5", Fraction(4, 5))])
+        self.assertEqual(leaning.slips, [(Fraction(3, 5), Fraction(4, 5))])
+        I = np.eye(4)
+        for slips, named in ((None, "contacts.1..*slip"), ([None], "slips: found 1"), ([None, 2], "contacts.1..*slip"),
+                             ([1, 1], "contacts.0..*no slip on a static"), ([None, (1, 0)], "contacts.1..*slip")):
+            with self.assertRaisesRegex(ValueError, named):
+                stiction.Problem(I, -I[0], 1, ["static", "sliding"], slips=slips)
+
     def test_what_is_saved_is_loaded(self):
         with tempfile.TemporaryDirectory() as folder:
             stiction.Problem(A, B, 1).save(Path(folder) / "p.json")
