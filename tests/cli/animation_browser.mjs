@@ -9,16 +9,19 @@ import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, 
 
 const {PROGRAM} = process.env;
 const names = ['plane', 'space', 'large'];
-const opened = (name, use, options = {}) => openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
+const opened = (name, use, options = {}) =>
+    openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
 const dataOf = page => page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
 const frame = page => page.$eval('#player input', slider => Number(slider.value));
-const numbers = page => page.$$eval('#forces tbody tr', rows => rows.map(
-    row => [...row.querySelectorAll('data')].map(data => Number(data.value))));
+const numbers = page => page.$$eval(
+    '#forces tbody tr',
+    rows => rows.map(row => [...row.querySelectorAll('data')].map(data => Number(data.value))));
 
 test('frames are stepped by keys, buttons, slider and address', async () => {
   await opened('plane', async page => {
     const last = (await dataOf(page)).frames.length - 1;
-    for (const [key, at] of [['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['End', last], ['Home', 0]]) {
+    for (const [key, at] of [
+             ['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['End', last], ['Home', 0]]) {
       await page.keyboard.press(key);
       assert.equal(await frame(page), at);
     }
@@ -29,7 +32,9 @@ test('frames are stepped by keys, buttons, slider and address', async () => {
       slider.dispatchEvent(new Event('input'));
     });
     assert.equal(await frame(page), 4);
-    await page.evaluate(() => { location.hash = '#frame=7'; });
+    await page.evaluate(() => {
+      location.hash = '#frame=7';
+    });
     await page.waitForFunction(() => document.querySelector('#player input').value === '7');
   });
   await opened('plane', async page => assert.equal(await frame(page), 5), {hash: '#frame=5'});
@@ -52,7 +57,8 @@ test('the tab key reaches the controls in their order', async () => {
     const seen = [];
     for (let i = 0; i < 6; ++i) {
       await page.keyboard.press('Tab');
-      seen.push(await page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent));
+      seen.push(await page.evaluate(
+          () => document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent));
     }
     assert.deepEqual(seen, ['Play', 'Forward', 'Last', 'Frame', 'Speed', 'link']);
   });
@@ -65,11 +71,51 @@ test('the table has the numbers of the frame, and the problem that is saved give
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('.save')]);
     const file = await download.path();
     assert.equal(JSON.parse(readFileSync(file, 'utf8')).format, 'stiction-problem');
-    const solved = JSON.parse(execFileSync(PROGRAM, ['solve', file, '--method', 'fast', '--arithmetic', 'double', '--json']));
+    const solved = JSON.parse(
+        execFileSync(PROGRAM, ['solve', file, '--method', 'fast', '--arithmetic', 'double', '--json']));
     const expected = forces.flatMap(({f}) => f);
-    solved.f.forEach((f, i) => assert.ok(Math.abs(Number(f) - expected[i]) < 1e-6 * (1 + Math.abs(expected[i])), `${f}, ${expected[i]}`));
+    solved.f.forEach(
+        (f, i) => assert.ok(
+            Math.abs(Number(f) - expected[i]) < 1e-6 * (1 + Math.abs(expected[i])), `${f}, ${expected[i]}`));
     await page.keyboard.press('End');
     assert.match(await page.textContent('#problem'), /No step follows/);
+  });
+});
+
+test(
+    'each contact of a frame has an arrow, a number and a figure, and of many a table that scrolls',
+    async () => {
+      for (const name of names) {
+        await opened(name, async page => {
+          const {forces} = (await dataOf(page)).frames[0], few = Math.min(forces.length, 12);
+          assert.equal(await page.locator('.marks .force').count(), forces.filter(({f}) => f[0] !== 0).length);
+          assert.deepEqual(
+              await page.$$eval('.marks text', texts => texts.map(text => Number(text.textContent))),
+              forces.length > few ? [] : forces.map((_, i) => i + 1));
+          assert.equal(await page.locator('#cones figure').count(), few);
+          const modes =
+              await page.$$eval('#forces tbody td:last-child', cells => cells.map(cell => cell.textContent));
+          const places =
+              await page.$$eval('#cones figcaption span', spans => spans.map(span => span.textContent));
+          for (const [i, place] of places.entries())
+            assert.ok(place.endsWith(`, ${modes[i]}`), `${place}; ${modes[i]}`);
+          const said = await page.textContent('#cones');
+          assert.equal(said.includes(`the table has all ${forces.length}`), forces.length > few);
+          assert.equal(said.includes('scales of their own'), false);
+          const {height} = await page.locator('#forces').boundingBox();
+          assert.ok(height <= 0.6 * 900 + 1, `${height} pixels high`);
+        });
+      }
+    });
+
+// As in mu = 1/2: the cone rises two for one that it goes aside.
+test('a cone has its own angle', async () => {
+  await opened('large', async page => {
+    const [[x0, y0], [x1, y1]] = await page.$eval(
+        '#cones .cone',
+        cone => cone.getAttribute('points').split(' ').map(point => point.split(',').map(Number)));
+    assert.equal((await dataOf(page)).frames[0].forces[0].mu, 0.5);
+    assert.ok(Math.abs((y0 - y1) / (x0 - x1) - 2) < 1e-3, `${x0},${y0} to ${x1},${y1}`);
   });
 });
 
@@ -81,7 +127,8 @@ test('narrow, dark and printed pages can be read', async () => {
         await assertHeadings(page);
         const wide = await page.evaluate(() => document.documentElement.scrollWidth);
         assert.ok(wide <= 390, `${wide} pixels wide`);
-        for (const [what, contrast] of await contrasts(page, [{selector: 'p, th, td, h1, h2, button, select, figcaption, .cones figcaption *'}]))
+        for (const [what, contrast] of await contrasts(
+                 page, [{selector: 'p, th, td, h1, h2, button, select, figcaption, .cones figcaption *'}]))
           assert.ok(contrast >= 4.5, `${what}: ${contrast}`);
       }, {viewport: {width: 390, height: 800}, colorScheme});
     }

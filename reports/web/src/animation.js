@@ -9,7 +9,12 @@ const kCones = 12;      // contacts of a frame that have a figure each
 const kLongest = 0.25;  // arrow, of the picture's height
 
 const data = JSON.parse(byId('data').textContent), frames = data.frames, last = frames.length - 1;
-const shown = {frame: 0, began: null, from: 0, request: null};
+const shown = {
+  frame: 0,
+  began: null,
+  from: 0,
+  request: null
+};
 
 // ---- Forces ----------------------------------------------------------------------------------
 
@@ -52,32 +57,33 @@ const tangentialShown = f => inSpace ? tangential(f) : f[1];
 
 const below = index => element('sub', {}, index);
 
+const headCell = ([style, ...name]) => element('th', {scope: 'col', class: style}, ...name);
+
 function table(forces) {
   if (forces.length === 0) return element('p', {class: 'note'}, 'No contact bears a force in this frame.');
   const head = [
     ['', 'Contact'], ['', 'Bodies'], ['n', 'f', below('N')],
-    ...inSpace ? [['n', 'f', below('Fx')], ['n', 'f', below('Fy')], ['n', '|f', below('F'), '|']] : [['n', 'f', below('F')]],
+    ...inSpace ? [['n', 'f', below('Fx')], ['n', 'f', below('Fy')], ['n', '|f', below('F'), '|']] :
+                 [['n', 'f', below('F')]],
     ['n', 'μ f', below('N')], ['n', 'μ'], ['', 'Mode']
   ];
   return element(
       'table', {class: 'values'}, element('caption', {}, 'Forces of the contacts of this frame, in newtons'),
-      element(
-          'thead', {},
-          element('tr', {}, ...head.map(([style, ...name]) => element('th', {scope: 'col', class: style}, ...name)))),
-      element('tbody', {}, ...forces.map(row)));
+      element('thead', {}, element('tr', {}, ...head.map(headCell))), element('tbody', {}, ...forces.map(row)));
 }
 
 function cones(forces) {
   const few = forces.slice(0, kCones);
   const run = {last: 0, f: () => few.flatMap(force => force.f)};
-  const contacts = few.map(({kind, mu}) => ({kind, mu: mu === undefined ? undefined : Number(short(mu))}));
+  const contacts = few.map(force => ({kind: force.kind, mu: force.mu, mode: modeOf(force)}));
   const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reach);
   figures.show([0]);
   const more = forces.length - few.length;
   return [
     figures.node,
     figures.areToScale ? '' : element('p', {class: 'note'}, 'The axes have scales of their own.'),
-    more > 0 ? element('p', {class: 'note'}, `The first ${few.length}; the table has all ${forces.length}.`) : '',
+    more > 0 ? element('p', {class: 'note'}, `The first ${few.length}; the table has all ${forces.length}.`) :
+               '',
   ];
 }
 
@@ -100,6 +106,13 @@ function arrow({at, along: [x, y]}) {
   return forceArrow(at, [at[0] + share * x, at[1] + share * y], style);
 }
 
+function numberOf({at: [x, y]}, i) {
+  return [
+    svgElement('circle', {class: 'contact', cx: x, cy: y, r: 9}),
+    svgElement('text', {class: 'contact', x, y, dy: '0.36em', 'text-anchor': 'middle'}, String(i + 1)),
+  ];
+}
+
 function drawPicture(frame) {
   frame.transforms.forEach((transform, i) => bodies[i].setAttribute('transform', transform));
   placed.innerHTML = frame.placed;  // as above
@@ -107,10 +120,7 @@ function drawPicture(frame) {
   marks.replaceChildren(
       ...frame.points.map(([cx, cy]) => svgElement('circle', {class: 'touch', cx, cy, r: 3})),
       ...frame.forces.filter(({along}) => along[0] !== 0 || along[1] !== 0).map(arrow),
-      ...numbered ? frame.forces.flatMap(({at: [x, y]}, i) => [
-        svgElement('circle', {class: 'contact', cx: x, cy: y, r: 9}),
-        svgElement('text', {class: 'contact', x, y, dy: '0.36em', 'text-anchor': 'middle'}, String(i + 1)),
-      ]) : []);
+      ...numbered ? frame.forces.flatMap(numberOf) : []);
   svg.setAttribute(
       'aria-label', `${data.name} at ${frame.time.toFixed(3)} s, ${frame.forces.length} contacts with forces`);
 }
@@ -119,12 +129,15 @@ function drawPicture(frame) {
 
 const command = () => element('code', {}, 'stiction simulate SCENE -o FOLDER --problems PROBLEMS');
 const remarks = {
-  last: () => ['No step follows this frame, so it has no problem: contacts and forces are those of the step before.'],
-  undecided: () => ['The step from here has no answer; its problem is in ', element('code', {}, 'undecided.json'), '.'],
-  large: () => ['A of this frame has more than 10,000 entries, too many for a page. ', command(),
-                ' writes its problem.'],
-  room: () => ['The problems of frames before this one fill what a page holds, 4 MB. ', command(),
-               ' writes all.'],
+  last: () =>
+      ['No step follows this frame, so it has no problem: contacts and forces are those of the step before.'],
+  undecided: () =>
+      ['The step from here has no answer; its problem is in ', element('code', {}, 'undecided.json'), '.'],
+  large: () =>
+      ['A of this frame has more than 10,000 entries, too many for a page. ', command(),
+       ' writes its problem.'],
+  room: () =>
+      ['The problems of frames before this one fill what a page holds, 4 MB. ', command(), ' writes all.'],
 };
 
 function save(text) {
@@ -212,7 +225,11 @@ const controls = {
   next: button(icons.next, 'Forward', to(() => shown.frame + 1), 'Forward (→)'),
   last: button(icons.last, 'Last', to(() => last), 'Last (End)'),
   slider: element('input', {
-    type: 'range', min: 0, max: last, step: 1, 'aria-label': 'Frame',
+    type: 'range',
+    min: 0,
+    max: last,
+    step: 1,
+    'aria-label': 'Frame',
     input: to(() => Number(controls.slider.value))
   }),
   place: element('span', {class: 'place'}),
@@ -222,7 +239,10 @@ const controls = {
   link: element('a', {href: '#frame=0', class: 'link', title: 'The address of this frame'}, 'link'),
 };
 const keys = {
-  ArrowRight: controls.next, ArrowLeft: controls.back, Home: controls.first, End: controls.last
+  ArrowRight: controls.next,
+  ArrowLeft: controls.back,
+  Home: controls.first,
+  End: controls.last
 };
 
 function onKey(event) {

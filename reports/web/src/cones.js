@@ -24,7 +24,9 @@ function pointOf(f, {first, rows}) {
 
 // ---- What is said of a force -----------------------------------------------------------------
 
+// A contact whose `mode` is given has that, so that no two places of a page say different things of it.
 function place(f, {first, rows, contact}) {
+  if (contact.mode !== undefined) return contact.mode;
   if (contact.kind !== 'static') return contact.kind;
   const mu = contact.mu, normal = f[first];
   if (rows === 2) {
@@ -166,12 +168,12 @@ export class Cones {
   // `reach`: forces that the scales include, such as those of other frames (N across and up, of a disc one).
   constructor(data, runs, reach = []) {
     this.runs = runs;
-    this.figures =
-        layoutOf(data.problem).map((layout, i) => ({
-                                     layout,
-                                     number: i + 1,
-                                     picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(runs, layout, reach)
-                                   }));
+    this.figures = layoutOf(data.problem).map((layout, i) => ({
+                                                layout,
+                                                number: i + 1,
+                                                picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(
+                                                    runs, layout, reach)
+                                              }));
     this.node = element('div', {class: 'cones'});
   }
 
@@ -192,7 +194,7 @@ export class Cones {
     for (const i of order) shapes.push(picture.force(this.runs[i].f(states[i]), `force run-${i}`));
     const said =
         this.runs.map((run, i) => `${words(run.f(states[i]), layout)}, ${place(run.f(states[i]), layout)}`);
-    const mu = contact.mu === undefined ? contact.kind : `μ = ${contact.mu}`;
+    const mu = contact.mu === undefined ? contact.kind : `μ = ${spoken(contact.mu)}`;
     return element(
         'figure', {},
         svgElement(
