@@ -119,6 +119,18 @@ test('a cone has its own angle', async () => {
   });
 });
 
+test('all cones have one scale', async () => {
+  await opened('space', async page => {
+    const {forces} = (await dataOf(page)).frames[0],
+          lengths = await page.$$eval('#cones svg', figures => figures.map(figure => {
+            const from = Number(figure.querySelector('.force line').getAttribute('y1'));
+            return from - Number(figure.querySelector('.tip').getAttribute('points').split(/[ ,]/)[1]);
+          }));
+    const scales = lengths.map((length, i) => length / forces[i].f[0]);
+    assert.ok(scales.every(scale => Math.abs(scale / scales[0] - 1) < 0.01), String(scales));
+  });
+});
+
 test('narrow, dark and printed pages can be read', async () => {
   for (const name of names) {
     for (const colorScheme of ['light', 'dark']) {
