@@ -198,12 +198,13 @@ py::object SolveProblem(const PythonProblem& problem, const std::string& method,
 }
 
 py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method,
-                         int sides, const Numbers& numbers) {
+                         const std::string& arithmetic, int sides, const Numbers& numbers) {
   const MethodFacts* facts = FindMethodFacts(method);
   if (facts == nullptr || !facts->has_path)
     throw InputError("method: found " + method + ", expected one with a path: baraff, complete or lemke");
   const bool exact = Refusal(method, problem.file.problem.dimension, Arithmetic::kExact).empty();
-  Wanted wanted{.method = method, .arithmetic = exact ? "exact" : "double", .policy = policy, .dashes = ""};
+  Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .dashes = ""};
+  if (arithmetic.empty()) wanted.arithmetic = exact ? "exact" : "double";
   SetSides(wanted.options, sides);
   SetNumbers(wanted.options.limits, numbers);
   SolveRequest request = RequestOf(wanted, problem.file.problem, "Problem");

@@ -223,11 +223,12 @@ def solve(problem: Problem, method: str = "complete", arithmetic: str = "", poli
                   _numbers(said.get("a") or ()), said.get("reason", ""), said.get("statistics", {}), said)
 
 
-def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, sides: int = 8,
-           max_drives: int | None = None, max_pivots: int | None = None, max_bits: int | None = None) -> Replay:
-    """Runs a path method step by step, exactly where it is built so. Ctrl-C as in `solve`."""
+def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, arithmetic: str = "",
+           sides: int = 8, max_drives: int | None = None, max_pivots: int | None = None,
+           max_bits: int | None = None) -> Replay:
+    """Runs a path method step by step; by default exactly where it is built so. Ctrl-C as in `solve`."""
     numbers = _given(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits)
-    said = _stiction.replay(problem._problem, policy, method, sides, numbers)
+    said = _stiction.replay(problem._problem, policy, method, arithmetic, sides, numbers)
     pivots = [Pivot(p.get("drive", 0), _number(p.get("step")), _numbers(p.get("f", ())), _numbers(p.get("a", ())), p)
               for p in said["pivots"]]
     return Replay(said["outcome"], said["start"], said["period"], pivots, said)

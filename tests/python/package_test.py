@@ -107,9 +107,12 @@ class SameAsTheProgram(unittest.TestCase):
 
     def test_replay(self):
         for file in self.FILES:
-            theirs = said("replay", file, "--step")
-            theirs.pop("expected")
-            self.assertEqual(stiction.replay(stiction.load(file)).json, theirs)
+            for arithmetic in ("exact", "double"):
+                theirs = said("replay", file, "--step", "--arithmetic", arithmetic)
+                theirs.pop("expected", None)
+                self.assertEqual(stiction.replay(stiction.load(file), arithmetic=arithmetic).json, theirs)
+            self.assertEqual(stiction.replay(stiction.load(file)).json,
+                             stiction.replay(stiction.load(file), arithmetic="exact").json)
 
 
 class Options(unittest.TestCase):
@@ -151,8 +154,9 @@ problem = stiction.Problem(J @ J.T, draw.integers(-9, 10, 300).astype(float), 0.
         exec(self.LONG, names)
         answer = stiction.solve(names["problem"], arithmetic="exact", seconds=0.2)
         self.assertEqual((answer.outcome, answer.reason), ("undecided", "stopped"))
-        run = subprocess.Popen([sys.executable, "-c", self.LONG + "print(flush=True)\nstiction.solve(problem, arithmetic='exact')"],
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        solving = self.LONG + "print(flush=True)\nstiction.solve(problem, arithmetic='exact')"
+        run = subprocess.Popen([sys.executable, "-c", solving], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True)
         run.stdout.readline()
         time.sleep(0.3)
         run.send_signal(signal.SIGINT)
@@ -193,6 +197,14 @@ class Claims(unittest.TestCase):
             stiction.certify(problem, "safest")
         with self.assertRaisesRegex(ValueError, "dimension"):
             stiction.certify(problem, "coulomb-solution")
+
+    def test_safety_and_coulomb_s_law(self):
+        safe = stiction.Problem(np.eye(2), [-1, 0], "1/3")
+        self.assertEqual(stiction.certify(safe, "safe").kind, "safe")
+        slides = stiction.load(SOURCES / "corpus/space/cube-slides-on-four-corners.json")
+        certificate = stiction.certify(slides, "coulomb-solution")
+        self.assertEqual(certificate.kind, "coulomb-solution")
+        self.assertTrue(stiction.check(slides, certificate))
 
     def test_a_check_rejects_what_is_changed(self):
         problem = stiction.load(LOOP)
