@@ -29,16 +29,17 @@ function modeOf(force) {
   return size < most - 1e-6 * Math.max(size, most) ? 'sticking' : 'at the limit';
 }
 
-// The largest forces of all frames, and the widest cones at them, so that a figure keeps its scale.
-function reachOf() {
+// The least powers of two that hold the forces of a frame, and the widest cones at them: not every frame changes the
+// scale, and a blow in one leaves the forces of the others to be seen.
+const powerAbove = x => x === 0 ? 0 : 2 ** Math.ceil(Math.log2(x));
+function reachOf(forces) {
   let across = 0, up = 0;
-  for (const force of frames.flatMap(({forces}) => forces)) {
+  for (const force of forces) {
     across = Math.max(across, tangential(force.f), force.mu === undefined ? 0 : limit(force));
     up = Math.max(up, force.f[0]);
   }
-  return [across, up];
+  return [powerAbove(across), powerAbove(up)];
 }
-const reach = reachOf();
 
 const value = x => element('data', {value: String(x)}, short(x));
 const cell = x => element('td', {class: 'n'}, x === undefined ? '–' : value(x));
@@ -76,7 +77,7 @@ function cones(forces) {
   const few = forces.slice(0, kCones);
   const run = {last: 0, f: () => few.flatMap(force => force.f)};
   const contacts = few.map(force => ({kind: force.kind, mu: force.mu, mode: modeOf(force)}));
-  const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reach);
+  const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reachOf(forces));
   figures.show([0]);
   const more = forces.length - few.length;
   return [

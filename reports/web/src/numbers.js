@@ -35,7 +35,7 @@ export function compareWithLimit(x, m, y) {
 
 export function short(x) {
   const value = toDouble(x);
-  return Number(value.toPrecision(5)).toString().replace('-', '−');
+  return Number(value.toPrecision(5)).toString().replaceAll('-', '−');
 }
 
 // "-3/4" as it is read: "−3/4".
