@@ -81,7 +81,7 @@ class Campaigns(unittest.TestCase):
         report = Path(self.folder.name) / "report"
         program("report", self.ours, "-o", report)
         tables = stiction.Store(self.ours).tables
-        files = {file.stem for file in report.glob("*.csv")}
+        files = {file.stem for file in report.glob("*.csv")} - {"frontiers"}  # of the program, not of the store
         self.assertEqual(set(tables), files)
         for name, table in tables.items():
             with open(report / f"{name}.csv", newline="") as file:

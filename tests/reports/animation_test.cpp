@@ -34,7 +34,9 @@ AppliedForceIn<Plane> ForceOf(int on, int from) {
   return force;
 }
 
-TEST_CASE("animation: a force acts on the body that moves, has its rows and its friction; joints have none") {
+TEST_CASE(
+    "animation: a force acts on the body that moves, has its rows and its friction, and those of joints are "
+    "left out") {
   const Scene<double> scene = DiscOnFloor();
   View view;
   view.Include(scene);
