@@ -38,7 +38,7 @@ const column = (page, run, style) =>
       const digits = [...cell.querySelectorAll('mn')].map(mn => mn.textContent).join('/');
       return {
         value: cell.value,
-        seen: digits === '' ? cell.firstChild.textContent.replaceAll('−', '-') : sign + digits
+        seen: (digits === '' ? cell.firstChild.textContent : sign + digits).replaceAll('−', '-')
       };
     }));
 
