@@ -8,6 +8,7 @@
 
 #include "answers/version.h"
 #include "corpus/json_text.h"
+#include "corpus/machine.h"
 #include "python/signals.h"
 #include "reports/csv.h"
 #include "reports/discovery.h"
@@ -30,6 +31,7 @@ bool RunCampaign(const std::string& campaign_text, const std::string& store,
   SearchOptions options;
   options.store = store;
   options.build = BuildId();
+  options.machine = MachineText();
   options.threads = threads;
   options.problems = problems;
   options.minutes = minutes;

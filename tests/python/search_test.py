@@ -49,6 +49,10 @@ class Campaigns(unittest.TestCase):
                 for findings in (self.findings, stiction.Store(self.theirs).findings)]
         self.assertEqual(*said)
 
+    def test_the_store_names_the_machine_as_the_program_does(self):
+        ours, theirs = (json.loads(program("status", store, "--json"))["machines"] for store in (self.ours, self.theirs))
+        self.assertEqual((len(ours), ours), (1, theirs))
+
     def test_without_a_store_they_are_the_same_and_nothing_is_left(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch("tempfile.tempdir", folder):
             found = [(f.signature, f.count) for f in stiction.search(**CAMPAIGN, threads=1, finishing=0)]
