@@ -642,6 +642,11 @@ bug("campaign-unsealed", "seal != stored", "false", "a campaign that was changed
 bug = in_file("corpus/store_rows.cpp", "^corpus: (store|merge|work)")
 bug("row-unsealed", "seal != stored", "false", "a row that was changed is believed", context="  if (seal != stored) {")
 bug("seal-without-lengths", 'fmt::format("{}:{}\\n", column.size(), column)', "column", "columns may change places in a seal")
+bug("machines-unwritten", "!work.machines.empty()", "false", "a store does not name the machines that searched")
+
+bug = in_file("corpus/work.h", "^corpus: (store|merge|work)")
+bug("machines-of-one-part", "machines.insert(other.machines.begin(), other.machines.end());", "void();",
+    "of two parts of a campaign the machines of one are named")
 
 bug = in_file("corpus/store_merge.cpp", "^corpus: (store|merge|work)")
 bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;",
