@@ -158,14 +158,13 @@ std::string ConditionText(const Json& condition) {
 
 std::string SafetyText(const Json& result, bool has_words) {
   const Json& safe = result["safe"];
-  std::string text =
-      safe.is_null() ? "undecided: too many words, and the condition does not tell\n"
-      : safe.get<bool>()
-          ? "safe: the determinants of all words are positive, so complete driving has no fold, and the "
-            "published\n"
-            "algorithm under apex=suspended, ties apart, nothing to give up\n"
-          : "unsafe: a word has a determinant that is not positive; there complete driving may fold, and the\n"
-            "published algorithm give up\n";
+  std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
+                     : safe.get<bool>() ? "safe: the determinants of all words are positive; complete driving "
+                                          "has no fold, and the published\n"
+                                          "algorithm under apex=suspended, ties apart, nothing to give up\n"
+                                        : "unsafe: the determinant of a word is zero or negative; where one is "
+                                          "negative, complete driving may\n"
+                                          "fold, and the published algorithm give up\n";
   if (result.contains("threshold")) {
     text += "uniform mu: safe below " + ThresholdText(result["threshold"]) + "\n";
   } else if (has_words) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction records: the worst problems that are known.
 
+#include "cli/records.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,7 +10,6 @@
 
 #include "answers/version.h"
 #include "certify/claims.h"
-#include "cli/known_frontiers.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"

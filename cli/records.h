@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The records that stand beside the program.
 
-#ifndef STICTION_CLI_KNOWN_FRONTIERS_H_
-#define STICTION_CLI_KNOWN_FRONTIERS_H_
+#ifndef STICTION_CLI_RECORDS_H_
+#define STICTION_CLI_RECORDS_H_
 
 #include <filesystem>
 #include <vector>
@@ -18,4 +18,4 @@ std::vector<FrontierLine> KnownFrontiers();
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_KNOWN_FRONTIERS_H_
+#endif  // STICTION_CLI_RECORDS_H_

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "certify/checker_files.h"
-#include "cli/known_frontiers.h"
+#include "cli/records.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"

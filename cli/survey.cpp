@@ -449,10 +449,10 @@ std::string RunsText(const Json& facts) {
     const std::string method = run["method"].get<std::string>(), outcome = run["outcome"].get<std::string>();
     const bool exact = run.value("arithmetic", "") == "exact";
     if (method == "baraff") {
-      const bool loops = outcome == Name(Outcome::kCycle);
       published = fmt::format("; the published algorithm {} {}",
-                              loops                 ? "loops for ever"
+                              outcome == "cycle"    ? "loops for ever"
                               : outcome == "solved" ? "solves it"
+                              : outcome == "wrong"  ? "returns forces that are wrong"
                                                     : "ends in " + outcome,
                               exact ? "(policy paper, exactly)" : "(policy paper, over doubles)");
     }
