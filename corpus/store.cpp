@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFormat = "stiction-store";
-constexpr int kVersion = 4;  // 2: with existence; 3: with seals and work; 4: by friction and rank
+constexpr const char* kStoreFormat = "stiction-store";
+constexpr int kStoreVersion = 4;  // 2: with existence; 3: with seals and work; 4: by friction and rank
 constexpr const char* kTables = R"sql(
 CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE blocks (
@@ -213,8 +213,8 @@ namespace {
 
 // What makes a campaign, by key.
 std::map<std::string, std::string> CampaignRows(const CampaignIdentity& identity) {
-  return {{"format", kFormat},
-          {"version", std::to_string(kVersion)},
+  return {{"format", kStoreFormat},
+          {"version", std::to_string(kStoreVersion)},
           {"definition", identity.definition},
           {"seed", std::to_string(identity.seed)},
           {"policies", identity.policies},
@@ -231,14 +231,15 @@ std::string CampaignSeal(const std::map<std::string, std::string>& rows) {
   int version = 0;
   const std::string& text = rows["version"];
   std::from_chars(text.data(), text.data() + text.size(), version);
-  const std::string way_out = version > kVersion ? "It is of a newer stiction: take that one"
-                                                 : "It is of an older stiction" +
-                                                       (rows.contains("build") ? ", " + rows["build"] : "") +
-                                                       ": that one goes on with it and reports it";
+  const std::string way_out = version > kStoreVersion
+                                  ? "It is of a newer stiction: take that one"
+                                  : "It is of an older stiction" +
+                                        (rows.contains("build") ? ", " + rows["build"] : "") +
+                                        ": that one goes on with it and reports it";
   throw InputError(
       fmt::format("{}: found format {} version {}, expected {} version {}. {}, or search anew with "
                   "--store NEW_FILE",
-                  file, rows["format"], text, kFormat, kVersion, way_out));
+                  file, rows["format"], text, kStoreFormat, kStoreVersion, way_out));
 }
 
 template <class Number>
@@ -268,7 +269,8 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
   Statement rows(db_.get(), "SELECT key, value FROM campaign");
   while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
   if (values.empty()) return std::nullopt;
-  if (values["format"] != kFormat || values["version"] != std::to_string(kVersion)) RefuseVersion(file, values);
+  if (values["format"] != kStoreFormat || values["version"] != std::to_string(kStoreVersion))
+    RefuseVersion(file, values);
   const std::string stored = values["seal"];
   values.erase("seal");
   if (const std::string seal = CampaignSeal(values); seal != stored) {
