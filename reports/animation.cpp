@@ -15,12 +15,6 @@ namespace {
 
 constexpr std::array kKinds = {"bilateral", "frictionless", "static", "sliding"};
 
-// As pictures have it: two decimals.
-Json InPicture(double x, double y) {
-  const auto rounded = [](double z) { return std::round(100 * z) / 100 + 0.0; };
-  return {rounded(x), rounded(y)};
-}
-
 template <class Kind>
 std::string NameOf(const SceneIn<Kind, double>& scene, int body) {
   const std::string& name = scene.bodies[body].name;

@@ -58,6 +58,12 @@ inline Html Dot(const Screen& screen, const Vector2<double>& at, const char* fil
          Html("\n");
 }
 
+// A place of a picture as data: two decimals.
+inline std::array<double, 2> InPicture(double x, double y) {
+  const auto rounded = [](double z) { return std::round(100 * z) / 100 + 0.0; };
+  return {rounded(x), rounded(y)};
+}
+
 // ---- What a kind brings ----------------------------------------------------------------------
 
 // Bodies in their own coordinates, each of which a transform (SVG) brings to where it is, and these. In space

@@ -12,7 +12,7 @@ namespace stiction {
 namespace {
 
 // As it stands while it is short; otherwise its decimal.
-std::string Shown(const std::string& value) {
+std::string ValueText(const std::string& value) {
   constexpr std::size_t kShort = 11;
   if (value.size() <= kShort) return value;
   return fmt::format("{:.6g}", ToDouble(*ParseRational(value)));
@@ -47,9 +47,9 @@ Html FrontiersSection(const std::vector<FrontierLine>& lines) {
                                                                                  {"found by", "", false}});
   for (const FrontierLine& line : lines) {
     table.AddRow({{Text(line.what) + Html(" ") + Tag("small")(line.status)},
-                  {Text(Shown(line.value))},
+                  {Text(ValueText(line.value))},
                   {Text(line.high ? "higher" : "lower")},
-                  {Text(line.random.empty() ? "nothing" : Shown(line.random))},
+                  {Text(line.random.empty() ? "nothing" : ValueText(line.random))},
                   {Text(Grouped(line.evaluations))},
                   {CommandCell(line.command)}});
   }

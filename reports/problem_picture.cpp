@@ -7,12 +7,6 @@
 namespace stiction {
 namespace {
 
-// As pictures have it: two decimals.
-Json InPicture(double x, double y) {
-  const auto rounded = [](double z) { return std::round(100 * z) / 100 + 0.0; };
-  return {rounded(x), rounded(y)};
-}
-
 template <class Kind>
 typename Kind::template Vector<double> PointOf(const SceneIn<Kind, double>& scene,
                                                const std::vector<TouchPointIn<Kind, Rational>>& contacts,

@@ -32,10 +32,10 @@ std::vector<std::string> Split(const std::string& text, char at) {
 }
 
 // The cells of one line by the names of the columns.
-class Cells {
+class CellsOfLine {
  public:
-  Cells(const std::filesystem::path& file, std::size_t line, const std::vector<std::string>& names,
-        std::vector<std::string> cells)
+  CellsOfLine(const std::filesystem::path& file, std::size_t line, const std::vector<std::string>& names,
+              std::vector<std::string> cells)
       : file_(file), line_(line), names_(names), cells_(std::move(cells)) {
     if (cells_.size() != names_.size())
       throw InputError(fmt::format("{}:{}: found {} cells, expected {}", file_.string(), line_, cells_.size(),
@@ -179,7 +179,7 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
   std::vector<RungLine> lines;
   for (std::size_t i = 1; i < texts.size(); ++i) {
     if (texts[i].empty()) continue;
-    const Cells cells(file, i + 1, names, Split(texts[i], ','));
+    const CellsOfLine cells(file, i + 1, names, Split(texts[i], ','));
     RungLine line;
     line.family = cells.Text("family");
     line.method = cells.Text("method");

@@ -14,7 +14,7 @@ namespace stiction {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f\v";
-constexpr std::size_t kMostCounted = 100'000'000;
+constexpr std::size_t kMostInFile = 100'000'000;
 
 std::string Quoted(std::string_view word) { return fmt::format("'{}'", Shortened(Printable(word))); }
 
@@ -58,7 +58,7 @@ void SiconosWords::Expect(std::string_view expected) {
 void SiconosWords::SkipLine() { at_ = std::min(text_.find('\n', at_), text_.size()); }
 
 int SiconosWords::Count(const std::string& what) {
-  return Integer(what, 0, static_cast<int>(std::min(text_.size(), kMostCounted)));
+  return Integer(what, 0, static_cast<int>(std::min(text_.size(), kMostInFile)));
 }
 
 int SiconosWords::Integer(const std::string& what, int least, int most) {
