@@ -15,6 +15,8 @@
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "search/adversary/record.h"
+#include "search/campaign.h"
+#include "search/summary.h"
 
 namespace stiction {
 namespace {
@@ -118,6 +120,14 @@ std::vector<FrontierLine> KnownFrontiers() {
                      record.random_command});
   }
   return lines;
+}
+
+std::vector<OwnBest> OwnBests(const Store& store) {
+  const std::string objective = CampaignOf(store.identity(), "report").objective;
+  std::vector<OwnBest> own;
+  for (const BestLine& best : BestLines(store))
+    own.push_back({objective, best.generator, best.mu, best.value, best.contacts});
+  return own;
 }
 
 void AddRecords(CommandLine& program) {

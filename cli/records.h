@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "reports/frontiers.h"
+#include "corpus/store.h"
+#include "reports/page/frontiers.h"
 
 namespace stiction {
 
@@ -15,6 +16,8 @@ namespace stiction {
 std::filesystem::path RecordsFolder();
 // As a report tells them; none where there is no such folder. InputError if a record cannot be read.
 std::vector<FrontierLine> KnownFrontiers();
+// Of a store of an optimized search what a report tells beside them; none of another.
+std::vector<OwnBest> OwnBests(const Store& store);
 
 }  // namespace stiction
 

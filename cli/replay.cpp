@@ -23,7 +23,7 @@
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
-#include "reports/plain_text.h"
+#include "reports/text/plain_text.h"
 #include "reports/viewer.h"
 #include "solver/published/published_space.h"
 

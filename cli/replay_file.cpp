@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/problem_picture.h"
-#include "reports/rounded_scene.h"
+#include "reports/pictures/problem_picture.h"
+#include "reports/pictures/rounded_scene.h"
 
 namespace stiction {
 namespace {

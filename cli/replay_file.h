@@ -12,7 +12,7 @@ namespace stiction {
 
 struct ReplayFile {
   ProblemFile file;
-  Json picture;  // reports/problem_picture.h; null where there is no scene of this very problem
+  Json picture;  // reports/pictures/problem_picture.h; null where there is no scene of this very problem
 };
 
 // Of a scene, the one problem of its forces at this instant; InputError if it has none, or several.

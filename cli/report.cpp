@@ -16,9 +16,9 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
-#include "reports/comparison.h"
-#include "reports/package.h"
-#include "reports/text_report.h"
+#include "reports/comparison/comparison.h"
+#include "reports/papers/package.h"
+#include "reports/text/text_report.h"
 #include "search/campaign.h"
 #include "search/known_signatures.h"
 #include "search/summary.h"
@@ -76,7 +76,8 @@ int ReportStore(const ReportVerb& o, const Store& store) {
                            o.since,
                            o.latex,
                            o.files.value_or(ReportExtras().files),
-                           KnownFrontiers()}));
+                           KnownFrontiers(),
+                           OwnBests(store)}));
     text += o.folder + "/index.html\n";
     written.push_back(o.folder);
   }
@@ -101,7 +102,24 @@ void RequireFolder(const ReportVerb& o) {
   }
 }
 
+// A report of benchmarks alone.
+int ReportBenches(const ReportVerb& o) {
+  if (o.benches.empty()) throw InputError("report: found no STORE, expected the store of a search, or --bench");
+  if (o.folder.empty()) throw InputError("report: found --bench without -o, expected a folder to write");
+  if (!o.package.empty() || !o.since.empty() || o.latex || o.files || o.text)
+    throw InputError(
+        "report: found no STORE, expected one with --package, --since, --files, --latex or --text");
+  ReportExtras extras;
+  extras.benches = {o.benches.begin(), o.benches.end()};
+  extras.frontiers = KnownFrontiers();
+  TellAside(WriteMeasured(o.folder, OccupiedIf(o.replace),
+                          extras));
+  SayWhatWasDone("", o.json, o.folder + "/index.html\n", {{"written", Json::array({o.folder})}});
+  return kExitDone;
+}
+
 int RunReport(const ReportVerb& o) {
+  if (o.store.empty()) return ReportBenches(o);
   if (!o.other.empty()) return CompareStores(o);
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
@@ -114,14 +132,15 @@ int RunReport(const ReportVerb& o) {
 void AddReport(CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
-  verb.Positional("STORE", o.store, "store of a search").Required();
+  verb.Positional("STORE", o.store, "store of a search; none with --bench alone");
   verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead")
       .Details("Exit 1 if a difference is more than noise");
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
   verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
   verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
   verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
-  verb.Option("--bench", o.benches, "files of bench --suite trade or extremes, --csv, to draw besides");
+  verb.Option("--bench", o.benches,
+              "files of bench --suite trade or extremes, --csv, to draw; alone or besides");
   verb.Option("--since", o.since, "folder of an earlier report: the page says what is new since");
   verb.Option("--files", o.files,
               "findings that have files of their own; tables and page have all; by default all")

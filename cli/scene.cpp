@@ -19,8 +19,8 @@
 #include "corpus/output_error.h"
 #include "corpus/scene_file.h"
 #include "reports/animation.h"
-#include "reports/draw.h"
-#include "reports/rounded_scene.h"
+#include "reports/pictures/draw.h"
+#include "reports/pictures/rounded_scene.h"
 #include "scene/simulate.h"
 
 namespace stiction {

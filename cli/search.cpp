@@ -21,7 +21,7 @@
 #include "corpus/kinds.h"
 #include "corpus/machine.h"
 #include "corpus/store_lock.h"
-#include "reports/text_report.h"
+#include "reports/text/text_report.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/exponential.h"
 #include "search/known_signatures.h"

@@ -10,9 +10,9 @@
 #include "corpus/json_text.h"
 #include "corpus/machine.h"
 #include "python/signals.h"
-#include "reports/csv.h"
-#include "reports/discovery.h"
 #include "reports/report_files.h"
+#include "reports/tables/csv.h"
+#include "reports/tables/discovery.h"
 #include "search/search.h"
 #include "search/testimony.h"
 

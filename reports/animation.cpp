@@ -6,8 +6,8 @@
 
 #include "corpus/json_text.h"
 #include "reports/animation_template.h"
-#include "reports/draw_bodies.h"
-#include "reports/template.h"
+#include "reports/html/template.h"
+#include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
 
 namespace stiction {

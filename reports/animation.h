@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/draw.h"
+#include "reports/pictures/draw.h"
 
 namespace stiction {
 

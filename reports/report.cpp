@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "corpus/input_error.h"
+#include "corpus/input_file.h"
 #include "corpus/json_text.h"
-#include "reports/discovery.h"
-#include "reports/figures.h"
-#include "reports/finding_picture.h"
-#include "reports/latex.h"
-#include "reports/page.h"
+#include "reports/page/figures.h"
+#include "reports/page/measured_page.h"
+#include "reports/page/page.h"
+#include "reports/papers/latex.h"
+#include "reports/pictures/finding_picture.h"
 #include "reports/report_files.h"
-#include "reports/since.h"
+#include "reports/tables/discovery.h"
+#include "reports/tables/since.h"
 
 namespace stiction {
 namespace {
@@ -41,16 +46,53 @@ void LeaveFilesTo(std::vector<Discovery>& discoveries, std::int64_t most) {
   }
 }
 
+std::vector<RungLine> ReadAllRungs(const std::vector<std::filesystem::path>& files) {
+  std::vector<RungLine> lines;
+  for (const auto& file : files) {
+    for (RungLine& line : ReadRungs(file)) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// What was measured, and the records, as they came.
+void WriteMeasures(ReportFiles& folder, const ReportExtras& extras) {
+  std::set<std::string> names;
+  for (const auto& file : extras.benches) {
+    const std::string name = file.filename().string();
+    if (!names.insert(name).second)
+      throw InputError(fmt::format("--bench: found two files {}, expected names of their own", name));
+    folder.Write("bench/" + name, ReadText(file));
+  }
+  if (!extras.frontiers.empty()) folder.Write("frontiers.csv", FrontiersCsv(extras.frontiers));
+}
+
+void WriteFigures(ReportFiles& folder, const std::vector<FigureTable>& figures) {
+  for (const FigureTable& figure : figures) folder.Write("figures/" + figure.name + ".csv", FigureCsv(figure));
+}
+
 }  // namespace
+
+std::filesystem::path WriteMeasured(const std::filesystem::path& directory, Occupied occupied,
+                                    const ReportExtras& extras) {
+  const std::vector<RungLine> lines = ReadAllRungs(extras.benches);
+  WholeFolder whole(directory, "report", occupied);
+  ReportFiles folder(whole);
+  WriteMeasures(folder, extras);
+  std::vector<FigureTable> figures = {RungsFigure(lines), FrontiersFigure(extras.frontiers)};
+  std::erase_if(figures, [](const FigureTable& figure) { return figure.rows.empty(); });
+  WriteFigures(folder, figures);
+  folder.Write("index.html", MeasuredPage(lines, extras.frontiers, extras.benches, figures));
+  folder.WriteSums();
+  return whole.Commit();
+}
 
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory, Occupied occupied,
                                   const ReportExtras& extras) {
   ReportContent content;
   if (!extras.since.empty()) content.since = ReadSince(extras.since);
-  for (const auto& file : extras.benches) {
-    for (RungLine& line : ReadRungs(file)) content.rungs.push_back(std::move(line));
-  }
+  content.rungs = ReadAllRungs(extras.benches);
   content.frontiers = extras.frontiers;
+  content.own = extras.own;
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   const std::vector<Finding> findings = store.Findings();
@@ -73,12 +115,12 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   folder.Write("citation.bib", Citation(store));
   folder.Write("campaign.json", CampaignFile(content.identity));
   if (content.since) folder.Write("since.csv", SinceCsv(*content.since, content.discoveries));
-  if (!content.frontiers.empty()) folder.Write("frontiers.csv", FrontiersCsv(content.frontiers));
+  WriteMeasures(folder, extras);
   if (extras.latex) {
     for (const auto& [name, text] : LatexFiles(store)) folder.Write(name, text);
   }
   const std::vector<FigureTable> figures = Figures(content);
-  for (const FigureTable& figure : figures) folder.Write("figures/" + figure.name + ".csv", FigureCsv(figure));
+  WriteFigures(folder, figures);
   folder.Write("index.html", Page(content, figures));
   folder.WriteSums();
   return whole.Commit();

@@ -7,6 +7,7 @@
 //   figures/NAME.csv              what the figures of the page draw (figures.h)
 //   campaign.json                 what was searched, for another search
 //   frontiers.csv                 the worst problems that are known, if records were given (frontiers.h)
+//   bench/NAME                    the files of bench, as they were given
 //   since.csv                     what changed since an earlier report, if one was given (since.h)
 //   citation.bib                  how to cite it (latex.h)
 //   SHA256SUMS                    of every file but itself
@@ -28,24 +29,30 @@
 
 #include "corpus/store.h"
 #include "corpus/whole_folder.h"
-#include "reports/frontiers.h"
+#include "reports/page/frontiers.h"
 
 namespace stiction {
 
 // What a report has besides the content of its store.
 struct ReportExtras {
-  std::vector<std::filesystem::path> benches;  // of bench --csv, drawn on the page
-  std::filesystem::path since;                 // an earlier report, beside which the page says what is new
-  bool latex = false;                          // tables and figures for papers, too (latex.h)
+  std::vector<std::filesystem::path> benches = {};  // of bench --csv, drawn on the page
+  std::filesystem::path since = {};                 // an earlier report, beside which the page says what is new
+  bool latex = false;                               // tables and figures for papers, too (latex.h)
   // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
   std::vector<FrontierLine> frontiers = {};  // records, told on the page
+  std::vector<OwnBest> own = {};             // the best of an optimized search, told beside them
 };
 
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same
 // content of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteReport(const Store& store, const std::filesystem::path& directory,
                                   Occupied occupied = Occupied::kRefused, const ReportExtras& extras = {});
+
+// Likewise, of benchmarks and records alone: index.html, figures/, bench/, frontiers.csv, SHA256SUMS. Of the
+// extras benches, of which there is one at least, and frontiers count.
+std::filesystem::path WriteMeasured(const std::filesystem::path& directory, Occupied occupied,
+                                    const ReportExtras& extras);
 
 }  // namespace stiction
 

@@ -3,7 +3,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/problem_file.h"
-#include "reports/csv.h"
+#include "reports/tables/csv.h"
 
 namespace stiction {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "corpus/statistics.h"
 #include "corpus/whole_folder.h"
-#include "reports/discovery.h"
+#include "reports/tables/discovery.h"
 
 namespace stiction {
 

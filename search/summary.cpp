@@ -101,6 +101,20 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
 
 }  // namespace
 
+std::vector<BestLine> BestLines(const Store& store) {
+  const Campaign campaign = CampaignOf(store.identity(), "summary");
+  if (campaign.objective.empty()) return {};
+  std::vector<BestLine> lines;
+  for (const Elite& elite : BestOf(store, 1)) {
+    const Candidate& best = elite.candidate;
+    lines.push_back({.generator = std::string(Row(best.generator).name),
+                     .mu = ToString(Rational(best.mu.numerator) / Rational(best.mu.denominator)),
+                     .value = ValueText(*FindObjective(campaign.objective), elite.worth),
+                     .contacts = best.contacts});
+  }
+  return lines;
+}
+
 Json SummaryToJson(const Store& store) {
   const Campaign campaign = CampaignOf(store.identity(), "summary");
   if (!campaign.objective.empty()) return OptimizedToJson(store, campaign);
@@ -167,12 +181,9 @@ std::string OptimizedText(const Store& store, const std::string& file) {
       file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
       objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
       Grouped(yield.confirmations), Grouped(yield.denied));
-  for (const Elite& elite : BestOf(store, 1)) {
-    text += fmt::format(
-        "  {:18} {} contacts, mu = {}: {}\n", Row(elite.candidate.generator).name, elite.candidate.contacts,
-        ToString(Rational(elite.candidate.mu.numerator) / Rational(elite.candidate.mu.denominator)),
-        ValueText(objective, elite.worth));
-  }
+  for (const BestLine& best : BestLines(store))
+    text +=
+        fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);
   const Kept kept = KeptOf(store);
   text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n",
                       kept.finished + kept.pending, kept.finished);

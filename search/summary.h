@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // A store as JSON, for the end of a search; that of a search with an objective also in a few lines. All others
-// have theirs in reports/text_report.h.
+// have theirs in reports/text/text_report.h.
 
 #ifndef STICTION_SEARCH_SUMMARY_H_
 #define STICTION_SEARCH_SUMMARY_H_
 
 #include <string>
+#include <vector>
 
 #include "corpus/store.h"
 
 namespace stiction {
+
+// The best of an optimized search, of a generator and number of contacts, as it is told.
+struct BestLine {
+  std::string generator, mu, value;
+  int contacts = 0;
+};
+// Empty for a search without an objective.
+std::vector<BestLine> BestLines(const Store& store);
 
 Json SummaryToJson(const Store& store);
 // Requires a search with an objective. `file` is named in the commands that it proposes.

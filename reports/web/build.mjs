@@ -4,7 +4,7 @@
 // A page is one file: its script and its style sheet inside, allowed by their hashes and nothing else, formulas
 // set as MathML. Of a page's source  {{script}}, {{style}}, {{policy}}, {{notices}} and {{solver}} are filled
 // in here, as is \( TeX \);
-// the other marks, {{title}}, {{data}} and such, are left to the program (reports/template.h). The same sources
+// the other marks, {{title}}, {{data}} and such, are left to the program (reports/html/template.h). The same sources
 // give the same bytes.
 import {build} from 'esbuild';
 import katex from 'katex';

@@ -58,9 +58,12 @@ export const contrasts = (page, kinds) => page.evaluate(kinds => {
   const found = new Map();
   for (const {selector, paint = 'color', on = null, byPaint = false} of kinds) {
     for (const node of document.querySelectorAll(selector)) {
-      const style = getComputedStyle(node), seen = style[paint] === 'none' ? style.stroke : style[paint];
+      const style = getComputedStyle(node), below = ground(on === null ? node : node.closest(on));
+      // Of a mark that is filled as the ground its line is seen, if it has one.
+      const open = byPaint && style.stroke !== 'none' && `${parse(style[paint])}` === `${below}`;
+      const seen = open || style[paint] === 'none' ? style.stroke : style[paint];
       if (seen === 'none') continue;
-      const [a, b] = [light(parse(seen)), light(ground(on === null ? node : node.closest(on)))];
+      const [a, b] = [light(parse(seen)), light(below)];
       const name = byPaint ? `${selector} ${seen}` : selector;
       const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
       found.set(name, Math.min(found.get(name) ?? Infinity, contrast));

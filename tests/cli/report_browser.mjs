@@ -48,13 +48,13 @@ test('every figure is drawn, has a name, and its numbers beside it', async () =>
                        })));
     assert.deepEqual(figures.map(figure => figure.name), [
       'rates.contacts', 'rates.friction', 'rates.rank', 'doubles', 'trust', 'steps', 'pivoting', 'loop-steps',
-      'methods', 'driving'
+      'methods', 'driving', 'frontiers'
     ]);
     for (const figure of figures) {
       assert.ok(figure.plots.length > 0, figure.name);
       assert.ok(figure.caption.length > 20, figure.name);
       assert.ok(existsSync(join(PAGES, 'small', figure.data)), figure.data);
-      assert.match(figure.command, /stiction report/);
+      assert.match(figure.command, /stiction (report|records)/);
       for (const plot of figure.plots) {
         assert.equal(plot.role, 'img');
         assert.ok(plot.label.length > 20, `${figure.name}: ${plot.label}`);
@@ -94,6 +94,32 @@ test('what is drawn are the numbers of the tables', async () => {
     assert.deepEqual(
         (await titles(page, 'loop-steps')).map(text => text.match(/: ([\d,]+) of/)[1]).sort(),
         loops.map(row => count(row.loops)).sort());
+  });
+});
+
+test('records are drawn beside random problems, each once where nothing was reached', async () => {
+  for (const report of ['small', 'measured']) {
+    await opened(report, async page => {
+      const rows = csv(report, 'figures/frontiers.csv'), told = await titles(page, 'frontiers');
+      const reached = rows.filter(row => row.random !== '');
+      assert.ok(reached.length > 10 && reached.length < rows.length);
+      assert.equal(told.length, rows.length + reached.length);
+      for (const row of rows) {
+        const mine = told.filter(text => text.startsWith(`${row.what}: `));
+        assert.equal(mine.length, row.random === '' ? 1 : 2, row.frontier);
+        assert.ok(mine[0].endsWith(`of ${count(row.evaluations)}`), mine[0]);
+      }
+    });
+  }
+});
+
+test('a report of benchmarks alone says and draws what was measured', async () => {
+  await opened('measured', async page => {
+    assert.deepEqual(
+        await page.$$eval('figure[data-figure]', all => all.map(node => node.dataset.figure)), ['rungs', 'frontiers']);
+    assert.equal((await titles(page, 'rungs')).length, 2);
+    assert.doesNotMatch(await page.innerText('body'), /NaN|undefined|random friction problems for inputs|STORE/);
+    await assertHeadings(page);
   });
 });
 

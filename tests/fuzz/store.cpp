@@ -13,10 +13,10 @@
 #include <fstream>
 
 #include "corpus/store_rows.h"
-#include "reports/csv.h"
-#include "reports/figures.h"
-#include "reports/page.h"
-#include "reports/text_report.h"
+#include "reports/page/figures.h"
+#include "reports/page/page.h"
+#include "reports/tables/csv.h"
+#include "reports/text/text_report.h"
 #include "search/campaign.h"
 #include "search/known_signatures.h"
 #include "search/summary.h"

@@ -737,20 +737,20 @@ bug("input-for-output", "if (is_path) throw InputError(refused.what());", "", "a
 
 # ---- reports -------------------------------------------------------------------------
 
-bug = in_file("reports/csv.cpp", "^reports: ")
+bug = in_file("reports/tables/csv.cpp", "^reports: ")
 bug("quote-not-quoted", r'text.find_first_of(",\"\r\n") == std::string_view::npos',
     r'text.find_first_of(",\r\n") == std::string_view::npos', "a cell with a quotation mark breaks its row")
 bug("quote-not-doubled", r'''c == '"' ? std::string("\"\"") : std::string(1, c)''', "std::string(1, c)",
     "quotation marks end their cell")
 bug("last-bin", "AddYesNo(csv, steps == Tally::kBins - 1);", "AddYesNo(csv, false);", "the last bin is like others")
 
-bug = in_file("reports/statistics_sections.cpp", "^reports: ")
+bug = in_file("reports/page/statistics_sections.cpp", "^reports: ")
 bug("wrong-confirmed", "inexact == static_cast<int>(Outcome::kSolved) ? -1 : inexact", "inexact",
     "wrong answers are confirmed by right ones")
 bug("refuted-by-cycles", "suspicions.refuted += exact[static_cast<int>(Outcome::kSolved)];",
     "suspicions.refuted += exact[static_cast<int>(Outcome::kCycle)];", "confirmed cycles are called refuted")
 
-bug = in_file("reports/discovery.cpp", "^reports: ")
+bug = in_file("reports/tables/discovery.cpp", "^reports: ")
 bug("some-loop", "loops > 0 && loops == Total()", "loops > 0", "every policy loops if one does")
 bug("longest-loop", "rank(discovery) < rank(*simplest)", "rank(discovery) > rank(*simplest)",
     "the page features the longest problem")
@@ -763,13 +763,14 @@ bug = in_file("reports/report_files.cpp", "^reports: ")
 bug("certificate-of-the-original", "own.empty() ? finding.certificate : own", "finding.certificate",
     "the minimized problem has the certificate of another")
 
-bug = in_file("reports/page.cpp", "^reports: ")
+bug = in_file("reports/page/page.cpp", "^reports: ")
 bug("page-problems-per-policy", "most = std::max(most, tally.problems);", "most += tally.problems;",
     "problems count once for every policy")
+bug = in_file("reports/page/found_section.cpp", "^reports: ")
 bug("counted-is-pending", "pending += discovery.representative != nullptr && !discovery.Finished();",
     "pending += !discovery.Finished();", "groups that are only counted are pending")
 
-bug = in_file("reports/existence_section.cpp", "^reports: ")
+bug = in_file("reports/page/existence_section.cpp", "^reports: ")
 bug("exceptions-hidden", "Exception(t.problems - t.solved)", "Exception(0)", "unsolved problems are not told")
 bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disagreements are not told")
 
@@ -778,27 +779,27 @@ bug("animation-side", "ShownSide(scene, force.bodies) == 0 ? 1 : -1", "1", "forc
 bug("animation-of-joints", "if (!force.from_joint) forces.push_back(ForceJson(moved, screen, force, newton));",
     "forces.push_back(ForceJson(moved, screen, force, newton));", "forces of joints are shown as if of contacts")
 
-bug = in_file("reports/html.cpp", "^reports: ")
+bug = in_file("reports/html/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
 bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
 
-bug = in_file("reports/plain_text.cpp", "^reports: ")
+bug = in_file("reports/text/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 
-bug = in_file("reports/figures.cpp", "^reports: ")
+bug = in_file("reports/page/figures.cpp", "^reports: ")
 bug("rates-of-doubles", "for (int i = 0; i < kOutcomeCount; ++i) sum[i] += exact[i];",
     "for (int i = 0; i < kOutcomeCount; ++i) sum[i] = exact[i];", "rates count the last row of verdicts alone")
 bug("interval-of-the-runs", "CountInterval(count)", "CountInterval(runs)",
     "the interval of a rate is that of another count")
 bug("empty-bins-drawn", "if (tally.steps[steps] == 0) continue;", "", "bars of no height are drawn")
 
-bug = in_file("reports/methods_section.cpp", "^reports: ")
+bug = in_file("reports/page/methods_section.cpp", "^reports: ")
 bug("wrong-is-solved", "tally.outcomes[kSolvedOutcome] - tally.wrong", "tally.outcomes[kSolvedOutcome]",
     "wrong answers of doubles count as solutions")
 bug("lemke-disagrees", "tally.compared - tally.disagreements", "tally.compared", "a disagreement counts as solved")
 
-bug = in_file("reports/since.cpp", "^reports: ")
+bug = in_file("reports/tables/since.cpp", "^reports: ")
 bug("since-always-more", "discovery.met > before->second.met", "discovery.met >= before->second.met",
     "what is as it was is told as news")
 bug("since-gone-hidden", "if (present.count(signature) > 0) continue;", "continue;", "what is gone is not told")
@@ -809,28 +810,28 @@ bug("files-by-interest", "d == simplest", "false",
 bug("one-file-more", "static_cast<std::int64_t>(kept.size()) < most", "static_cast<std::int64_t>(kept.size()) <= most",
     "one finding more has files")
 
-bug = in_file("reports/sentences.cpp", "^reports: ")
+bug = in_file("reports/page/sentences.cpp", "^reports: ")
 bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] + sums.exact[static_cast<int>(Outcome::kStall)]",
     "sums.suspicions",
     "every suspicion is told as a loop")
 bug("all-solved", 'all.solved == all.problems', "true", "problems that were not solved are not told",
     context='all.solved == all.problems ? "Solutions')
 
-bug = in_file("reports/template.cpp", "^reports: ")
+bug = in_file("reports/html/template.cpp", "^reports: ")
 bug("mark-twice", "page.find(mark, at + 1) == page.npos", "true", "a mark that stands twice is filled once")
 
-bug = in_file("reports/text_report.cpp", "^reports: text")
+bug = in_file("reports/text/text_report.cpp", "^reports: text")
 bug("stalls-are-no-loops", "loops += of(Outcome::kCycle) + of(Outcome::kStall);", "loops += of(Outcome::kRay);",
     "rates of loops count something else")
 bug("known-is-new", "known_as(signature).empty()", "true", "loops of the corpus are new ones")
 bug("grave-at-the-end", "HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
     "HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
 
-bug = in_file("reports/exact_tests.cpp", "^reports: comparison")
+bug = in_file("reports/comparison/exact_tests.cpp", "^reports: comparison")
 bug("one-sided", "weight <= seen * kSame ? weight : 0", "weight < seen ? weight : 0", "the table seen does not count")
 bug("bonferroni", "order.size() - k", "order.size()", "every p is corrected for all tests")
 
-bug = in_file("reports/comparison.cpp", "^reports: comparison")
+bug = in_file("reports/comparison/comparison.cpp", "^reports: comparison")
 bug("misjudged-of-all", "Trials{t.misjudged, t.audited}", "Trials{t.misjudged, t.problems}",
     "misjudged runs are held against all runs")
 bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) return steps;", "the median is the most")
@@ -840,12 +841,12 @@ bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one c
 bug("rates-the-wrong-way", "return RateOf(rate.a) > RateOf(rate.b);", "return RateOf(rate.a) < RateOf(rate.b);",
     "more is said to be less")
 
-bug = in_file("reports/latex.cpp", "^reports: latex|^program: latex")
+bug = in_file("reports/papers/latex.cpp", "^reports: latex|^program: latex")
 bug("control-not-replaced", "static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c", "c",
     "control characters of a store come through", type="char")
 bug("interval-as-reach", "scale * (count - interval.low)", "scale * interval.low", "error bars begin at the interval's end")
 
-bug = in_file("reports/package.cpp", "^program: package")
+bug = in_file("reports/papers/package.cpp", "^program: package")
 bug("certificate-of-another", "of_original ? files.original : files.problem", "files.original",
     "a certificate is said to be of the problem as found")
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "corpus/json_text.h"
-#include "reports/draw_bodies.h"
+#include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
 
 namespace stiction {

@@ -2,7 +2,7 @@
 // Two stores compared: exact tests that are exact, what is noise called noise, and what is not comparable
 // refused.
 
-#include "reports/comparison.h"
+#include "reports/comparison/comparison.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>
@@ -12,7 +12,7 @@
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
 #include "corpus/rational.h"
-#include "reports/plain_text.h"
+#include "reports/text/plain_text.h"
 #include "tests/scratch.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // LaTeX of a report: nothing that stands in a store is a command.
 
-#include "reports/latex.h"
+#include "reports/papers/latex.h"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measurements of rungs in a report: files as bench writes them, and what is refused.
 
-#include "reports/rungs.h"
+#include "reports/page/rungs.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace stiction {
 namespace {

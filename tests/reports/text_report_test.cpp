@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A store as text: the most important first, every number a sum over its records, at most 100 columns.
 
-#include "reports/text_report.h"
+#include "reports/text/text_report.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>
@@ -10,7 +10,7 @@
 
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
-#include "reports/plain_text.h"
+#include "reports/text/plain_text.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of a report, by the names of their places in the page (../../figures.h has the tables).
+// The figures of a report, by the names of their places in the page (../../page/figures.h has the tables).
 // `choices(rows)`: what can be chosen, by column; `draw(rows, width, chosen)`: elements.
-import {barX, dot, ruleX} from '@observablehq/plot';
+import {barX, dot, ruleX, ruleY} from '@observablehq/plot';
 
 import * as p from './plots.js';
 import {rates} from './rates.js';
@@ -242,6 +242,59 @@ function drawRungs(rows, width) {
       [...p.groupBy(rows, row => row.family)].map(([family, group]) => rungsPlot(family, group, options)))];
 }
 
+// ---- Records ----
+
+// Ticks of an axis over so many decades that a label at each would not fit.
+function thousandfold([low, high]) {
+  const ticks = [];
+  for (let e = 3 * Math.ceil(Math.log10(low) / 3); 10 ** e <= high; e += 3) ticks.push(10 ** e);
+  return ticks;
+}
+const tickName = x => x < 0.01 ? x.toExponential(0) : p.rate(x);
+
+// A line for each record of an objective, from the best of random problems to it.
+function frontierPlot(objective, rows, width) {
+  const name = row => row.frontier.replace(`${objective}-`, '').replaceAll('-', ' ');
+  const found = row =>
+      row.random === null ? 'random problems reached nothing' : `best of random problems ${p.rate(row.random)}`;
+  const title = row => `${row.what}: ${p.rate(row.record)}; ${found(row)} of ${p.count(row.evaluations)}`;
+  const both = rows.filter(row => row.random !== null);
+  const values = [...rows.map(row => row.record), ...both.map(row => row.random)];
+  const scale = Math.min(...values) > 0 ? 'log' : 'linear';
+  const place = {y: name, r: 4, stroke: 'var(--bar)', strokeWidth: 1.5, title};
+  const span = [Math.min(...values), Math.max(...values)];
+  const domain = scale === 'log' ? [span[0] / 1.3, span[1] * 1.3] : [0, span[1] * 1.05];
+  return p.small(
+      objective,
+      p.drawn(
+          {
+            width,
+            height: rows.length * 26 + 46,
+            marginLeft: Math.min(150, width * 0.42),
+            marginTop: 6,
+            marginBottom: 36,
+            marginRight: 22,
+            x: {type: scale, domain, label: rows[0].worse === 'lower' ? 'worse the lower' : 'worse the higher'},
+            y: {type: 'band', domain: rows.map(name), label: null},
+            marks: [
+              p.lines('x', 60), p.xAxis({
+                ...span[1] > 1e4 * span[0] ? {ticks: thousandfold(domain)} : {tickSpacing: 60},
+                tickFormat: tickName
+              }),
+              p.yAxis(), ruleY(both, {y: name, x1: 'random', x2: 'record', stroke: 'var(--bar)'}),
+              dot(both, {...place, x: 'random', fill: 'var(--card)'}),
+              dot(rows, {...place, x: 'record', fill: 'var(--bar)'})
+            ]
+          },
+          `Records of ${objective}: ${rows.map(title).join('; ')}`));
+}
+
+function drawFrontiers(rows, width) {
+  const column = p.columnWidth(width, 330);
+  return [p.grid([...p.groupBy(rows, row => row.objective)].map(
+      ([objective, group]) => frontierPlot(objective, group, column)))];
+}
+
 export const figures = {
   'rates.contacts': rates('contacts'),
   'rates.friction': rates('friction'),
@@ -253,5 +306,6 @@ export const figures = {
   'pivoting': {choices: byPolicy, draw: drawPivoting},
   'driving': {draw: drawDriving},
   'methods': {draw: drawMethods},
+  'frontiers': {draw: drawFrontiers},
   'rungs': {draw: drawRungs},
 };

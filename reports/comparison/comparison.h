@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two campaigns side by side: what differs, and whether by more than noise.
+//
+// What both have counted of one generator, number of contacts, policy, method and arithmetic is compared, as a
+// whole and by friction. Every test is Fisher's (exact_tests.h), steps by how many runs took more than the
+// median of both together (the median test of Brown and Mood, A. M. Mood, Introduction to the Theory of
+// Statistics, 1950: exact, too, given the pooled steps); all are corrected together (Holm). They take problems
+// for independent draws.
+
+#ifndef STICTION_REPORTS_COMPARISON_COMPARISON_H_
+#define STICTION_REPORTS_COMPARISON_COMPARISON_H_
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/json_text.h"
+#include "corpus/store.h"
+#include "corpus/whole_folder.h"
+#include "reports/comparison/exact_tests.h"
+
+namespace stiction {
+
+inline constexpr double kNoiseLevel = 0.05;
+
+struct ComparedRate {
+  TallyKey key;
+  std::string friction;  // of all contacts; empty: any
+  std::string measure;   // "loops"
+  std::string meaning;   // "runs that loop, confirmed exactly"
+  Trials a, b;
+  std::optional<double> p;         // where the two can differ at all
+  std::optional<double> adjusted;  // corrected for all tests of the comparison
+
+  bool MoreThanNoise() const { return adjusted && *adjusted <= kNoiseLevel; }
+};
+
+// Steps of a run in the campaign's arithmetic: how many runs took 0, 1, ..., 62, and 63 or more.
+struct ComparedSteps {
+  using Bins = std::array<std::int64_t, Tally::kBins>;
+
+  TallyKey key;
+  Bins a = {}, b = {};
+  std::int64_t sum_a = 0, sum_b = 0;
+};
+
+struct Comparison {
+  std::vector<std::string> differences;  // of the two campaigns, one line each
+  std::vector<ComparedRate> rates;
+  std::vector<ComparedSteps> steps;
+  std::vector<TallyKey> only_a, only_b;  // counted in one alone
+  std::int64_t tests = 0;
+
+  bool MoreThanNoise() const;
+};
+
+// InputError, which names the files, where there is nothing to compare: stores of one campaign, or no
+// generator, size and policy that both have run.
+Comparison Compare(const Store& a, const std::string& file_a, const Store& b, const std::string& file_b);
+
+// As plain text, `a` and `b` being the names of the two.
+std::string ComparisonText(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
+// A row per rate that was compared; exact counts, p as decimal numbers.
+std::string ComparisonCsv(const Comparison& comparison);
+// The same, with what differs by design, and what one alone has.
+Json ComparisonToJson(const Comparison& comparison);
+// A row per number of steps that occurred.
+std::string ComparisonStepsCsv(const Comparison& comparison);
+
+// ---- In words, for text and page alike ----
+
+// Differences that are more than noise, the surest first.
+std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison);
+bool MoreInA(const ComparedRate& rate);
+// "psd, 2 contacts", and what is not as usual.
+std::string NameOf(const TallyKey& key);
+std::string PText(double p);
+std::string SentenceOf(const ComparedRate& rate);
+// How many tests find a difference that is more than noise.
+std::string NoiseSentence(const Comparison& comparison);
+std::string AboutTests();
+// What was counted in the store of this name alone; empty: nothing.
+std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name);
+
+// index.html (comparison_page.h), comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a
+// whole. Returns where a directory with files of others was moved to, if so.
+std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& file_a,
+                                      const std::string& file_b, const std::filesystem::path& directory,
+                                      Occupied occupied = Occupied::kRefused);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_COMPARISON_COMPARISON_H_

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/comparison/comparison_page.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "corpus/intervals.h"
+#include "corpus/json_text.h"
+#include "reports/comparison_template.h"
+#include "reports/html/html.h"
+#include "reports/html/template.h"
+#include "reports/page/page.h"
+#include "reports/tables/csv.h"
+#include "reports/text/plain_text.h"
+
+namespace stiction {
+namespace {
+
+// Sentences before the table, which has all differences.
+constexpr std::size_t kSentences = 12;
+
+Html ListOf(const std::vector<std::string>& lines, const char* style) {
+  Html items;
+  for (const std::string& line : lines) items += Tag("li")(line) + Html("\n");
+  return Tag("ul", {{"class", style}})(Html("\n") + items) + Html("\n");
+}
+
+Html Stores(const std::string& file_a, const std::string& file_b) {
+  return Tag("dl")(Html("<dt>A</dt>") + Tag("dd")(file_a) + Html("\n<dt>B</dt>") + Tag("dd")(file_b)) +
+         Html("\n");
+}
+
+// ---- What is more than noise ----
+
+HtmlCell CountCell(const Trials& trials) {
+  return {Text(fmt::format("{} of {}", Grouped(trials.count), Grouped(trials.of))) +
+              Tag("small")(ShareText(trials.count, trials.of)),
+          trials.count == 0 ? "zero" : ""};
+}
+
+Html NoiseTable(const std::vector<const ComparedRate*>& beyond) {
+  Table table("Differences that are more than noise",
+              {{"generator, contacts", "", false},
+               {"friction", "of all contacts, where runs of one friction are compared", false},
+               {"what", "", false},
+               {"more in", "", false},
+               {"A", "runs, of how many, share and its exact interval at 95 %"},
+               {"B", "likewise"},
+               {"p", "of Fisher's exact test, two-sided"},
+               {"p corrected", "for all tests of this comparison, by Holm"}});
+  for (const ComparedRate* rate : beyond) {
+    table.AddRow({{Text(NameOf(rate->key))},
+                  {Text(rate->friction.empty() ? "any" : rate->friction)},
+                  {Text(rate->meaning)},
+                  {Text(MoreInA(*rate) ? "A" : "B")},
+                  CountCell(rate->a),
+                  CountCell(rate->b),
+                  {Text(PText(*rate->p))},
+                  {Text(PText(*rate->adjusted))}});
+  }
+  return table.Done();
+}
+
+Html NoiseSection(const Comparison& comparison) {
+  const std::vector<const ComparedRate*> beyond = BeyondNoise(comparison);
+  Html content = Tag("p", {{"class", "asked"}})(NoiseSentence(comparison)) + Html("\n");
+  if (!beyond.empty()) {
+    std::vector<std::string> sentences;
+    for (const ComparedRate* rate : beyond) sentences.push_back(SentenceOf(*rate));
+    if (sentences.size() > kSentences) {
+      sentences.resize(kSentences);
+      sentences.push_back(fmt::format("and {} more, in the table.", beyond.size() - kSentences));
+    }
+    content += ListOf(sentences, "answers") + NoiseTable(beyond);
+  }
+  for (const std::string& text : {AboutTests(), OnlyIn(comparison.only_a, "A"), OnlyIn(comparison.only_b, "B")})
+    if (!text.empty()) content += Tag("p", {{"class", "note"}})(text) + Html("\n");
+  return Section("noise", "What is more than noise", content);
+}
+
+// ---- Figures ----
+
+Html FigureOf(const std::string& table, const char* caption) {
+  const std::string file = table + ".csv";
+  return Tag("figure", {{"class", "plot"}, {"data-figure", table}})(
+             Html("\n") + Tag("figcaption")(caption) + Html("\n<div class=\"drawing\"></div>\n") +
+             Tag("p", {{"class", "source"}})(Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) +
+                                             Html(", made by <code>stiction report A B -o DIR</code>")) +
+             Html("\n")) +
+         Html("\n");
+}
+
+// The cells of a table as they stand in its file.
+Json CsvTable(const std::string& csv, const std::string& name) {
+  std::vector<std::vector<std::string>> rows = ReadCsv(csv, name);
+  const std::vector<std::string> columns = rows.front();
+  rows.erase(rows.begin());
+  return {{"columns", columns}, {"rows", rows}};
+}
+
+Html LoopRates(const Comparison& comparison) {
+  Table table("Loops, confirmed exactly",
+              {{"generator, contacts", "", false},
+               {"A", "runs that loop, of how many, share and its exact interval at 95 %"},
+               {"B", "likewise"},
+               {"p corrected", "nothing where no difference is possible"}});
+  for (const ComparedRate& rate : comparison.rates) {
+    if (rate.measure != "loops" || !rate.friction.empty()) continue;
+    table.AddRow({{Text(NameOf(rate.key))},
+                  CountCell(rate.a),
+                  CountCell(rate.b),
+                  {Text(rate.adjusted ? PText(*rate.adjusted) : "")}});
+  }
+  return table.Done();
+}
+
+Html FilesBeside() {
+  return Section("files", "Files beside this page",
+                 Html("<ul>\n"
+                      "<li><a href=\"comparison.csv\"><code>comparison.csv</code></a>: a row per rate, "
+                      "also those that are noise</li>\n"
+                      "<li><a href=\"comparison_steps.csv\"><code>comparison_steps.csv</code></a>: runs of A "
+                      "and of B by their steps</li>\n"
+                      "<li><a href=\"comparison.txt\"><code>comparison.txt</code></a>: what the program "
+                      "prints</li>\n"
+                      "<li><a href=\"SHA256SUMS\"><code>SHA256SUMS</code></a>: the SHA-256 of every file of "
+                      "this folder, for sha256sum --check</li>\n</ul>\n"));
+}
+
+// The command that makes the page again, where the stores lie as they did.
+Html CommandSection(const std::string& file_a, const std::string& file_b) {
+  return Section("again", "Making it again",
+                 Tag("pre")(Tag("code")(
+                     fmt::format("stiction report {} {} -o DIR", ShellWord(file_a), ShellWord(file_b)))) +
+                     Html("\n"));
+}
+
+}  // namespace
+
+std::string ComparisonPage(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
+  const Html rates =
+      FigureOf(
+          "comparison",
+          "How often, in a million runs, with exact intervals at 95 %, on a logarithmic scale. Zero has no "
+          "place on it: where none was seen, a dotted line reaches up to the end of the interval, below "
+          "which the rate lies.") +
+      Html("<h3>Loops</h3>\n") + LoopRates(comparison);
+  const Html steps =
+      FigureOf("comparison_steps",
+               "Runs by their steps, as shares of all runs of each campaign, on a logarithmic scale; "
+               "the last number stands for itself and all above where the table says so.");
+  const Json data = {
+      {"figures",
+       {{"comparison", CsvTable(ComparisonCsv(comparison), "comparison.csv")},
+        {"comparison_steps", CsvTable(ComparisonStepsCsv(comparison), "comparison_steps.csv")}}}};
+  const std::string page(std::begin(kComparisonTemplate), std::end(kComparisonTemplate));
+  return FilledTemplate(
+      page,
+      {{"title", Text("stiction: two campaigns side by side")},
+       {"stores", Stores(file_a, file_b)},
+       {"design", Section("design", "How the two campaigns differ", ListOf(comparison.differences, "plain"))},
+       {"results", NoiseSection(comparison) + Section("rates", "Rates", rates) +
+                       Section("steps", "Steps of a run", steps) + CommandSection(file_a, file_b) +
+                       FilesBeside()},
+       {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+}
+
+}  // namespace stiction

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two campaigns side by side, as one page that needs nothing else.
+//
+// The page is bundled ahead of time (web/), and embedded into the program; here it gets its sentences, its
+// tables, and what its figures draw: the very cells of comparison.csv and comparison_steps.csv.
+
+#ifndef STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_
+#define STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_
+
+#include <string>
+
+#include "reports/comparison/comparison.h"
+
+namespace stiction {
+
+// `file_a` and `file_b` are the names of the two. The same comparison gives the same bytes.
+std::string ComparisonPage(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/html/html.h"
+
+#include <fmt/format.h>
+
+#include "solver/problem/check.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
+
+void AppendEscaped(std::string& out, char c) {
+  switch (c) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    case '\'':
+      out += "&#39;";
+      break;
+    default: {
+      const auto byte = static_cast<unsigned char>(c);
+      const bool allowed = (byte >= 0x20 && byte != 0x7f) || c == '\t' || c == '\n';
+      if (allowed) {
+        out += c;
+      } else {
+        out += kReplacement;
+      }
+    }
+  }
+}
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) AppendEscaped(out, c);
+  return out;
+}
+
+// Two or three digits: 0.012, 1.23, 12.3, 123, 1,234.
+std::string ThreeDigits(double value) {
+  if (value == 0) return "0";
+  if (value < 1) return fmt::format("{:#.2g}", value);
+  if (value < 10) return fmt::format("{:.2f}", value);
+  if (value < 100) return fmt::format("{:.1f}", value);
+  return Grouped(static_cast<std::int64_t>(value + 0.5));
+}
+
+std::string Scaled(double scale, std::int64_t count, std::int64_t total) {
+  return total == 0 ? "" : ThreeDigits(scale * static_cast<double>(count) / static_cast<double>(total));
+}
+
+}  // namespace
+
+Html& Html::operator+=(const Html& more) {
+  markup_ += more.markup_;
+  return *this;
+}
+
+Html Text(std::string_view text) {
+  Html html;
+  html.markup_ = Escaped(text);
+  return html;
+}
+
+Html ScriptData(std::string_view json) {
+  Html html;
+  for (const char c : json) {
+    if (c == '<') {
+      html.markup_ += "\\u003c";
+    } else {
+      html.markup_ += c;
+    }
+  }
+  return html;
+}
+
+Tag::Tag(std::string_view name, std::initializer_list<Attribute> attributes) : name_(name), open_("<" + name_) {
+  for (const Attribute& attribute : attributes) {
+    if (attribute.value.empty()) continue;
+    open_ += fmt::format(" {}=\"{}\"", attribute.name, Escaped(attribute.value));
+  }
+}
+
+Html Tag::operator()(const Html& content) const {
+  Html html;
+  html.markup_ = fmt::format("{}>{}</{}>", open_, content.markup(), name_);
+  return html;
+}
+
+Html Tag::Void() const {
+  Html html;
+  html.markup_ = open_ + ">";
+  return html;
+}
+
+std::string Document(const Html& head, const Html& body) {
+  const Html page = Tag("html", {{"lang", "en"}})(Html("\n") + head + body + Html("\n"));
+  return "<!DOCTYPE html>\n" + page.markup() + "\n";
+}
+
+Table::Table(std::string caption, std::vector<Column> columns)
+    : caption_(std::move(caption)), columns_(std::move(columns)) {}
+
+void Table::AddRow(const std::vector<HtmlCell>& cells, int headers, const std::string& style) {
+  STICTION_CHECK(cells.size() == columns_.size(),
+                 fmt::format("table {}: {} cells for {} columns", caption_, cells.size(), columns_.size()));
+  ++count_;
+  Html row;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool header = static_cast<int>(i) < headers;
+    std::string classes = columns_[i].number ? "n" : "";
+    if (!cells[i].style.empty()) classes += (classes.empty() ? "" : " ") + cells[i].style;
+    row += Tag(header ? "th" : "td", {{"scope", header ? "row" : ""}, {"class", classes}})(cells[i].content);
+  }
+  rows_ += Tag("tr", {{"class", style}})(row) + Html("\n");
+}
+
+void Table::AddWide(const Html& content, const std::string& style) {
+  const Tag cell("td", {{"colspan", std::to_string(columns_.size())}});
+  rows_ += Tag("tr", {{"class", style}})(cell(content)) + Html("\n");
+}
+
+Html Table::Head() const {
+  Html row;
+  for (const Column& column : columns_) {
+    row += Tag("th",
+               {{"scope", "col"}, {"class", column.number ? "n" : ""}, {"title", column.hint}})(column.title);
+  }
+  return Tag("thead")(Tag("tr")(row));
+}
+
+Html Table::Done() const {
+  const Html caption = Tag("caption")(caption_);
+  const Html table = Tag("table")(caption + Head() + Html("\n") + Tag("tbody")(Html("\n") + rows_));
+  const Tag frame("div",
+                  {{"class", "scroll"}, {"role", "region"}, {"aria-label", caption_}, {"tabindex", "0"}});
+  if (count_ <= kLong || !folds_) return frame(table) + Html("\n");
+  const Html title = Tag("summary")(fmt::format("{}: a table of {}", caption_, Counted(count_, "row")));
+  return Tag("details", {{"class", "folded"}})(title + Html("\n") + frame(table)) + Html("\n");
+}
+
+std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, decimals); }
+
+std::string Significant(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
+
+std::string Percent(std::int64_t count, std::int64_t total) {
+  return total == 0 ? "" : Scaled(100, count, total) + "%";
+}
+
+std::string Mean(std::int64_t sum, std::int64_t count) { return Scaled(1, sum, count); }
+
+std::string Counted(std::int64_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", Grouped(count), noun, count == 1 ? "" : "s");
+}
+
+}  // namespace stiction

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// HTML and SVG, escaped by construction: whatever does not come from our own source text becomes Html only
+// through Text(), an attribute's value or ScriptData(), and all of them escape.
+
+#ifndef STICTION_REPORTS_HTML_HTML_H_
+#define STICTION_REPORTS_HTML_HTML_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corpus/grouped.h"
+
+namespace stiction {
+
+class Html {
+ public:
+  Html() = default;
+  // Markup of our own; a literal only, so that nobody passes what a store says.
+  template <std::size_t Size>
+  explicit Html(const char (&markup)[Size]) : markup_(markup, Size - 1) {}
+
+  Html& operator+=(const Html& more);
+  friend Html operator+(Html left, const Html& right) { return left += right; }
+
+  const std::string& markup() const { return markup_; }
+  bool empty() const { return markup_.empty(); }
+
+ private:
+  friend Html Text(std::string_view text);
+  friend Html ScriptData(std::string_view json);
+  friend struct Tag;
+  std::string markup_;
+};
+
+// Control characters that HTML does not allow become U+FFFD.
+Html Text(std::string_view text);
+
+// JSON text as a script may hold it, still JSON: "<" stands in it as \u003c, so no end of a script does.
+Html ScriptData(std::string_view json);
+
+// One that is empty is left out.
+struct Attribute {
+  std::string_view name;
+  std::string value;
+};
+
+// Tag("a", {{"href", url}})(content): an element. Void elements take no content: Tag("br").Void().
+struct Tag {
+  Tag(std::string_view name, std::initializer_list<Attribute> attributes = {});
+  Html operator()(const Html& content) const;
+  Html operator()(std::string_view text) const { return (*this)(Text(text)); }
+  Html Void() const;
+
+ private:
+  std::string name_;
+  std::string open_;  // "<name attributes", not closed yet
+};
+
+// A page that needs nothing else.
+std::string Document(const Html& head, const Html& body);
+
+// ---- Tables ----
+
+struct Column {
+  std::string title;
+  std::string hint = {};  // shown on hovering
+  bool number = true;     // right-aligned
+};
+
+struct HtmlCell {
+  Html content;
+  std::string style = {};  // class names
+};
+
+class Table {
+ public:
+  // `caption` names the table to a screen reader, and is not shown.
+  Table(std::string caption, std::vector<Column> columns);
+
+  // The first `headers` cells are headers of the row. As many cells as columns (InternalError otherwise).
+  void AddRow(const std::vector<HtmlCell>& cells, int headers = 1, const std::string& style = "");
+  // Shows all rows at once, however many.
+  void StayOpen() { folds_ = false; }
+  // One cell across all columns.
+  void AddWide(const Html& content, const std::string& style);
+  // The table in a frame that scrolls sideways where the page is narrow; a long one opens on demand.
+  Html Done() const;
+
+ private:
+  Html Head() const;
+
+  static constexpr int kLong = 30;  // rows
+
+  std::string caption_;
+  std::vector<Column> columns_;
+  Html rows_;
+  int count_ = 0;  // of rows
+  bool folds_ = true;
+};
+
+// ---- Numbers for pictures ----
+
+std::string Fixed(double x, int decimals = 1);
+std::string Significant(double x, int digits = 5);
+
+// ---- Numbers for people ----
+
+// count in percent of total, sum per count, two or three digits; "" of nothing.
+std::string Percent(std::int64_t count, std::int64_t total);
+std::string Mean(std::int64_t sum, std::int64_t count);
+// "1 problem", "2 problems".
+std::string Counted(std::int64_t count, const std::string& noun);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_HTML_HTML_H_

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section of the page that shows findings one by one.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corpus/intervals.h"
+#include "corpus/kinds.h"
+#include "corpus/problem_file.h"
+#include "reports/page/findings_data.h"
+#include "reports/page/page.h"
+#include "reports/pictures/finding_picture.h"
+#include "reports/text/plain_text.h"
+
+namespace stiction {
+namespace {
+
+// ---- The problem in numbers ----
+
+}  // namespace
+
+std::vector<std::string> RowNames(const ExactProblem& problem) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    names.push_back(fmt::format("N{}", i + 1));
+    if (!problem.contacts[i].HasFrictionRows()) continue;
+    if (problem.dimension == 2) {
+      names.push_back(fmt::format("F{}", i + 1));
+    } else {
+      names.insert(names.end(), {fmt::format("F{}x", i + 1), fmt::format("F{}y", i + 1)});
+    }
+  }
+  return names;
+}
+
+namespace {
+
+std::string MuText(const Contact<Rational>& contact) {
+  return contact.HasFrictionRows() ? ToString(contact.mu) : "–";
+}
+
+}  // namespace
+
+std::vector<std::string> MuColumn(const ExactProblem& problem) {
+  std::vector<std::string> column;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    column.push_back(MuText(contact));
+    if (contact.HasFrictionRows())
+      column.resize(column.size() + static_cast<std::size_t>(problem.dimension) - 1);
+  }
+  return column;
+}
+
+namespace {
+
+HtmlCell Number(const Rational& x, const std::string& style = "") {
+  return {Text(ToString(x)), x == 0 && style.empty() ? "zero" : style};
+}
+
+Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
+  const std::vector<std::string> names = RowNames(problem);
+  const std::vector<std::string> mu = MuColumn(problem);
+  std::vector<Column> columns = {{"A", "", false}};
+  for (const std::string& name : names) columns.push_back({name});
+  columns.insert(columns.end(), {{"b"}, {"mu"}});
+  Table table(caption, columns);
+  for (int row = 0; row < problem.rows(); ++row) {
+    std::vector<HtmlCell> cells = {{Text(names[row])}};
+    for (int column = 0; column < problem.rows(); ++column) cells.push_back(Number(problem.A(row, column)));
+    cells.push_back(Number(problem.b[row], "edge"));
+    cells.push_back({Text(mu[row]), "edge"});
+    table.AddRow(cells);
+  }
+  return table.Done();
+}
+
+}  // namespace
+
+ProblemSize SizeOf(const ExactProblem& problem) {
+  ProblemSize size;
+  const auto count = [&size](const Rational& x) {
+    size.nonzeros += x != 0;
+    size.bits = std::max(size.bits, Bits(x));
+  };
+  for (const Rational& x : problem.A.reshaped()) count(x);
+  for (const Rational& x : problem.b) count(x);
+  for (const auto& contact : problem.contacts) count(contact.mu);
+  return size;
+}
+
+const std::string& SimplestText(const Finding& finding) {
+  return finding.minimized.empty() ? finding.problem : finding.minimized;
+}
+
+namespace {
+
+Html ProblemOf(const Finding& finding) {
+  const std::string& text = SimplestText(finding);
+  if (text.size() > kLongestProblem)
+    return Html("<p class=\"note\">Its numbers are too long for a page.</p>\n");
+  return ProblemTable(ParseProblem(text, finding.signature).problem, "Problem of " + finding.signature);
+}
+
+// ---- Words ----
+
+}  // namespace
+
+std::string GridText(const GridOutcomes& grid) {
+  std::string text;
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    if (grid.counts[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kOutcomeNames[i], Grouped(grid.counts[i]));
+  }
+  return text;
+}
+
+namespace {
+
+// "The state after 3 drives stands again 4 drives later (17 steps in all)."
+std::string RunText(const RunFacts& run, const Finding& finding) {
+  const std::string steps = Counted(run.steps, "step");
+  const bool cycle = finding.exact_outcome == Name(Outcome::kCycle);
+  const bool stall = finding.exact_outcome == Name(Outcome::kStall);
+  if (!cycle && !stall) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
+  const std::string unit = cycle ? "drive" : "step";
+  return fmt::format("Under {}: the state after {} stands again {} later, and so on for ever ({} in all).",
+                     finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
+}
+
+}  // namespace
+
+std::string CommandsOf(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  const std::string& policy = finding.policy;
+  const std::string problem = discovery.HasFiles() ? ShellWord(discovery.files.problem) : "problem.json";
+  std::string text = "stiction replay " + problem;
+  if (policy != "paper") text += " --policy " + ShellWord(policy);
+  text = fmt::format("{0} --step\n{0} --html replay.html", text);
+  if (!discovery.HasFiles())
+    return fmt::format("stiction problem STORE {} {} -o problem.json\n{}", finding.unit, finding.index, text);
+  if (!discovery.files.certificate.empty())
+    text += fmt::format("\nstiction check {}", ShellWord(discovery.files.certificate));
+  return text;
+}
+
+namespace {
+
+Html FileLinks(const FindingFiles& files) {
+  const auto link = [](const std::string& file, std::string_view title) {
+    return Tag("a", {{"href", file}})(title);
+  };
+  if (files.problem.empty()) return Tag("p", {{"class", "note"}})("Files: left out of this report.");
+  Html links = link(files.problem, "problem") + Html(" · ") + link(files.original, "as found");
+  if (!files.certificate.empty()) links += Html(" · ") + link(files.certificate, "certificate");
+  if (!files.existence.empty()) links += Html(" · ") + link(files.existence, "a solution exists");
+  if (!files.original_existence.empty())
+    links += Html(" · ") + link(files.original_existence, "likewise, as found");
+  if (!files.picture.empty()) links += Html(" · ") + link(files.picture, "picture");
+  return Tag("p", {{"class", "note"}})(Html("Files: ") + links);
+}
+
+std::string SafeText(const RunFacts& run) {
+  return run.safe == true ? " All reduced determinants are positive." : "";
+}
+
+}  // namespace
+
+std::string StoryOf(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  if (!discovery.Finished()) return "Neither certified nor minimized yet; the problem as found:";
+  if (discovery.minimized) return RunText(*discovery.minimized, finding) + SafeText(*discovery.minimized);
+  std::string text = fmt::format("In doubles: {}.", finding.inexact_outcome);
+  if (discovery.found) text += " " + RunText(*discovery.found, finding);
+  return text + " Not minimized; the problem as found:";
+}
+
+namespace {
+
+// ---- The table ----
+
+Table EmptyTable() {
+  return Table(
+      "Findings, the simplest first",
+      {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units",
+        false},
+       {"kind", "", false},
+       {"contacts", "of the problem as found → of the minimized problem", false},
+       {"drives", "of one period of the loop"},
+       {"steps", "of one period of the loop"},
+       {"met",
+        "runs of the campaign with this signature; below: different words of their loops, where the "
+        "signature is counts alone"},
+       {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
+       {"policies, as found", "outcomes over the planar grid of policies", false},
+       {"policies, minimized", "likewise, of the minimized problem", false},
+       {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
+}
+
+Html KindBadge(const Discovery& discovery, const std::optional<Since>& since) {
+  const bool stands_out = discovery.IsLoop() || IsGrave(discovery.kind);
+  const Tag badge("span", {{"class", stands_out ? "badge loop" : "badge"}});
+  Html html = badge(discovery.kind);
+  if (discovery.WholeGrid()) html += Html(" <span class=\"badge whole\">whole grid</span>");
+  const std::string_view change = since ? since->ChangeOf(discovery) : "";
+  if (!change.empty()) html += Html(" ") + Tag("span", {{"class", "badge change"}})(change);
+  return html;
+}
+
+Html ContactsText(const Discovery& discovery) {
+  const int found = discovery.representative->contacts, smallest = discovery.SmallestContacts();
+  return found == smallest ? Text(std::to_string(found)) : Text(fmt::format("{} → {}", found, smallest));
+}
+
+// "about" beyond what is counted exactly.
+Html MetText(const Discovery& discovery) {
+  Html met = Text(Grouped(discovery.met));
+  if (!discovery.words) return met;
+  const std::int64_t words = discovery.Words();
+  return met + Tag("small")((discovery.words->IsExact() ? "" : "about ") + Counted(words, "word"));
+}
+
+Html RepresentativeText(const Finding& finding) {
+  Html html = Text(fmt::format("{} {}/{}", finding.generator, finding.unit, finding.index));
+  if (finding.policy != "paper") html += Tag("small")(finding.policy);
+  return html;
+}
+
+Html SizeText(const Discovery& discovery) {
+  if (!discovery.minimized) return Tag("span", {{"class", "soft"}})(discovery.Finished() ? "–" : "pending");
+  const Finding& finding = *discovery.representative;
+  const ProblemSize size = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
+  return Text(fmt::format("{}, {}", Counted(size.nonzeros, "nonzero"), Counted(size.bits, "bit")));
+}
+
+void AddFinding(Table& table, const Discovery& discovery, const std::optional<Since>& since) {
+  const auto period = [&](std::int64_t LoopLength::*part) {
+    return discovery.loop ? Text(Grouped((*discovery.loop).*part)) : Html();
+  };
+  table.AddRow({{Tag("code")(discovery.signature), "signature"},
+                {KindBadge(discovery, since)},
+                {ContactsText(discovery)},
+                {period(&LoopLength::drives)},
+                {period(&LoopLength::steps)},
+                {MetText(discovery)},
+                {RepresentativeText(*discovery.representative)},
+                {discovery.found ? Text(GridText(discovery.found->grid)) : Html()},
+                {discovery.minimized ? Text(GridText(discovery.minimized->grid)) : Html()},
+                {SizeText(discovery)}},
+               1, "finding");
+  table.AddWide(Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(discovery)),
+                "more");
+}
+
+Html HowMany(std::size_t represented, const std::vector<Discovery>& discoveries) {
+  const auto all = static_cast<std::int64_t>(discoveries.size());
+  const auto here = static_cast<std::int64_t>(represented);
+  std::string text =
+      "One row per signature: cycles of safe problems and disagreements of methods first, then fewest "
+      "contacts, then "
+      "those that every policy of the grid shows, then loops before others, then the most frequent. ";
+  text += here == all
+              ? "All " + Counted(all, "signature") + (all == 1 ? " is" : " are")
+              : fmt::format("{} of {} have a representative and are", Grouped(here), Counted(all, "signature"));
+  text += represented > kFindingsShown
+              ? fmt::format(" here, without a script the first {}; all are in ", kFindingsShown)
+              : " here; all are in ";
+  return Tag("p", {{"class", "how-many"}})(Text(text) +
+                                           Html("<a href=\"findings.csv\"><code>findings.csv</code></a>."));
+}
+
+Html IpoptText(const std::vector<Discovery>& discoveries) {
+  std::int64_t asked = 0, solved = 0, starts = 0, unavailable = 0;
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.ipopt) continue;
+    const FeasibilityFacts& facts = *discovery.ipopt;
+    if (facts.outcome == "unavailable") {
+      ++unavailable;
+      continue;
+    }
+    ++asked;
+    solved += facts.outcome == "solved";
+    starts += facts.outcome == "solved" ? facts.starts : 0;
+  }
+  if (asked + unavailable == 0) return Html();
+  std::string text = fmt::format("Ipopt could not be asked about {}.", Counted(unavailable, "finding"));
+  if (asked > 0) {
+    text = fmt::format(
+        "Ipopt’s feasibility solve led to a solution, verified over rationals, of {} of {} "
+        "finished findings, {}, after {} starts in the mean; ",
+        Grouped(solved), Grouped(asked), ShareText(solved, asked), Mean(starts, solved));
+    text += unavailable > 0 ? fmt::format("it could not be asked about {}; each is in ", unavailable)
+                            : "each is in ";
+  }
+  Html html = Text(text);
+  if (asked > 0) html += Html("<a href=\"ipopt.csv\"><code>ipopt.csv</code></a>.");
+  return Tag("p")(html) + Html("\n");
+}
+
+}  // namespace
+
+Html FindingDetails(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  return Tag("div", {{"class", "details"}})(Html("\n") + Tag("p")(StoryOf(discovery)) + Html("\n") +
+                                            ProblemOf(finding) + PictureOfFinding(finding) +
+                                            Tag("pre")(Tag("code")(CommandsOf(discovery))) +
+                                            FileLinks(discovery.files)) +
+         Html("\n");
+}
+
+Html FindingsSection(const std::vector<Discovery>& discoveries, const std::optional<Since>& since) {
+  if (discoveries.empty()) return Section("findings", "Findings", Html("<p>None.</p>\n"));
+  std::vector<const Discovery*> shown = ByInterest(discoveries);
+  const std::size_t represented = shown.size();
+  if (represented > kFindingsShown) shown.resize(kFindingsShown);
+  Table table = EmptyTable();
+  table.StayOpen();
+  for (const Discovery* discovery : shown) AddFinding(table, *discovery, since);
+  return Section(
+      "findings", "Findings",
+      HowMany(represented, discoveries) + IpoptText(discoveries) +
+          Html("<p>Commands stand in the folder of this page, where <code>stiction</code> is the program, or "
+               "<code>run</code> of its sources:</p>\n<pre class=\"setup\"><code>stiction() { "
+               "/path/to/stiction/run \"$@\"; }</code></pre>\n<p class=\"note\"><code>replay</code> shows "
+               "every pivot in exact numbers, as text or as a page to step through; <code>check</code> "
+               "verifies a certificate, and so does <code>certify/check_certificate.py</code> of the sources, "
+               "which shares nothing with it.</p>\n<div id=\"gallery\"></div>\n") +
+          table.Done());
+}
+
+}  // namespace stiction

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section that says what was found.
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corpus/kinds.h"
+#include "reports/page/page.h"
+
+namespace stiction {
+namespace {
+
+// Discoveries of one kind, counted.
+struct KindCounts {
+  std::int64_t met = 0, groups = 0, finished = 0, pending = 0, counted = 0, found_grid = 0, minimized_grid = 0;
+
+  void Add(const Discovery& discovery) {
+    met += discovery.met;
+    ++groups;
+    finished += discovery.Finished();
+    pending += discovery.representative != nullptr && !discovery.Finished();
+    counted += discovery.representative == nullptr;
+    found_grid += discovery.EveryPolicyLoops();
+    minimized_grid += discovery.minimized && discovery.minimized->grid.AllLoop();
+  }
+};
+
+// By kind: the gravest, then loops first.
+std::vector<std::pair<std::string, KindCounts>> CountByKind(const std::vector<Discovery>& discoveries) {
+  std::map<std::string, KindCounts> counts;
+  for (const Discovery& discovery : discoveries) counts[discovery.kind].Add(discovery);
+  std::vector<std::pair<std::string, KindCounts>> sorted(counts.begin(), counts.end());
+  const auto rank = [](const auto& row) { return std::pair(Gravity(row.first), !IsLoopKind(row.first)); };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&rank](const auto& left, const auto& right) { return rank(left) < rank(right); });
+  return sorted;
+}
+
+KindCounts CountAll(const std::vector<Discovery>& discoveries) {
+  KindCounts all;
+  for (const Discovery& discovery : discoveries) all.Add(discovery);
+  return all;
+}
+
+std::vector<HtmlCell> KindRow(const std::string& kind, const KindCounts& c) {
+  std::vector<HtmlCell> cells = {{Text(kind)}};
+  for (const std::int64_t count :
+       {c.met, c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
+    cells.push_back({Text(Grouped(count)), count == 0 ? "zero" : ""});
+  }
+  return cells;
+}
+
+Html KindTable(const std::vector<Discovery>& discoveries) {
+  Table table(
+      "Findings by kind",
+      {{"kind", "", false},
+       {"runs", "runs in which it was met"},
+       {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
+       {"finished", "representatives certified and minimized"},
+       {"pending", "representatives that are not finished yet"},
+       {"only counted", "groups without a representative"},
+       {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
+       {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
+  for (const auto& [kind, counts] : CountByKind(discoveries)) table.AddRow(KindRow(kind, counts));
+  table.AddRow(KindRow("all", CountAll(discoveries)), 1, "total");
+  return table.Done();
+}
+
+Html KindNote() {
+  return Html(
+      "<p class=\"note\">A group is a signature: findings that are the same up to permuting contacts, "
+      "reversing tangents and units; what is found under another policy than <code>paper</code> is a group "
+      "of its own. The representative of a group is the first problem that shows it; finished means "
+      "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
+      "represented when another unit meets them. Whole grid: a loop under every policy of the planar grid, all "
+      "readings of the published text that stiction distinguishes there.</p>\n");
+}
+
+Html Tile(std::int64_t value, const std::string& meaning, const char* style = "") {
+  const Html content = Tag("strong")(Grouped(value)) + Html(" ") + Tag("span")(meaning);
+  return Tag("li", {{"class", style}})(content) + Html("\n");
+}
+
+Html Tiles(const ReportContent& content) {
+  const KindCounts all = CountAll(content.discoveries);
+  const std::int64_t problems = ProblemsOf(content.total);
+  const std::int64_t runs = RunsOf(content.total);
+  Html tiles = Tile(problems, "problems run");
+  if (runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
+  tiles += Tile(all.met, "runs with a finding");
+  tiles += Tile(all.groups, "groups of findings (signatures)", "loop");
+  const auto grave = std::count_if(content.discoveries.begin(), content.discoveries.end(),
+                                   [](const Discovery& discovery) { return IsGrave(discovery.kind); });
+  tiles +=
+      Tile(grave, "of these grave: cycles of safe problems, disagreements of methods", grave > 0 ? "loop" : "");
+  tiles += Tile(all.finished, "representatives finished");
+  tiles += Tile(all.pending, "representatives pending");
+  tiles += Tile(all.found_grid, "of the finished loop under every policy, as found", "loop");
+  return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
+}
+
+Html Featured(const std::vector<Discovery>& discoveries) {
+  const Discovery* simplest = SimplestLoop(discoveries);
+  if (simplest == nullptr) return {};
+  const Html title = Tag("h3")(Html("The simplest loop: ") + Tag("code")(simplest->signature));
+  return Tag("div", {{"class", "featured"}})(title + FindingDetails(*simplest)) + Html("\n");
+}
+
+}  // namespace
+
+Html FoundSection(const ReportContent& content) {
+  if (content.units == 0) {
+    return Section("found", "What was found",
+                   Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
+  }
+  Html found = FoundSentences(content) + Tiles(content);
+  if (content.since) found += SinceText(*content.since, content.discoveries);
+  if (content.discoveries.empty()) {
+    found +=
+        Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
+  } else {
+    found += Featured(content.discoveries) + Html("<h3>By kind</h3>\n") + KindTable(content.discoveries) +
+             KindNote();
+  }
+  return Section("found", "What was found", found);
+}
+
+}  // namespace stiction

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worst problems that are known, beside what random problems reached: a section of the page, and
+// frontiers.csv.
+
+#ifndef STICTION_REPORTS_PAGE_FRONTIERS_H_
+#define STICTION_REPORTS_PAGE_FRONTIERS_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reports/html/html.h"
+#include "reports/page/figures.h"
+
+namespace stiction {
+
+// A record, as `stiction records` tells it. Values are p/q.
+struct FrontierLine {
+  std::string name, what, objective;
+  bool high = true;  // the worse the higher
+  std::string value, status, command;
+  std::string random;  // best of random problems; empty: none reached anything
+  std::int64_t evaluations = 0;
+  std::string random_command;
+};
+
+// The best that an optimized search has of a generator and number of contacts.
+struct OwnBest {
+  std::string objective, generator, mu, value;  // as they are told
+  int contacts = 0;
+};
+
+std::string FrontiersCsv(const std::vector<FrontierLine>& lines);
+// Each record, and what random problems reached, null if nothing, as numbers (figures.h).
+FigureTable FrontiersFigure(const std::vector<FrontierLine>& lines);
+// Empty without lines and bests.
+Html FrontiersSection(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own = {});
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_PAGE_FRONTIERS_H_

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/page/measured_page.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corpus/json_text.h"
+#include "reports/html/template.h"
+#include "reports/page/page.h"
+#include "reports/report_template.h"
+
+namespace stiction {
+namespace {
+
+constexpr char kMeasuredLead[] =
+    "<p>Users trade speed for accuracy: how long each method takes for a friction problem over each "
+    "arithmetic, and "
+    "how often its answer is none. Measured by <code>stiction bench</code>, on families of problems with a "
+    "dial "
+    "from ordinary to extreme; no campaign of searching is told here.</p>";
+
+constexpr char kHowMeasured[] =
+    "<p><strong>Method.</strong> All methods, over all arithmetics, are asked the same problems of a family at "
+    "each "
+    "setting of its dial. <em>Wrong</em> is an end other than that of the same method over rationals; "
+    "<em>silent</em> "
+    "what is called solved within a residual that, computed over rationals, it does not have; "
+    "<em>undecided</em> what "
+    "says itself that it is no answer. Problems whose numbers an arithmetic cannot hold are not asked of it. "
+    "Times "
+    "are those of the machine that measured, medians of the settings’ medians.</p>";
+
+// Of all rows of a kind of arithmetic.
+struct Answers {
+  std::int64_t asked = 0, wrong = 0, silent = 0;
+
+  void Add(const RungLine& line) {
+    asked += line.problems - line.refused;
+    wrong += line.wrong;
+    silent += line.silent;
+  }
+};
+
+bool IsExact(const std::string& arithmetic) { return arithmetic == "exact" || arithmetic == "filtered"; }
+
+std::string Told(const Answers& answers) {
+  return fmt::format("of {} answers {} were wrong, and {} called solved what is not", Grouped(answers.asked),
+                     Grouped(answers.wrong), Grouped(answers.silent));
+}
+
+Html MeasuredSentences(const std::vector<RungLine>& lines) {
+  std::set<std::string> families, methods, arithmetics;
+  Answers rounded, exact;
+  for (const RungLine& line : lines) {
+    families.insert(line.family);
+    methods.insert(line.method);
+    arithmetics.insert(line.arithmetic);
+    (IsExact(line.arithmetic) ? exact : rounded).Add(line);
+  }
+  const auto counted = [](const std::set<std::string>& names, const char* noun) {
+    return Counted(static_cast<std::int64_t>(names.size()), noun);
+  };
+  std::string text = fmt::format("{} over {}, on {} of problems.", counted(methods, "method"),
+                                 counted(arithmetics, "arithmetic"), counted(families, "kind"));
+  if (rounded.asked > 0) text += fmt::format(" Over rounded numbers {}.", Told(rounded));
+  if (exact.asked > 0) text += fmt::format(" Over rationals and certified signs {}.", Told(exact));
+  return Tag("p")(text) + Html("\n");
+}
+
+Html Again(const std::vector<std::filesystem::path>& files) {
+  std::string commands =
+      "stiction bench --suite trade --csv trade.csv\nstiction bench --suite extremes --csv "
+      "extremes.csv\nstiction report --bench";
+  for (const auto& file : files) commands += " bench/" + file.filename().string();
+  return Section(
+      "again", "Reproducing it",
+      Html("<p>What measures, in the folder of the sources, and what makes this page of the files beside "
+           "it:</p>\n") +
+          Tag("pre")(Tag("code")(commands + " -o again")));
+}
+
+Html Files(const std::vector<std::filesystem::path>& files, bool records) {
+  const auto row = [](const std::string& file, const char* meaning) {
+    return Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
+  };
+  Html list;
+  for (const auto& file : files) list += row("bench/" + file.filename().string(), "as bench wrote it");
+  list += row("figures/rungs.csv", "the numbers that the figure draws");
+  if (records) list += row("frontiers.csv", "the records, exactly, and what drew the random problems");
+  list += row("SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check");
+  return Section("files", "Files beside this page", Tag("ul")(list));
+}
+
+Html Links(bool records) {
+  std::vector<std::pair<const char*, const char*>> sections = {
+      {"#found", "Measured"}, {"#method", "Method and definitions"}, {"#rungs", "Speed against accuracy"}};
+  if (records) sections.emplace_back("#frontiers", "Frontiers");
+  sections.insert(sections.end(), {{"#again", "Reproducing it"}, {"#files", "Files"}});
+  Html links;
+  for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
+  return links;
+}
+
+}  // namespace
+
+std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
+                         const std::vector<std::filesystem::path>& files,
+                         const std::vector<FigureTable>& figures) {
+  const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
+  const bool records = !frontiers.empty();
+  const Json data = {{"figures", FiguresToJson(figures)}, {"findings", Json::array()}};
+  return FilledTemplate(
+      page,
+      {{"title", Text("stiction: speed against accuracy")},
+       {"heading", Text("Speed against accuracy of friction solvers")},
+       {"lead", Html(kMeasuredLead)},
+       {"how", Html(kHowMeasured)},
+       {"navigation", Links(records)},
+       {"found", Section("found", "What was measured", MeasuredSentences(lines))},
+       {"results", RungsSection(lines) + FrontiersSection(frontiers) + Again(files) + Files(files, records)},
+       {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+}
+
+}  // namespace stiction

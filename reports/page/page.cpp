@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/page/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "corpus/json_text.h"
+#include "corpus/kinds.h"
+#include "reports/html/template.h"
+#include "reports/report_template.h"
+
+namespace stiction {
+namespace {
+
+// ---- Campaign ----
+
+std::string PlainText(const Json& json, const char* separator = ", ") {
+  if (json.is_string()) return json.get<std::string>();
+  if (json.is_number_integer()) return Grouped(json.get<std::int64_t>());
+  if (!json.is_array()) return JsonText(json);
+  std::vector<std::string> parts;
+  for (const Json& element : json) parts.push_back(PlainText(element));
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+std::string CampaignLabel(const std::string& key) {
+  static const std::map<std::string, std::string> labels = {
+      {"contacts", "numbers of contacts"},
+      {"mu", "friction palette"},
+      {"unit_problems", "problems of a unit"},
+      {"audit_every", "audited: one problem in"},
+      {"lemke_every", "by Lemke’s method too, of the suspicions: one in"},
+      {"enumerate_every", "all modes tried, of exact runs of few contacts: one in"},
+      {"representatives_per_unit", "new representatives per unit, at most"},
+      {"max_drives", "budget, drives"},
+      {"max_pivots", "budget, pivots"},
+      {"max_bits", "budget, bits of a number"}};
+  const auto label = labels.find(key);
+  return label == labels.end() ? key : label->second;
+}
+
+// A text that is JSON by intention; as it is if it is not.
+Json Lenient(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_discarded() ? Json(text) : json;
+}
+
+class Definitions {
+ public:
+  void Add(const std::string& term, const std::string& text) {
+    rows_ += Tag("dt")(term) + Tag("dd")(text) + Html("\n");
+  }
+  Html Done() const { return Tag("dl")(rows_); }
+
+ private:
+  Html rows_;
+};
+
+void AddDefinition(Definitions& list, const std::string& definition) {
+  const Json json = Lenient(definition);
+  if (!json.is_object()) return list.Add("definition", PlainText(json));
+  for (const auto& [key, value] : json.items()) {
+    if (key == "format" || key == "version") continue;
+    list.Add(CampaignLabel(key), PlainText(value));
+  }
+}
+
+// ---- The document ----
+
+constexpr char kLead[] =
+    "<p>A search of random friction problems for inputs on which the pivoting algorithm of D. Baraff,\n"
+    "<cite>Fast Contact Force Computation for Nonpenetrating Rigid Bodies</cite> (SIGGRAPH 1994), run as "
+    "published, repeats a\n"
+    "state and so never ends. Every finding was run again in exact rational arithmetic, in space over "
+    "intervals, "
+    "which prove\n"
+    "what they decide; a finished loop comes with a problem made as small as it gets and, in the plane, with a "
+    "certificate that\n"
+    "an independent checker verifies.</p>";
+
+constexpr char kHow[] =
+    "<p><strong>Method.</strong> Problems are drawn from a seed. Each is run in doubles; what does not end in "
+    "a "
+    "solution, or in\n"
+    "one that is none, is <em>suspicious</em>, and is decided again in exact arithmetic, as is a sample of the "
+    "others, the\n"
+    "<em>audited</em> ones. Only what exact arithmetic says counts as a failure of the algorithm. What it "
+    "fails "
+    "on is given to\n"
+    "complete driving, and on a share to Lemke’s method; solutions are verified exactly. The first problem of "
+    "a "
+    "kind is certified\n"
+    "and made smaller, and says the same at every step of that.</p>";
+
+bool HasFrontiers(const ReportContent& content) { return !content.frontiers.empty() || !content.own.empty(); }
+
+Html Navigation(const ReportContent& content) {
+  std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"},
+                                                               {"#method", "Method and definitions"}};
+  if (content.units > 0) {
+    sections.insert(sections.end(), {{"#frequencies", "How often it fails"},
+                                     {"#outcomes", "Outcomes"},
+                                     {"#doubles", "How often doubles lie"},
+                                     {"#steps", "Steps"},
+                                     {"#methods", "Methods side by side"},
+                                     {"#existence", "Existence and agreement"},
+                                     {"#findings", "Findings"}});
+  }
+  if (HasFrontiers(content)) sections.emplace_back("#frontiers", "Frontiers");
+  sections.insert(sections.end(),
+                  {{"#rungs", "Speed against accuracy"}, {"#again", "Reproducing it"}, {"#files", "Files"}});
+  Html links;
+  for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
+  return links;
+}
+
+Html FilesSection() {
+  Html list;
+  for (const auto& [file, meaning] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"statistics.csv", "all counters, sums and maxima per generator, contacts and policy"},
+           {"verdicts.csv", "runs repeated exactly on suspicion: what doubles said, what is exact"},
+           {"strata.csv", "outcomes of doubles and of exact runs by friction coefficient and rank"},
+           {"steps.csv", "histograms of steps per problem"},
+           {"loops.csv", "loops by number of contacts: drives, steps and zero steps of their periods"},
+           {"zero_steps.csv", "histograms of zero steps per period"},
+           {"agreement.csv", "existence, agreement of methods and safe problems per number of contacts"},
+           {"solutions.csv", "histograms of solutions per number of contacts"},
+           {"findings.csv", "every signature, with its counts, facts and files"},
+           {"figures/", "the numbers that each figure draws"},
+           {"campaign.json", "what was searched, as stiction search reads it"},
+           {"SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check"}}) {
+    const Html name = Tag("code")(file);
+    const Html linked = std::string_view(file).ends_with("/") ? name : Tag("a", {{"href", file}})(name);
+    list += Tag("li")(linked + Html(": ") + Text(meaning)) + Html("\n");
+  }
+  list +=
+      Tag("li")(Html(
+          "<code>findings/</code>: of every representative the minimized problem (or, until there "
+          "is one, the problem as found), the problem as found (<code>.original.json</code>), "
+          "its certificate (<code>.certificate.json</code>), its scene if it has one (<code>.svg</code>), and "
+          "the certificates that both have a solution "
+          "(<code>.existence.certificate.json</code>, <code>.original.existence.certificate.json</code>)")) +
+      Html("\n");
+  return Section("files", "Files beside this page", Tag("ul")(list));
+}
+
+// All but what was found.
+Html Results(const ReportContent& content) {
+  const Html end = FrontiersSection(content.frontiers, content.own) + RungsSection(content.rungs) +
+                   AgainSection(content) + FilesSection();
+  if (content.units == 0) return end;
+  return FrequenciesSection(content.total) + OutcomesSection(content.total) + DoublesSection(content.total) +
+         StepsSection(content.total) + MethodsSection(content) + ExistenceSection(content.total) +
+         FindingsSection(content.discoveries, content.since) + end;
+}
+
+Json PageData(const ReportContent& content, const std::vector<FigureTable>& figures) {
+  return {{"figures", FiguresToJson(figures)},
+          {"findings", FindingsToJson(content.discoveries, content.since)}};
+}
+
+}  // namespace
+
+// Every policy runs the same problems.
+std::int64_t ProblemsOf(const Record& total) {
+  std::map<std::pair<std::string, int>, std::int64_t> problems;
+  for (const auto& [key, tally] : total.tallies) {
+    std::int64_t& most = problems[{key.generator, key.contacts}];
+    most = std::max(most, tally.problems);
+  }
+  std::int64_t sum = 0;
+  for (const auto& [key, count] : problems) sum += count;
+  return sum;
+}
+
+std::int64_t RunsOf(const Record& total) {
+  std::int64_t runs = 0;
+  for (const auto& [key, tally] : total.tallies) runs += tally.problems;
+  return runs;
+}
+
+Html Section(const std::string& id, const std::string& title, const Html& content) {
+  return Tag("section", {{"id", id}})(Html("\n") + Tag("h2")(title) + Html("\n") + content) + Html("\n");
+}
+
+// Of another run of the same campaign all of this may be different.
+Html TimeTable(const ProcessorTime& time) {
+  if (time.Total() == 0) return {};
+  Table table("Processor time", {{"spent on", "", false}, {"seconds", ""}, {"share", ""}});
+  ForEachPart(time, [&](const char* name, const char* meaning, std::int64_t value) {
+    const double share = 100 * static_cast<double>(value) / static_cast<double>(time.Total());
+    table.AddRow({{Text(fmt::format("{}: {}", name, meaning))},
+                  {Text(fmt::format("{:.1f}", static_cast<double>(value) * 1e-6))},
+                  {Text(fmt::format("{:.1f} %", share))}});
+  });
+  return table.Done();
+}
+
+// From the folder of the report.
+Html AgainCommands(const ReportContent& content) {
+  const std::string search =
+      fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store",
+                  content.identity.seed, ProblemsOf(content.total));
+  return Tag("pre")(Tag("code")(search + "\nstiction report again.store -o again"));
+}
+
+Html AgainSection(const ReportContent& content) {
+  Definitions list;
+  list.Add("seed", std::to_string(content.identity.seed));
+  AddDefinition(list, content.identity.definition);
+  list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
+  list.Add("version of the algorithm", std::to_string(content.identity.algorithm));
+  for (const std::string& build : content.work.builds) list.Add("searched by", build);
+  for (const std::string& machine : content.work.machines) list.Add("on", machine);
+  if (content.units > 0 && content.work.machines.empty())
+    list.Add("on", "machines that the store does not name");
+  list.Add("problems", Grouped(ProblemsOf(content.total)));
+  list.Add("units", Grouped(content.units));
+  list.Add("complete blocks",
+           fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
+  const Html commands =
+      content.units > 0
+          ? Html(
+                "<p>The same campaign, with the same build, gives the same problems, outcomes and findings "
+                "on any machine and any number of threads:</p>\n") +
+                AgainCommands(content)
+          : Html();
+  return Section("again", "Reproducing it",
+                 commands + list.Done() +
+                     Html("<p class=\"note\">Nothing here depends on the machines but the processor time, "
+                          "which other runs of the same campaign need not repeat.</p>\n") +
+                     TimeTable(content.work.time));
+}
+
+std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {
+  const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
+  return FilledTemplate(
+      page,
+      {{"title", Text("stiction: does Baraff's contact force algorithm always end?")},
+       {"heading", Text("Does Baraff’s contact force algorithm always end?")},
+       {"lead", Html(kLead)},
+       {"how", Html(kHow)},
+       {"navigation", Navigation(content)},
+       {"found", FoundSection(content)},
+       {"results", Results(content)},
+       {"data", ScriptData(PageData(content, figures).dump(-1, ' ', false, Json::error_handler_t::replace))}});
+}
+
+}  // namespace stiction

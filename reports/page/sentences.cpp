@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a report found, in sentences.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "corpus/intervals.h"
+#include "corpus/kinds.h"
+#include "reports/page/page.h"
+#include "reports/text/plain_text.h"
+
+namespace stiction {
+namespace {
+
+// What the sentences are about.
+struct Sums {
+  std::int64_t runs = 0, suspicions = 0, refuted = 0, wrong = 0, audited = 0, misjudged = 0;
+  Tally::Outcomes exact = {};
+  std::set<int> contacts;
+  std::set<std::string> generators;
+};
+
+Sums SumsOfTotal(const Record& total) {
+  Sums sums;
+  for (const auto& [key, tally] : total.tallies) {
+    sums.runs += tally.problems;
+    sums.wrong += tally.wrong;
+    sums.audited += tally.audited;
+    sums.misjudged += tally.misjudged;
+    sums.contacts.insert(key.contacts);
+    sums.generators.insert(key.generator);
+    for (const Tally::Outcomes& row : tally.verdicts) {
+      for (int i = 0; i < kOutcomeCount; ++i) {
+        sums.exact[i] += row[i];
+        sums.suspicions += row[i];
+      }
+    }
+  }
+  sums.refuted = sums.exact[static_cast<int>(Outcome::kSolved)];
+  return sums;
+}
+
+std::int64_t LoopsOf(const Sums& sums) {
+  return sums.exact[static_cast<int>(Outcome::kCycle)] + sums.exact[static_cast<int>(Outcome::kStall)];
+}
+
+Html Sentence(const std::string& lead, const std::string& rest) {
+  return Tag("li")(Tag("strong")(lead) + Html(" ") + Text(rest)) + Html("\n");
+}
+
+std::string Spread(const std::set<int>& contacts) {
+  return *contacts.begin() == *contacts.rbegin()
+             ? Counted(*contacts.begin(), "contact")
+             : fmt::format("{} to {} contacts", *contacts.begin(), *contacts.rbegin());
+}
+
+Html Asked(const ReportContent& content, const Sums& sums) {
+  if (sums.contacts.empty()) return Html();
+  return Tag("p", {{"class", "asked"}})(fmt::format(
+             "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run "
+             "under {} of its text: {}.",
+             Grouped(ProblemsOf(content.total)), Spread(sums.contacts),
+             Counted(static_cast<std::int64_t>(sums.generators.size()), "generator"),
+             ReadingsText(content.total), Counted(sums.runs, "run"))) +
+         Html("\n");
+}
+
+Html LoopSentence(const Sums& sums) {
+  const std::int64_t loops = LoopsOf(sums);
+  const std::string rate = RateText(loops, sums.runs);
+  if (loops == 0)
+    return Sentence(
+        "No loop was seen.",
+        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate));
+  return Sentence(
+      "It does not always end.",
+      fmt::format(
+          "{} of {} runs repeat a state, in exact arithmetic or, in space, by intervals, and so go on for "
+          "ever: {} in a million runs.",
+          Grouped(loops), Grouped(sums.runs), rate));
+}
+
+Html GridSentence(const std::vector<Discovery>& discoveries) {
+  std::int64_t finished = 0, found = 0, minimized = 0;
+  int smallest = 0;
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.IsLoop() || !discovery.Finished()) continue;
+    ++finished;
+    found += discovery.EveryPolicyLoops();
+    minimized += discovery.minimized && discovery.minimized->grid.AllLoop();
+    const int contacts = discovery.SmallestContacts();
+    smallest = smallest == 0 ? contacts : std::min(smallest, contacts);
+  }
+  if (finished == 0) return Html();
+  return Sentence(
+      found + minimized > 0 ? "Not a matter of one reading." : "The reading matters.",
+      fmt::format("Of {} loops of different kinds that were certified and minimized, {} as minimized, "
+                  "and {} as they were found, loop under every reading of the text that stiction "
+                  "distinguishes; the smallest has {}.",
+                  Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
+}
+
+Html OtherFailures(const Sums& sums) {
+  const std::int64_t singular = sums.exact[static_cast<int>(Outcome::kSingular)],
+                     rays = sums.exact[static_cast<int>(Outcome::kRay)];
+  if (singular + rays == 0) return Html();
+  const auto part = [&sums](std::int64_t count, const char* what) {
+    return fmt::format("{} {} ({} in a million)", Counted(count, "run"), what, RateText(count, sums.runs));
+  };
+  std::string text = "In exact arithmetic ";
+  if (singular > 0) text += part(singular, "come to a direction system without a solution");
+  if (singular > 0 && rays > 0) text += ", and ";
+  if (rays > 0) text += part(rays, "come to a step that nothing limits");
+  return Sentence("Or it gets stuck.", text + ".");
+}
+
+Html CompleteSentence(const Record& total) {
+  ExistenceTally all;
+  for (const auto& [contacts, tally] : total.existence) {
+    all.problems += tally.problems;
+    all.solved += tally.solved;
+    all.with_folds += tally.with_folds;
+  }
+  if (all.problems == 0) return Html();
+  return Sentence(
+      all.solved == all.problems ? "Solutions exist, and are found." : "Not all were solved.",
+      fmt::format("Complete driving, which turns back where the published algorithm gives up, solved {} of "
+                  "{} problems that were given to it, each solution verified exactly; on {} its path folds.",
+                  Grouped(all.solved), Grouped(all.problems), Grouped(all.with_folds)));
+}
+
+Html AgreementSentence(const Record& total) {
+  std::int64_t compared = 0, disagreements = 0;
+  for (const auto& [contacts, tally] : total.agreement) {
+    compared += tally.compared;
+    disagreements += tally.disagreements;
+  }
+  if (compared == 0) return Html();
+  return Sentence(
+      disagreements == 0 ? "The methods agree." : "The methods disagree.",
+      fmt::format("{} of {} problems show a disagreement of the published algorithm, complete driving and "
+                  "Lemke’s method.",
+                  Grouped(disagreements), Grouped(compared)));
+}
+
+Html LyingSentence(const Sums& sums) {
+  if (sums.suspicions == 0) return Html();
+  std::string text =
+      fmt::format("Of {} suspicious runs in doubles {} are solved in exact arithmetic ({}). ",
+                  Grouped(sums.suspicions), Grouped(sums.refuted), ShareText(sums.refuted, sums.suspicions));
+  text += fmt::format("{} called solved what is no solution ({} in a million).", Counted(sums.wrong, "run"),
+                      RateText(sums.wrong, sums.runs));
+  if (sums.audited > 0)
+    text +=
+        fmt::format(" Of {} runs without a suspicion that were repeated exactly, {} were misjudged ({}).",
+                    Grouped(sums.audited), Grouped(sums.misjudged), ShareText(sums.misjudged, sums.audited));
+  return Sentence("Doubles lie.", text);
+}
+
+}  // namespace
+
+Html FoundSentences(const ReportContent& content) {
+  const Sums sums = SumsOfTotal(content.total);
+  if (sums.runs == 0) return Html();
+  return Asked(content, sums) +
+         Tag("ul", {{"class", "answers"}})(Html("\n") + LoopSentence(sums) + GridSentence(content.discoveries) +
+                                           OtherFailures(sums) + CompleteSentence(content.total) +
+                                           AgreementSentence(content.total) + LyingSentence(sums)) +
+         Html(
+             "\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by "
+             "Clopper and "
+             "Pearson.</p>\n");
+}
+
+}  // namespace stiction

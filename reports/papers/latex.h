@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report for papers: tables of booktabs and longtable, figures of PGFPlots that read their numbers from files
+// beside them; and an entry for BibTeX.
+//
+//   latex/report.tex           a document of all of it: pdflatex report.tex
+//   latex/loops.tex            exact rates of loops by generator and contacts, with intervals
+//   latex/contacts.tex         what runs were like, by contacts: steps, zero steps, give-ups
+//   latex/methods.tex          the methods by contacts: what was solved, and where they disagree
+//   latex/figure-loops.tex     rates by contacts, with error bars; reads loops.dat
+//   latex/figure-steps.tex     steps of a run by contacts; reads steps.dat
+
+#ifndef STICTION_REPORTS_PAPERS_LATEX_H_
+#define STICTION_REPORTS_PAPERS_LATEX_H_
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "corpus/store.h"
+
+namespace stiction {
+
+// A text in which nothing is a command of LaTeX.
+std::string LatexText(std::string_view text);
+
+// Name -> text of the files above.
+std::map<std::string, std::string> LatexFiles(const Store& store);
+
+// BibTeX: the software, in the versions that worked on the store, and the paper that it examines.
+std::string Citation(const Store& store);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_PAPERS_LATEX_H_

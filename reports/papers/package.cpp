@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/papers/package.h"
+
+#include <iterator>
+#include <vector>
+
+#include "corpus/digest.h"
+#include "corpus/json_text.h"
+#include "corpus/problem_file.h"
+#include "reports/papers/package/README_txt.h"
+#include "reports/papers/package/verify_py.h"
+#include "reports/report_files.h"
+#include "reports/tables/discovery.h"
+
+namespace stiction {
+namespace {
+
+template <class Bytes>
+std::string TextOf(const Bytes& bytes) {
+  return {std::begin(bytes), std::end(bytes)};
+}
+
+// Where what is said of a problem's own files stands: name of the certificate, name of the problem.
+std::vector<std::pair<std::string, std::string>> CertificatesOf(const Discovery& discovery) {
+  const Finding& finding = *discovery.representative;
+  const FindingFiles& files = discovery.files;
+  const bool of_original = finding.minimized_certificate.empty();
+  std::vector<std::pair<std::string, std::string>> certificates;
+  const auto add = [&certificates](const std::string& name, const std::string& problem) {
+    if (!name.empty()) certificates.emplace_back(name, problem);
+  };
+  add(files.certificate, of_original ? files.original : files.problem);
+  add(files.existence, files.problem);
+  add(files.original_existence, files.original);
+  return certificates;
+}
+
+std::string ClaimOf(const std::string& certificate, const std::string& name) {
+  const Json json = ParseJson(certificate, name);
+  return JsonPlace(json, name, "").Required("claim", "a claim").Text("a claim");
+}
+
+Json Entry(const Discovery& discovery, const std::map<std::string, std::string>& files) {
+  Json problems = Json::array(), certificates = Json::array();
+  for (const std::string& name : {discovery.files.problem, discovery.files.original}) {
+    problems.push_back({{"file", name}, {"digest", ProblemDigest(ParseProblem(files.at(name), name).problem)}});
+  }
+  for (const auto& [name, problem] : CertificatesOf(discovery)) {
+    certificates.push_back({{"file", name}, {"claim", ClaimOf(files.at(name), name)}, {"problem", problem}});
+  }
+  const Finding& finding = *discovery.representative;
+  return {{"signature", discovery.signature},
+          {"kind", discovery.kind},
+          {"met", discovery.met},
+          {"policy", finding.policy},
+          {"outcome", finding.exact_outcome},
+          {"finished", finding.done},
+          {"problems", problems},
+          {"certificates", certificates}};
+}
+
+// What is JSON by intention as JSON, otherwise as text.
+Json JsonOrText(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_discarded() ? Json(text) : json;
+}
+
+Json Campaign(const Store& store) {
+  const CampaignIdentity& identity = store.identity();
+  return {{"definition", JsonOrText(identity.definition)},
+          {"seed", identity.seed},
+          {"policies", JsonOrText(identity.policies)},
+          {"algorithm", identity.algorithm},
+          {"units", store.Units().Count()},
+          {"builds", store.TotalWork().builds}};
+}
+
+}  // namespace
+
+std::filesystem::path WritePackage(const Store& store, const std::filesystem::path& directory,
+                                   const std::map<std::string, std::string>& checkers, Occupied occupied) {
+  WholeFolder whole(directory, "report", occupied);
+  ReportFiles folder(whole);
+  const std::vector<Finding> findings = store.Findings();
+  const Record total = store.Total();
+  const std::vector<Discovery> discoveries = Discoveries(total, findings);
+  Json entries = Json::array();
+  for (const Discovery& discovery : discoveries) {
+    if (discovery.representative == nullptr) continue;
+    const auto files = FilesOf(discovery);
+    for (const auto& [name, text] : files) folder.Write(name, text);
+    entries.push_back(Entry(discovery, files));
+  }
+  for (const auto& [name, text] : TablesOf(total, discoveries)) folder.Write("tables/" + name, text);
+  for (const auto& [name, text] : checkers) folder.Write("checkers/" + name, text);
+  folder.Write("README.txt", TextOf(kReadmeTxt));
+  folder.Write("verify.py", TextOf(kVerifyPy));
+  const Json manifest = {
+      {"format", "stiction-package"}, {"version", 1}, {"campaign", Campaign(store)}, {"findings", entries}};
+  folder.Write("manifest.json", JsonText(manifest) + "\n");
+  folder.WriteSums();
+  return whole.Commit();
+}
+
+}  // namespace stiction

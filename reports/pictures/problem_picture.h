@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of a problem as a picture, in which a page draws the forces itself, step by step.
+
+#ifndef STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
+#define STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
+
+#include <vector>
+
+#include "corpus/json_text.h"
+#include "scene/assemble.h"
+
+namespace stiction {
+
+// {"svg": "<svg ...>", "contacts": [{"at": [x, y], "rows": [[x, y], ...]}, ...]}, of the contacts of an island
+// in the order of its problem. `at` in pixels of the picture, y down; `rows`: which way a force of 1 N of each
+// row points, as draw.h shows forces, in the picture's plane: in space shorter than 1.
+template <class Kind>
+Json PictureOfProblem(const SceneIn<Kind, double>& scene,
+                      const std::vector<TouchPointIn<Kind, Rational>>& contacts,
+                      const ModelIn<Kind, Rational>& model, const Island& island);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_

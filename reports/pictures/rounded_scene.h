@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene of a file over doubles, for pictures and simulations.
+
+#ifndef STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_
+#define STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "corpus/input_error.h"
+#include "corpus/scene_file.h"
+
+namespace stiction {
+
+// ---- Sums that are finite where all of their numbers are ---------------------------------------
+
+inline double SumOf(double x) { return x; }
+template <class Numbers>
+double SumOf(const Numbers& numbers) {
+  return numbers.sum();
+}
+inline double SumOfInertia(double inertia) { return inertia + 1 / inertia; }
+inline double SumOfInertia(const Matrix3<double>& inertia) {
+  return inertia.sum() + Inverse3<double>(inertia).sum();
+}
+
+template <class Kind>
+double SumOfNumbers(const BodyIn<Kind, double>& body) {
+  return body.mass + 1 / body.mass + SumOfInertia(body.inertia) + body.position.sum() + body.rotation.sum() +
+         body.velocity.sum() + SumOf(body.spin) + body.acceleration.sum() + body.force.sum() +
+         SumOf(body.torque);
+}
+
+// ---- The scene -----------------------------------------------------------------------------------
+
+// The scene of a file, each number rounded; InputError if one of them is beyond the range of doubles.
+template <class Kind>
+SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::string& source) {
+  SceneIn<Kind, double> scene = Round(file.scene);
+  const auto require = [&source](double sum, const std::string& place) {
+    if (!std::isfinite(sum)) {
+      throw InputError(
+          fmt::format("{}: {}: found a number beyond the range of doubles, expected none", source, place));
+    }
+  };
+  for (const auto& body : scene.bodies) {
+    double sum = SumOfNumbers(body);
+    for (const auto& shape : body.shapes) {
+      sum += shape.center.sum() + shape.radius;
+      for (const auto& corner : shape.corners) sum += corner.sum();
+    }
+    require(sum, "body " + body.name);
+  }
+  require(scene.gravity.sum() + scene.mu + scene.gap, "gravity, mu, gap");
+  for (const auto& pair : scene.pairs) require(pair.mu.value_or(0), "pairs");
+  for (const auto& joint : scene.joints) require(joint.at_a.sum() + joint.at_b.sum(), "joints");
+  for (const auto& contact : scene.contacts) require(contact.at_a.sum() + contact.at_b.sum(), "contacts");
+  return scene;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_

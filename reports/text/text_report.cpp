@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/text/text_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "corpus/intervals.h"
+#include "corpus/json_text.h"
+#include "corpus/kinds.h"
+#include "corpus/problem_file.h"
+#include "corpus/program_name.h"
+#include "corpus/store_totals.h"
+#include "reports/html/html.h"
+#include "reports/tables/discovery.h"
+#include "reports/tables/friction_order.h"
+#include "reports/text/plain_text.h"
+
+namespace stiction {
+namespace {
+
+constexpr std::size_t kShown = 10;       // loops of a list
+constexpr int kMostRowsInNumbers = 12;   // of a matrix on the page
+constexpr std::size_t kLongestWord = 9;  // of its numbers
+
+// What a label means, for someone who has not read the paper.
+std::string InWords(const std::string& label) {
+  static const std::map<std::string, std::string> words = {
+      {"safe-cycle", "loop for ever though proved safe"},
+      {"disagreement-of-methods", "methods that prove contradict each other"},
+      {"cycle", "loop for ever"},
+      {"stall", "loop inside one drive"},
+      {"singular", "no direction of the forces exists"},
+      {"ray", "a step without end"},
+      {"limit", "budget spent before an end"},
+      {"undecided", "intervals cannot tell"},
+      {"wrong-answer", "doubles: solved, and it is not"}};
+  const auto found = words.find(label);
+  if (found != words.end()) return found->second;
+  constexpr std::string_view kDisagreement = "disagreement-";
+  if (!label.starts_with(kDisagreement)) return label;
+  const std::string ends = label.substr(kDisagreement.size());
+  const std::size_t dash = ends.find('-');
+  return dash == ends.npos ? label
+                           : fmt::format("doubles: {}, exact: {}", ends.substr(0, dash), ends.substr(dash + 1));
+}
+
+std::string RateSentence(std::int64_t count, std::int64_t runs) {
+  return fmt::format("{} in a million runs", RateText(count, runs));
+}
+
+// "1 is", "2 are".
+std::string Verb(std::int64_t count, const char* one, const char* more) {
+  return fmt::format("{} {}", Grouped(count), count == 1 ? one : more);
+}
+
+std::string Command(const std::string& text) { return "    " + text + "\n"; }
+
+// ---- Sentences, each of one subject ----
+
+std::string HeadLine(const StoreTotals& t, const Store& store, const std::string& file) {
+  std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
+                                 Counted(t.units, "unit"), store.identity().seed);
+  if (t.runs != t.problems)
+    text += fmt::format("; {} runs, each problem under every reading asked for", Grouped(t.runs));
+  return Paragraph(text, 0);
+}
+
+std::string GraveLines(const StoreTotals& t) {
+  std::string text;
+  for (const Finding& finding : t.grave)
+    text += Paragraph(fmt::format("GRAVE: {}: {}", finding.kind, finding.signature));
+  return text;
+}
+
+std::string LoopsText(const StoreTotals& t) {
+  const std::int64_t met = t.LoopsMet();
+  if (t.runs == 0) return "";
+  if (met == 0) {
+    return Paragraph(fmt::format("No run of the published algorithm, under {}, was found to loop: {}.",
+                                 ReadingsText(t.record), RateSentence(0, t.runs)));
+  }
+  std::string text =
+      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
+                            "run stands again, in exact "
+                            "arithmetic or, in space, by intervals: so it never ends.",
+                            ReadingsText(t.record), Counted(met, "run"), RateSentence(met, t.runs)));
+  text +=
+      Paragraph(fmt::format("They are of {}; {} under every reading that stiction distinguishes, as minimized.",
+                            Counted(t.LoopGroups(), "kind"), Verb(t.whole_grid, "loops", "loop")));
+  if (t.loops.loops > 0) {
+    text +=
+        Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",
+                              Counted(t.loops.loops, "loop"), Verb(t.loops.without_zero_steps, "has", "have"),
+                              Verb(t.loops.of_zero_steps_alone, "has", "have")));
+  }
+  return text;
+}
+
+std::string KindsTable(const StoreTotals& t) {
+  TextTable table({"what", "kind", "runs", "kinds", "in a million [95 %]"}, 2);
+  for (const auto& [label, count] : t.findings)
+    table.AddRow({InWords(label), label, Grouped(count), Grouped(t.groups.at(label)), RateText(count, t.runs)});
+  return t.findings.empty() ? Paragraph("No findings.") : table.Done();
+}
+
+std::string ExistenceText(const StoreTotals& t) {
+  const ExistenceTally& e = t.existence;
+  const AgreementTally& a = t.agreement;
+  std::string text;
+  if (e.problems == 0) {
+    text += Paragraph("Whether solutions exist was not asked: no problem was given to complete driving.");
+  } else {
+    const std::int64_t missed = e.problems - e.solved;
+    text +=
+        Paragraph(fmt::format("{}: of {} given to complete driving {} solved, each solution verified exactly "
+                              "({} with folds, where the "
+                              "published algorithm gives up).",
+                              missed == 0 ? "Complete driving never failed"
+                                          : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
+                              Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
+  }
+  text += Paragraph(fmt::format("Methods held against each other on {} (all contact modes tried of {}): {}.",
+                                Counted(a.compared, "problem"), Grouped(a.enumerated),
+                                Counted(a.disagreements, "disagreement")));
+  if (a.safety_decided > 0)
+    text += Paragraph(
+        fmt::format("Safe, all reduced determinants being positive: {} of {}; {} gave up something "
+                    "under apex=suspended.",
+                    Grouped(a.safe), Counted(a.safety_decided, "audited problem"), Grouped(a.safe_gave_up)));
+  return text;
+}
+
+std::string DoublesText(const StoreTotals& t) {
+  return Paragraph(
+      fmt::format("Doubles: {} of {} confirmed exactly; {} of {} misjudged; {} wrong, though called solved.",
+                  Grouped(t.confirmed), Counted(t.suspicions, "suspicion"), Grouped(t.misjudged),
+                  Counted(t.audited, "audited run"), Counted(t.wrong, "answer")));
+}
+
+// What the rates are worth: how much was audited, and what came of it.
+std::string WorthText(const StoreTotals& t) {
+  if (t.runs == 0) return "";
+  const std::string misjudged =
+      t.audited == 0 ? "" : fmt::format(", of these {} misjudged", ShareText(t.misjudged, t.audited));
+  std::string text = "In brackets: exact intervals at 95 %. ";
+  if (t.audited + t.suspicions == t.runs) {
+    text += fmt::format("Every run was repeated exactly{}.", misjudged);
+  } else {
+    text += fmt::format(
+        "Rates are lower bounds: loops that doubles take for solutions are not counted. Of {} without "
+        "a suspicion {} were audited{}.",
+        Counted(t.runs - t.suspicions, "run"), Grouped(t.audited), misjudged);
+  }
+  return Paragraph(text);
+}
+
+std::string FinishText(const StoreTotals& t, const std::string& file) {
+  std::string text = Paragraph(
+      fmt::format("Representatives, one of each kind as far as kept: {} certified and minimized, {} to go.",
+                  Grouped(t.finished), Grouped(t.pending)));
+  if (t.pending > 0) text += Paragraph("What is to go is finished by:") + Command(FinishCommand(file));
+  return text;
+}
+
+// What happens to a finished finding, minimized.
+std::string FindingText(const Finding& finding) {
+  const Json facts = MinimizedFacts(finding);
+  const auto number = [&facts](const char* key) { return facts.at(key).get<std::int64_t>(); };
+  std::string text = Counted(number("contacts"), "contact");
+  if (IsLoopKind(finding.kind)) {
+    const std::string unit = finding.exact_outcome == Name(Outcome::kStall) ? "step" : "drive";
+    text += fmt::format(", the state after {} stands again {} later", Counted(number("start"), unit),
+                        Counted(number("period"), unit));
+  } else {
+    text += ", " + InWords(finding.kind);
+  }
+  std::string grid;
+  for (const auto& [outcome, count] : facts.at("grid").items())
+    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", count.dump(), outcome);
+  return text + (grid.empty() ? "; in space, over intervals" : "; readings: " + grid);
+}
+
+std::string SimplestText(const StoreTotals& t) {
+  if (t.simplest.empty()) return "";
+  std::string text = "Simplest, proved and minimized:\n";
+  for (std::size_t i = 0; i < std::min(kShown, t.simplest.size()); ++i) {
+    text += Paragraph(t.simplest[i].signature);
+    text += Paragraph(FindingText(t.simplest[i]), 6);
+  }
+  return text;
+}
+
+// ---- The page's own sections ----
+
+struct ExactCounts {
+  std::int64_t runs = 0, loops = 0, singular = 0, rays = 0;
+
+  void Add(std::int64_t more_runs, const Tally::Outcomes& exact) {
+    runs += more_runs;
+    const auto of = [&exact](Outcome outcome) { return exact[static_cast<int>(outcome)]; };
+    loops += of(Outcome::kCycle) + of(Outcome::kStall);
+    singular += of(Outcome::kSingular);
+    rays += of(Outcome::kRay);
+  }
+};
+
+std::vector<std::string> Cells(std::vector<std::string> names, const ExactCounts& c) {
+  names.insert(names.end(), {Grouped(c.runs), Grouped(c.loops), RateText(c.loops, c.runs), Grouped(c.singular),
+                             Grouped(c.rays)});
+  return names;
+}
+
+std::vector<std::string> CountHeader(std::vector<std::string> names) {
+  names.insert(names.end(), {"runs", "loops", "in a million [95 %]", "singular", "rays"});
+  return names;
+}
+
+std::string GeneratorTables(const Record& record) {
+  std::map<std::string, std::map<std::pair<std::string, int>, ExactCounts>> policies;
+  for (const auto& [key, tally] : record.tallies) {
+    ExactCounts& counts = policies[key.policy][{key.generator, key.contacts}];
+    counts.Add(tally.problems, {});
+    for (const Tally::Outcomes& exact : tally.verdicts) counts.Add(0, exact);
+  }
+  std::string text;
+  for (const auto& [policy, rows] : policies) {
+    TextTable table(CountHeader({"generator", "contacts"}), 1);
+    for (const auto& [key, counts] : rows) table.AddRow(Cells({key.first, Grouped(key.second)}, counts));
+    text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
+  }
+  return text;
+}
+
+std::string FrictionTables(const Record& record) {
+  std::map<std::string, std::map<std::string, ExactCounts, ByFriction>> policies;
+  for (const auto& [key, tally] : record.tallies) {
+    for (const auto& [stratum_key, stratum] : tally.strata)
+      policies[key.policy][stratum_key.friction].Add(stratum.problems, stratum.exact);
+  }
+  std::string text;
+  for (const auto& [policy, rows] : policies) {
+    TextTable table(CountHeader({"mu"}), 1);
+    for (const auto& [mu, counts] : rows) table.AddRow(Cells({mu}, counts));
+    text += Paragraph(fmt::format("Reading {}, all generators together:", policy)) + table.Done();
+  }
+  return text;
+}
+
+// A, b and mu, if they fit.
+std::string ProblemText(const ExactProblem& problem) {
+  if (problem.rows() > kMostRowsInNumbers) return Paragraph("Its numbers are too many for a page of text.");
+  std::vector<std::string> header(static_cast<std::size_t>(problem.rows()) + 1);
+  header.front() = "A";
+  header.emplace_back("b");
+  TextTable table(header, 0);
+  for (int row = 0; row < problem.rows(); ++row) {
+    std::vector<std::string> cells = {""};
+    for (int column = 0; column < problem.rows(); ++column) cells.push_back(ToString(problem.A(row, column)));
+    cells.push_back(ToString(problem.b[row]));
+    for (const std::string& cell : cells) {
+      if (cell.size() > kLongestWord) return Paragraph("Its numbers are too long for a page of text.");
+    }
+    table.AddRow(std::move(cells));
+  }
+  std::vector<std::string> mu;
+  for (const auto& contact : problem.contacts)
+    mu.push_back(contact.HasFrictionRows() ? ToString(contact.mu) : std::string(Name(contact.kind)));
+  return table.Done() + Paragraph(fmt::format("mu = {}", fmt::join(mu, ", ")));
+}
+
+std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
+  const auto first =
+      std::find_if(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
+  if (first == t.simplest.end()) return "";
+  const std::string problem = "report/findings/" + FileName(first->signature) + ".json";
+  const std::string policy = first->policy == "paper" ? "" : " --policy " + ShellWord(first->policy);
+  std::string text = "\n" + Heading("The simplest loop: " + first->signature);
+  text += Paragraph(FindingText(*first) + ".") +
+          ProblemText(ParseProblem(first->minimized, first->signature).problem);
+  text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
+  text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
+  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, policy));
+  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, policy));
+  text += Paragraph("The problem as the search drew it:");
+  text +=
+      Command(fmt::format("{} problem {} {} {}", ProgramName(), ShellWord(file), first->unit, first->index));
+  return text;
+}
+
+std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
+  std::vector<std::pair<std::string, std::int64_t>> unknown;
+  std::int64_t loops = 0;
+  for (const auto& [signature, count] : t.record.signatures) {
+    if (!IsLoopKind(KindOf(signature))) continue;
+    ++loops;
+    if (known_as(signature).empty()) unknown.emplace_back(signature, count);
+  }
+  if (loops == 0) return "";
+  const auto all = static_cast<std::int64_t>(unknown.size());
+  std::string text = "\n" + Heading("New kinds of loops");
+  text += Paragraph(
+      fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "kind"), Verb(all, "is", "are")));
+  std::stable_sort(unknown.begin(), unknown.end(),
+                   [](const auto& left, const auto& right) { return left.second > right.second; });
+  TextTable table({"signature", "runs"}, 1);
+  for (std::size_t i = 0; i < std::min(kShown, unknown.size()); ++i)
+    table.AddRow({unknown[i].first, Grouped(unknown[i].second)});
+  if (unknown.size() > kShown) text += Paragraph(fmt::format("The {} that were met most often:", kShown));
+  return text + table.Done();
+}
+
+// "0.1.0 2060e9f249a5, GNU 12.2.0 Release" of a build, whose flags follow.
+std::string WithoutFlags(const std::string& build) {
+  const std::size_t first = build.find(',');
+  return first == build.npos ? build : build.substr(0, build.find(',', first + 1));
+}
+
+std::string SearchedText(const Store& store, const StoreTotals& t) {
+  const CampaignIdentity& identity = store.identity();
+  std::string text = "\n" + Heading("What was searched");
+  const Json definition = Json::parse(identity.definition, nullptr, false);
+  if (definition.is_object()) {
+    for (const auto& [key, value] : definition.items()) {
+      if (key != "format" && key != "version") text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
+    }
+  } else {
+    text += Paragraph(identity.definition);
+  }
+  const Json policies = Json::parse(identity.policies, nullptr, false);
+  text += Paragraph("readings: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
+  text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
+  for (const std::string& build : t.work.builds) text += Paragraph("build: " + WithoutFlags(build));
+  for (const std::string& machine : t.work.machines) text += Paragraph("machine: " + machine);
+  return text + Paragraph(TimeText(t.work.time));
+}
+
+std::string Findings(const StoreTotals& t) {
+  return LoopsText(t) + KindsTable(t) + ExistenceText(t) + DoublesText(t) + WorthText(t);
+}
+
+}  // namespace
+
+std::string SummaryText(const Store& store, const std::string& file) {
+  const StoreTotals t = TotalsOf(store);
+  return HeadLine(t, store, file) + GraveLines(t) + Findings(t) + FinishText(t, file) +
+         Paragraph(TimeText(t.work.time)) + SimplestText(t) +
+         "More, as text, and all, as a page with files to replay and check; the same search again goes on:\n" +
+         Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
+         Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
+}
+
+std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as) {
+  const StoreTotals t = TotalsOf(store);
+  std::string text = HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
+                     FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as);
+  if (t.runs > 0) {
+    text += "\n" + Heading("How often it fails, in exact arithmetic") + GeneratorTables(t.record) + "\n" +
+            Heading("The same by friction coefficient") +
+            Paragraph(
+                "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
+                "units of the tangents make another mu of it.") +
+            FrictionTables(t.record);
+  }
+  return text + SearchedText(store, t);
+}
+
+}  // namespace stiction

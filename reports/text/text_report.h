@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a store says, as plain text of at most 100 columns: what matters most first, in words that need no
+// glossary. The end of a search and `report --text` say it with the same sentences.
+
+#ifndef STICTION_REPORTS_TEXT_TEXT_REPORT_H_
+#define STICTION_REPORTS_TEXT_TEXT_REPORT_H_
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "corpus/store.h"
+
+namespace stiction {
+
+// The case of the corpus that shows a loop of this signature; empty if there is none.
+using KnownCase = std::function<std::string_view(std::string_view signature)>;
+
+// Both require a store of problems that were drawn at random: a search with an objective has no rates. `file`
+// is named in the commands that they propose.
+
+// A screen: loops, other failures, existence, doubles, what the numbers are worth, the simplest loops.
+std::string SummaryText(const Store& store, const std::string& file);
+// A page: the same, with rates by generator, contacts and friction, the loops that are new, the simplest loop
+// in numbers, what was searched, and commands that replay it.
+std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as);
+
+}  // namespace stiction
+
+#endif  // STICTION_REPORTS_TEXT_TEXT_REPORT_H_
