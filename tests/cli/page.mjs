@@ -60,7 +60,8 @@ export const contrasts = (page, kinds) => page.evaluate(kinds => {
     for (const node of document.querySelectorAll(selector)) {
       const style = getComputedStyle(node), below = ground(on === null ? node : node.closest(on));
       // Of a mark that is filled as the ground its line is seen, if it has one.
-      const open = byPaint && style.stroke !== 'none' && `${parse(style[paint])}` === `${below}`;
+      const open =
+          byPaint && ![style[paint], style.stroke].includes('none') && `${parse(style[paint])}` === `${below}`;
       const seen = open || style[paint] === 'none' ? style.stroke : style[paint];
       if (seen === 'none') continue;
       const [a, b] = [light(parse(seen)), light(below)];
