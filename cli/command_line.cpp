@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstring>
 
 #include "cli/help.h"
 #include "corpus/exit_code.h"
@@ -18,7 +19,8 @@ void AddRow(CLI::App& app, const OptionRow& row) {
   if (row.kind == RowKind::kFlag) {
     bool* const field = std::get<bool*>(row.field);
     const bool turned = !*field;
-    app.add_flag_function(row.name, [field, turned](std::int64_t count) { *field = turned == (count > 0); });
+    app.add_flag_function(row.name, [field, turned](std::int64_t count) { *field = turned == (count > 0); })
+        ->disable_flag_override();
     return;
   }
   CLI::Option* option = app.add_option(row.name, [&row](const CLI::results_t& words) {
@@ -63,11 +65,12 @@ void RefuseUnknownVerb(const CommandLine& program, const std::string& word) {
     if (verb.name == word) return;
     names.push_back(verb.name);
   }
+  names.insert(names.end(), {"--help", "--version"});
   throw InputError(fmt::format("found '{}', expected a verb{}", word, Suggestion(word, names)));
 }
 
 void RefuseUnknownWord(const Verb& verb, const std::string& word) {
-  if (!word.starts_with("-"))
+  if (!word.starts_with("-") || word == "-")
     throw InputError(fmt::format("{}: found '{}', expected nothing more", verb.name, word));
   const std::string name = word.substr(0, word.find('='));
   throw InputError(fmt::format("{}: found {}, which is none of its options{}", verb.name, name,
@@ -76,9 +79,13 @@ void RefuseUnknownWord(const Verb& verb, const std::string& word) {
 
 // One line, in the words of all other errors.
 InputError Refused(const CommandLine& program, const CLI::ParseError& error, const std::string& verb) {
+  constexpr const char* kOverride = " was given a disallowed flag override";  // a flag with a value
   std::string text = error.what();
   if (const auto* missing = dynamic_cast<const CLI::RequiredError*>(&error); missing != nullptr) {
     text = fmt::format("found no {}, expected it", text.substr(0, text.find(' ')));
+  } else if (text.ends_with(kOverride)) {
+    text = "--" + text.substr(0, text.size() - std::strlen(kOverride)) +
+           ": found a value behind it, expected none";
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     text = text.substr(0, text.find(':')) + ": found nothing behind it, expected a value";
   } else if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) {
@@ -111,11 +118,12 @@ int CommandLine::Run(int argc, char** argv) const {
   for (const Verb& verb : verbs) {
     const CLI::App& chosen = *app.get_subcommand(verb.name);
     if (!chosen.parsed()) continue;
-    const std::vector<std::string> words = chosen.remaining();
+    std::vector<std::string> words = chosen.remaining();
     if (verb.rest != nullptr) {
       *verb.rest = words;
-    } else if (!words.empty()) {
-      RefuseUnknownWord(verb, words.front());
+    } else {
+      std::erase(words, "--");  // behind which no word is an option
+      if (!words.empty()) RefuseUnknownWord(verb, words.front());
     }
     return verb.run();
   }

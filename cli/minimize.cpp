@@ -10,6 +10,7 @@
 
 #include "certify/exact.h"
 #include "certify/published_space.h"
+#include "cli/help.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
@@ -40,8 +41,9 @@ std::optional<Outcome> FindOutcome(std::string_view name) {
 std::string CheckKeep(const std::string& text) {
   const std::string outcome = text.ends_with(":*") ? text.substr(0, text.size() - 2) : text;
   if (FindOutcome(outcome)) return "";
-  return fmt::format("found '{}', expected one of {}, with :* behind it for the whole policy grid", text,
-                     fmt::join(kOutcomeNames, ", "));
+  const std::string nearest = Nearest(outcome, {kOutcomeNames.begin(), kOutcomeNames.end()});
+  return fmt::format("found '{}', expected one of {}, with :* behind it for the whole policy grid{}", text,
+                     fmt::join(kOutcomeNames, ", "), nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
 // The choices of the generator that made the file are made simpler, and the problem with its scene anew of

@@ -165,9 +165,11 @@ SearchOptions OptionsOf(const SearchVerb& o) {
 
 int RunSearchVerb(const SearchVerb& o) {
   const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
-  const SearchOptions options = OptionsOf(o);
-  fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
-             options.threads, o.shard, o.store);
+  SearchOptions options = OptionsOf(o);
+  options.started = [&] {
+    fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
+               options.threads, o.shard, o.store);
+  };
   NightLog log(options.minutes);
   const FindingCommand command(o.on_finding, o.store);
   std::int64_t untold = 0;

@@ -2,17 +2,17 @@
 #include "cli/shared.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
 #include "certify/properties.h"
+#include "cli/help.h"
 
 namespace stiction {
 namespace {
@@ -47,6 +47,26 @@ void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
       {{"assumption", "h"}, {"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
 }
 
+// Of the first setting that names no switch or none of its values, the switch or value that is meant.
+std::string NearestPolicyWord(const std::string& text) {
+  std::istringstream settings(text);
+  for (std::string setting; std::getline(settings, setting, ',');) {
+    const std::size_t equals = std::min(setting.find('='), setting.size());
+    const std::string name = setting.substr(0, equals);
+    std::vector<std::string> names = {"paper"};
+    for (const PolicySwitchRow& row : PolicySwitches()) names.emplace_back(row.name);
+    const auto row = std::find_if(PolicySwitches().begin(), PolicySwitches().end(),
+                                  [&name](const PolicySwitchRow& each) { return each.name == name; });
+    if (row == PolicySwitches().end()) return Nearest(name, names);
+    if (equals == setting.size()) return "";
+    const std::string value = setting.substr(equals + 1);
+    names.clear();
+    for (const PolicyValue& each : row->values) names.emplace_back(each.name);
+    if (std::find(names.begin(), names.end(), value) == names.end()) return Nearest(value, names);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string PolicyError(const std::string& text, Grid grid) {
@@ -55,7 +75,8 @@ std::string PolicyError(const std::string& text, Grid grid) {
     ParsePolicy(text);
     return "";
   } catch (const std::invalid_argument& error) {
-    return error.what();
+    const std::string nearest = NearestPolicyWord(text);
+    return nearest.empty() ? error.what() : fmt::format("{}; did you mean {}?", error.what(), nearest);
   }
 }
 
@@ -102,28 +123,6 @@ const std::atomic<bool>& Interruption() {
   std::signal(SIGTERM, OnSignal);
   if (std::signal(SIGHUP, OnSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   return interrupted;
-}
-
-ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
-
-void ProgressBar::Show(double fraction, const std::string& text) {
-  constexpr int kWidth = 20;
-  if (!terminal_) return Log(fraction, text);
-  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
-  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
-  std::fflush(stderr);
-}
-
-void ProgressBar::Log(double fraction, const std::string& text) {
-  constexpr double kFirst = 10, kLast = 600;  // seconds between lines
-  const double now = watch_.Seconds();
-  if (now - last_ < std::clamp(now / 20, kFirst, kLast)) return;
-  last_ = now;
-  fmt::print(stderr, "{:.0f} s, {:.0f} %: {}\n", now, 100 * std::clamp(fraction, 0.0, 1.0), text);
-}
-
-void ProgressBar::Clear() const {
-  if (terminal_) fmt::print(stderr, "\r\033[K");
 }
 
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {

@@ -14,7 +14,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
-#include "corpus/stopwatch.h"
+#include "corpus/progress_bar.h"
 #include "corpus/whole_folder.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
@@ -48,23 +48,6 @@ void TellAside(const std::filesystem::path& aside);
 // From the first call on SIGINT, SIGTERM and SIGHUP set what it returns, and do nothing else: the verb ends by
 // itself. SIGHUP stays ignored where it is (nohup).
 const std::atomic<bool>& Interruption();
-
-// A bar on standard error where that is a terminal; in a log a line after ten seconds, then ever more seldom.
-class ProgressBar {
- public:
-  ProgressBar();
-  bool IsShown() const { return terminal_; }
-  // `fraction`: of what is to be done, 0 to 1.
-  void Show(double fraction, const std::string& text);
-  void Clear() const;
-
- private:
-  void Log(double fraction, const std::string& text);
-
-  bool terminal_;
-  Stopwatch watch_{CLOCK_MONOTONIC};
-  double last_ = 0;  // line of the log, s
-};
 
 // What has a table of counters (ForEachField), by their names.
 template <class S>

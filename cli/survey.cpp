@@ -2,12 +2,14 @@
 // stiction survey: which assumptions of the paper a problem meets, what solves it, and how well.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "answers/answer_text.h"
 #include "certify/bounds.h"
@@ -378,9 +380,13 @@ std::vector<std::filesystem::path> FilesOf(const std::vector<std::string>& paths
 int Survey(const SurveyOptions& o) {
   int exit = kExitDone;
   Json entries = Json::array();
-  if (!o.json) PrintSurveyHead();
+  bool headed = o.json;
   ProgressBar bar;
   const std::vector<std::filesystem::path> files = FilesOf(o.paths);
+  if (files.empty())
+    throw InputError(
+        fmt::format("survey: found no problem file in {}, expected files named *.json, *.dat or *.hdf5",
+                    fmt::join(o.paths, ", ")));
   for (const std::filesystem::path& file : files) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
@@ -388,6 +394,7 @@ int Survey(const SurveyOptions& o) {
       Json entry = Judge(ReadAny(file), file.string(), o);
       entry["file"] = file.string();
       bar.Clear();
+      if (!std::exchange(headed, true)) PrintSurveyHead();
       if (!o.json) PrintSurveyed(entry);
       std::fflush(stdout);
       entries.push_back(std::move(entry));

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void Refuse(const fs::path& file, const std::string& reason) {
-  const std::string name = file == "-" ? "standard input" : file.string();
+  const std::string name = file == "-" ? "standard input" : file.empty() ? "''" : file.string();
   throw InputError(name + ": found nothing to read (" + reason + "), expected a file");
 }
 

@@ -90,6 +90,12 @@ void CopyFile(const fs::path& from, const fs::path& to) {
 }
 
 // What is there and no database is not taken over: SQLite would make an empty file one.
+void RequireFile(const fs::path& file) {
+  if (file == "-")
+    throw InputError(
+        "-: found standard input, expected a store in a file: it is read and written at many places");
+}
+
 void RequireDatabase(const fs::path& file) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   const auto refuse = [&file](const std::string& found) {
@@ -121,6 +127,7 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Store::Store(const fs::path& file, const CampaignIdentity& identity) {
+  RequireFile(file);
   if (!fs::exists(file)) Make(file, identity);
   RequireDatabase(file);
   db_.reset(OpenDatabase(file, SQLITE_OPEN_READWRITE));
@@ -169,6 +176,7 @@ Store Store::OpenToRead(const fs::path& file) {
 CampaignIdentity Store::IdentityIn(const fs::path& file) { return OpenUnchecked(file).identity_; }
 
 Store Store::OpenUnchecked(const fs::path& file) {
+  RequireFile(file);
   if (!fs::exists(file))
     throw InputError(fmt::format("{}: found no such store, expected one that a search wrote", file.string()));
   RequireDatabase(file);

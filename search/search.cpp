@@ -65,6 +65,7 @@ class Search {
   }
 
   SearchReport Run(const std::function<void(const SearchProgress&)>& show) {
+    if (options_.started) options_.started();
     start_ = Clock::now();
     if (options_.minutes)
       deadline_ =

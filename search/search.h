@@ -36,6 +36,7 @@ struct SearchOptions {
   std::optional<double> finishing;  // share of processor time, 0 to 1; by default as above; 0: none, 1: all
   bool only_finish = false;         // no units: all findings that are not finished
   const std::atomic<bool>* interrupted = nullptr;
+  std::function<void()> started = {};  // the store is open: called before the first unit
 };
 
 struct SearchProgress {

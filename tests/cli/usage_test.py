@@ -41,7 +41,7 @@ class Usage(cli.TestCase):
                 self.assertEqual(self.succeeds(verb, "-h").out, done.out)
 
     def test_no_line_of_a_help_is_wider_than_a_terminal(self):
-        for verb in [(), *((verb,) for verb in VERBS if verb != "bench")]:
+        for verb in [(), *((verb,) for verb in VERBS)]:
             for line in self.succeeds(*verb, "--help").out.splitlines():
                 self.assertLessEqual(len(line), 80, f"{verb}: {line}")
 
@@ -96,6 +96,8 @@ class Usage(cli.TestCase):
         def changed(**keys):
             return self.file(f"changed-{next(number)}.json", dict(cli.SOLVED, **keys))
 
+        folder = self.folder / "folder"
+        folder.mkdir()
         nothing, text, empty = self.folder / "none", self.file("text.json", "hello"), self.file("empty.json", "")
         uses = [
             ((), ["expected a verb"]),
@@ -160,7 +162,52 @@ class Usage(cli.TestCase):
             (("import", problem, "-o", out), ["found neither", "expected an LCP"]),
             (("export", problem, "-o", out, "--format", "siconos"), ["'siconos'", "siconos-lcp"]),
             (("assemble", problem, "-o", out), ["scene: found nothing", "expected the scene"]),
-            (("manual", "--format", "html"), ["'html'", "man, bash"]),
+            (("manual", "--format", "html"), ["'html'", "man, man-bench, bash"]),
+            (("--vesion",), ["'--vesion'", "did you mean --version?"]),
+            (("solve", ""), ["''", "No such file", "expected a file"]),
+            (("solve", problem, "-"), ["'-'", "expected nothing more"]),
+            (("solve", "--", problem, problem), ["expected nothing more"]),
+            (("solve", problem, "--json=maybe"), ["--json: found a value", "expected none"]),
+            (("solve", problem, "--json=1"), ["--json: found a value", "expected none"]),
+            (("solve", problem, "--method="), ["--method: found nothing behind it"]),
+            (("solve", problem, "--policy", "scan=highst"), ["'highst'", "did you mean highest?"]),
+            (("solve", problem, "--policy", "file=yes,dorp=contact"), ["'dorp=contact'", "did you mean drop?"]),
+            (("solve", problem, "--policy", "papr"), ["'papr'", "did you mean paper?"]),
+            (("solve", problem, "--policy", ""), ["found ''", "expected 'paper' or switches"]),
+            (("minimize", problem, "-o", out, "--keep", "cylce:*"), ["'cylce:*'", "did you mean cycle?"]),
+            (("survey", folder), [f"found no problem file in {folder}", "expected files named *.json"]),
+            (("survey", folder, folder, "--json"), ["found no problem file in", "expected"]),
+            (("survey", nothing), [nothing, "No such file", "expected a file"]),
+            (("survey", problem, "--rows", "-1"), ["--rows: found '-1'", "from 0"]),
+            (("search", "--problems", "1", "--store", folder), [folder, "a directory"]),
+            (("search", "--problems", "1", "--store", nothing / "a.store"), [nothing, "No such file"]),
+            (("search", "--problems", "1", "--store", text), ["no stiction store"]),
+            (("search", "--problems", "1", "--store", "-"), ["found standard input", "expected a store in a file"]),
+            (("search", "--objective", "fold", "--store", out), ["'fold'", "did you mean folds?"]),
+            (("search", "--seed", "-1", "--store", out), ["--seed: found '-1'", "2^64"]),
+            (("search", nothing), [nothing, "expected a file"]),
+            (("search", "--minutes", "inf", "--store", out), ["--minutes: found 'inf'"]),
+            (("status", "-"), ["found standard input", "expected a store in a file"]),
+            (("merge", out, "-"), ["found standard input", "expected a store in a file"]),
+            (("report", "-", "--text"), ["found standard input", "expected a store in a file"]),
+            (("report", text, "--text"), ["no stiction store"]),
+            (("problem", "-", "0", "0"), ["found standard input", "expected a store in a file"]),
+            (("problem", nothing, "one", "0"), ["UNIT: found 'one'", "an integer"]),
+            (("records", "--chek"), ["--chek", "did you mean --check?"]),
+            (("words", "fold"), ["words: found 'fold'", "expected nothing more"]),
+            (("check", nothing), [nothing, "expected a file"]),
+            (("simulate", problem, "-o", out), ["scene: found nothing", "expected the scene"]),
+            (("simulate", problem, "-o", out, "--frames", "0"), ["--frames: found '0'", "from 1"]),
+            (("draw", problem), ["draw: found no --output"]),
+            (("bench", "--suite", "searhc"), ["'searhc'", "did you mean search?"]),
+            (("bench", "--sute", "search"), ["--sute", "did you mean --suite?"]),
+            (("bench", "--generator", "smal"), ["'smal'", "did you mean small?"]),
+            (("bench", "search"), ["bench: found 'search'", "expected nothing more"]),
+            (("bench", "--suite", "search", "--contacts", "9"), ["--contacts: found 9", "expected 1 to 8"]),
+            (("bench", "--suite", "space", "--generator", "bilateral"), ["found bilateral", "expected one of static"]),
+            (("bench", "--suite", "extremes", "--families", "tower"), ["tower", "expected"]),
+            (("bench", "--suite", "scenes", "--scenes", nothing), [nothing, "expected a folder"]),
+            (("bench", "--repeat", "many"), ["--repeat: found 'many'", "an integer from 1 to 1000"]),
         ]
         self.assertGreaterEqual(len(uses), 50)
         for arguments, says in uses:
@@ -168,6 +215,34 @@ class Usage(cli.TestCase):
                 err = self.refuses(*arguments, says=says).err
                 self.assertRegex(err, r"^stiction: [^\n]+\n$")
                 self.assertFalse(out.exists())
+
+    def test_a_hyphen_is_standard_input_wherever_a_file_is_read(self):
+        def reads(text, *arguments, code=0):
+            done = subprocess.run([cli.program, *map(str, arguments)], input=text, text=True, capture_output=True,
+                                  cwd=self.folder)
+            self.assertEqual(done.returncode, code, f"{arguments}: {done.stderr}")
+            return done.stdout
+
+        problem, scene = cli.ROOT / "corpus/two-contact-cycle.json", cli.ROOT / "corpus/scenes/block-in-a-valley.json"
+        self.succeeds("certify", problem, "-o", self.folder / "c.json")
+        self.succeeds("export", problem, "-o", self.folder / "x.dat", "--format", "siconos-fc")
+        campaign = (cli.ROOT / "search/campaigns/scenes.json").read_text()
+        problem, scene = problem.read_text(), scene.read_text()
+        for arguments in [("solve", "-"), ("replay", "-"), ("replay", "-", "--all-policies"), ("survey", "-"),
+                          ("certify", "-", "-o", "c2.json"), ("minimize", "-", "-o", "m.json"),
+                          ("check", "c.json", "--problem", "-"), ("export", "-", "-o", "y.dat", "--format", "siconos-fc")]:
+            reads(problem, *arguments)
+        for arguments in [("assemble", "-", "-o", "a.json"), ("draw", "-", "-o", "d.svg"), ("replay", "-"),
+                          ("simulate", "-", "-o", "run", "--seconds", 0.01)]:
+            reads(scene, *arguments, code=1 if arguments[0] == "replay" else 0)
+        self.assertIn("accepted", reads((self.folder / "c.json").read_text(), "check", "-"))
+        reads((self.folder / "x.dat").read_text(), "import", "-", "-o", "i.json")
+        reads(campaign, "slurm", "-", "--shards", 2, "--problems", 100_000_000, "-o", "jobs")
+        reads(campaign, "search", "-", "--problems", 1, "--finishing", 0, "--store", "a.store")
+
+    def test_behind_two_hyphens_no_word_is_an_option(self):
+        self.file("--problem", cli.SOLVED)
+        self.assertIn("solved", self.succeeds("solve", "--", "--problem", cwd=self.folder).out)
 
     def test_files_that_cannot_be_read(self):
         out = self.folder / "out"
