@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -15,7 +16,9 @@
 #include "cli/records.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/grouped.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
 #include "reports/comparison/comparison.h"
 #include "reports/papers/package.h"
 #include "reports/text/text_report.h"
@@ -35,6 +38,40 @@ struct ReportVerb {
   bool replace = false, text = false, latex = false, json = false;
 };
 
+// How far the store is read, and what is made of it written.
+class ReportProgress {
+ public:
+  ShowFindings Reading() {
+    return [this](std::int64_t done, std::int64_t of) {
+      Show(done, of, [&] { return fmt::format("{} of {} findings read", Grouped(done), Grouped(of)); });
+    };
+  }
+  ShowWriting Writing() {
+    return [this](const WritingProgress& now) {
+      Show(now.findings, now.of, [&] {
+        return fmt::format("{} of {} findings written, {} files", Grouped(now.findings), Grouped(now.of),
+                           Grouped(now.files));
+      });
+    };
+  }
+  ~ReportProgress() { Clear(); }
+  void Clear() const { bar_.Clear(); }
+
+ private:
+  // The first, and then five a second.
+  template <class Text>
+  void Show(std::int64_t done, std::int64_t of, Text text) {
+    const double now = watch_.Seconds();
+    if (now < next_) return;
+    next_ = now + 0.2;
+    bar_.Show(static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(1, of)), text());
+  }
+
+  ProgressBar bar_;
+  Stopwatch watch_{CLOCK_MONOTONIC};
+  double next_ = 0;  // s
+};
+
 int PrintReport(const ReportVerb& o, const Store& store) {
   const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
   if (o.json)
@@ -46,7 +83,8 @@ int PrintReport(const ReportVerb& o, const Store& store) {
 
 // A store of problems that were drawn at random.
 Store OpenDrawn(const std::string& file) {
-  Store store = OpenSound(file);
+  ReportProgress progress;
+  Store store = OpenSound(file, progress.Reading());
   if (!CampaignOf(store.identity(), file).objective.empty())
     throw InputError(
         fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
@@ -67,25 +105,34 @@ int CompareStores(const ReportVerb& o) {
 }
 
 // What is made of one store.
-int ReportStore(const ReportVerb& o, const Store& store) {
+int ReportStore(const ReportVerb& o) {
+  ReportProgress progress;
+  const Store store = OpenSound(o.store, progress.Reading());
   std::string text;
   Json written = Json::array();
   if (!o.folder.empty()) {
-    TellAside(WriteReport(store, o.folder, OccupiedIf(o.replace),
-                          {{o.benches.begin(), o.benches.end()},
-                           o.since,
-                           o.latex,
-                           o.files.value_or(ReportExtras().files),
-                           KnownFrontiers(),
-                           OwnBests(store)}));
+    const auto aside = WriteReport(store, o.folder, OccupiedIf(o.replace),
+                                   {{o.benches.begin(), o.benches.end()},
+                                    o.since,
+                                    o.latex,
+                                    o.files.value_or(ReportExtras().files),
+                                    KnownFrontiers(),
+                                    OwnBests(store),
+                                    progress.Writing()});
+    progress.Clear();
+    TellAside(aside);
     text += o.folder + "/index.html\n";
     written.push_back(o.folder);
   }
   if (!o.package.empty()) {
-    TellAside(WritePackage(store, o.package, CheckerFiles(), OccupiedIf(o.replace)));
+    const auto aside =
+        WritePackage(store, o.package, CheckerFiles(), OccupiedIf(o.replace), progress.Writing());
+    progress.Clear();
+    TellAside(aside);
     text += fmt::format("{0}: verify it with: python3 {0}/verify.py\n", o.package);
     written.push_back(o.package);
   }
+  progress.Clear();
   if (o.text) return PrintReport(o, store);
   SayWhatWasDone("", o.json, text, {{"written", written}});
   return kExitDone;
@@ -112,8 +159,7 @@ int ReportBenches(const ReportVerb& o) {
   ReportExtras extras;
   extras.benches = {o.benches.begin(), o.benches.end()};
   extras.frontiers = KnownFrontiers();
-  TellAside(WriteMeasured(o.folder, OccupiedIf(o.replace),
-                          extras));
+  TellAside(WriteMeasured(o.folder, OccupiedIf(o.replace), extras));
   SayWhatWasDone("", o.json, o.folder + "/index.html\n", {{"written", Json::array({o.folder})}});
   return kExitDone;
 }
@@ -124,7 +170,7 @@ int RunReport(const ReportVerb& o) {
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
   if (o.folder.empty()) RequireFolder(o);
-  return ReportStore(o, OpenSound(o.store));
+  return ReportStore(o);
 }
 
 }  // namespace

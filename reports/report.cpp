@@ -94,7 +94,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   content.frontiers = extras.frontiers;
   content.own = extras.own;
   WholeFolder whole(directory, "report", occupied);
-  ReportFiles folder(whole);
+  ReportFiles folder(whole, extras.show);
   const std::vector<Finding> findings = store.Findings();
   content.identity = store.identity();
   content.units = store.Units().Count();
@@ -103,9 +103,12 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   LeaveFilesTo(content.discoveries, extras.files);
+  folder.ExpectFindings(std::count_if(content.discoveries.begin(), content.discoveries.end(),
+                                      [](const Discovery& discovery) { return discovery.HasFiles(); }));
   for (Discovery& discovery : content.discoveries) {
     if (!discovery.HasFiles()) continue;
     for (const auto& [name, text] : FilesOf(discovery)) folder.Write(name, text);
+    folder.FinishFinding();
     const std::string picture = SvgOfFinding(*discovery.representative);
     if (picture.empty()) continue;
     discovery.files.picture = "findings/" + FileName(discovery.signature) + ".svg";

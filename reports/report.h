@@ -30,6 +30,7 @@
 #include "corpus/store.h"
 #include "corpus/whole_folder.h"
 #include "reports/page/frontiers.h"
+#include "reports/report_files.h"
 
 namespace stiction {
 
@@ -42,6 +43,7 @@ struct ReportExtras {
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
   std::vector<FrontierLine> frontiers = {};  // records, told on the page
   std::vector<OwnBest> own = {};             // the best of an optimized search, told beside them
+  ShowWriting show = {};                     // told how far it is
 };
 
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same

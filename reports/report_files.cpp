@@ -17,6 +17,8 @@ std::string Pretty(const std::string& problem, const std::string& source) {
 void ReportFiles::Write(const std::string& name, const std::string& text) {
   folder_.Write(name, text);
   digests_[name] = Sha256(text);
+  ++progress_.files;
+  if (show_) show_(progress_);
 }
 
 void ReportFiles::WriteSums() const {

@@ -4,6 +4,8 @@
 #ifndef STICTION_REPORTS_REPORT_FILES_H_
 #define STICTION_REPORTS_REPORT_FILES_H_
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -15,10 +17,21 @@
 
 namespace stiction {
 
-// Writes the files of a folder, and at last what they are.
+// How far a folder is: so many of its findings have their files; so many files there are.
+struct WritingProgress {
+  std::int64_t findings = 0, of = 0, files = 0;
+};
+using ShowWriting = std::function<void(const WritingProgress&)>;
+
+// Writes the files of a folder, and at last what they are. `show`, if any, is called after each.
 class ReportFiles {
  public:
-  explicit ReportFiles(const WholeFolder& folder) : folder_(folder) {}
+  explicit ReportFiles(const WholeFolder& folder, ShowWriting show = {})
+      : folder_(folder), show_(std::move(show)) {}
+
+  // So many findings will have files; one of them has all of its own.
+  void ExpectFindings(std::int64_t of) { progress_.of = of; }
+  void FinishFinding() { ++progress_.findings; }
 
   void Write(const std::string& name, const std::string& text);
   // SHA256SUMS, in the format of sha256sum.
@@ -26,6 +39,8 @@ class ReportFiles {
 
  private:
   const WholeFolder& folder_;
+  ShowWriting show_;
+  WritingProgress progress_;
   std::map<std::string, std::string> digests_;
 };
 

@@ -272,17 +272,22 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
                     "a size of the campaign's");
 }
 
-void RequireSound(const Store& store, const std::string& file) {
+void RequireSound(const Store& store, const std::string& file, const ShowFindings& show) {
   const Campaign campaign = CampaignOf(store.identity(), file);
   RequireSound(store.Total(), campaign, file);
-  for (const Finding& finding : store.Findings()) RequireSound(finding, campaign, file);
+  const std::vector<Finding> findings = store.Findings();
+  const auto of = static_cast<std::int64_t>(findings.size());
+  for (std::int64_t done = 0; done < of; ++done) {
+    RequireSound(findings[static_cast<std::size_t>(done)], campaign, file);
+    if (show) show(done + 1, of);
+  }
   for (const auto& [unit, text] : store.Elites())
     ElitesFromText(text, fmt::format("{}: elites of unit {}", file, unit));
 }
 
-Store OpenSound(const std::string& file) {
+Store OpenSound(const std::string& file, const ShowFindings& show) {
   Store store = Store::OpenToRead(file);
-  RequireSound(store, file);
+  RequireSound(store, file, show);
   return store;
 }
 

@@ -8,6 +8,8 @@
 #ifndef STICTION_SEARCH_TESTIMONY_H_
 #define STICTION_SEARCH_TESTIMONY_H_
 
+#include <cstdint>
+#include <functional>
 #include <string>
 
 #include "search/campaign.h"
@@ -15,12 +17,14 @@
 namespace stiction {
 
 // InputError that names the file, the row, what was found and what was expected.
-void RequireSound(const Store& store, const std::string& file);
+// `show`, if any, is told how many of how many findings were looked at.
+using ShowFindings = std::function<void(std::int64_t done, std::int64_t of)>;
+void RequireSound(const Store& store, const std::string& file, const ShowFindings& show = {});
 void RequireSound(const Finding& finding, const Campaign& campaign, const std::string& file);
 void RequireSound(const Record& total, const Campaign& campaign, const std::string& file);
 
 // A store to read, of which all is as it must be.
-Store OpenSound(const std::string& file);
+Store OpenSound(const std::string& file, const ShowFindings& show = {});
 
 }  // namespace stiction
 

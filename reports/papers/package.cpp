@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/papers/package.h"
 
+#include <algorithm>
 #include <iterator>
 #include <vector>
 
@@ -78,17 +79,22 @@ Json Campaign(const Store& store) {
 }  // namespace
 
 std::filesystem::path WritePackage(const Store& store, const std::filesystem::path& directory,
-                                   const std::map<std::string, std::string>& checkers, Occupied occupied) {
+                                   const std::map<std::string, std::string>& checkers, Occupied occupied,
+                                   const ShowWriting& show) {
   WholeFolder whole(directory, "report", occupied);
-  ReportFiles folder(whole);
+  ReportFiles folder(whole, show);
   const std::vector<Finding> findings = store.Findings();
   const Record total = store.Total();
   const std::vector<Discovery> discoveries = Discoveries(total, findings);
   Json entries = Json::array();
+  folder.ExpectFindings(std::count_if(discoveries.begin(), discoveries.end(), [](const Discovery& discovery) {
+    return discovery.representative != nullptr;
+  }));
   for (const Discovery& discovery : discoveries) {
     if (discovery.representative == nullptr) continue;
     const auto files = FilesOf(discovery);
     for (const auto& [name, text] : files) folder.Write(name, text);
+    folder.FinishFinding();
     entries.push_back(Entry(discovery, files));
   }
   for (const auto& [name, text] : TablesOf(total, discoveries)) folder.Write("tables/" + name, text);

@@ -17,6 +17,7 @@
 
 #include "corpus/store.h"
 #include "corpus/whole_folder.h"
+#include "reports/report_files.h"
 
 namespace stiction {
 
@@ -24,7 +25,7 @@ namespace stiction {
 // store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WritePackage(const Store& store, const std::filesystem::path& directory,
                                    const std::map<std::string, std::string>& checkers,
-                                   Occupied occupied = Occupied::kRefused);
+                                   Occupied occupied = Occupied::kRefused, const ShowWriting& show = {});
 
 }  // namespace stiction
 
