@@ -14,6 +14,7 @@
 #include <limits>
 #include <set>
 
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
@@ -104,6 +105,7 @@ Outcomes RunTrials(const Trials& trials, const OptimizerRow& optimizer, const Be
     if (best.size() > kParents) best.resize(kParents);
     optimization.parents.clear();
     for (const Assessed& elite : best) optimization.parents.push_back(elite.candidate);
+    progress::Done();
   }
   outcomes.seconds = ProcessorSeconds() - before;
   return outcomes;
@@ -130,7 +132,9 @@ Json Rounded3(std::optional<double> x) {
 int BenchAdversary(const BenchOptions& o) {
   BenchTable table{"adversary", fmt::format("The best of each optimizer, seed {}", o.seed)};
   std::map<std::string, int> doubled;
+  progress::Expect(kTrials.size());
   for (const Trials& trials : kTrials) {
+    progress::Begin(std::string(trials.objective), static_cast<std::int64_t>(Optimizers().size()) * kUnits);
     const Objective& objective = *FindObjective(trials.objective);
     Json row = {{"objective", trials.objective},
                 {"problems", fmt::format("{} {}", trials.generator, trials.contacts)},
@@ -154,6 +158,7 @@ int BenchAdversary(const BenchOptions& o) {
     }
     table.rows.push_back(std::move(row));
   }
+  progress::Clear();
   if (o.json) {
     std::cout << JsonText(table.rows) << "\n";
     return kExitDone;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "bench/progress.h"
 #include "bench/rungs.h"
 #include "bench/sources.h"
 #include "bench/suite.h"
@@ -26,6 +27,7 @@ std::vector<RungTally> Measure(const Source& source, const std::vector<RungRow>&
     const RungProblem problem(source.make(seed, index));
     for (std::size_t i = 0; i < rows.size(); ++i)
       tallies[i].Count(rows[i], problem, rows[i].Run(problem, kTimedRuns), source.has_solution);
+    progress::Done();
   }
   return tallies;
 }
@@ -73,8 +75,11 @@ int RunLadder(const BenchOptions& o, const std::vector<Source>& sources, std::in
                "method", "arithmetic", "solved", "undecided", "wrong", "silent", "refused", "microseconds",
                "residual");
   std::int64_t silent = 0;
+  progress::Expect(sources.size());
   for (const Source& source : sources) {
+    progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
     const auto tallies = Measure(source, rows, problems, o.seed);
+    progress::Clear();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const RungTally& tally = tallies[i];
       silent += tally.silent;

@@ -8,8 +8,8 @@
 //
 // The systems are the reduced systems that complete driving meets on problems of the generators (entries: over
 // rationals, or of the problem over doubles taken exactly), and dense ones of random integers. Only regular
-// ones. All answers are compared exactly. Then whole runs of complete driving, of the published algorithm and of
-// Lemke's method, by both eliminations; the published algorithm runs under the policy `paper`.
+// ones. All answers are compared exactly. Then whole runs of complete driving, of the published algorithm and
+// of Lemke's method, by both eliminations; the published algorithm runs under the policy `paper`.
 
 #include <fmt/format.h>
 
@@ -29,6 +29,7 @@
 
 #include "bench/measure.h"
 #include "bench/plain_rational.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "certify/exact.h"
 #include "certify/existence.h"
@@ -306,6 +307,7 @@ class Table {
 
   void AddRows(const std::string& name, int size, std::size_t items, const std::vector<Way>& ways) {
     const auto times = MeasureWays(ways, items, options_.repeat);
+    progress::Clear();
     for (std::size_t w = 0; w < ways.size(); ++w) {
       std::vector<double> ratios;  // within one run
       for (std::size_t run = 0; run < times[w].size(); ++run) {
@@ -325,6 +327,7 @@ class Table {
                    ways[w].name, time.least, time.median, time.most, ratio.median);
     }
     std::fflush(stdout);
+    progress::Done();
   }
 
   void Print() const {
@@ -352,6 +355,7 @@ void AddSystems(const std::string& name, int size, const std::vector<Augmented>&
   ways.push_back({"fmpz_mat", [&](std::size_t i) { integers[i].Solve(); }});
 #endif
   for (std::size_t i = 0; i < systems.size(); ++i) {
+    progress::Done(0);
     for (const Way& way : ways) way.run(i);
     STICTION_CHECK(fraction_free.x() == gauss.x(), "elimination without fractions disagrees");
 #ifdef STICTION_FLINT
@@ -411,8 +415,12 @@ int BenchLinearAlgebra(const BenchOptions& o) {
   using enum GeneratorId;
   const std::int64_t count = o.problems.value_or(200);
   Table table(o);
+  progress::Expect(o.generator ? 1 : 4 + 3);
   for (const GeneratorId id : {kIntegers, kPsd, kBodies, kConditioned}) {
     if (o.generator && id != *o.generator) continue;
+    progress::Begin(
+        std::string(Row(id).name),
+        (Row(id).exact_in_double ? 6 : 12) + (o.contacts.empty() ? 4 : static_cast<int>(o.contacts.size())));
     AddReducedSystems(id, true, o, count, table);
     if (!Row(id).exact_in_double) AddReducedSystems(id, false, o, count, table);
     for (const int contacts : o.contacts.empty() ? std::vector<int>{2, 4, 6, 8} : o.contacts) {
@@ -421,9 +429,11 @@ int BenchLinearAlgebra(const BenchOptions& o) {
   }
   for (const int size : {6, 12, 16}) {
     if (o.generator) break;
+    progress::Begin(fmt::format("dense, {} rows", size), 2);
     AddSystems("dense, up to 100", size, DenseSystems(size, 100, o.seed, count), table);
     AddSystems("dense, 63 bits", size, DenseSystems(size, std::int64_t{1} << 62, o.seed, count), table);
   }
+  progress::Clear();
   table.Print();
   return 0;
 }

@@ -15,6 +15,7 @@
 
 #include "bench/method.h"
 #include "bench/one_thread.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
@@ -61,6 +62,8 @@ void AddMismatches(const std::vector<BenchMethod>& methods, Sample& sample) {
 // make(index) returns a BenchProblem.
 template <class Make>
 Sample Measured(std::vector<BenchMethod>& methods, int contacts, std::int64_t problems, Make make) {
+  progress::Begin(fmt::format("runs at {} contacts", contacts),
+                  static_cast<std::int64_t>(methods.size()) * problems);
   Sample sample{contacts, problems, {}, {}, {}, {}};
   sample.measures.resize(methods.size());
   for (std::int64_t first = 0; first < problems; first += kBlock) {
@@ -75,10 +78,11 @@ Sample Measured(std::vector<BenchMethod>& methods, int contacts, std::int64_t pr
       const std::int64_t last = std::min(end, ProblemsOf(methods[m], sample));
       for (std::int64_t i = first; i < last; ++i)
         sample.measures[m].push_back(methods[m].run(block[i - first]));
+      progress::Done(end - first);
     }
   }
   AddMismatches(methods, sample);
-  fmt::print(stderr, "{} contacts: {} problems\n", contacts, problems);
+  progress::Clear();
   return sample;
 }
 
@@ -357,6 +361,7 @@ int BenchMethods(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(800);
   std::vector<int> contacts = options.contacts;
   if (contacts.empty()) contacts = {2, 3, 4, 5, 6};
+  progress::Expect(contacts.size() + 5);
   std::vector<BenchMethod> methods = BenchedMethods();
   std::vector<Sample> samples;
   for (const int n : contacts) {
@@ -378,6 +383,7 @@ int BenchFrictionless(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(48);
   std::vector<int> sizes = options.contacts;
   if (sizes.empty()) sizes = {3, 6, 12, 25, 50, 100, 150};
+  progress::Expect(sizes.size());
   const std::vector<Sample> samples = MeasureFrictionless(sizes, problems, options.seed);
   return Report(options, problems, {FrictionlessTable(samples)}, MismatchesOf(samples));
 }

@@ -16,6 +16,7 @@
 
 #include <iostream>
 
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/exact.h"
@@ -49,6 +50,7 @@ class Patches {
   }
 
   Count Run(std::int64_t problems) {
+    progress::Begin(fmt::format("{}, {} contacts", Row(generator_).name, contacts_), problems);
     for (std::int64_t index = 0; index < problems; ++index) Try(index);
     return count_;
   }
@@ -63,6 +65,7 @@ class Patches {
 
   void Try(std::int64_t index) {
     ++count_.problems;
+    progress::Done();
     Make(index, problem_);
     bool gave_up = false;
     for (std::size_t k = 0; k < policies_.size(); ++k) {
@@ -127,12 +130,14 @@ int BenchPatches(const BenchOptions& options) {
   std::vector<GeneratorId> generators = {GeneratorId::kPsd, GeneratorId::kIntegers, GeneratorId::kConditioned,
                                          GeneratorId::kBodies, GeneratorId::kScenes};
   if (options.generator) generators = {*options.generator};
+  progress::Expect(generators.size() * sizes.size());
   BenchTable table{"patches", "failures in a million problems, with exact intervals at 95 %, of each way"};
   for (const GeneratorId generator : generators) {
     for (const int contacts : sizes)
       table.rows.push_back(
           RowOf(generator, contacts, Patches(generator, contacts, options.seed).Run(problems)));
   }
+  progress::Clear();
   if (options.json)
     std::cout << JsonText({{"suite", "patches"}, {"seed", options.seed}, {"rows", table.rows}}) << "\n";
   else

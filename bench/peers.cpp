@@ -16,6 +16,7 @@
 #include "bench/native_lu.h"
 #include "bench/one_thread.h"
 #include "bench/peers_suite.h"
+#include "bench/progress.h"
 #include "bench/structure.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
@@ -101,11 +102,14 @@ class Silenced {
 // Packages complain on standard error and output, Siconos of every singular matrix; what they claim is in the
 // tables.
 Json MeasureQuietly(const PeersOptions& o) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> heard(fdopen(dup(STDERR_FILENO), "w"), &std::fclose);
+  progress::Expect(o.tables.size(), heard.get());
   const Silenced errors(STDERR_FILENO);
   std::optional<Silenced> output;
   if (o.json) output.emplace(STDOUT_FILENO);
   Json tables = Json::array();
   for (const std::string& name : o.tables) tables.push_back(MeasureNamed(name, o));
+  progress::Clear();
   return tables;
 }
 
@@ -182,7 +186,8 @@ int Main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() != 0) throw InputError(error.what());
+    return program.exit(error);
   }
   return RunPeers(o);
 }

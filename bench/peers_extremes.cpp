@@ -22,6 +22,7 @@
 
 #include "bench/dials.h"
 #include "bench/peers_measure.h"
+#include "bench/progress.h"
 #include "bench/rungs.h"
 #include "certify/existence.h"
 #include "corpus/atomic_file.h"
@@ -277,12 +278,16 @@ Json MeasureExtremes(bool friction, const PeersOptions& o) {
     fmt::print("\n{}\n  {:12} {:>5}  {:26} {:>14} {:>7} {:>8} {:>8} {:>10}\n",
                friction ? "with friction" : "without friction", "dial", "at", "", "solved", "silent", "refused",
                "crashed", "worst");
+  progress::Begin("dials", static_cast<std::int64_t>(Dials().size()));
   for (const Dial& dial : Dials()) {
+    progress::Done();
     for (const int setting : dial.settings) {
       const auto problems = ProblemsOf(dial, setting, friction, o);
       if (problems.empty()) continue;
       for (std::size_t i = 1; i < rows.size(); ++i) {  // the first is the unit of times
         const BestAnswers best = AnswersOf(rows[i], problems, o.cap);
+        progress::Done(0);
+        progress::Clear();
         if (!best.answers.empty()) examples.Take(rows[i], dial, setting, friction, best, problems);
         lines.push_back(LineOf(dial, setting, rows[i], best));
         if (!o.json) PrintLine(lines.back());

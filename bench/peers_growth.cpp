@@ -13,6 +13,7 @@
 #include "bench/measure.h"
 #include "bench/one_thread.h"
 #include "bench/peers_suite.h"
+#include "bench/progress.h"
 #include "search/choices.h"
 #include "solver/complete/complete.h"
 #include "solver/numeric/fast.h"
@@ -125,9 +126,12 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
     fmt::print("\ngrowth, {}, one problem per size: milliseconds, megabytes, counts\n",
                friction ? "planar static friction" : "frictionless");
   }
+  progress::Begin("growth", static_cast<std::int64_t>(sizes.size() * methods.size()));
   for (const int size : sizes) {
     const PeerProblem problem = MakePlanar(size, friction, true, ProblemSeed(o.seed, 5000 + size, 0));
     for (GrowthMethod& method : methods) {
+      progress::Done();
+      progress::Clear();
       if (method.stopped) {
         if (!o.json) fmt::print("{:6} {:16} {:>12}\n", size, method.name, "-");
         continue;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/progress.h"
 #include "solver/problem/residual.h"
 
 namespace stiction {
@@ -114,6 +115,7 @@ std::unique_ptr<Contender> BestSetting(const PeerRow& row, const std::vector<Pee
   std::unique_ptr<Contender> best;
   Score best_score;
   cell.installed = false;
+  progress::Done();
   for (const Setting& setting : row.settings) {
     auto contender = Loaded(setting, problems);
     if (contender == nullptr) continue;

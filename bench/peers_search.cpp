@@ -14,6 +14,7 @@
 
 #include "bench/measure.h"
 #include "bench/peers_suite.h"
+#include "bench/progress.h"
 #include "corpus/input_error.h"
 #include "corpus/stopwatch.h"
 #include "search/batch/batch.h"
@@ -142,6 +143,7 @@ Json Row(const char* name, SiconosMethod method, int contacts, const PeersOption
   if (contender == nullptr) return {{"contacts", contacts}, {"peer", name}};
   contender->Load(problems);
   const int wrong = CountWrong(problems, *contender);  // and warms up
+  progress::Done();
   UnitRunner runner(campaign);
   const auto solver = MakeSolver(contacts, problems);
   runner.Run(0);
@@ -156,6 +158,7 @@ Json Row(const char* name, SiconosMethod method, int contacts, const PeersOption
     ours.push_back(kProblems / mine);
     theirs.push_back(kProblems / other);
     ratios.push_back(other / mine);
+    progress::Done();
   }
   return {{"contacts", contacts},
           {"peer", name},
@@ -171,6 +174,8 @@ Json Row(const char* name, SiconosMethod method, int contacts, const PeersOption
 
 Json MeasureSearch(const PeersOptions& o) {
   Json rows = Json::array();
+  progress::Begin("beside Lemke",
+                  2 * (o.contacts.empty() ? 3 : static_cast<int>(o.contacts.size())) * (kRuns + 1));
   for (const int contacts : o.contacts.empty() ? std::vector<int>{2, 3, 5} : o.contacts) {
     rows.push_back(Row("Siconos Lemke, LCP", SiconosMethod::kPlanarLcp, contacts, o));
     rows.push_back(Row("Siconos Lemke, fc2d", SiconosMethod::kFriction2dLemke, contacts, o));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "bench/peers_measure.h"
+#include "bench/progress.h"
 #include "bench/structure.h"
 
 namespace stiction {
@@ -79,6 +80,7 @@ Json MeasureFamily(const StructuredFamily& family, const PeersOptions& o) {
                      {"rank", RankOf(first)},
                      {"problems", problems.size()}};
   json.update(size);
+  progress::Clear();
   if (!o.json) PrintBlock(family, size, rows, cells);
   json["methods"] = Json::array();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -95,12 +97,16 @@ Json MeasureFamily(const StructuredFamily& family, const PeersOptions& o) {
 }  // namespace
 
 Json MeasureStructure(const PeersOptions& o) {
+  std::vector<StructuredFamily> asked = StructuredFamilies(o.scenes);
+  std::erase_if(asked, [&o](const StructuredFamily& family) {
+    return !o.families.empty() &&
+           std::find(o.families.begin(), o.families.end(), family.name) == o.families.end();
+  });
+  std::size_t rows = 0;
+  for (const StructuredFamily& family : asked) rows += RowsOf(family).size();
+  progress::Begin("structure", static_cast<std::int64_t>(rows));
   Json families = Json::array();
-  for (const StructuredFamily& family : StructuredFamilies(o.scenes)) {
-    const bool wanted =
-        o.families.empty() || std::find(o.families.begin(), o.families.end(), family.name) != o.families.end();
-    if (wanted) families.push_back(MeasureFamily(family, o));
-  }
+  for (const StructuredFamily& family : asked) families.push_back(MeasureFamily(family, o));
   return {{"name", "structure"}, {"families", families}};
 }
 

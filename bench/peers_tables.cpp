@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "bench/peers_measure.h"
+#include "bench/progress.h"
 #include "search/choices.h"
 #include "solver/problem/check.h"
 
@@ -123,7 +124,9 @@ Json AheadJson(const Table& table, const std::vector<int>& sizes, const Columns&
 Json MeasureAll(const Table& table, const PeersOptions& o) {
   const std::vector<int>& sizes = o.contacts.empty() ? table.sizes : o.contacts;
   Columns columns;
+  progress::Begin(table.name, static_cast<std::int64_t>(sizes.size() * table.rows.size()));
   for (const int size : sizes) columns.push_back(MeasureRows(table.rows, ProblemsOf(table, size, o), o));
+  progress::Clear();
   if (!o.json) PrintTable(table, sizes, columns);
   return {{"name", table.name},
           {"title", table.title},

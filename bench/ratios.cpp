@@ -13,6 +13,7 @@
 
 #include "bench/family.h"
 #include "bench/measure.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/agreement.h"
@@ -84,6 +85,7 @@ template <template <class> class Method>
 class Rival {
  public:
   Costs Run(const BenchProblem& problem) {
+    progress::Done();
     Costs costs;
     costs.nondegenerate = MeetsNoTie(problem.exact, exact_);
     costs.in_double = LeastSeconds([&] { double_.Run(problem.rounded); });
@@ -148,6 +150,8 @@ Json Line(const std::string& method, int contacts, const std::string& family, co
 
 template <template <class> class Method>
 void AddLines(const std::string& method, int contacts, const BenchOptions& o, Json& rows) {
+  progress::Begin(fmt::format("{}, {} contacts", method, contacts),
+                  static_cast<std::int64_t>(1 + kFamilies.size()) * o.problems.value_or(200));
   Rival<Method> rival;
   std::vector<Costs> together;
   Json by_family = Json::array();
@@ -167,6 +171,7 @@ void AddLines(const std::string& method, int contacts, const BenchOptions& o, Js
 
 // Problems a second of processor time, by pairs of units: staged, and every suspicion over rationals.
 Json SearchLine(GeneratorId generator, int contacts, const BenchOptions& o) {
+  progress::Begin(fmt::format("searches, {}, {} contacts", Row(generator).name, contacts), o.repeat + 1);
   Campaign campaign;
   campaign.seed = o.seed;
   campaign.generators = {generator};
@@ -185,6 +190,7 @@ Json SearchLine(GeneratorId generator, int contacts, const BenchOptions& o) {
     const Stopwatch one;
     staged.Run(run);
     const double seconds = one.Seconds();
+    progress::Done();
     const Stopwatch other;
     before.Run(run);
     if (run == 0) continue;
@@ -204,6 +210,7 @@ int BenchRatios(const BenchOptions& o) {
   BenchTable outcomes{"certified", "Certified outcomes, times of doubles: median (least - most)",
                       Json::array()};
   BenchTable searches{"searches", "Searches, processor time: median (least - most)", Json::array()};
+  progress::Expect(4 * sizes.size());
   for (const int contacts : sizes) {
     AddLines<Complete>("complete", contacts, o, outcomes.rows);
     AddLines<Published>("baraff", contacts, o, outcomes.rows);
@@ -211,6 +218,7 @@ int BenchRatios(const BenchOptions& o) {
   for (const GeneratorId generator : {GeneratorId::kConditioned, GeneratorId::kNearDegenerate}) {
     for (const int contacts : sizes) searches.rows.push_back(SearchLine(generator, contacts, o));
   }
+  progress::Clear();
   if (o.json) {
     std::cout << JsonText({{"certified", outcomes.rows}, {"searches", searches.rows}}) << "\n";
   } else {

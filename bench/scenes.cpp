@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/measure.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "corpus/scene_file.h"
 #include "corpus/stopwatch.h"
@@ -69,6 +70,7 @@ Pair MeasureScene(const SceneFileIn<Kind>& file, const std::array<Way, 2>& ways,
   for (int run = 0; run < repeat; ++run) {
     RunOnce(file, ways[0], pair.first);
     RunOnce(file, ways[1], pair.second);
+    progress::Done();
   }
   if (!pair.failure().empty()) return pair;
   std::vector<double> ratios;
@@ -123,10 +125,13 @@ int BenchScenes(const BenchOptions& o) {
     ways = {Way{fmt::format("{} threads", o.threads), true, o.threads}, Way{"1 thread", true, 1}};
   Json rows = Json::array();
   if (!o.json) PrintHead(ways);
+  progress::Expect(files.size());
   for (const auto& path : files) {
     const auto file = ReadAnyScene(path);
     const auto name = std::visit([](const auto& of) { return of.scene.name; }, file);
+    progress::Begin(name, o.repeat);
     const Pair pair = std::visit([&](const auto& of) { return MeasureScene(of, ways, o.repeat); }, file);
+    progress::Clear();
     rows.push_back({{"scene", name},
                     {ways[0].name, ToJson(pair.first)},
                     {ways[1].name, ToJson(pair.second)},

@@ -20,6 +20,7 @@
 #include "bench/counted.h"
 #include "bench/measure.h"
 #include "bench/peak.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
@@ -43,6 +44,7 @@ Json ToJson(const Spread& s) { return {s.least, s.median, s.most}; }
 // ---- Rates -----------------------------------------------------------------------------------
 
 Spread SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, const BenchOptions& o) {
+  progress::Begin(fmt::format("{}, {} contacts, {}", Row(generator).name, contacts, Name(lanes)), o.repeat + 1);
   Campaign campaign;
   campaign.seed = o.seed;
   campaign.generators = {generator};
@@ -57,6 +59,7 @@ Spread SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, con
     runner.Run(run);
     const double seconds = OwnSeconds() - start;
     if (run > 0) rates.push_back(static_cast<double>(problems) / seconds);  // the first run warms up
+    progress::Done();
   }
   return SpreadOf(rates);
 }
@@ -108,6 +111,7 @@ struct MixRun {
 // One round of the schedule, whose units the threads share.
 MixRun RunMix(const Campaign& campaign, int threads) {
   const auto units = static_cast<std::int64_t>(Schedule(campaign).size());
+  progress::Begin(fmt::format("a round of units, threads: {}", threads), units);
   std::atomic<std::int64_t> next = 0;
   std::vector<MixRun> parts(static_cast<std::size_t>(threads));
   const auto work = [&](MixRun& part) {
@@ -116,6 +120,7 @@ MixRun RunMix(const Campaign& campaign, int threads) {
     for (std::int64_t unit = next++; unit < units; unit = next++) {
       const UnitResult result = runner.Run(unit);
       part.problems += result.problems;
+      progress::Done();
       auto of_unit = PartsOf(result.time);
       auto value = of_unit.begin();
       ForEachPart(part.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
@@ -246,9 +251,14 @@ BenchTable AskLemke(const BenchOptions& o) {
 }  // namespace
 
 int BenchSearch(const BenchOptions& o) {
+  progress::Expect((o.generator ? 1 : Generators().size()) * (o.contacts.empty() ? 3 : o.contacts.size()) +
+                   (o.generator ? 1 : kOrdinaryGeneratorCount) * InstructionSets().size() +
+                   (o.generator ? 0 : 4));
   std::vector<BenchTable> tables = {MeasureRates(o)};
+  progress::Clear();
   if (!o.json) Print(tables.back());
   const auto take = [&](BenchTable table) {
+    progress::Clear();
     if (!o.json) Print(table);
     std::fflush(stdout);
     tables.push_back(std::move(table));

@@ -14,6 +14,7 @@
 #include <map>
 #include <thread>
 
+#include "bench/progress.h"
 #include "bench/rungs.h"
 #include "bench/sources.h"
 #include "bench/suite.h"
@@ -79,6 +80,7 @@ SilentCounts CountRounds(const std::vector<Source>& sources, const RowsByMethod&
       if (round % every != 0 || place >= problems) continue;
       const std::size_t turn = static_cast<std::size_t>(round / every) % methods.size();
       counts.Add(source, place++, round, seed, methods[turn]);
+      progress::Done();
     }
   }
 }
@@ -88,6 +90,8 @@ SilentCounts CountSilent(const std::vector<Source>& sources, std::int64_t proble
   const RowsByMethod methods = AllRows();
   std::vector<SilentCounts> parts(threads);
   std::atomic<std::int64_t> next{0};
+  progress::Expect(1);
+  progress::Begin("problems", problems);
   {
     std::vector<std::jthread> running;
     for (SilentCounts& part : parts)
@@ -106,6 +110,7 @@ int BenchSilent(const BenchOptions& o) {
   }
   const std::int64_t problems = o.problems.value_or(20000);
   SilentCounts counts = CountSilent(sources, problems, o.seed, o.threads);
+  progress::Clear();
   BenchTable table{"silent",
                    fmt::format("{} problems, seed {}, of {} sources", problems, o.seed, sources.size()),
                    Json::array()};

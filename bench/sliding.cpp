@@ -11,6 +11,7 @@
 
 #include <iostream>
 
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/exact.h"
@@ -66,6 +67,7 @@ Count CountFamily(const Family& family, std::uint64_t seed, std::int64_t problem
     const Outcome outcome = algorithm.Run(reduction.problem()).outcome;
     ++count.outcomes[static_cast<int>(outcome)];
     if (outcome == Outcome::kCycle) CountCycle(MakeProblem<Rational>(family, seed, index), count);
+    progress::Done();
   }
   return count;
 }
@@ -88,16 +90,19 @@ int BenchSliding(const BenchOptions& options) {
   const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{1, 2, 3} : options.contacts;
   std::vector<GeneratorId> generators = {GeneratorId::kIntegers, GeneratorId::kSmall};
   if (options.generator) generators = {*options.generator};
+  progress::Expect(generators.size() * sizes.size());
   BenchTable table{"sliding",
                    "section 6: outcomes over doubles where contacts slide; of cycles, what is exact"};
   for (const GeneratorId generator : generators) {
     for (const int contacts : sizes) {
+      progress::Begin(fmt::format("{}, {} contacts", Row(generator).name, contacts), contacts * problems);
       for (int sliding = 1; sliding <= contacts; ++sliding) {
         const Family family = {generator, contacts, sliding};
         table.rows.push_back(RowOf(family, CountFamily(family, options.seed, problems)));
       }
     }
   }
+  progress::Clear();
   if (options.json) {
     std::cout << JsonText({{"suite", "sliding"},
                            {"seed", options.seed},

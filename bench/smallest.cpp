@@ -14,6 +14,7 @@
 
 #include <iostream>
 
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/exact.h"
@@ -72,6 +73,8 @@ class Smallest {
 
   void Run() {
     const int k = largest_;
+    progress::Begin(fmt::format("matrices of integers of at most {}", k),
+                    static_cast<std::int64_t>(std::pow(k, 4) * std::pow(k + 1, 2) * std::pow(2 * k + 1, 4)));
     ForEachVector<4>({1, 1, 1, 1}, {k, k, k, k}, [this, k](const auto& diagonal) {
       ForEachVector<6>({0, 0, -k, -k, -k, -k}, {k, k, k, k, k, k},
                        [this, &diagonal](const auto& beside) { TryMatrix(diagonal, beside); });
@@ -83,6 +86,7 @@ class Smallest {
 
  private:
   void TryMatrix(const std::array<int, 4>& diagonal, const std::array<int, 6>& beside) {
+    progress::Done();
     const auto [n1f1, n2f2, n1n2, n1f2, f1n2, f1f2] = beside;
     const Matrix m = {{{diagonal[0], n1f1, n1n2, n1f2},
                        {n1f1, diagonal[1], f1n2, f1f2},
@@ -181,6 +185,7 @@ int BenchSmallest(const BenchOptions& options) {
   BenchTable table{"smallest",
                    "loops of two contacts, mu = 1, A definite, among all with integers of at most K"};
   Json problems = Json::array();
+  progress::Expect(static_cast<std::size_t>(options.entries));
   for (int largest = 1; largest <= options.entries; ++largest) {
     Smallest all(largest, options.exact);
     all.Run();
@@ -196,6 +201,7 @@ int BenchSmallest(const BenchOptions& options) {
                         {"smallest", FileOf(all.smallest, "smallest-loop")},
                         {"under every policy", FileOf(all.smallest_whole, "smallest-loop-every-policy")}});
   }
+  progress::Clear();
   if (options.json)
     std::cout << JsonText({{"suite", "smallest"}, {"rows", table.rows}, {"problems", problems}}) << "\n";
   else

@@ -24,6 +24,7 @@
 #include <iostream>
 
 #include "bench/measure.h"
+#include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/published_space.h"
@@ -248,12 +249,15 @@ int BenchSpace(const BenchOptions& options) {
   BenchTable by_friction{"friction", "the same by friction coefficient, all sizes"};
   std::array<std::array<Count, kFrictions.size()>, kReadings.size()> of_friction;
   std::int64_t bad = 0;
+  progress::Expect(kFamilies.size() * sizes.size());
   for (const Family& family : kFamilies) {
     for (const int contacts : sizes) {
       if (contacts < family.least_contacts) continue;
+      progress::Begin(fmt::format("{}, {} contacts", family.name, contacts), problems);
       std::array<Count, kReadings.size()> of_size;
       for (std::int64_t index = 0; index < problems; ++index) {
         const ExactProblem problem = MakeProblem(family.columns(contacts), contacts, options.seed, index);
+        progress::Done();
         for (std::size_t r = 0; r < kReadings.size(); ++r) {
           const Count count = CountProblem(problem, kReadings[r]);
           Add(count, of_size[r]);
@@ -265,7 +269,6 @@ int BenchSpace(const BenchOptions& options) {
         by_size.rows.push_back(RowOf(
             {{"family", family.name}, {"contacts", contacts}, {"policy", NameOf(kReadings[r])}}, of_size[r]));
       }
-      fmt::print(stderr, "{}, {} contacts: {} problems\n", family.name, contacts, problems);
     }
   }
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
@@ -274,6 +277,7 @@ int BenchSpace(const BenchOptions& options) {
           RowOf({{"policy", NameOf(kReadings[r])}, {"mu", NameOf(kFrictions[m])}}, of_friction[r][m]));
     }
   }
+  progress::Clear();
   if (options.json) {
     std::cout << JsonText({{"suite", "space"},
                            {"seed", options.seed},

@@ -23,6 +23,7 @@ class Background(cli.TestCase):
         """A process in the background, with the disposition of signals that a shell would give it."""
         streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams}
         process = subprocess.Popen([cli.program, *map(str, arguments)], stdin=subprocess.DEVNULL, **streams)
+        self.addCleanup(lambda: [stream.close() for stream in (process.stdout, process.stderr) if stream])
         self.addCleanup(lambda: (process.kill(), process.wait()))
         return process
 
@@ -198,6 +199,66 @@ class Simulations(Background):
         self.assertEqual(done.code, 0)
         self.assertRegex(shown, r"\r\x1b\[KInterrupted at t = ")
         self.assertPlain(done)
+
+
+class Reports(Background):
+    def setUp(self):
+        super().setUp()
+        self.store = self.folder / "a.store"
+        self.succeeds("search", *SMALL, "--problems", 4000, "--finishing", 0, "--store", self.store)
+
+    def shown(self, *arguments):
+        mine, its = self.open_terminal()
+        report = self.launch("report", self.store, *arguments, stderr=its)
+        os.close(its)
+        shown = self.read_terminal(mine)
+        os.close(mine)
+        done = self.finish(report)
+        self.assertEqual(done.code, 0)
+        self.assertPlain(done)
+        return shown
+
+    def test_a_terminal_shows_what_is_read_and_written(self):
+        for arguments in (["-o", self.folder / "report"], ["--package", self.folder / "package"]):
+            shown = self.shown(*arguments)
+            self.assertRegex(shown, r"\r\x1b\[K\[#*\.*\] \d+ of \d+ findings read\r")
+            self.assertTrue(shown.endswith("\r\x1b[K"))  # it leaves a clean line
+
+    def test_a_log_has_nothing_of_what_takes_no_time(self):
+        done = self.succeeds("report", self.store, "-o", self.folder / "report")
+        self.assertEqual(done.err, "")
+
+
+class Benches(Background):
+    def test_a_terminal_shows_a_bar_of_every_suite(self):
+        """The suite's parts, and the steps of the one at hand."""
+        words = next(verb["words"] for verb in self.succeeds("manual", "--json").json() if verb["verb"] == "bench")
+        suites = [choice["name"] for choice in words[0]["choices"]]
+        self.assertGreater(len(suites), 15)
+        few = ("smallest", "sliding", "structure", "methods")  # one of each kind, of a program or another
+        for suite in few if cli.SHORT else suites:
+            with self.subTest(suite=suite):
+                mine, its = self.open_terminal()
+                bench = self.launch("bench", "--suite", suite, "--entries", 4, "--scenes", cli.ROOT / "corpus/scenes",
+                                    stdout=subprocess.DEVNULL, stderr=its)
+                os.close(its)
+                shown = self.read_terminal(mine, until=b" of ")
+                self.assertRegex(shown, r"^\r\x1b\[K\[#*\.*\] \d+ of ")
+                os.close(mine)
+                bench.kill()
+                bench.wait()
+
+    def test_a_log_has_a_line_after_ten_seconds(self):
+        start = time.monotonic()
+        bench = self.launch("bench", "--suite", "sliding", "--contacts", 1, "--problems", 10**9)
+        line = bench.stderr.readline().decode()
+        self.assertGreaterEqual(time.monotonic() - start, 10)
+        self.assertRegex(line, r"^\d\d s, \d+ %: 1 of 2, integers, 1 contacts: [\d,]+ of 1,000,000,000\n$")
+
+    def test_a_log_has_nothing_of_what_takes_no_time(self):
+        for suite in ("space", "methods"):
+            done = self.succeeds("bench", "--suite", suite, "--contacts", 2, "--problems", 2)
+            self.assertEqual(done.err, "")
 
 
 if __name__ == "__main__":

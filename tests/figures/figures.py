@@ -21,7 +21,7 @@ Counts of what searches find depend on `algorithm`, the version that search/algo
 traces guard, and on the few files that count; so work that leaves all runs as they are makes no count stale. Timings
 depend on the same: a table of times is refused when the algorithm is another one or the benchmark measures otherwise,
 and not for every commit that makes something faster; it carries its date, machine and commit. Comments and layout of
-C++ sources are no part of a digest.
+C++ sources are no part of a digest, nor is what tells on standard error how far a suite is (bench/progress.h).
 
 A costly block that was withdrawn says so instead of its numbers; check counts it and refuses nothing.
 
@@ -48,6 +48,7 @@ NOUN = "(?:problems|policies|readings|runs|loops|cycles|certificates|scenes|solv
 FIGURE = re.compile(rf"\b\d{{1,3}}(?:,\d{{3}})+\b|\b\d+(?:\.\d+)? ?{UNIT}(?!\w)|\b\d[\d,]* {NOUN}\b|"
                     r"\b\d+ of \d[\d,]*\b")
 WITHDRAWN = "Not measured for this code yet: `tests/figures/figures.py refresh {}` does it."
+UNSAID = re.compile(r'^\s*//.*$|^#include "bench/progress\.h"$|^\s*(?:progress::\w+\(|fmt::print\(stderr,)[^;]*\);$', re.M)
 CODE = {".h", ".cpp", ".ipp", ".py"}
 
 
@@ -60,11 +61,11 @@ def algorithm_version():
 
 
 def significant(file):
-    """Without comments and layout, where that is safe to say: C++."""
+    """Without comments, layout and what tells how far a suite is, where that is safe to say: C++."""
     text = file.read_text()
     if file.suffix not in (".h", ".cpp", ".ipp"):
         return text
-    return " ".join(re.sub(r"^\s*//.*$", "", text, flags=re.M).split())
+    return " ".join(UNSAID.sub("", text).split())
 
 
 def files_of(source):

@@ -68,6 +68,19 @@ class Blocks(unittest.TestCase):
             self.assertEqual(figures.commit(str(version)), "0123456")
             self.assertFalse(figures.built_of_these_sources(COSTLY, str(version)))
 
+    def test_what_tells_how_far_a_suite_is_is_no_part_of_a_digest(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "suite.cpp"
+            file.write_text('#include "bench/suite.h"\n\nint Run() {\n  return Count(7);\n}\n')
+            plain = figures.significant(file)
+            file.write_text('#include "bench/progress.h"\n#include "bench/suite.h"\n\nint Run() {\n'
+                            '  progress::Begin(fmt::format("{} contacts", 7),\n                  7 * problems);\n'
+                            '  fmt::print(stderr, "{} problems\\n", problems);\n  return Count(7);\n}\n')
+            self.assertEqual(figures.significant(file), plain)
+            for line in ("  Done(1);", "  const auto count = progress::Done();", '  fmt::print("a row");'):
+                file.write_text(f'#include "bench/suite.h"\n\nint Run() {{\n{line}\n  return Count(7);\n}}\n')
+                self.assertNotEqual(figures.significant(file), plain)
+
     def test_comments_and_layout_are_no_part_of_a_digest_and_the_version_is(self):
         def digest(text):
             (figures.ROOT / "search/algorithm_version.h").write_text(text)
