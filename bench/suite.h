@@ -1,18 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suites of stiction-bench: each measures, prints, and returns an exit code.
+// Suites of stiction-bench: what each is, in a table; each measures, prints, and returns an exit code.
 
 #ifndef STICTION_BENCH_SUITE_H_
 #define STICTION_BENCH_SUITE_H_
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corpus/json_text.h"
 #include "search/generators.h"
 
 namespace stiction {
+
+enum class SuiteId {
+  kAdversary,
+  kPatches,
+  kSearch,
+  kTrade,
+  kExtremes,
+  kSilent,
+  kRatios,
+  kMethods,
+  kFrictionless,
+  kPeers,
+  kRandom,
+  kStructure,
+  kPeersExtremes,
+  kGrowth,
+  kLinearAlgebra,
+  kSpace,
+  kSliding,
+  kSmallest,
+  kScenes,
+};
+
+struct Suite {
+  SuiteId id;
+  std::string_view name, help;
+  int most_contacts;  // that --contacts may ask for
+};
+
+inline constexpr int kMostOfMethods = 30;  // 4^n - 1 pieces are counted in 64 bits
+inline constexpr int kMostOfAnySuite = 2000;
+
+inline constexpr std::array kSuites = {
+    Suite{SuiteId::kAdversary, "adversary", "the optimizers of a search beside random problems, by objective",
+          kMaxContacts},
+    Suite{SuiteId::kPatches, "patches",
+          "ways to change the published algorithm, and how often each still fails", kMaxContacts},
+    Suite{SuiteId::kSearch, "search",
+          "problems a second of a search, the split of its time, threads, a roofline, Siconos's Lemke",
+          kMaxContacts},
+    Suite{SuiteId::kTrade, "trade",
+          "speed against accuracy: every method over every arithmetic, on the generators", kMaxContacts},
+    Suite{SuiteId::kExtremes, "extremes",
+          "the same along dials: masses, levers, units, conditioning, friction, ...", kMaxContacts},
+    Suite{SuiteId::kSilent, "silent", "wrong answers that say nothing of it, counted over generators and dials",
+          kMaxContacts},
+    Suite{SuiteId::kRatios, "ratios", "certified outcomes beside doubles, staged searches beside exact ones",
+          kMaxContacts},
+    Suite{SuiteId::kMethods, "methods", "the methods side by side: counts, outcomes, times", kMostOfMethods},
+    Suite{SuiteId::kFrictionless, "frictionless",
+          "section 4 beside elimination and quadratic programs, to 150 contacts", kMostOfAnySuite},
+    Suite{SuiteId::kPeers, "peers", "stiction beside other packages, by the program stiction-peers",
+          kMostOfAnySuite},
+    Suite{SuiteId::kRandom, "random", "of it, random problems by the number of contacts", kMostOfAnySuite},
+    Suite{SuiteId::kStructure, "structure", "of it, stacks, walls, scenes, nearly dependent rows",
+          kMostOfAnySuite},
+    Suite{SuiteId::kPeersExtremes, "peers-extremes", "of it, the dials of extremes, judged over rationals",
+          kMostOfAnySuite},
+    Suite{SuiteId::kGrowth, "growth", "of it, time and memory at up to 2000 contacts", kMostOfAnySuite},
+    Suite{SuiteId::kLinearAlgebra, "linear-algebra", "ways to solve a linear system exactly, side by side",
+          kMaxContacts},
+    Suite{SuiteId::kSpace, "space", "readings of section 5.6 in space: counts and outcomes", 12},
+    Suite{SuiteId::kSliding, "sliding", "section 6, contacts that slide: counts and outcomes", kMaxContacts},
+    Suite{SuiteId::kSmallest, "smallest", "loops of two contacts with small integers, A definite, mu = 1",
+          kMaxContacts},
+    Suite{SuiteId::kScenes, "scenes",
+          "frames a second of the scenes of a folder, minimal and full models, or one thread and more",
+          kMaxContacts},
+};
 
 struct BenchOptions {
   std::string suite = "search";

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "cli/bench_words.h"
 #include "cli/verbs.h"
 #include "corpus/input_error.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 struct BenchCommand {
   std::vector<std::string> words;
+  BenchWords meant;  // by them; the program reads them itself
 };
 
 int BecomeBench(const BenchCommand& o) {
@@ -33,9 +35,10 @@ int BecomeBench(const BenchCommand& o) {
 }  // namespace
 
 void AddBench(CommandLine& program) {
-  auto [verb, o] = program.Add("bench", "Benchmark tables", BecomeBench);
-  verb.footer = "Its words are read by the program stiction-bench: `stiction bench --help` has them.";
+  auto [verb, o] = program.Add("bench", kBenchPurpose, BecomeBench);
+  verb.footer = "Its words are read by the program stiction-bench, which stands beside this one.";
   verb.rest = &o.words;
+  AddBenchWords(verb, o.meant);
 }
 
 }  // namespace stiction

@@ -12,6 +12,12 @@
 
 namespace stiction {
 
+// What the exit codes mean.
+inline constexpr const char* kExitCodes =
+    "Exit: 0 done; 1 not solved, rejected, or not as expected; 2 bad usage or input; 3 undecided or a limit; "
+    "4 a search or merge holds a grave finding; 70 a bug; 74 the disk is full, or the output cannot be "
+    "written.";
+
 std::string HelpOf(const CommandLine& program);
 std::string HelpOf(const Verb& verb);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
@@ -120,21 +121,26 @@ struct ManualOptions {
   bool json = false;
 };
 
+std::string TextIn(const std::string& format, const CommandLine& program) {
+  if (format == "bash") return BashCompletion(program);
+  return format == "man" ? ManPage(program) : ManPageOfBench(program);
+}
+
 int Write(const ManualOptions& o) {
-  if (o.json) {
-    std::cout << JsonText(TablesInJson(*o.program)) << "\n";
-  } else {
-    std::cout << (o.format == "man" ? ManPage(*o.program) : BashCompletion(*o.program));
-  }
+  std::cout << (o.json ? JsonText(TablesInJson(*o.program)) + "\n" : TextIn(o.format, *o.program));
   return kExitDone;
+}
+
+// "stiction 0.1.0" of "stiction 0.1.0 COMMIT, ..."
+std::string NameAndNumber(const std::string& version) {
+  return version.substr(0, version.find(' ', version.find(' ') + 1));
 }
 
 }  // namespace
 
 std::string ManPage(const CommandLine& program) {
-  const std::string version =
-      program.version.substr(0, program.version.find(' ', program.version.find(' ') + 1));
-  std::string text = fmt::format(".TH STICTION 1 \"\" \"{}\" \"User commands\"\n", Escaped(version));
+  std::string text =
+      fmt::format(".TH STICTION 1 \"\" \"{}\" \"User commands\"\n", Escaped(NameAndNumber(program.version)));
   text +=
       Section("NAME") + "stiction \\- " + Escaped(program.purpose.substr(program.purpose.find(' ') + 1)) + "\n";
   text += Section("SYNOPSIS") + ".B stiction\n.I VERB\n[\n.I OPTIONS\n]\n";
@@ -157,7 +163,26 @@ std::string ManPage(const CommandLine& program) {
            {"stiction report stiction.store -o report", "what it found, as a page"},
            {"stiction replay report/findings/NAME.json --step", "a loop, step by step"}})
     text += Paragraph(command, says);
-  return text;
+  return text + Section("SEE ALSO") + ".BR stiction\\-bench (1),\n.BR stiction\\-ipopt (1)\n";
+}
+
+std::string ManPageOfBench(const CommandLine& program) {
+  const auto is_bench = [](const Verb& each) { return each.name == "bench"; };
+  const Verb& verb = *std::find_if(program.verbs.begin(), program.verbs.end(), is_bench);
+  std::string text = fmt::format(".TH STICTION\\-BENCH 1 \"\" \"{}\" \"User commands\"\n",
+                                 Escaped(NameAndNumber(program.version)));
+  text += Section("NAME") + "stiction\\-bench \\- " + Escaped(verb.purpose) + "\n";
+  text +=
+      Section("SYNOPSIS") + ".B stiction\\-bench\n[\n.I OPTIONS\n]\n.br\n.B stiction bench\n[\n.I OPTIONS\n]\n";
+  text += Section("DESCRIPTION") + "Runs one suite, which measures and prints tables.\n.BR stiction (1)\n" +
+          Escaped(
+              "becomes it, as its verb bench. Where other packages are measured too, their program is "
+              "stiction-peers, which is built with the sources and not installed.") +
+          "\n";
+  text += Section("OPTIONS");
+  for (const OptionRow& row : verb.rows) text += RowInMan(row);
+  text += Section("EXIT STATUS") + Lines(program.footer);
+  return text + Section("SEE ALSO") + ".BR stiction (1)\n";
 }
 
 std::string BashCompletion(const CommandLine& program) {
@@ -209,7 +234,9 @@ void AddManual(CommandLine& program) {
   auto [verb, o] = program.Add("manual", "The manual page, and the completion of a shell", Write);
   o.program = &program;
   verb.Option("--format", o.format, "what to write")
-      .Choices({{"man", "a page for man, with all verbs and words"}, {"bash", "completion for bash"}});
+      .Choices({{"man", "a page for man, with all verbs and words"},
+                {"man-bench", "a page for man, of the program stiction-bench"},
+                {"bash", "completion for bash"}});
   verb.Flag("--json", o.json, "all verbs with their options, as a program reads them");
 }
 

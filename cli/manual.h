@@ -13,6 +13,8 @@ namespace stiction {
 
 // In the language of man(7), section 1.
 std::string ManPage(const CommandLine& program);
+// Of the program stiction-bench, which reads the words of the verb bench.
+std::string ManPageOfBench(const CommandLine& program);
 
 // A script for bash: verbs, their options, and the values of those that have a list; files elsewhere.
 std::string BashCompletion(const CommandLine& program);

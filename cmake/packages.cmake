@@ -14,17 +14,20 @@ endfunction()
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
 
-# The manual and the completion, written by the program itself.
+# The manuals and the completion, written by the program itself.
 set(manual ${PROJECT_BINARY_DIR}/packages/stiction.1)
+set(manual_of_bench ${PROJECT_BINARY_DIR}/packages/stiction-bench.1)
 set(completion ${PROJECT_BINARY_DIR}/packages/completion)
-add_custom_command(OUTPUT ${manual} ${manual}.gz ${completion}
+add_custom_command(OUTPUT ${manual} ${manual}.gz ${manual_of_bench} ${manual_of_bench}.gz ${completion}
   COMMAND stiction manual > ${manual}
   COMMAND gzip -9nc ${manual} > ${manual}.gz
+  COMMAND stiction manual --format man-bench > ${manual_of_bench}
+  COMMAND gzip -9nc ${manual_of_bench} > ${manual_of_bench}.gz
   COMMAND stiction manual --format bash > ${completion}
   DEPENDS stiction COMMENT "Writing the manual" VERBATIM)
-add_custom_target(stiction_manual ALL DEPENDS ${manual}.gz ${completion})
+add_custom_target(stiction_manual ALL DEPENDS ${manual}.gz ${manual_of_bench}.gz ${completion})
 
-install(FILES ${PROJECT_BINARY_DIR}/packages/stiction.1.gz ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1.gz
+install(FILES ${manual}.gz ${manual_of_bench}.gz ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1.gz
         DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stiction
         COMPONENT program)

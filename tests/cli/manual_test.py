@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import cli
 
@@ -24,8 +25,6 @@ class Manual(cli.TestCase):
 
     def test_help_says_every_row(self):
         for verb in self.verbs:
-            if verb["verb"] == "bench":
-                continue  # another program reads its words
             text = plain(self.succeeds(verb["verb"], "--help").out)
             self.assertIn(plain(verb["purpose"]), text)
             for row in verb["words"]:
@@ -36,7 +35,7 @@ class Manual(cli.TestCase):
 
     def test_the_program_reads_every_option(self):
         for verb in self.verbs:
-            for row in verb["words"] if verb["verb"] != "bench" else []:
+            for row in verb["words"]:
                 for name in row["names"] if row["kind"] != "positional" else []:
                     done = cli.run(verb["verb"], name, *(["x"] if row["kind"] == "option" else []), "--nonsense")
                     self.assertNotIn(f"found {name},", done.err)
@@ -59,6 +58,34 @@ class Manual(cli.TestCase):
         for section in ("NAME", "SYNOPSIS", "VERBS", "EXIT STATUS", "WORDS", "EXAMPLES"):
             self.assertIn(section, read)
 
+    def test_stiction_bench_has_a_page_of_its_own(self):
+        page = self.succeeds("manual", "--format", "man-bench").out
+        source = page.replace("\\-", "-").replace("\\&", "").replace("\\e", "\\")
+        verb = next(verb for verb in self.verbs if verb["verb"] == "bench")
+        self.assertIn("--suite", [name for row in verb["words"] for name in row["names"]])
+        for row in verb["words"]:
+            self.assertIn(f".B {', '.join(row['names'])}", source)
+            self.assertIn(row["help"], source)
+            for choice in row["choices"]:
+                self.assertIn(choice["name"], source)
+        done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        read = plain(re.sub(r"\x1b\[[0-9;]*m|.\x08", "", done.stdout))
+        for part in ("stiction-bench - ", "SYNOPSIS", "OPTIONS", "EXIT STATUS", "74 the disk is full"):
+            self.assertIn(part, read)
+
+    def test_the_pages_of_all_programs_are_installed(self):
+        """What the program writes of itself is written, and installed, by the build."""
+        packages = (cli.ROOT / "cmake/packages.cmake").read_text()
+        installed = re.search(r"install\(FILES ([^)]*)\s+DESTINATION \$\{CMAKE_INSTALL_MANDIR\}", packages)[1]
+        pages = {variable: Path(page).name
+                 for variable, page in re.findall(r"set\((\w+) \$\{PROJECT_BINARY_DIR\}/packages/(\S+\.1)\)", packages)}
+        for variable, page in pages.items():
+            self.assertIn(f"${{{variable}}}.gz", installed)
+            self.assertRegex(packages, rf"COMMAND stiction manual[a-z -]* > \$\{{{variable}\}}")
+        self.assertEqual(set(pages.values()), {"stiction.1", "stiction-bench.1"})
+        self.assertIn("stiction-ipopt.1.gz", installed)
+
     def completed(self, *words):
         """What bash offers for the last of the words."""
         script = self.folder / "completion"
@@ -80,6 +107,7 @@ class Manual(cli.TestCase):
                 if row["kind"] == "option" and row["choices"]:
                     values = [choice["name"] for choice in row["choices"]]
                     self.assertEqual(self.completed(verb["verb"], row["names"][-1], ""), values)
+        self.assertEqual(self.completed("bench", "--suite", "peers"), ["peers", "peers-extremes"])
         self.file("a-problem.json", cli.SOLVED)
         self.assertEqual(self.completed("solve", "a-pro"), ["a-problem.json"])
 

@@ -16,7 +16,7 @@ FOLDERS = {
     "search": ["certify", "corpus", "scene", "solver"],
     "answers": ["certify", "corpus", "scene", "solver"],
     "python": ["answers", "reports", "search", "certify", "corpus", "scene", "solver"],
-    "cli": ["answers", "reports", "search", "certify", "corpus", "scene", "solver"],
+    "cli": ["answers", "bench", "reports", "search", "certify", "corpus", "scene", "solver"],
     "bench": ["reports", "search", "certify", "corpus", "scene", "solver"],
 }
 ROOMS = {
@@ -59,6 +59,12 @@ class Structure(cli.TestCase):
             for name in names:
                 with self.subTest(file=path, includes=name):
                     self.assertIn(name.split("/")[0], [folder, *FOLDERS[folder]])
+
+    def test_the_command_line_has_of_bench_the_table_of_suites_alone(self):
+        """`stiction` explains the words of bench, and is linked with none of it; its program may call all."""
+        for path, names in self.ours.items():
+            if path.startswith("cli/") and path != "cli/stiction_bench.cpp":
+                self.assertLessEqual({name for name in names if name.startswith("bench/")}, {"bench/suite.h"}, path)
 
     def test_rooms_of_the_solver_include_only_those_before_them(self):
         for path, names in self.ours.items():

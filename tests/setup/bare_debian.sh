@@ -74,7 +74,7 @@ readonly package_jobs=(
   'stiction solve /usr/share/stiction/corpus/two-contact-cycle.json --method ipopt | head -n 1'
   'stiction bench --suite smallest --entries 2 --json >/dev/null'
   'stiction records >/dev/null && test -e report/frontiers.csv'
-  'test -e /usr/share/man/man1/stiction.1.gz'
+  'test -e /usr/share/man/man1/stiction.1.gz && test -e /usr/share/man/man1/stiction-bench.1.gz'
   'apt-get install -qq -y --no-install-recommends ./libstiction-dev_*.deb g++ cmake ninja-build >/dev/null'
   'cmake -S consumer -B consumer/build -G Ninja >/dev/null && ninja -C consumer/build >/dev/null && consumer/build/consumer'
   'apt-get install -qq -y --no-install-recommends ./python3-stiction_*.deb >/dev/null'

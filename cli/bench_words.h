@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of `stiction bench`, as rows: what the program stiction-bench reads, and what the help, the man
+// pages and the completion say of it.
+
+#ifndef STICTION_CLI_BENCH_WORDS_H_
+#define STICTION_CLI_BENCH_WORDS_H_
+
+#include <cstdint>
+#include <string>
+
+#include "bench/suite.h"
+#include "cli/verb.h"
+
+namespace stiction {
+
+inline constexpr const char* kBenchPurpose = "Benchmark tables: timings, by hand and never as a test";
+
+struct BenchWords {
+  BenchOptions options;
+  std::string generator;  // empty: the suite's own
+  std::int64_t seed = 1;
+
+  // As the suites take them.
+  BenchOptions Options() const;
+};
+
+void AddBenchWords(Verb& verb, BenchWords& words);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_BENCH_WORDS_H_
