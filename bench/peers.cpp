@@ -118,7 +118,23 @@ void RequireScenes(const PeersOptions& o) {
   throw InputError(fmt::format("--scenes: found no folder {}, expected that of the corpus's scenes", o.scenes));
 }
 
+std::vector<std::string> FamilyNames() {
+  std::vector<std::string> names;
+  for (const StructuredFamily& family : StructuredFamilies({})) names.push_back(family.name);
+  return names;
+}
+
+void RequireFamilies(const PeersOptions& o) {
+  const std::vector<std::string> names = FamilyNames();
+  for (const std::string& family : o.families) {
+    if (std::find(names.begin(), names.end(), family) == names.end())
+      throw InputError(
+          fmt::format("--families: found '{}', expected some of {}", family, fmt::join(names, ", ")));
+  }
+}
+
 int RunPeers(const PeersOptions& o) {
+  RequireFamilies(o);
   if (std::find(o.tables.begin(), o.tables.end(), "structure") != o.tables.end()) RequireScenes(o);
   Json json = HeadJson(o);
   if (!o.json) PrintHead();
@@ -147,18 +163,11 @@ std::vector<std::string> AllTables() {
   return tables;
 }
 
-std::vector<std::string> FamilyNames() {
-  std::vector<std::string> names;
-  for (const StructuredFamily& family : StructuredFamilies({})) names.push_back(family.name);
-  return names;
-}
-
 void AddOptions(CLI::App& program, PeersOptions& o) {
   program.add_option("--table", o.tables, "tables to measure")
       ->capture_default_str()
       ->check(CLI::IsMember(AllTables()));
-  program.add_option("--family", o.families, "of the table `structure`, these alone")
-      ->check(CLI::IsMember(FamilyNames()));
+  program.add_option("--family", o.families, "of the table `structure`, these alone");
   program.add_option("--scenes", o.scenes, "folder of the corpus's scenes, for the table `structure`")
       ->capture_default_str();
   program.add_option("--contacts", o.contacts, "numbers of contacts, instead of each table's own")

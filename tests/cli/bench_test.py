@@ -323,7 +323,8 @@ class Peers(cli.TestCase):
         self.assertRegex(done.out, r"(?m)^  auto +\d+\.\d\d +\(.*100 % of 2$")
 
     def test_families_and_their_scenes_are_asked_for_by_name(self):
-        self.refuses("bench", "--suite", "structure", "--families", "tower", says=["tower", "wall-6x5"])
+        err = self.refuses("bench", "--suite", "structure", "--families", "tower", says=["found 'tower'", "wall-6x5"]).err
+        self.assertEqual(len(err.splitlines()), 1)
         self.refuses("bench", "--suite", "structure", "--scenes", self.folder / "none", says=["--scenes", "none"])
 
     def test_growth_takes_the_same_steps_updated_and_afresh(self):
