@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "answers/narrate_text.h"
+#include "answers/request.h"
 #include "certify/certificate.h"
 #include "certify/claims.h"
 #include "certify/condition.h"
@@ -23,16 +24,13 @@
 namespace stiction {
 namespace {
 
-struct CertifyOptions {
+struct CertifyOptions : WantedClaim {
   std::string file;
   std::string output;
-  std::string claim = "solution-exists";
-  std::string policy = "paper";
   bool all = false;
   bool safe = false;
   bool robust = false;
   bool json = false;
-  Limits limits;
 };
 
 // Of an enumeration, from when it begins to when the bar goes.
@@ -256,8 +254,7 @@ int RunCertify(const CertifyOptions& o) {
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
   ProgressBar bar;
-  const Json certificate =
-      CertifyClaim(file.problem, o.file, o.claim, {PoliciesNamed(o.policy), o.limits, Shown(bar)});
+  const Json certificate = CertificateOf(o, file.problem, o.file, Shown(bar));
   bar.Clear();
   const bool certified = !certificate.is_null();
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
@@ -279,15 +276,6 @@ struct CheckOptions {
   std::string problem;
   bool json = false;
 };
-
-CheckReport CheckFile(const std::string& file, const std::string& digest) {
-  const std::string text = ReadText(file);
-  if (text.size() > kMostBytesOfCertificate) {
-    throw InputError(file, "", fmt::format("{} bytes", text.size()),
-                     fmt::format("a certificate of at most {}", kMostBytesOfCertificate));
-  }
-  return CheckCertificate(ParseJson(text, file), file, digest);
-}
 
 std::string ValueText(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
@@ -320,7 +308,7 @@ int RunCheck(const CheckOptions& o) {
   Json reports = Json::array();
   for (const std::string& file : o.files) {
     try {
-      const CheckReport report = CheckFile(file, digest);
+      const CheckReport report = CheckText(ReadText(file), file, digest);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
       if (!o.json) fmt::print("{}: {}\n", file, ReportText(report));
       reports.push_back(ReportToJson(file, report));

@@ -9,12 +9,12 @@
 #include <set>
 #include <vector>
 
+#include "answers/all_policies.h"
 #include "answers/followed.h"
 #include "answers/narrate_text.h"
 #include "answers/problem_text.h"
+#include "answers/request.h"
 #include "answers/version.h"
-#include "certify/exact.h"
-#include "certify/published_space.h"
 #include "certify/solve.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
@@ -25,51 +25,24 @@
 #include "corpus/rounded.h"
 #include "reports/text/plain_text.h"
 #include "reports/viewer.h"
-#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
 
-struct ReplayOptions {
+struct ReplayOptions : Wanted {
+  ReplayOptions() { method = "baraff"; }
+
   std::string file;
-  std::string policy = "paper";
-  std::string method = "baraff";
-  std::string arithmetic;  // empty: exact where it is built, otherwise double
-  int sides = 8;
   bool all_policies = false;
   bool step = false;
   bool json = false;
   bool list = false;       // with all_policies: every policy
   bool fractions = false;  // for people, in full
   std::string record, html;
-  Limits limits;
 
-  PathOptions path() const { return {method, policy, limits}; }
+  PathOptions path() const { return {method, policy, options.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
-
-SolveRequest RequestOf(const ReplayOptions& o, const ProblemFile& file, const Policy& policy) {
-  SolveRequest request{.method = o.method, .trace = KeepTrace::kYes};
-  request.options.policy = policy;
-  request.options.limits = o.limits;
-  request.options.sides = o.sides;
-  const int dimension = file.problem.dimension;
-  const bool exact = o.arithmetic.empty() && Refusal(o.method, dimension, Arithmetic::kExact).empty();
-  request.arithmetic = exact                  ? Arithmetic::kExact
-                       : o.arithmetic.empty() ? Arithmetic::kDouble
-                                              : *FindArithmetic(o.arithmetic);
-  const std::string refusal = Refusal(o.method, dimension, request.arithmetic);
-  if (!refusal.empty()) throw InputError(o.file + ": " + refusal);
-  return request;
-}
-
-Solution SolveFile(const ReplayOptions& o, const ProblemFile& file, const SolveRequest& request) {
-  try {
-    return SolveIn(file.problem, request);
-  } catch (const InputError& error) {
-    throw InputError(o.file + ": " + error.what());
-  }
-}
 
 // ---- One policy ------------------------------------------------------------------------------
 
@@ -99,14 +72,6 @@ std::string ToldForPeople(const ReplayOptions& o, const ProblemFile& file, const
       solution.answer);
 }
 
-// What intervals say of a run in space that does not end solved over floating-point numbers.
-std::optional<Verdict> OverIntervals(const ReplayOptions& o, const ProblemFile& file, const Policy& policy,
-                                     Outcome outcome) {
-  const bool in_space = file.problem.dimension == 3 && o.method == "baraff" && PublishedReadsInSpace(policy);
-  if (!in_space || outcome == Outcome::kSolved) return std::nullopt;
-  return RunIntervalsInSpace(file.problem, {policy, {}, o.limits}).verdict;
-}
-
 // "over intervals, proved: cycle: ..."
 std::string OverIntervalsText(const Verdict& verdict) {
   const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
@@ -132,8 +97,8 @@ std::string CommandOf(const ReplayOptions& o) {
   add("policy", o.policy, usual.policy);
   add("method", o.method, usual.method);
   add("arithmetic", o.arithmetic, usual.arithmetic);
-  add("sides", o.sides, usual.sides);
-  Limits limits = o.limits, usual_limits;
+  add("sides", o.options.sides, usual.options.sides);
+  Limits limits = o.options.limits, usual_limits;
   ForEachField(limits, [&](const NumberRow& row, std::int64_t value) {
     ForEachField(usual_limits, [&](const NumberRow& other, std::int64_t as_usual) {
       if (std::string_view(row.name) == other.name) add(std::string(row.name), value, as_usual);
@@ -151,19 +116,22 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
   ReplayOptions beside = o;
   beside.method = "complete";
   beside.arithmetic = "";
-  if (o.method != beside.method)
-    runs.push_back(Followed(beside.path(), file, SolveFile(beside, file, RequestOf(beside, file, {}))));
+  beside.policy = Wanted().policy;
+  if (o.method != beside.method) {
+    const SolveRequest request = PathRequestOf(beside, file.problem, o.file);
+    runs.push_back(Followed(beside.path(), file, SolveAsked(file.problem, request, o.file)));
+  }
   WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs),
                                {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
 int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const ProblemFile& file = replay.file;
-  const Policy policy = ParsePolicy(o.policy);
-  const Solution solution = SolveFile(o, file, RequestOf(o, file, policy));
-  const std::string expected = o.method == "baraff" ? Expected(file, policy) : "";
+  const SolveRequest request = PathRequestOf(o, file.problem, o.file);
+  const Solution solution = SolveAsked(file.problem, request, o.file);
+  const std::string expected = o.method == "baraff" ? Expected(file, request.options.policy) : "";
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
-  const auto proved = OverIntervals(o, file, policy, solution.outcome());
+  const auto proved = OverIntervals(file.problem, request, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
   if (o.html == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
@@ -195,49 +163,6 @@ std::map<std::string, std::string> ExpectFrom(const Json& outcomes, const Json& 
     if (entry["outcome"] != most) expect[policy] = entry["outcome"].get<std::string>();
   }
   return expect;
-}
-
-// Outcomes by the names of the policies.
-using Outcomes = std::map<std::string, Json>;
-
-// The policies that are built for space: the planar grid with file=no and apex=kept, for each reading of
-// `slip`.
-std::vector<Policy> GridInSpace() {
-  std::vector<Policy> grid;
-  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
-    for (Policy policy : PlanarGrid()) {
-      policy.slip = slip;
-      if (PublishedReadsInSpace(policy)) grid.push_back(policy);
-    }
-  }
-  return grid;
-}
-
-// Without the reason, which is a run's own.
-template <class End>
-Json OutcomeToJson(const End& end) {
-  Json entry = EndToJson(end);
-  entry.erase("reason");
-  return entry;
-}
-
-Outcomes RunGrid(const ReplayOptions& o, const ExactProblem& problem) {
-  Outcomes outcomes;
-  for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), o.limits)) {
-    for (const Policy& policy : equal.policies) outcomes[PolicyName(policy)] = OutcomeToJson(equal.verdict);
-  }
-  return outcomes;
-}
-
-Outcomes RunGridInSpace(const ReplayOptions& o, const ProblemFile& file) {
-  Outcomes outcomes;
-  for (const Policy& policy : GridInSpace()) {
-    SolveRequest request = RequestOf(o, file, policy);
-    request.trace = KeepTrace::kNo;
-    outcomes[PolicyName(policy)] = std::visit([](const auto& answer) { return OutcomeToJson(answer); },
-                                              SolveFile(o, file, request).answer);
-  }
-  return outcomes;
 }
 
 // What the policies have in common on a switch that others of the grid have not: "file=yes", "scan=lowest or
@@ -278,10 +203,10 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
 }
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
-  const bool in_space = file.problem.dimension == 3;
-  const Outcomes by_name = in_space ? RunGridInSpace(o, file) : RunGrid(o, file.problem);
+  const auto by_name = OutcomesOf(o, file.problem, o.file);
+  const std::vector<Policy> grid = GridOf(file.problem.dimension);
   Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
-  for (const Policy& policy : in_space ? GridInSpace() : PlanarGrid()) {
+  for (const Policy& policy : grid) {
     const std::string name = PolicyName(policy);
     const std::string outcome = by_name.at(name)["outcome"].get<std::string>();
     outcomes[name] = by_name.at(name);
@@ -298,7 +223,7 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   if (o.json) {
     std::cout << JsonText({{"policies", outcomes}, {"counts", counts}, {"unexpected", unexpected}}) << "\n";
   } else {
-    PrintOutcomes(o, in_space ? GridInSpace() : PlanarGrid(), outcomes);
+    PrintOutcomes(o, grid, outcomes);
     if (!unexpected.empty())
       fmt::print("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
                  unexpected.size());
@@ -308,15 +233,9 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
 
 int Replay(const ReplayOptions& o) {
   const ReplayFile replay = ReadReplayFile(o.file);
-  const ProblemFile& file = replay.file;
   if (!o.all_policies) return ReplayOne(o, replay);
   if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
-  if (o.method != "baraff") throw InputError("--all-policies: expected --method baraff");
-  const bool exact = o.arithmetic.empty() || o.arithmetic == "exact";
-  if (file.problem.dimension == 2 && !exact)
-    throw InputError(
-        fmt::format("--arithmetic {}: expected exact for all policies in the plane", o.arithmetic));
-  return ReplayAll(o, file);
+  return ReplayAll(o, replay.file);
 }
 
 std::vector<AllowedValue> PathMethodChoices() {
@@ -340,15 +259,16 @@ void AddReplay(CommandLine& program) {
       .Needs("--all-policies");
   verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
   verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
-      .OneOf({"exact", "float", "double", "long-double", "quad", "filtered"});
-  verb.Option("--sides", o.sides, "sides of the friction polygons in space, a multiple of 4").Check(CheckSides);
+      .OneOf({kPathArithmetics.begin(), kPathArithmetics.end()});
+  verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
+      .Check(CheckSides);
   verb.Flag("--step", o.step, "the problem; directions, forces and sets at every step; what the words mean");
   verb.Flag("--fractions", o.fractions,
             "long fractions in full, which are rounded otherwise, in text for people");
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
   verb.Flag("--json", o.json, "machine output");
-  AddLimits(verb, o.limits);
+  AddLimits(verb, o.options.limits);
 }
 
 }  // namespace stiction

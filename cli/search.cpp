@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "answers/request.h"
 #include "answers/version.h"
 #include "cli/night.h"
 #include "cli/shared.h"
@@ -282,9 +283,7 @@ ProblemFile StoredFile(const ProblemVerb& o) {
     const std::vector<Elite> best = BestOf(store, 1);
     if (best.empty())
       throw InputError(fmt::format("{}: has no best problem: it is of no search with an objective", o.store));
-    ProblemFile file = FileOf(best.front().candidate, "best-" + campaign.objective);
-    (*file.origin)["objective"] = campaign.objective;
-    return file;
+    return BestFile(best.front(), campaign);
   }
   if (!campaign.objective.empty()) {
     throw InputError(fmt::format(

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "answers/request.h"
 #include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/hypothesis.h"
@@ -91,13 +92,7 @@ void AddLimits(Verb& verb, Limits& limits) { AddNumbers(verb, limits, "Budgets")
 void AddTolerances(Verb& verb, Tolerances& tolerances) { AddNumbers(verb, tolerances, "Tolerances"); }
 
 std::string CheckSides(const std::string& text) {
-  const int sides = std::atoi(text.c_str());
-  const bool fits = sides >= 4 && sides % 4 == 0;
-  return fits ? "" : fmt::format("found '{}', expected a multiple of 4, at least 4", text);
-}
-
-std::vector<Policy> PoliciesNamed(const std::string& text) {
-  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
+  return AreSides(std::atoi(text.c_str())) ? "" : fmt::format("found '{}', expected {}", text, kSidesExpected);
 }
 
 void AddReplace(Verb& verb, bool& replace) {

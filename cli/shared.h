@@ -33,9 +33,6 @@ void AddTolerances(Verb& verb, Tolerances& tolerances);
 // Of --sides: empty, or what is wrong with the text.
 std::string CheckSides(const std::string& text);
 
-// "paper" -> one policy, "*" -> the planar grid.
-std::vector<Policy> PoliciesNamed(const std::string& text);
-
 // What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
 std::string Expected(const ProblemFile& file, const Policy& policy);
 

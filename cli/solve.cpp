@@ -140,16 +140,6 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
   }
 }
 
-Solution SolveFile(const SolveVerb& o, const ExactProblem& problem, SolveRequest& request) {
-  const StopAfter stop(o.seconds);
-  request.options.limits.stop = stop.flag();
-  try {
-    return SolveIn(problem, request);
-  } catch (const InputError& error) {
-    throw InputError(o.file + ": " + error.what());
-  }
-}
-
 // A backward error in words: of the scene, where the problem has one.
 std::string Meaning(const BackwardError& error, const ProblemFile& file) {
   const bool has_scene =
@@ -172,7 +162,9 @@ std::string Meaning(const BackwardError& error, const ProblemFile& file) {
 int RunSolve(const SolveVerb& o) {
   const ProblemFile file = ReadProblem(o.file);
   SolveRequest request = RequestOf(o, file.problem, o.file);
-  const Solution solution = SolveFile(o, file.problem, request);
+  const StopAfter stop(o.seconds);
+  request.options.limits.stop = stop.flag();
+  const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);
   const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);
   if (inexact != nullptr && inexact->backward)

@@ -15,6 +15,7 @@
 #include <map>
 #include <tuple>
 
+#include "answers/all_policies.h"
 #include "answers/answer_text.h"
 #include "answers/followed.h"
 #include "answers/request.h"
@@ -31,6 +32,8 @@ namespace stiction {
 namespace {
 
 namespace py = pybind11;
+
+const std::string kSource = "Problem";  // in errors of a problem
 
 // A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at.
 struct PythonProblem {
@@ -92,57 +95,86 @@ std::vector<Contact<Rational>> ReadContacts(const std::vector<ContactTexts>& tex
         ProblemDocument(Json::array({all.back()}), dimension, {{"size", rows}, {"entries", Json::array()}},
                         std::vector<std::string>(rows, "0"));
     try {
-      contacts.push_back(ProblemFromJson(document, "Problem", "", false).contacts.at(0));
+      contacts.push_back(ProblemFromJson(document, kSource, "", false).contacts.at(0));
     } catch (const InputError&) {
-      ProblemFromJson(ProblemDocument(all, dimension, {}, {}), "Problem", "", false);
+      ProblemFromJson(ProblemDocument(all, dimension, {}, {}), kSource, "", false);
       throw;
     }
   }
   return contacts;
 }
 
-void RequireShape(const std::string& name, py::ssize_t found, py::ssize_t expected) {
-  if (found != expected)
-    throw InputError("Problem", name, std::to_string(found) + " rows or columns",
-                     std::to_string(expected) + ", as the contacts ask for");
+void RequireShape(const std::string& name, const std::vector<py::ssize_t>& found, int rows) {
+  const std::vector<py::ssize_t> expected(found.size(), rows);
+  if (found == expected) return;
+  throw InputError(kSource, name, fmt::format("{}", fmt::join(found, " x ")),
+                   fmt::format("{}, as the contacts ask for", fmt::join(expected, " x ")));
 }
 
-Rational FiniteRational(double x, const std::string& place) {
-  if (!std::isfinite(x)) throw InputError("Problem", place, "a number that is not finite", "a finite one");
-  return Rational(x);
+// Where a number stands, for what tells of it.
+std::string PlaceOf(const std::string& name, int i) { return fmt::format("{}[{}]", name, i); }
+std::string PlaceOf(const std::string& name, int i, int j) { return fmt::format("{}[{}][{}]", name, i, j); }
+
+// A double is the rational that it is.
+template <class... Index>
+Rational Exactly(double x, const char* name, Index... index) {
+  if (std::isfinite(x)) return Rational(x);
+  throw InputError(kSource, PlaceOf(name, index...), "a number that is not finite", "a finite one");
+}
+template <class... Index>
+Rational Exactly(const std::string& text, const char* name, Index... index) {
+  if (const auto number = ParseRational(text)) return *number;
+  throw InputError(kSource, PlaceOf(name, index...), text, "a number");
 }
 
-using Strided = py::array_t<double, 0>;
+using Doubles = py::array_t<double, 0>;  // of any strides: read where they lie
 
-// Doubles, each of which is a rational; read where they lie.
-PythonProblem FromDoubles(const Strided& A, const Strided& b, const std::vector<ContactTexts>& contacts,
+decltype(ExactProblem::A) ReadA(const py::object& given, int rows) {
+  decltype(ExactProblem::A) A(rows, rows);
+  const auto read = [&](const auto& entry) {
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < rows; ++j) A(i, j) = Exactly(entry(i, j), "A", i, j);
+  };
+  if (py::isinstance<Doubles>(given)) {
+    const auto numbers = given.cast<Doubles>().unchecked<2>();
+    RequireShape("A", {numbers.shape(0), numbers.shape(1)}, rows);
+    read(numbers);
+    return A;
+  }
+  const auto texts = given.cast<std::vector<std::vector<std::string>>>();
+  for (const auto& row : texts) RequireShape("A", {std::ssize(texts), std::ssize(row)}, rows);
+  RequireShape("A", {std::ssize(texts)}, rows);
+  read([&texts](int i, int j) -> const std::string& { return texts[i][j]; });
+  return A;
+}
+
+decltype(ExactProblem::b) ReadB(const py::object& given, int rows) {
+  decltype(ExactProblem::b) b(rows);
+  const auto read = [&](const auto& entry) {
+    for (int i = 0; i < rows; ++i) b(i) = Exactly(entry(i), "b", i);
+  };
+  if (py::isinstance<Doubles>(given)) {
+    const auto numbers = given.cast<Doubles>().unchecked<1>();
+    RequireShape("b", {numbers.shape(0)}, rows);
+    read(numbers);
+    return b;
+  }
+  const auto texts = given.cast<std::vector<std::string>>();
+  RequireShape("b", {std::ssize(texts)}, rows);
+  read([&texts](int i) -> const std::string& { return texts[i]; });
+  return b;
+}
+
+// A and b are arrays of doubles, or texts of exact numbers.
+PythonProblem FromNumbers(const py::object& A, const py::object& b, const std::vector<ContactTexts>& contacts,
                           int dimension, const std::string& name) {
   ExactProblem problem;
   problem.dimension = dimension;
   problem.contacts = ReadContacts(contacts, dimension);
   const int rows = RowCount(problem.contacts, dimension);
-  const auto entries = A.unchecked<2>();
-  const auto free = b.unchecked<1>();
-  RequireShape("A", entries.shape(0), rows);
-  RequireShape("A", entries.shape(1), rows);
-  RequireShape("b", free.shape(0), rows);
-  problem.A.resize(rows, rows);
-  problem.b.resize(rows);
-  for (int i = 0; i < rows; ++i) {
-    problem.b(i) = FiniteRational(free(i), "b[" + std::to_string(i) + "]");
-    for (int j = 0; j < rows; ++j)
-      problem.A(i, j) =
-          FiniteRational(entries(i, j), "A[" + std::to_string(i) + "][" + std::to_string(j) + "]");
-  }
-  return PythonProblem({name, problem, {}, {}, {}});
-}
-
-PythonProblem FromTexts(const std::vector<std::vector<std::string>>& A, const std::vector<std::string>& b,
-                        const std::vector<ContactTexts>& contacts, int dimension, const std::string& name) {
-  Json read = Json::array();
-  for (const ContactTexts& one : contacts) read.push_back(ContactToJson(one, dimension));
-  const Json document = ProblemDocument(read, dimension, A, b);
-  return PythonProblem({name, ProblemFromJson(document, "Problem", "", false), {}, {}, {}});
+  problem.A = ReadA(A, rows);
+  problem.b = ReadB(b, rows);
+  return PythonProblem({name, std::move(problem), {}, {}, {}});
 }
 
 // The memory is the problem's: it lives as long as the array does, and is not written to.
@@ -174,12 +206,6 @@ void SetNumbers(auto& options, const Numbers& numbers) {
   });
 }
 
-void SetSides(SolveOptions& options, int sides) {
-  if (sides < 4 || sides % 4 != 0)
-    throw InputError(fmt::format("sides: found {}, expected a multiple of 4, at least 4", sides));
-  options.sides = sides;
-}
-
 py::object SolveProblem(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
                         const std::string& policy, const std::string& law, int sides, double residual,
                         double seconds, const Numbers& numbers) {
@@ -187,34 +213,46 @@ py::object SolveProblem(const PythonProblem& problem, const std::string& method,
   RequireBetween("residual", residual, 0, 1);
   RequireBetween("seconds", seconds, 0, 1e9);
   wanted.options.residual = residual;
-  SetSides(wanted.options, sides);
+  wanted.options.sides = sides;
   SetNumbers(wanted.options.limits, numbers);
   SetNumbers(wanted.options.tolerances, numbers);
-  SolveRequest request = RequestOf(wanted, problem.file.problem, "Problem");
+  SolveRequest request = RequestOf(wanted, problem.file.problem, kSource);
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
-    return SolutionToJson(SolveIn(problem.file.problem, request), problem.file.problem.dimension);
+    return SolutionToJson(SolveAsked(problem.file.problem, request, kSource), problem.file.problem.dimension);
   }));
+}
+
+Wanted WantedPath(const std::string& policy, const std::string& method, const std::string& arithmetic,
+                  int sides, const Numbers& numbers) {
+  Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .dashes = ""};
+  wanted.options.sides = sides;
+  SetNumbers(wanted.options.limits, numbers);
+  return wanted;
 }
 
 py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method,
                          const std::string& arithmetic, int sides, const Numbers& numbers) {
-  const MethodFacts* facts = FindMethodFacts(method);
-  if (facts == nullptr || !facts->has_path)
-    throw InputError("method: found " + method + ", expected one with a path: baraff, complete or lemke");
-  const bool exact = Refusal(method, problem.file.problem.dimension, Arithmetic::kExact).empty();
-  Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .dashes = ""};
-  if (arithmetic.empty()) wanted.arithmetic = exact ? "exact" : "double";
-  SetSides(wanted.options, sides);
-  SetNumbers(wanted.options.limits, numbers);
-  SolveRequest request = RequestOf(wanted, problem.file.problem, "Problem");
-  request.method = method;  // no other runs under its name
-  request.trace = KeepTrace::kYes;
+  const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
+  SolveRequest request = PathRequestOf(wanted, problem.file.problem, kSource);
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
-    const Solution solution = SolveIn(problem.file.problem, request);
-    return ReplayToJson({method, policy, wanted.options.limits}, problem.file, solution,
-                        Narrate(method, problem.file, solution, {.vectors = true}), true);
+    const Solution solution = SolveAsked(problem.file.problem, request, kSource);
+    Json json = ReplayToJson({method, policy, wanted.options.limits}, problem.file, solution,
+                             Narrate(method, problem.file, solution, {.vectors = true}), true);
+    const auto proved = OverIntervals(problem.file.problem, request, solution.outcome());
+    if (proved) json["over_intervals"] = EndToJson(*proved);
+    return json;
+  }));
+}
+
+// By the name of a policy how the published algorithm ends.
+py::object EndsOfProblem(const PythonProblem& problem, const std::string& arithmetic, int sides,
+                         const Numbers& numbers) {
+  Wanted wanted = WantedPath("paper", "baraff", arithmetic, sides, numbers);
+  return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
+    wanted.options.limits.stop = stop;
+    return Json(OutcomesOf(wanted, problem.file.problem, kSource));
   }));
 }
 
@@ -222,26 +260,24 @@ py::object ReplayProblem(const PythonProblem& problem, const std::string& policy
 
 // The text of the certificate; None where nothing that was run shows the claim or its negation.
 std::optional<std::string> CertifyProblem(const PythonProblem& problem, const std::string& claim,
-                                          const std::string& policy) {
-  ClaimOptions options;
-  options.policies = policy == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(policy)};
+                                          const std::string& policy, const Numbers& numbers) {
+  WantedClaim wanted{.claim = claim, .policy = policy};
+  SetNumbers(wanted.limits, numbers);
   const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
-    options.limits.stop = stop;
-    options.enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
-    return CertifyClaim(problem.file.problem, "Problem", claim, options);
+    wanted.limits.stop = stop;
+    EnumerationOptions enumeration;
+    enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
+    return CertificateOf(wanted, problem.file.problem, kSource, enumeration);
   });
   if (certificate.is_null()) return std::nullopt;
   return JsonText(certificate, 1) + "\n";
 }
 
 // (accepted, claim, reason).
-std::tuple<bool, std::string, std::string> CheckText(const PythonProblem& problem, const std::string& text) {
+std::tuple<bool, std::string, std::string> CheckForProblem(const PythonProblem& problem,
+                                                           const std::string& text) {
   const py::gil_scoped_release released;
-  if (text.size() > kMostBytesOfCertificate)
-    throw InputError("certificate", "", std::to_string(text.size()) + " bytes",
-                     "at most " + std::to_string(kMostBytesOfCertificate));
-  const CheckReport report =
-      CheckCertificate(ParseJson(text, "certificate"), "certificate", ProblemDigest(problem.file.problem));
+  const CheckReport report = CheckText(text, "certificate", ProblemDigest(problem.file.problem));
   return {report.accepted, report.claim, report.reason};
 }
 
@@ -274,8 +310,7 @@ PYBIND11_MODULE(_stiction, module) {
     }
   });
   py::class_<PythonProblem>(module, "Problem")
-      .def_static("from_doubles", &FromDoubles)
-      .def_static("from_texts", &FromTexts)
+      .def_static("from_numbers", &FromNumbers)
       .def_static("parse", [](const std::string& text,
                               const std::string& source) { return PythonProblem(ParseProblem(text, source)); })
       .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
@@ -310,8 +345,9 @@ PYBIND11_MODULE(_stiction, module) {
       });
   module.def("solve", &SolveProblem);
   module.def("replay", &ReplayProblem);
+  module.def("ends", &EndsOfProblem);
   module.def("certify", &CertifyProblem);
-  module.def("check", &CheckText);
+  module.def("check", &CheckForProblem);
   AddSearch(module);
 }
 

@@ -13,6 +13,7 @@
 #include "reports/report_files.h"
 #include "reports/tables/csv.h"
 #include "reports/tables/discovery.h"
+#include "search/adversary/optimized_unit.h"
 #include "search/search.h"
 #include "search/testimony.h"
 
@@ -89,6 +90,21 @@ class PythonStore {
     return JsonText(json, 1) + "\n";
   }
 
+  // Of a search with an objective the best of each generator and number of contacts, the best first.
+  py::list Best() const {
+    py::list list;
+    const stiction::Campaign campaign = CampaignOf(store_.identity(), file_);
+    for (const Elite& elite : BestOf(store_, 1)) {
+      py::dict dict;
+      dict["value"] = ValueOf(elite, campaign);
+      dict["generator"] = Row(elite.candidate.generator).name;
+      dict["contacts"] = elite.candidate.contacts;
+      dict["problem"] = Print(BestFile(elite, campaign));
+      list.append(dict);
+    }
+    return list;
+  }
+
   // In the order of signature; groups of which no problem was kept stand in the table alone.
   py::list Findings() const {
     const std::vector<Finding> findings = store_.Findings();
@@ -122,6 +138,7 @@ void AddSearch(py::module_& module) {
       .def(py::init<const std::string&>())
       .def("campaign", &PythonStore::Campaign)
       .def("findings", &PythonStore::Findings)
+      .def("best", &PythonStore::Best)
       .def("tables", &PythonStore::Tables);
 }
 

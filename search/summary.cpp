@@ -80,7 +80,8 @@ Json OptimizedToJson(const Store& store, const Campaign& campaign) {
   Json best = Json::array();
   for (const Elite& elite : BestOf(store, 1)) {
     Json row = {{"candidate", ToJson(elite.candidate)}};
-    row["value"] = elite.worth.value ? Json(objective.sign * *elite.worth.value) : Json();
+    const auto value = ValueOf(elite, campaign);
+    row["value"] = value ? Json(*value) : Json();
     if (!elite.worth.value && objective.of_loops) row["distance"] = -elite.worth.nearness;
     best.push_back(std::move(row));
   }

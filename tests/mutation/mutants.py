@@ -19,6 +19,9 @@ PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_
             "package_test", "paths_test", "problem_test", "replay_test", "safety_test", "solve_test", "store_test",
             "text_report_test", "usage_test", "viewer_data_test")
 
+# Those of the Python package; what is installed of it is none of a copy of the sources.
+PYTHON = ("arrays_test.py", "package_test.py", "refusal_test.py", "search_test.py")
+
 Mutant = namedtuple("Mutant", "id file original mutated breaks tests context type equivalent")
 MUTANTS = []
 
@@ -891,3 +894,31 @@ bug("reading-of-friction", "row.id != PolicySwitch::kDrop || !on_normal", "row.i
 bug = in_file("cli/replay_file.cpp", VIEWER)
 bug("scene-of-another", "AreSame(assembled.file.problem, file.problem)", "true",
     "forces are drawn in a scene that is of another problem")
+
+# ---- What the program and Python ask by names --------------------------------------
+
+PYTHON_TESTS = "^python: "
+
+bug = in_file("answers/request.cpp", PYTHON_TESTS)
+bug("follow-without-path", "if (facts.has_path) followed.push_back(facts.name);", "followed.push_back(facts.name);",
+    "methods without a path are followed")
+bug("policy-of-any-method", 'wanted.method != "baraff" && request.options.policy != Policy{}', "false",
+    "a reading of the published algorithm is asked of another method, and ignored")
+bug("sides-of-any-number", "!AreSides(wanted.options.sides)", "false", "polygons of six sides are taken")
+bug("space-refused", "request.arithmetic = Arithmetic::kDouble;", "", "no replay in space without --arithmetic")
+bug("proved-of-solved", "outcome == Outcome::kSolved", "false", "a run that ends solved is run over intervals, too")
+bug("budgets-of-claims", "wanted.limits", "Limits{}", "certify has the usual budgets, whatever is asked for")
+bug("grid-is-no-name", 'text == "*"', "false", "'*' is no policy")
+
+bug = in_file("python/module.cpp", PYTHON_TESTS)
+bug("not-finite", "std::isfinite(x)", "true", "what is no number becomes a rational")
+bug("nan-between", "!(value >= least && value <= most)", "value < least || value > most", "NaN lies between any two")
+bug("budgets-of-certify", "SetNumbers(wanted.limits, numbers);", "", "budgets of certify are not set")
+bug("rows-of-any-length", 'RequireShape("A", {std::ssize(texts), std::ssize(row)}, rows);', "",
+    "rows of exact numbers have any length")
+bug("proof-untold", 'if (proved) json["over_intervals"] = EndToJson(*proved);', "",
+    "what intervals say of a run in space is not told")
+
+bug = in_file("python/search.cpp", PYTHON_TESTS)
+bug("two-best", "BestOf(store_, 1)", "BestOf(store_, 2)", "of a generator and a number of contacts there are two best")
+bug("machine-unnamed", "options.machine = MachineText();", "", "a search does not name its machine")

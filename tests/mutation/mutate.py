@@ -30,11 +30,13 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # beside the sources
 
-from mutants import LABELS, MUTANTS, PROGRAMS  # noqa: E402
+from mutants import LABELS, MUTANTS, PROGRAMS, PYTHON  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("answers", "bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
-TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", *(f"test_{label}" for label in LABELS))
+SOURCES = ("answers", "bench", "certify", "cli", "cmake", "corpus", "python", "reports", "scene", "search", "solver",
+           "tests")
+TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", "stiction_python", "stiction_python_package",
+           *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 FLAGS = "-O1 -fno-ivopts -DNDEBUG"  # built in half of the time; ivopts of gcc 12 at -O1 miscompiles a generator
 LEAST_SHARE = 0.95
@@ -157,7 +159,7 @@ def build(folder, jobs):
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     binary = folder / "build"
     subprocess.run(["cmake", *generator, "-S", folder / "sources", "-B", binary, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSTICTION_WERROR=OFF", "-DSTICTION_PYTHON=OFF", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
+                    "-DSTICTION_WERROR=OFF", "-DSTICTION_PYTHON=ON", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
                    check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", binary, "--parallel", str(jobs), "--target", *TARGETS], check=True)
     return binary
@@ -165,7 +167,7 @@ def build(folder, jobs):
 
 # --- Tests -------------------------------------------------------------------------
 
-Test = namedtuple("Test", "name command folder skip")
+Test = namedtuple("Test", "name command folder skip environment")
 Result = namedtuple("Result", "how seconds output")  # how: passed, failed, skipped, crashed, too slow
 
 
@@ -176,11 +178,16 @@ def tests_of(binary):
     for entry in json.loads(listed.stdout)["tests"]:
         properties = {item["name"]: item["value"] for item in entry.get("properties", [])}
         program = re.fullmatch("program: (.*)", entry["name"])
-        wanted = program[1] in PROGRAMS if program else set(properties.get("LABELS", [])) & set(LABELS)
+        labels = set(properties.get("LABELS", []))
+        if "python" in labels:
+            wanted = Path(entry["command"][1]).name in PYTHON
+        else:
+            wanted = program[1] in PROGRAMS if program else labels & set(LABELS)
         if wanted and "command" in entry:
             name = re.sub(r"^(\w+): *", r"\1: ", entry["name"])  # blanks behind a prefix can get lost
             tests.append(Test(name, entry["command"], properties.get("WORKING_DIRECTORY", binary),
-                              properties.get("SKIP_REGULAR_EXPRESSION")))
+                              properties.get("SKIP_REGULAR_EXPRESSION"),
+                              dict(setting.split("=", 1) for setting in properties.get("ENVIRONMENT", []))))
     return tests
 
 
@@ -198,7 +205,7 @@ def scratch_folder():
 
 def run_test(test, number, seconds, scratch):
     """One test in a process group of its own, with the bug of this number, 0 for none."""
-    environment = {**os.environ, "STICTION_MUTANT": str(number), "TMPDIR": str(scratch)}
+    environment = {**os.environ, **test.environment, "STICTION_MUTANT": str(number), "TMPDIR": str(scratch)}
     before = time.monotonic()
     process = subprocess.Popen(test.command, cwd=test.folder, env=environment, stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,

@@ -100,12 +100,85 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(sum(f.count for f in self.findings), tables["findings"]["count"].sum())
 
 
+class Optimized(unittest.TestCase):
+    """Searches with an objective; loops of scenes of high friction are frequent, so some are found at once."""
+    WANTED = {"objective": "friction", "generator": "scenes", "contacts": 4, "mu": 1, "gravity_only": True,
+              "problems": 8000}
+    FLAGS = ["--objective", "friction", "--generator", "scenes", "--contacts", "4", "--mu", "1", "--gravity-only",
+             "--problems", "8000", "--finishing", "0"]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.theirs, cls.ours = (Path(cls.folder.name) / name for name in ("theirs.store", "ours.store"))
+        program("search", *cls.FLAGS, "--store", cls.theirs)
+        cls.findings = list(stiction.search(**cls.WANTED, finishing=0, store=cls.ours))
+
+    def told(self, findings):
+        return [(f.signature, f.count, f.unit, f.index, f.outcome, f.problem.digest, f.facts) for f in findings]
+
+    def test_findings_are_those_of_the_program_s_store(self):
+        self.assertGreater(len(self.findings), 0)
+        self.assertEqual(self.told(self.findings), self.told(stiction.Store(self.theirs).findings))
+        self.assertEqual(self.told(self.findings), self.told(stiction.Store(self.ours).findings))
+
+    def test_the_best_is_that_of_the_program(self):
+        best, = stiction.Store(self.ours).best
+        file = Path(self.folder.name) / "best.json"
+        program("problem", self.theirs, "--best", "-o", file)
+        self.assertEqual((best.problem.digest, best.problem.name), (stiction.load(file).digest, "best-friction"))
+        row, = json.loads(program("status", self.theirs, "--json"))["best"]
+        self.assertEqual((best.value, best.contacts, best.generator), (row["value"], 4, "scenes"))
+        self.assertLess(best.value, 1)
+        self.assertEqual({float(mu) for mu in best.problem.mu}, {best.value})
+        self.assertEqual(stiction.replay(best.problem).outcome, "cycle")
+        saved = Path(self.folder.name) / "saved.json"
+        best.problem.save(saved)
+        self.assertEqual(json.loads(saved.read_text()), json.loads(file.read_text()))
+
+    def test_threads_and_a_stop_between_leave_the_same(self):
+        again = Path(self.folder.name) / "again.store"
+        for problems in (4000, 8000):
+            findings = list(stiction.search(**{**self.WANTED, "problems": problems}, finishing=0, store=again,
+                                            threads=1))
+        self.assertEqual(self.told(findings), self.told(self.findings))
+        self.assertEqual([(best.value, best.problem.digest) for best in stiction.Store(again).best],
+                         [(best.value, best.problem.digest) for best in stiction.Store(self.ours).best])
+        self.assertEqual(stiction.Store(again).campaign, stiction.Store(self.ours).campaign)
+
+    def test_its_store_tells_the_objective_and_has_tables(self):
+        store = stiction.Store(self.ours)
+        self.assertEqual((store.campaign["objective"], store.campaign["optimizer"]), ("friction", "evolution"))
+        self.assertEqual(store.campaign, stiction.Store(self.theirs).campaign)
+        tables, theirs = store.tables, stiction.Store(self.theirs).tables
+        self.assertEqual(set(tables), set(theirs))
+        for name, table in tables.items():
+            self.assertEqual(rows(table, table), rows(theirs[name], theirs[name]), name)
+        self.assertEqual(sorted(tables["findings"]["signature"]), sorted(f.signature for f in self.findings))
+
+    def test_a_search_at_random_has_no_best(self):
+        store = Path(self.folder.name) / "random.store"
+        list(stiction.search(generator="psd", contacts=2, mu=1, problems=10000, finishing=0, store=store))
+        self.assertEqual(stiction.Store(store).best, [])
+
+
 class Refused(unittest.TestCase):
     def test_bad_input_is_one_line(self):
         for changes, named in [({"generator": "none"}, "generators"), ({"mu": "-1"}, "mu"),
                                ({"contacts": 99}, "contacts"), ({"problems": 0}, "problems"),
-                               ({"finishing": 101}, "finishing"), ({"threads": 0}, "threads"), ({"policy": "scan=never"}, "policies"), ({"audits": 1}, "audits")]:
-            with self.subTest(named), self.assertRaisesRegex(ValueError, named) as raised:
+                               ({"finishing": 101}, "finishing"), ({"threads": 0}, "threads"),
+                               ({"policy": "scan=never"}, "policies"), ({"audits": 1}, "audits"),
+                               ({"objective": "fame"}, "objective: found .*fame.*, expected one of"),
+                               ({"optimizer": "none"}, "optimizer: found .*none.*, expected one of"),
+                               ({"minutes": float("nan")}, "minutes: found nan"),
+                               ({"problems": "9"}, "problems: found '9', expected an integer"),
+                               ({"problems": 1.5}, "problems: found 1.5, expected an integer"),
+                               ({"minutes": "1"}, "minutes: found '1', expected a number"),
+                               ({"contacts": "2"}, "contacts: found '2', expected an integer"),
+                               ({"mu": "few"}, "mu: found 'few', expected"),
+                               ({"gravity_only": 3}, "gravity_only: found 3, expected true or false")]:
+            with self.subTest(named), self.assertRaisesRegex((ValueError, TypeError), named) as raised:
                 next(stiction.search(**{**CAMPAIGN, **changes}))
             self.assertNotIn("\n", str(raised.exception))
         with self.assertRaises(OSError):

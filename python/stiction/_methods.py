@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is done with a problem: solved, replayed, certified."""
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import _stiction
+from ._given import Number, Vector, integer, real, require_text
+from ._problem import Problem, compiled
+
+
+def _number(value: Any) -> Number:
+    return Fraction(value) if isinstance(value, str) else value
+
+
+def _nearest(value: Any) -> float:
+    if not isinstance(value, str):
+        return float(value)
+    try:
+        return float(Fraction(value))
+    except OverflowError:
+        return -math.inf if value.startswith("-") else math.inf
+    except ValueError:  # inf, nan
+        return float(value)
+
+
+def _array(values: Sequence[Any]) -> Vector:
+    array: Vector = np.array(values, dtype=np.float64)
+    array.flags.writeable = False
+    return array
+
+
+class _Forces:
+    """Forces and accelerations of what is told as JSON."""
+
+    json: dict[str, Any]
+
+    def _of(self, name: str) -> list[Any]:
+        return self.json.get(name) or []
+
+    def _nearest_doubles(self, name: str) -> Vector:
+        bounds = self._bounds(name)
+        return _array([_nearest(x) for x in self._of(name)]) if bounds is None else _array(bounds.mean(axis=1))
+
+    def _exactly(self, name: str) -> tuple[Fraction, ...]:
+        if self._bounds(name) is not None:
+            raise ValueError(f"exact_{name}: found bounds, expected exact or floating-point arithmetic: {name}_bounds")
+        return tuple(Fraction(x) for x in self._of(name))
+
+    def _bounds(self, name: str) -> Vector | None:
+        values = self._of(name)
+        if not values or not isinstance(values[0], list):
+            return None
+        return _array([[_nearest(x) for x in pair] for pair in values])
+
+    @cached_property
+    def f(self) -> Vector:
+        """Forces in N by row, at their nearest doubles, which cannot be written to; over enclosures midpoints."""
+        return self._nearest_doubles("f")
+
+    @cached_property
+    def a(self) -> Vector:
+        """Accelerations in m/s^2, likewise."""
+        return self._nearest_doubles("a")
+
+    @property
+    def exact_f(self) -> tuple[Fraction, ...]:
+        """Forces themselves: of floating-point arithmetic each number is the rational that it is."""
+        return self._exactly("f")
+
+    @property
+    def exact_a(self) -> tuple[Fraction, ...]:
+        """Accelerations, likewise."""
+        return self._exactly("a")
+
+    @property
+    def f_bounds(self) -> Vector | None:
+        """Over enclosures the least and the largest force of every row, rows x 2; otherwise None."""
+        return self._bounds("f")
+
+    @property
+    def a_bounds(self) -> Vector | None:
+        """Accelerations, likewise."""
+        return self._bounds("a")
+
+
+@dataclass(frozen=True)
+class Answer(_Forces):
+    """What a method says of a problem, with forces and accelerations where it ended; without any they are empty."""
+
+    outcome: str
+    method: str
+    arithmetic: str
+    reason: str
+    statistics: dict[str, int]
+    json: dict[str, Any]  # all that `stiction solve --json` says of the answer itself
+
+
+@dataclass(frozen=True)
+class Pivot(_Forces):
+    """A step of a run, and the forces and accelerations after it."""
+
+    drive: int
+    step: Number | None
+    json: dict[str, Any]  # all that `stiction replay --json --step` says of it, the sets too
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A run: of a loop, the state after `start` drives stands again `period` drives later."""
+
+    outcome: str
+    start: int
+    period: int
+    pivots: list[Pivot]
+    json: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A claim with an exact witness; `text` is the certificate file."""
+
+    kind: str
+    text: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The certificate as dictionaries and lists."""
+        fields: dict[str, Any] = json.loads(self.text)
+        return fields
+
+
+# ---- Solving, replaying, certifying ----
+
+def _chosen(**values: float | None) -> dict[str, float]:
+    """Those of budgets and tolerances that are given: budgets are whole numbers."""
+    return {name: integer(name, value) if name.startswith("max_") else real(name, value)
+            for name, value in values.items() if value is not None}
+
+
+def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: str = "paper", *,
+          law: str = "baraff", sides: int = 8, residual: float = 0, seconds: float = 0,
+          max_drives: int | None = None, max_pivots: int | None = None, max_bits: int | None = None,
+          acceleration_tolerance: float | None = None, force_tolerance: float | None = None,
+          pivot_tolerance: float | None = None, loop_grain: float | None = None) -> Answer:
+    """Solves a problem. All that can be chosen is what `stiction solve --help` says, with its defaults.
+
+    After `seconds`, if they are not 0, and after Ctrl-C, the run ends where its method next looks: with an answer
+    that is undecided, or KeyboardInterrupt.
+    """
+    require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
+    said = _stiction.solve(compiled(problem, "solve"), method, arithmetic, policy, law, integer("sides", sides),
+                           real("residual", residual), real("seconds", seconds),
+                           _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits,
+                                   acceleration_tolerance=acceleration_tolerance, force_tolerance=force_tolerance,
+                                   pivot_tolerance=pivot_tolerance, loop_grain=loop_grain))
+    return Answer(said["outcome"], said["method"], said["arithmetic"], said.get("reason", ""),
+                  said.get("statistics", {}), said)
+
+
+def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, arithmetic: str = "",
+           sides: int = 8, max_drives: int | None = None, max_pivots: int | None = None,
+           max_bits: int | None = None) -> Replay:
+    """Runs a path method step by step; by default exactly where it is built so. Ctrl-C as in `solve`."""
+    require_text(policy=policy, method=method, arithmetic=arithmetic)
+    said = _stiction.replay(compiled(problem, "replay"), policy, method, arithmetic, integer("sides", sides),
+                            _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+    pivots = [Pivot(p.get("drive", 0), _number(p.get("step")), p) for p in said["pivots"]]
+    return Replay(said["outcome"], said["start"], said["period"], pivots, said)
+
+
+def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: int | None = None,
+         max_pivots: int | None = None, max_bits: int | None = None) -> dict[str, dict[str, Any]]:
+    """How the published algorithm ends under every policy, by its name: what `stiction replay --all-policies` says.
+
+    In the plane all are run exactly; in space those that are built there, by default over doubles.
+    """
+    require_text(arithmetic=arithmetic)
+    said: dict[str, dict[str, Any]] = _stiction.ends(
+        compiled(problem, "ends"), arithmetic, integer("sides", sides),
+        _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+    return said
+
+
+def certify(problem: Problem, claim: str = "solution-exists", policy: str = "paper", *,
+            max_drives: int | None = None, max_pivots: int | None = None,
+            max_bits: int | None = None) -> Certificate | None:
+    """A certificate of a claim that `stiction certify --claim` knows, or of its negation.
+
+    None where nothing that was run shows either: within the budgets, which are of runs of a method. Policy '*' is the
+    whole planar grid.
+    """
+    require_text(claim=claim, policy=policy)
+    text = _stiction.certify(compiled(problem, "certify"), claim, policy,
+                             _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+    return None if text is None else Certificate(json.loads(text)["claim"], text)
+
+
+def check(problem: Problem, certificate: Certificate | str) -> bool:
+    """True of a certificate, or its text, that is right and speaks of this problem; otherwise ValueError, why."""
+    text = certificate.text if isinstance(certificate, Certificate) else certificate
+    require_text(certificate=text)
+    accepted, _, reason = _stiction.check(compiled(problem, "check"), text)
+    if not accepted:
+        raise ValueError(reason)
+    return True

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Problems, from arrays and from files."""
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _stiction
+from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text
+
+
+def _texts(A: NDArray[Any]) -> list[list[str]]:
+    return [[exact_text(x, f"Problem: A[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(A)]
+
+
+class Problem:
+    """a = A f + b with contacts: rows are the normal of a contact, then its friction if it is static.
+
+    A is rows x rows in 1/kg, b rows in m/s^2, mu one coefficient for each contact (0 where it has none) or one for
+    all, kinds 'static', 'sliding', 'frictionless' or 'bilateral', by default all static. Of each contact that slides,
+    slips has the direction: 1 or -1 in the plane, in space a unit vector of two exact numbers, as ('3/5', '4/5');
+    of the others None. Arrays of doubles are read where they lie, those of integers and of shorter floating point
+    after one conversion, and each double is the rational that it is; all else is taken exactly, number by number. A
+    problem holds rationals. A need not be symmetric, nor b in its range: `certify` says whether they are.
+    """
+
+    def __init__(self, A: Any, b: Any, mu: Any, kinds: Sequence[str] | None = None, dimension: int = 2,
+                 name: str = "problem", slips: Sequence[Any] | None = None) -> None:
+        require_text(name=name)
+        if integer("dimension", dimension) not in (2, 3):
+            raise ValueError(f"Problem: dimension: found {dimension}, expected 2 or 3")
+        A, b = (x if isinstance(x, np.ndarray) else np.array(x, dtype=object) for x in (A, b))
+        if A.ndim != 2 or b.ndim != 1:
+            raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
+        if isinstance(kinds, str):
+            raise TypeError(f"kinds: found {kinds!r}, expected a sequence of names, one for each contact")
+        if is_one(mu):
+            count = len(kinds) if kinds is not None else len(b) // dimension
+            mu = [mu] * count
+        mu = listed(mu, "mu")
+        kinds = ["static"] * len(mu) if kinds is None else list(kinds)
+        slips = [None] * len(kinds) if slips is None else list(slips)
+        for of, found in (("mu", len(mu)), ("slips", len(slips))):
+            if found != len(kinds):
+                raise ValueError(f"Problem: {of}: found {found}, expected {len(kinds)}, one for each contact")
+        for i, kind in enumerate(kinds):
+            require_text(**{f"kinds[{i}]": kind})
+        directions = [[] if slip is None else
+                      [exact_text(x, f"Problem: slips[{i}]") for x in listed(slip, f"slips[{i}]")]
+                      for i, slip in enumerate(slips)]
+        contacts = [(kind, exact_text(x, f"Problem: mu[{i}]"), direction)
+                    for i, (kind, x, direction) in enumerate(zip(kinds, mu, directions))]
+        exact_A, exact_b = doubles(A), doubles(b)
+        self._problem = _stiction.Problem.from_numbers(
+            _texts(A) if exact_A is None else exact_A,
+            [exact_text(x, f"Problem: b[{i}]") for i, x in enumerate(b)] if exact_b is None else exact_b,
+            contacts, dimension, name)
+
+    @property
+    def name(self) -> str:
+        """Of the problem file."""
+        return self._problem.name
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self._problem.dimension
+
+    @property
+    def A(self) -> NDArray[np.float64]:
+        """At its nearest doubles: a view of the problem's memory, which cannot be written to."""
+        return self._problem.A
+
+    @property
+    def b(self) -> NDArray[np.float64]:
+        """Likewise."""
+        return self._problem.b
+
+    @property
+    def exact_A(self) -> list[list[Fraction]]:
+        """A itself; a copy."""
+        return [[Fraction(x) for x in row] for row in self._problem.exact_A()]
+
+    @property
+    def exact_b(self) -> list[Fraction]:
+        """b itself; a copy."""
+        return [Fraction(x) for x in self._problem.exact_b()]
+
+    @property
+    def mu(self) -> list[Fraction]:
+        """Of each contact, exactly."""
+        return [Fraction(x) for x in self._problem.exact_mu()]
+
+    @property
+    def kinds(self) -> list[str]:
+        """Of each contact."""
+        return self._problem.kinds()
+
+    @property
+    def slips(self) -> list[tuple[Fraction, ...] | None]:
+        """Of each contact that slides its direction, of one component in the plane and two in space."""
+        return [tuple(Fraction(x) for x in slip) or None for slip in self._problem.exact_slips()]
+
+    @property
+    def digest(self) -> str:
+        """Of all that is exact in it, as certificates name it."""
+        return self._problem.digest()
+
+    def save(self, path: Path) -> None:
+        """Writes a problem file, whole or not at all."""
+        self._problem.save(path_text(path))
+
+
+def load(path: Path) -> Problem:
+    """The problem of a problem file."""
+    file = path_text(path)
+    with open(file, "rb"):  # OSError where it cannot be opened
+        pass
+    problem = Problem.__new__(Problem)
+    problem._problem = _stiction.Problem.read(file)
+    return problem
+
+
+def parsed(text: str, source: str) -> Problem:
+    """The problem of a problem file's text."""
+    problem = Problem.__new__(Problem)
+    problem._problem = _stiction.Problem.parse(text, source)
+    return problem
+
+
+def compiled(problem: Any, by: str) -> _stiction.Problem:
+    if not isinstance(problem, Problem):
+        raise TypeError(f"{by}: problem: found {problem!r}, expected a stiction.Problem")
+    return problem._problem
