@@ -49,12 +49,16 @@ Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& 
 
 // The first solution in the order of the mode words, or that there is none.
 Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  Answer<Rational> answer;
+  if (options.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
+    answer.reason = kStopped;
+    return answer;
+  }
   EnumerationOptions enumeration;
   enumeration.first_solution_only = true;
   enumeration.programs = std::min(options.limits.pivots, kAutomaticPrograms);
   enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
   const Enumeration modes = EnumerateModes(problem, enumeration);
-  Answer<Rational> answer;
   answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
   if (!modes.solutions.empty()) {
     answer.outcome = Outcome::kSolved;

@@ -233,6 +233,8 @@ class Space(cli.TestCase):
         self.refuses("replay", file, "--policy", "file=yes", says=["file=yes", "slip=redirect"])
         self.refuses("replay", file, "--method", "complete", "--all-policies", says="--method baraff")
         self.refuses("replay", file, "--method", "complete", "--sides", "6", says="multiple of 4")
+        self.refuses("replay", self.file("p.json", cli.REFERENCE), "--method", "complete", "--policy", "scan=highest",
+                     says=["--policy scan=highest", "--method baraff"])
 
 
 if __name__ == "__main__":
