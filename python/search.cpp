@@ -15,6 +15,7 @@
 #include "reports/tables/discovery.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/search.h"
+#include "search/summary.h"
 #include "search/testimony.h"
 
 namespace stiction {

@@ -8,7 +8,6 @@
 #include "corpus/json_text.h"
 #include "corpus/program_name.h"
 #include "corpus/store_totals.h"
-#include "search/adversary/optimized_unit.h"
 
 namespace stiction {
 namespace {
@@ -114,6 +113,17 @@ std::vector<BestLine> BestLines(const Store& store) {
                      .contacts = best.contacts});
   }
   return lines;
+}
+
+std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign) {
+  if (!elite.worth.value) return std::nullopt;
+  return FindObjective(campaign.objective)->sign * *elite.worth.value;
+}
+
+ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
+  ProblemFile file = FileOf(elite.candidate, "best-" + campaign.objective);
+  (*file.origin)["objective"] = campaign.objective;
+  return file;
 }
 
 Json SummaryToJson(const Store& store) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store as JSON, for the end of a search; that of a search with an objective also in a few lines. All others
-// have theirs in reports/text/text_report.h.
+// A store as JSON, for the end of a search; that of a search with an objective also in a few lines, and its
+// best as problems. All others have theirs in reports/text/text_report.h.
 
 #ifndef STICTION_SEARCH_SUMMARY_H_
 #define STICTION_SEARCH_SUMMARY_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "corpus/store.h"
+#include "search/adversary/optimized_unit.h"
 
 namespace stiction {
 
@@ -23,6 +25,11 @@ std::vector<BestLine> BestLines(const Store& store);
 Json SummaryToJson(const Store& store);
 // Requires a search with an objective. `file` is named in the commands that it proposes.
 std::string OptimizedText(const Store& store, const std::string& file);
+
+// Of a candidate that BestOf gives the value as the objective of the campaign tells it, where it has one; and
+// the problem itself, with where it comes from.
+std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign);
+ProblemFile BestFile(const Elite& elite, const Campaign& campaign);
 
 }  // namespace stiction
 

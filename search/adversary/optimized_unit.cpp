@@ -170,15 +170,4 @@ std::vector<Elite> BestOf(const Store& store, std::size_t most) {
   return best;
 }
 
-std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign) {
-  if (!elite.worth.value) return std::nullopt;
-  return FindObjective(campaign.objective)->sign * *elite.worth.value;
-}
-
-ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
-  ProblemFile file = FileOf(elite.candidate, "best-" + campaign.objective);
-  (*file.origin)["objective"] = campaign.objective;
-  return file;
-}
-
 }  // namespace stiction

@@ -59,10 +59,6 @@ UnitResult RunOptimizedUnit(
 // The best candidates of a store, over all its units: the best first, at most `most` of each generator and
 // number of contacts.
 std::vector<Elite> BestOf(const Store& store, std::size_t most);
-// Its value as the objective of the campaign tells it, where it has one.
-std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign);
-// The problem itself, with where it comes from.
-ProblemFile BestFile(const Elite& elite, const Campaign& campaign);
 
 }  // namespace stiction
 
