@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "answers/answer_text.h"
+#include "answers/request.h"
 #include "certify/exact.h"
 #include "solver/published/published_space.h"
 

@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "answers/request.h"
+#include "corpus/problem_file.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
+
+struct Wanted;  // request.h
 
 // In the plane the whole grid; in space what of it is built there, for each reading of `slip`.
 std::vector<Policy> GridOf(int dimension);

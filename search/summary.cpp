@@ -8,6 +8,7 @@
 #include "corpus/json_text.h"
 #include "corpus/program_name.h"
 #include "corpus/store_totals.h"
+#include "search/adversary/optimized_unit.h"
 
 namespace stiction {
 namespace {

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "corpus/store.h"
-#include "search/adversary/optimized_unit.h"
 
 namespace stiction {
+
+struct Campaign;
+struct Elite;
+struct ProblemFile;
 
 // The best of an optimized search, of a generator and number of contacts, as it is told.
 struct BestLine {

@@ -191,7 +191,9 @@ def tests_of(binary):
     return tests
 
 
-def limit_memory():
+def prepare_process():
+    """Before a test: little memory, and Ctrl-C heard even where the run itself is in the background."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
@@ -209,7 +211,7 @@ def run_test(test, number, seconds, scratch):
     before = time.monotonic()
     process = subprocess.Popen(test.command, cwd=test.folder, env=environment, stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-                               preexec_fn=limit_memory)
+                               preexec_fn=prepare_process)
     try:
         output = process.communicate(timeout=seconds)[0].decode(errors="replace")
     except subprocess.TimeoutExpired:
