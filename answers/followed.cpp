@@ -5,6 +5,7 @@
 #include <array>
 
 #include "answers/narrate_text.h"
+#include "certify/published_space.h"
 #include "corpus/grouped.h"
 
 namespace stiction {
@@ -89,6 +90,23 @@ FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Soluti
   if (o.method == "baraff" && exact != nullptr)
     run.partings = PartingsOf(file.problem, ParsePolicy(o.policy), o.limits, exact->pivots);
   return run;
+}
+
+std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+                                     Outcome outcome) {
+  const bool in_space = problem.dimension == 3 && request.method == "baraff";
+  if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
+    return std::nullopt;
+  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits}).verdict;
+}
+
+std::string OverIntervalsText(const Verdict& verdict) {
+  const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(verdict));
+}
+
+void TellOverIntervals(const Verdict& verdict, FollowedRun& run) {
+  run.end += "; " + OverIntervalsText(verdict);
 }
 
 }  // namespace stiction

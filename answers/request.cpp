@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "certify/published_space.h"
 #include "corpus/json_text.h"
 
 namespace stiction {
@@ -102,14 +101,6 @@ Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, co
   } catch (const InputError& error) {
     throw InputError(source + ": " + error.what());
   }
-}
-
-std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
-                                     Outcome outcome) {
-  const bool in_space = problem.dimension == 3 && request.method == "baraff";
-  if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
-    return std::nullopt;
-  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits}).verdict;
 }
 
 // ---- Certificates ----

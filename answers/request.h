@@ -6,7 +6,6 @@
 #define STICTION_ANSWERS_REQUEST_H_
 
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,10 +43,6 @@ inline constexpr std::array<std::string_view, 6> kPathArithmetics = {"exact",   
 
 // SolveIn, whose InputError then names the source.
 Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source);
-
-// What intervals say of a run of the published algorithm in space that does not end solved over floating-point
-// numbers; nothing of others.
-std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request, Outcome outcome);
 
 // ---- Certificates ----
 

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interval: CGAL's interval of doubles as a scalar of the methods. Included before their definitions, by the
-// units that run over it only.
+// Interval: CGAL's interval of doubles as a scalar of the methods, or for a page of its own (cli/live) another
+// that is the same. Included before their definitions, by the units that run over it only.
 //
-// A comparison that the ends do not decide throws CGAL::Uncertain_conversion_exception.
+// A comparison that the ends do not decide throws UnsureComparison.
 
 #ifndef STICTION_CERTIFY_INTERVAL_H_
 #define STICTION_CERTIFY_INTERVAL_H_
-
-#include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#ifdef STICTION_PORTABLE_NUMBERS
+#include "certify/interval_portable.h"
+#else
+#include <CGAL/Interval_nt.h>
+#endif
 
 #include "certify/solve.h"
 #include "corpus/rational.h"
@@ -20,7 +24,10 @@
 
 namespace stiction {
 
+#ifndef STICTION_PORTABLE_NUMBERS
 using Interval = CGAL::Interval_nt<>;
+using UnsureComparison = CGAL::Uncertain_conversion_exception;
+#endif
 
 template <>
 inline bool IsSurelyZero(const Interval& x) {
@@ -44,7 +51,7 @@ struct Unsure<Interval> {
     return tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
   }
   [[noreturn]] static void Refuse() {
-    throw CGAL::Uncertain_conversion_exception("a limit that may or may not be the nearest");
+    throw UnsureComparison("a limit that may or may not be the nearest");
   }
 };
 
@@ -53,7 +60,7 @@ inline Interval Around(const Rational& x) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double nearest = ToDouble(x);
   if (std::isinf(nearest)) return {-kInfinity, kInfinity};
-  const int side = cmp(Rational(nearest), x);
+  const int side = Sign(Rational(Rational(nearest) - x));
   return {side > 0 ? std::nextafter(nearest, -kInfinity) : nearest,
           side < 0 ? std::nextafter(nearest, kInfinity) : nearest};
 }

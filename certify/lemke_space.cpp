@@ -16,7 +16,7 @@ LawCell SlippingCell(const FrictionPolygon<Rational>& polygon, const Planar<Rati
   for (int k = 1; k < polygon.sides(); ++k) {
     if (Dot(polygon.corner(k), a) < Dot(polygon.corner(least), a)) least = k;
   }
-  const int side = sgn(Cross(polygon.corner(least), force));
+  const int side = Sign(Rational(Cross(polygon.corner(least), force)));
   if (side == 0) return {Law::kCorner, least};
   return {Law::kEdge, side > 0 ? least : polygon.Wrap(least - 1)};
 }

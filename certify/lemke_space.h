@@ -9,7 +9,7 @@
 #ifndef STICTION_CERTIFY_LEMKE_SPACE_H_
 #define STICTION_CERTIFY_LEMKE_SPACE_H_
 
-#include "certify/space.h"
+#include "certify/polygons.h"
 
 namespace stiction {
 

@@ -28,23 +28,7 @@ constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `
 
 template <SpaceEngine kEngine>
 Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
-  SpaceOptions space;
-  space.engine = kEngine;
-  space.law = options.law;
-  space.sides = options.sides;
-  space.limits = options.limits;
-  SpaceSolution solution = SolveInSpace(problem, space, trace);
-  Answer<Rational> answer;
-  answer.outcome = solution.outcome;
-  answer.reason = solution.reason;
-  answer.law = options.law;
-  if (answer.Solved()) answer.f = std::move(solution.f);
-  if (answer.Solved() && options.law == FrictionLaw::kCoulomb) answer.bound = ToString(solution.bound);
-  answer.ray = std::move(solution.ray);
-  answer.word = Name(solution.word, 3);
-  answer.counters = CountersOf(solution.statistics);
-  answer.counters.push_back({"refinements", solution.refinements});
-  return answer;
+  return AnswerOf(SolveInSpace(problem, SpaceOptionsOf(options, kEngine), trace), options.law);
 }
 
 // The first solution in the order of the mode words, or that there is none.

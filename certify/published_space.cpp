@@ -29,7 +29,7 @@ IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const Publishe
   PublishedInSpace<Interval> algorithm(options);
   try {
     run.verdict = algorithm.Run(remainder.problem());
-  } catch (const CGAL::Uncertain_conversion_exception&) {
+  } catch (const UnsureComparison&) {
     run.verdict = algorithm.verdict();
     run.verdict.outcome = Outcome::kUndecided;
     run.verdict.reason = kUnsureSign;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "certify/filtered.h"
+#include "certify/inexact.h"
 #include "certify/published_space.h"
 #include "certify/quad.h"
 #include "certify/traced.h"
@@ -22,61 +23,7 @@ bool IsFloating(Arithmetic arithmetic) {
          arithmetic == Arithmetic::kLongDouble || arithmetic == Arithmetic::kQuad;
 }
 
-template <class Scalar>
-double BoundOf(const SolveOptions& options) {
-  return options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
-}
-
 // ---- Floating point ------------------------------------------------------------------------------
-
-template <class Vector>
-Eigen::VectorXd InDoubles(const Vector& values) {
-  return values.template cast<double>();
-}
-
-template <class Scalar>
-Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
-  return Converted<double>(pivot, [](const Scalar& x) { return static_cast<double>(x); });
-}
-
-// Forces of long double are rounded to what is told of them before they are judged.
-template <class Scalar>
-InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem<Scalar>& problem,
-                        double bound) {
-  InexactAnswer result;
-  result.outcome = answer.outcome;
-  result.reason = answer.reason;
-  result.start = answer.start;
-  result.period = answer.period;
-  result.method = answer.method;
-  result.arithmetic = answer.arithmetic;
-  result.law = answer.law;
-  result.f = InDoubles(answer.f);
-  result.a = InDoubles(answer.a);
-  result.ray = InDoubles(answer.ray);
-  result.first_f = InDoubles(answer.first_f);
-  result.residual = answer.residual;
-  result.word = answer.word;
-  result.counters = answer.counters;
-  for (const Pivot<Scalar>& pivot : answer.pivots) result.pivots.push_back(InDoubles(pivot));
-  if (sizeof(Scalar) > sizeof(double)) {
-    const auto doubles = Converted<double>(problem, [](const Scalar& x) { return static_cast<double>(x); });
-    JudgeAnswer(doubles, bound, result);
-  }
-  if (result.Solved() && problem.dimension == 2)
-    result.backward = FindBackwardError(InLongDouble(problem), result.f.template cast<long double>());
-  return result;
-}
-
-// The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
-InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
-  Tolerances& t = request.options.tolerances;
-  for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
-  t.loop_grain = std::min(t.loop_grain, 1e-12);
-  request.trace = KeepTrace::kNo;
-  const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
-  return InDoubles(SolveTraced(wide, request), wide, BoundOf<double>(request.options));
-}
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
 void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
@@ -84,17 +31,10 @@ void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Sol
   const MethodFacts* facts = FindMethodFacts(request.method);
   const bool is_path = facts != nullptr && facts->has_path;
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
+  if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
+  if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
   const Suspicion suspicion = SuspicionOf(first);
-  if (facts->IsBuilt(ran.dimension, Arithmetic::kExact) && ran.dimension == 2) {
-    solution.answer = SolveExactly(Unrounded(ran), request);
-  } else if (ran.dimension == 3 && request.method == "baraff") {
-    std::vector<Pivot<double>> pivots = first.pivots;
-    InexactAnswer again = RunFinely(ran, request);
-    again.pivots = std::move(pivots);
-    solution.answer = std::move(again);
-  } else {
-    return;
-  }
+  solution.answer = SolveExactly(Unrounded(ran), request);
   solution.suspected = suspicion;
 }
 
@@ -222,15 +162,6 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
   return {.answer = std::move(answer), .rung = Rung::kExact};
 }
 
-void RequireReading(const ExactProblem& problem, const SolveRequest& request) {
-  const bool concerned = problem.dimension == 3 && request.method == "baraff";
-  if (!concerned || PublishedReadsInSpace(request.options.policy)) return;
-  throw InputError(
-      fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
-                  "slip=polygon alone; no other reading of these is built",
-                  PolicyName(request.options.policy)));
-}
-
 std::vector<std::string_view> ArithmeticsOf(const MethodFacts& facts, int dimension) {
   std::vector<std::string_view> names;
   for (int i = 0; i < kArithmeticCount; ++i) {
@@ -248,11 +179,6 @@ std::vector<std::string_view> MethodsOf(int dimension, Arithmetic arithmetic) {
 }
 
 }  // namespace
-
-Suspicion SuspicionOf(const InexactAnswer& answer) {
-  return {answer.outcome,    answer.reason,   answer.start,   answer.period,
-          answer.arithmetic, answer.residual, answer.counters};
-}
 
 std::span<const EnclosedMethod> EnclosedMethods() {
   static constexpr std::array rows = {EnclosedMethod{"baraff", 2, true}, EnclosedMethod{"complete", 2, true},

@@ -97,7 +97,10 @@ struct Suspicion {
   double residual = -1;
   std::vector<Counter> counters;
 };
-Suspicion SuspicionOf(const InexactAnswer& answer);
+inline Suspicion SuspicionOf(const InexactAnswer& answer) {
+  return {answer.outcome,    answer.reason,   answer.start,   answer.period,
+          answer.arithmetic, answer.residual, answer.counters};
+}
 
 // A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.
 struct EnclosedMethod {

@@ -20,49 +20,10 @@
 #define STICTION_CERTIFY_SPACE_H_
 
 #include <optional>
-#include <string_view>
-#include <vector>
 
-#include "certify/properties.h"
-#include "solver/complete/complete.h"
-#include "solver/problem/answer.h"
+#include "certify/polygons.h"
 
 namespace stiction {
-
-using RationalPolygons = std::vector<FrictionPolygon<Rational>>;
-
-struct SpaceRun {
-  CompleteVerdict verdict;
-  ExactVector f, a;
-  ExactVector ray;  // of a ray, otherwise empty
-  CellWord word;
-};
-
-// Complete driving over rationals; with `trace`, every linear piece is recorded.
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                  Trace<Rational>* trace = nullptr);
-
-enum class SpaceEngine { kComplete, kLemke };
-
-struct SpaceOptions {
-  FrictionLaw law = FrictionLaw::kBaraff;
-  SpaceEngine engine = SpaceEngine::kComplete;
-  int sides = 8;         // of every polygon at the start
-  int refinements = 20;  // runs with more corners, at most
-  Limits limits;
-};
-
-struct SpaceSolution {
-  // solved; ray, limit and undecided as the engine ends; undecided if no refinement helped
-  Outcome outcome = Outcome::kUndecided;
-  std::string_view reason;
-  ExactVector f, a;  // where solved
-  ExactVector ray;
-  CellWord word;       // of the last polygons
-  Rational bound = 0;  // Coulomb: c of FindCoulombViolation
-  int refinements = 0;
-  CompleteStatistics statistics;  // of all runs
-};
 
 // Requires dimension 3. The trace is that of the last polygons.
 SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
@@ -75,17 +36,6 @@ std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVec
 // An upper bound of CoulombResidual (solver/problem/residual.h) of f with a = A f + b, evaluated over
 // rationals, with square roots to 100 binary digits. Any kinds of contacts.
 Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f);
-
-// What one contact does; a direction where it slips.
-struct SpaceMode {
-  Law law = Law::kNone;  // kHold, kBreak, kFree, kInside (sticks) or kCorner (slips, fF = mu fN direction)
-  Planar<Rational> direction;
-};
-
-// f with the linear equations of the modes: aN = 0 where there is contact, aF = 0 where it sticks. Unknowns
-// that these leave free take their values from `guess`. Empty if the equations contradict each other.
-std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
-                                      const ExactVector& guess);
 
 }  // namespace stiction
 

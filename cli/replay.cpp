@@ -72,12 +72,6 @@ std::string ToldForPeople(const ReplayOptions& o, const ProblemFile& file, const
       solution.answer);
 }
 
-// "over intervals, proved: cycle: ..."
-std::string OverIntervalsText(const Verdict& verdict) {
-  const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
-  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(verdict));
-}
-
 int ExitOf(Outcome outcome, const std::string& expected) {
   if (Name(outcome) == (expected.empty() ? Name(Outcome::kSolved) : std::string_view(expected)))
     return kExitDone;
@@ -112,7 +106,7 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
                const std::optional<Verdict>& over_intervals) {
   const ProblemFile& file = replay.file;
   std::vector<FollowedRun> runs = {Followed(o.path(), file, solution)};
-  if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
+  if (over_intervals) TellOverIntervals(*over_intervals, runs[0]);
   ReplayOptions beside = o;
   beside.method = "complete";
   beside.arithmetic = "";

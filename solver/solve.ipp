@@ -87,13 +87,13 @@ Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const Solve
 
 // The rows that every scalar has; `space` by the caller.
 template <class Scalar>
-Method<Scalar> BaraffRow(MethodIn<Scalar> space) {
+Method<Scalar> BaraffRow(MethodIn<Scalar> space, MethodIn<Scalar> plane = {&RunBaraff<Scalar>}) {
   return {.name = "baraff",
           .title = "the published pivoting algorithm, under a policy",
           .source = "[Baraff94] 4.3, 5.2-5.6",
           .ends = "nothing: it can cycle, and in space take an infinite step",
           .has_path = true,
-          .plane = {&RunBaraff<Scalar>},
+          .plane = plane,
           .space = space};
 }
 
@@ -230,9 +230,9 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
     return;
   }
   answer.a = problem.A * answer.f + problem.b;
-  const LongVector f = answer.f.template cast<long double>();
+  const LongVector f = answer.f.template cast<LongDouble>();
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
-  if constexpr (std::is_floating_point_v<Scalar>) {
+  if constexpr (kIsFloatingPoint<Scalar>) {
     answer.residual = static_cast<double>(ResidualBound(problem, answer.law, f));
   } else {
     answer.residual = static_cast<double>(ResidualBound(InLongDouble(problem), answer.law, f));

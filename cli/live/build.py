@@ -19,7 +19,7 @@ MODULE = ROOT / "reports/web/solver/solver.wasm.gz"
 # Headers alone, and these alone: no other header of this system may come between those of Emscripten.
 HEADERS = {"boost": "/usr/include/boost", "Eigen": "/usr/include/eigen3/Eigen", "nlohmann": "/usr/include/nlohmann",
            "fmt": "/usr/include/fmt"}
-COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-DSTICTION_BOOST_RATIONALS",
+COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-DSTICTION_BOOST_RATIONALS", "-DSTICTION_PORTABLE_NUMBERS",
            "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY"]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]

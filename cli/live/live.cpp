@@ -9,21 +9,33 @@
 
 #include "answers/followed.h"
 #include "answers/replay_page.h"
+#include "certify/inexact.h"
 #include "corpus/problem_file.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
 
 const std::string kRequest = "request";  // named in errors
 
-Json SwitchesToJson() {
+// Whether a value of a switch is built for that dimension.
+bool IsBuilt(const PolicySwitchRow& row, int value, int dimension) {
+  Policy policy;
+  row.set(policy, value);
+  return dimension == 2 ? row.planar : PublishedReadsInSpace(policy);
+}
+
+// Those that leave something to choose.
+Json SwitchesToJson(int dimension) {
   Json switches = Json::array();
   for (const PolicySwitchRow& row : PolicySwitches()) {
-    if (!row.planar) continue;
     Json values = Json::array();
-    for (const PolicyValue& value : row.values)
-      values.push_back({{"name", value.name}, {"meaning", value.meaning}});
-    switches.push_back({{"name", row.name}, {"question", row.question}, {"values", std::move(values)}});
+    for (int i = 0; i < static_cast<int>(row.values.size()); ++i) {
+      if (IsBuilt(row, i, dimension))
+        values.push_back({{"name", row.values[i].name}, {"meaning", row.values[i].meaning}});
+    }
+    if (values.size() > 1)
+      switches.push_back({{"name", row.name}, {"question", row.question}, {"values", std::move(values)}});
   }
   return switches;
 }
@@ -35,26 +47,42 @@ Json LimitsToJson() {
   return json;
 }
 
-void RequirePlane(const ProblemFile& file) {
+void RequireFew(const ProblemFile& file) {
   const int rows = file.problem.rows();
-  if (file.problem.dimension != 2)
-    throw InputError("problem", "dimension", std::to_string(file.problem.dimension),
-                     "2: in space forces are irrational, and nothing here runs there");
   if (rows > kMostLiveRows)
     throw InputError("problem", "contacts", fmt::format("{} rows", rows),
                      fmt::format("at most {}; the program takes more", kMostLiveRows));
+}
+
+// Over doubles, as SolveIn has it.
+Solution SolvePublishedInSpace(const ExactProblem& problem, const SolveRequest& request) {
+  try {
+    RequireReading(problem, request);
+    const ContactProblem<double> rounded = Rounded<double>(problem);
+    Solution solution{.answer =
+                          InDoubles(SolveTraced(rounded, request), rounded, BoundOf<double>(request.options))};
+    if (solution.outcome() != Outcome::kSolved) RunAgainInSpace(rounded, request, solution);
+    return solution;
+  } catch (const InputError& error) {
+    throw InputError(std::string("problem: ") + error.what());
+  }
 }
 
 FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
   SolveRequest request{.method = path.method, .trace = KeepTrace::kYes};
   request.options.policy = ParsePolicy(path.policy);
   request.options.limits = path.limits;
-  return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
+  if (file.problem.dimension == 2 || path.method != "baraff")
+    return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
+  const Solution solution = SolvePublishedInSpace(file.problem, request);
+  FollowedRun run = Followed(path, file, solution);
+  if (const auto proved = OverIntervals(file.problem, request, solution.outcome())) TellOverIntervals(*proved, run);
+  return run;
 }
 
 Json RunToJson(const JsonPlace& place) {
   const ProblemFile file = ParseProblem(place.Required("problem", "text").Text("text"), "problem");
-  RequirePlane(file);
+  RequireFew(file);
   PathOptions path{.method = place.Required("method", "text").Text("text"),
                    .policy = place.Required("policy", "text").Text("text"),
                    .limits = kLiveLimits};
@@ -69,7 +97,7 @@ Json AnswerToJson(const std::string& request) {
   const JsonPlace place(json, kRequest, "");
   const JsonPlace ask = place.Required("ask", "run or switches");
   const std::string& asked = ask.Text("run or switches");
-  if (asked == "switches") return {{"switches", SwitchesToJson()}, {"limits", LimitsToJson()}};
+  if (asked == "switches") return {{"switches", SwitchesToJson(2)}, {"in_space", SwitchesToJson(3)}, {"limits", LimitsToJson()}};
   if (asked == "run") return RunToJson(place);
   ask.Refuse("run or switches");
 }

@@ -2,8 +2,11 @@
 // What a page of `replay` asks of the solver that it brings along (reports/web/README.md): run an edited
 // problem.
 //
-// The same sources as the program's, over rationals that are headers alone (corpus/rational_boost.h): no file,
-// no clock, no thread. Built for browsers by build.py, and natively for the tests, as stiction-live.
+// The same sources as the program's, over numbers that are headers alone and the same on every machine: no
+// file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
+// irrational, the published algorithm runs over doubles, and what does not end solved again over long double
+// (solver/problem/extended.h) and over intervals (certify/interval_portable.h), as in the program. Built for
+// browsers by build.py, and natively for the tests, as stiction-live.
 
 #ifndef STICTION_CLI_LIVE_LIVE_H_
 #define STICTION_CLI_LIVE_LIVE_H_
@@ -19,8 +22,8 @@ namespace stiction {
 inline constexpr Limits kLiveLimits = {.drives = 300, .pivots = 1000, .bits = 2000};
 inline constexpr int kMostLiveRows = 64;
 
-// Of {"ask": "switches"}: {"switches": the table of the policy, "limits": {"max-drives", "max-pivots",
-// "max-bits"}}. Of {"ask": "run", "problem": the text of a problem file, "method", "policy"}: {"data": as the
+// Of {"ask": "switches"}: {"switches": the table of the policy in the plane, "in_space": what of it is built
+// there, "limits": {"max-drives", "max-pivots", "max-bits"}}. Of {"ask": "run", "problem": the text of a problem file, "method", "policy"}: {"data": as the
 // page has it}, without a picture, of that method and of complete driving beside it. Of whatever is wrong
 // {"error": one line}. Never throws.
 std::string AnswerLive(const std::string& request);

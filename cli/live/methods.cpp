@@ -1,19 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods of a page: of certify/methods.cpp those that have a path, in the plane.
+// The methods of a page: of certify/methods.cpp those that have a path; over floating-point numbers, in space,
+// the published algorithm, which takes roots.
 
 #include <array>
 
+#include "certify/polygons.h"
 #include "certify/solve.h"
-#include "solver/solve.ipp"
+#include "solver/floating_methods.ipp"
+#include "solver/problem/long_double.h"
+#include "solver/problem/reduction.ipp"
+#include "solver/published/published_space.ipp"
 
 namespace stiction {
+namespace {
 
-template <>
-std::span<const Method<Rational>> Methods<Rational>() {
-  static const std::array rows = {CompleteRow<Rational>({}), LemkeRow<Rational>({}), BaraffRow<Rational>({})};
+template <SpaceEngine kEngine>
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options,
+                               Trace<Rational>* trace) {
+  return AnswerOf(SolveWeakly(problem, SpaceOptionsOf(options, kEngine), trace), FrictionLaw::kBaraff);
+}
+
+template <class Scalar>
+std::span<const Method<Scalar>> InSpaceAlone() {
+  static const std::array rows = {BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}, {})};
   return rows;
 }
 
+}  // namespace
+
+template <>
+std::span<const Method<Rational>> Methods<Rational>() {
+  static const std::array rows = {CompleteRow<Rational>({&RunOnPolygons<SpaceEngine::kComplete>, true}),
+                                  LemkeRow<Rational>({&RunOnPolygons<SpaceEngine::kLemke>, true}),
+                                  BaraffRow<Rational>({})};
+  return rows;
+}
+template <>
+std::span<const Method<double>> Methods<double>() {
+  return InSpaceAlone<double>();
+}
+template <>
+std::span<const Method<LongDouble>> Methods<LongDouble>() {
+  return InSpaceAlone<LongDouble>();
+}
+
 template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
+                              Trace<double>*);
+template Answer<LongDouble> Solve(const ContactProblem<LongDouble>&, std::string_view, const SolveOptions&,
+                                  Trace<LongDouble>*);
+template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
+                                Trace<double>*);
+template void JudgeAnswer(const ContactProblem<double>&, double, Answer<double>&);
+template class Reduction<double>;
+template class PublishedInSpace<double>;
 
 }  // namespace stiction

@@ -46,7 +46,7 @@ class DirectionSystem {
   enum class Status { kRegular, kSingular, kInconsistent };
 
   // Whether systems of many unknowns are updated; what updated() is then.
-  static constexpr bool kUpdates = std::is_floating_point_v<Scalar> && Rows == Eigen::Dynamic;
+  static constexpr bool kUpdates = kIsFloatingPoint<Scalar> && Rows == Eigen::Dynamic;
   struct NotUpdated {};
   using Updated = std::conditional_t<kUpdates, UpdatedSystem<Scalar>, NotUpdated>;
 

@@ -174,6 +174,7 @@ template <class Scalar>
 template <class Unknowns>
 bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Unknowns& unknowns, Load load,
                                           Vector& df, Vector& da) {
+  using std::sqrt;
   constexpr Scalar kEpsilon = std::numeric_limits<Scalar>::epsilon();
   const int size = inverse_.size();
   const bool driven = load == Load::kDriven;
@@ -197,7 +198,7 @@ bool UpdatedSystem<Scalar>::FindDirection(const Problem& problem, const Unknowns
       counts_.refined += refined;
       return true;
     }
-    if (refined || !(residual <= std::sqrt(kEpsilon) * unit)) return false;
+    if (refined || !(residual <= sqrt(kEpsilon) * unit)) return false;
     inverse_.Multiply(column_.head(size), correction_.head(size));
     x_.head(size) -= correction_.head(size);
   }

@@ -39,23 +39,23 @@ std::optional<BackwardError> FindBackwardError(const ContactProblem<Scalar>& pro
   const CheckedAccelerations checked = Recompute(problem, f);
   if (!checked.a.allFinite()) return std::nullopt;
   const auto size = [&](int row) {  // (abs(A) abs(f) + abs(b))_row
-    long double sum = std::abs(static_cast<long double>(problem.b[row]));
+    LongDouble sum = Abs(static_cast<LongDouble>(problem.b[row]));
     for (int j = 0; j < problem.rows(); ++j)
-      sum += std::abs(static_cast<long double>(problem.A(row, j)) * f[j]);
+      sum += Abs(static_cast<LongDouble>(problem.A(row, j)) * f[j]);
     return sum;
   };
-  long double max_b = 0;
+  LongDouble max_b = 0;
   for (int i = 0; i < problem.rows(); ++i)
-    max_b = std::max(max_b, std::abs(static_cast<long double>(problem.b[i])));
+    max_b = std::max(max_b, Abs(static_cast<LongDouble>(problem.b[i])));
   // What it costs to move an acceleration so far, its rounding included.
-  const auto cost = [&](int row, long double distance) {
-    const long double of = size(row);
+  const auto cost = [&](int row, LongDouble distance) {
+    const LongDouble of = size(row);
     return of > 0 ? (distance + checked.error) / of : distance;
   };
-  constexpr long double kRounding = 4 * std::numeric_limits<long double>::epsilon();  // of mu fN
+  const LongDouble kRounding = 4 * std::numeric_limits<LongDouble>::epsilon();  // of mu fN
   BackwardError error;
-  const auto include = [](double& most, long double x) { most = std::max(most, static_cast<double>(x)); };
-  const auto move = [&](int row, long double distance) {
+  const auto include = [](double& most, LongDouble x) { most = std::max(most, static_cast<double>(x)); };
+  const auto move = [&](int row, LongDouble distance) {
     include(error.of_data, cost(row, distance));
     if (max_b > 0) include(error.of_b, (distance + checked.error) / max_b);
   };
@@ -63,24 +63,24 @@ std::optional<BackwardError> FindBackwardError(const ContactProblem<Scalar>& pro
   for (const auto& contact : problem.contacts) {
     const bool bilateral = contact.kind == ContactKind::kBilateral, presses = f[row] > 0;
     if (contact.kind == ContactKind::kSliding || (!bilateral && f[row] < 0)) return std::nullopt;
-    const long double aN = checked.a[row];
-    move(row, bilateral || presses ? std::abs(aN) : std::max(-aN, 0.0L));
+    const LongDouble aN = checked.a[row];
+    move(row, bilateral || presses ? Abs(aN) : std::max(-aN, LongDouble(0)));
     if (!contact.HasFrictionRows()) {
       ++row;
       continue;
     }
-    const long double fF = f[row + 1], aF = checked.a[row + 1], bound = contact.mu * f[row];
+    const LongDouble fF = f[row + 1], aF = checked.a[row + 1], bound = contact.mu * f[row];
     if (fF != 0 && !(bound > 0)) return std::nullopt;
     if (presses) {
-      const long double at_rest = cost(row + 1, std::abs(aF));
-      const long double change = bound > 0 ? std::abs(std::abs(fF) - bound) / bound + kRounding : 0.0L;
-      const bool within = std::abs(fF) < bound * (1 - kRounding) || bound == 0;
-      const bool opposes = fF == 0 || (aF * fF < 0 && std::abs(aF) > checked.error);
+      const LongDouble at_rest = cost(row + 1, Abs(aF));
+      const LongDouble change = bound > 0 ? Abs(Abs(fF) - bound) / bound + kRounding : LongDouble(0);
+      const bool within = Abs(fF) < bound * (1 - kRounding) || bound == 0;
+      const bool opposes = fF == 0 || (aF * fF < 0 && Abs(aF) > checked.error);
       if (!within) include(error.of_mu, change);
       if (within && opposes && change < at_rest) {
         include(error.of_mu, change);  // it slides at the limit of a mu nearby
       } else if (within || !opposes) {
-        move(row + 1, std::abs(aF));
+        move(row + 1, Abs(aF));
       }
     }
     row += 2;

@@ -21,38 +21,39 @@
 #include <limits>
 
 #include "solver/problem/answer.h"
+#include "solver/problem/long_double.h"
 #include "solver/problem/residual.h"
 #include "solver/problem/weak_residual.h"
 
 namespace stiction {
 
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+using LongVector = Eigen::Matrix<LongDouble, Eigen::Dynamic, 1>;
 
 template <class Scalar>
-long double MostFriction(const ContactProblem<Scalar>& problem) {
-  long double most = 0;
+LongDouble MostFriction(const ContactProblem<Scalar>& problem) {
+  LongDouble most = 0;
   if (problem.dimension == 2) return most;
-  for (const auto& contact : problem.contacts) most = std::max<long double>(most, contact.mu);
+  for (const auto& contact : problem.contacts) most = std::max<LongDouble>(most, contact.mu);
   return most;
 }
 
 // Accelerations, and the largest bound of their errors.
 struct CheckedAccelerations {
   LongVector a;
-  long double error = 0;
+  LongDouble error = 0;
 };
 
 template <class Scalar>
 CheckedAccelerations Recompute(const ContactProblem<Scalar>& problem, const LongVector& f) {
   const int rows = problem.rows();
-  const long double unit = (rows + 2) * std::numeric_limits<long double>::epsilon() / 2;
+  const LongDouble unit = (rows + 2) * std::numeric_limits<LongDouble>::epsilon() / 2;
   CheckedAccelerations checked{LongVector(rows), 0};
   for (int i = 0; i < rows; ++i) {
-    long double sum = problem.b[i], size = std::abs(sum);
+    LongDouble sum = problem.b[i], size = Abs(sum);
     for (int j = 0; j < rows; ++j) {
-      const long double product = static_cast<long double>(problem.A(i, j)) * f[j];
+      const LongDouble product = static_cast<LongDouble>(problem.A(i, j)) * f[j];
       sum += product;
-      size += std::abs(product);
+      size += Abs(product);
     }
     checked.a[i] = sum;
     checked.error = std::max(checked.error, unit * size);
@@ -62,9 +63,9 @@ CheckedAccelerations Recompute(const ContactProblem<Scalar>& problem, const Long
 
 // The problem that is measured, of numbers wider than long double.
 template <class Scalar>
-ContactProblem<long double> InLongDouble(const ContactProblem<Scalar>& problem) {
-  const auto convert = [](const Scalar& x) { return static_cast<long double>(x); };
-  ContactProblem<long double> rounded;
+ContactProblem<LongDouble> InLongDouble(const ContactProblem<Scalar>& problem) {
+  const auto convert = [](const Scalar& x) { return static_cast<LongDouble>(x); };
+  ContactProblem<LongDouble> rounded;
   rounded.dimension = problem.dimension;
   for (const auto& contact : problem.contacts)
     rounded.contacts.push_back(
@@ -76,18 +77,18 @@ ContactProblem<long double> InLongDouble(const ContactProblem<Scalar>& problem) 
 
 // Relative as residual.h and weak_residual.h say for the law; infinite if a number is not finite.
 template <class Scalar>
-long double ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law, const LongVector& f) {
+LongDouble ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law, const LongVector& f) {
   const CheckedAccelerations checked = Recompute(problem, f);
   const bool round = problem.dimension == 3 && law == FrictionLaw::kCoulomb;
-  Residual<long double> residual = problem.dimension == 2 ? MeasureResidual(problem, f, checked.a)
+  Residual<LongDouble> residual = problem.dimension == 2 ? MeasureResidual(problem, f, checked.a)
                                    : round                ? MeasureCoulomb(problem, f, checked.a)
                                                           : MeasureWeak(problem, f, checked.a);
-  if (!residual.is_finite) return std::numeric_limits<long double>::infinity();
-  const long double slope = residual.r * (1 + MostFriction(problem));
+  if (!residual.is_finite) return std::numeric_limits<LongDouble>::infinity();
+  const LongDouble slope = residual.r * (1 + MostFriction(problem));
   residual.worst += 3 * slope * checked.error;
   if (round && problem.rows() > 0) {
-    const long double parts = residual.scale + slope * checked.a.cwiseAbs().maxCoeff();
-    residual.worst += 32 * std::numeric_limits<long double>::epsilon() * parts;
+    const LongDouble parts = residual.scale + slope * checked.a.cwiseAbs().maxCoeff();
+    residual.worst += 32 * std::numeric_limits<LongDouble>::epsilon() * parts;
   }
   return round ? residual.RelativeToB() : residual.Relative();
 }

@@ -14,6 +14,10 @@
 
 namespace stiction {
 
+// True for the language's floating-point numbers, and for what stands in for one of them.
+template <class Scalar>
+inline constexpr bool kIsFloatingPoint = std::is_floating_point_v<Scalar>;
+
 // True for number types that round. Specialised beside those that are not the language's own.
 template <class Scalar>
 inline constexpr bool kIsRounded = std::is_floating_point_v<Scalar>;
