@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers over floating-point numbers, told in doubles; and the published algorithm in space, run again where it
-// does not end solved. For units that define a table of methods, or choose from it.
+// Answers over floating-point numbers, told in doubles; and the published algorithm in space, run again where
+// it does not end solved. For units that define a table of methods, or choose from it.
 
 #ifndef STICTION_CERTIFY_INEXACT_H_
 #define STICTION_CERTIFY_INEXACT_H_

@@ -24,7 +24,10 @@
 
 namespace stiction {
 
-#ifndef STICTION_PORTABLE_NUMBERS
+#ifdef STICTION_PORTABLE_NUMBERS
+using Interval = PortableInterval;
+using UnsureComparison = PortableInterval::Unsure;
+#else
 using Interval = CGAL::Interval_nt<>;
 using UnsureComparison = CGAL::Uncertain_conversion_exception;
 #endif
@@ -50,9 +53,7 @@ struct Unsure<Interval> {
     const bool tells = gap.inf() > 0 && std::isfinite(gap.inf()) && std::isfinite(rate.sup());
     return tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
   }
-  [[noreturn]] static void Refuse() {
-    throw UnsureComparison("a limit that may or may not be the nearest");
-  }
+  [[noreturn]] static void Refuse() { throw UnsureComparison("a limit that may or may not be the nearest"); }
 };
 
 // The double nearest to x, or the two on either side of it.

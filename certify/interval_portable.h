@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interval where the processor rounds to nearest only, as WebAssembly does (cli/live). Include interval.h.
+// PortableInterval: intervals where the processor rounds to nearest only, as WebAssembly does (cli/live).
+// Include interval.h.
 //
 // An end is rounded outward by the sign of what rounding to nearest has left: of a sum by two-sum, otherwise by
 // a fused multiplication. So it is the double that rounding toward that side gives, and an interval the same as
@@ -15,16 +16,6 @@
 #include <limits>
 
 namespace stiction {
-
-class UnsureComparison : public std::exception {
- public:
-  UnsureComparison() = default;
-  explicit UnsureComparison(const char* what) : what_(what) {}
-  const char* what() const noexcept override { return what_; }
-
- private:
-  const char* what_ = "a comparison that the ends of intervals do not decide";
-};
 
 // Operations rounded up.
 class Upward {
@@ -68,29 +59,39 @@ class Upward {
   }
 };
 
-class Interval {
+class PortableInterval {
  public:
-  Interval() = default;
-  Interval(int x) : Interval(static_cast<double>(x)) {}  // NOLINT: as numbers
-  Interval(double x) : inf_(x), sup_(x) {}               // NOLINT
-  Interval(double inf, double sup) : inf_(inf), sup_(sup) {}
+  // Thrown by a comparison that the ends do not decide.
+  struct Unsure : std::exception {
+    Unsure() = default;
+    explicit Unsure(const char* reason) : what_(reason) {}
+    const char* what() const noexcept override { return what_; }
+
+   private:
+    const char* what_ = "a comparison that the ends of intervals do not decide";
+  };
+
+  PortableInterval() = default;
+  PortableInterval(int x) : PortableInterval(static_cast<double>(x)) {}  // NOLINT: as numbers
+  PortableInterval(double x) : inf_(x), sup_(x) {}                       // NOLINT
+  PortableInterval(double inf, double sup) : inf_(inf), sup_(sup) {}
 
   double inf() const { return inf_; }
   double sup() const { return sup_; }
 
-  Interval operator-() const { return {-sup_, -inf_}; }
-  friend Interval operator+(const Interval& x, const Interval& y) {
+  PortableInterval operator-() const { return {-sup_, -inf_}; }
+  friend PortableInterval operator+(const PortableInterval& x, const PortableInterval& y) {
     return {-Upward::Sum(-x.inf_, -y.inf_), Upward::Sum(x.sup_, y.sup_)};
   }
-  friend Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
-  friend Interval operator*(const Interval& x, const Interval& y) {
-    const auto most = [](double a, double b, const Interval& z) {
-      return std::max({Upward::Product(a, z.inf_), Upward::Product(a, z.sup_), Upward::Product(b, z.inf_),
-                       Upward::Product(b, z.sup_)});
+  friend PortableInterval operator-(const PortableInterval& x, const PortableInterval& y) { return x + -y; }
+  friend PortableInterval operator*(const PortableInterval& x, const PortableInterval& y) {
+    const auto most = [&y](double a, double b) {
+      return std::max({Upward::Product(a, y.inf_), Upward::Product(a, y.sup_), Upward::Product(b, y.inf_),
+                       Upward::Product(b, y.sup_)});
     };
-    return {-most(-x.inf_, -x.sup_, y), most(x.inf_, x.sup_, y)};
+    return {-most(-x.inf_, -x.sup_), most(x.inf_, x.sup_)};
   }
-  friend Interval operator/(const Interval& x, const Interval& y) {
+  friend PortableInterval operator/(const PortableInterval& x, const PortableInterval& y) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (y.inf_ <= 0 && y.sup_ >= 0) return {-kInfinity, kInfinity};
     const auto most = [&y](double a, double b) {
@@ -99,27 +100,27 @@ class Interval {
     };
     return {-most(-x.inf_, -x.sup_), most(x.inf_, x.sup_)};
   }
-  Interval& operator+=(const Interval& y) { return *this = *this + y; }
-  Interval& operator-=(const Interval& y) { return *this = *this - y; }
-  Interval& operator*=(const Interval& y) { return *this = *this * y; }
-  Interval& operator/=(const Interval& y) { return *this = *this / y; }
+  PortableInterval& operator+=(const PortableInterval& y) { return *this = *this + y; }
+  PortableInterval& operator-=(const PortableInterval& y) { return *this = *this - y; }
+  PortableInterval& operator*=(const PortableInterval& y) { return *this = *this * y; }
+  PortableInterval& operator/=(const PortableInterval& y) { return *this = *this / y; }
 
-  friend bool operator<(const Interval& x, const Interval& y) {
+  friend bool operator<(const PortableInterval& x, const PortableInterval& y) {
     if (x.sup_ < y.inf_) return true;
     if (x.inf_ >= y.sup_) return false;
-    throw UnsureComparison();
+    throw Unsure();
   }
-  friend bool operator>(const Interval& x, const Interval& y) { return y < x; }
-  friend bool operator<=(const Interval& x, const Interval& y) { return !(y < x); }
-  friend bool operator>=(const Interval& x, const Interval& y) { return !(x < y); }
-  friend bool operator==(const Interval& x, const Interval& y) {
+  friend bool operator>(const PortableInterval& x, const PortableInterval& y) { return y < x; }
+  friend bool operator<=(const PortableInterval& x, const PortableInterval& y) { return !(y < x); }
+  friend bool operator>=(const PortableInterval& x, const PortableInterval& y) { return !(x < y); }
+  friend bool operator==(const PortableInterval& x, const PortableInterval& y) {
     if (x.inf_ > y.sup_ || y.inf_ > x.sup_) return false;
     if (x.inf_ == y.sup_ && y.inf_ == x.sup_) return true;
-    throw UnsureComparison();
+    throw Unsure();
   }
 
   // Of what of it is no less than zero.
-  friend Interval sqrt(const Interval& x) {
+  friend PortableInterval sqrt(const PortableInterval& x) {
     const double least = x.inf_ > 0 ? std::sqrt(x.inf_) : 0;
     const bool above = least > 0 && (x.inf_ < 0x1p-960 || std::fma(-least, least, x.inf_) < 0);
     return {above ? std::nextafter(least, 0) : least, x.sup_ > 0 ? Upward::Root(x.sup_) : 0};
@@ -132,8 +133,8 @@ class Interval {
 }  // namespace stiction
 
 template <>
-struct Eigen::NumTraits<stiction::Interval> : Eigen::GenericNumTraits<stiction::Interval> {
-  using Real = stiction::Interval;
+struct Eigen::NumTraits<stiction::PortableInterval> : Eigen::GenericNumTraits<stiction::PortableInterval> {
+  using Real = stiction::PortableInterval;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = Real;

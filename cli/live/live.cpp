@@ -48,10 +48,10 @@ Json LimitsToJson() {
 }
 
 void RequireFew(const ProblemFile& file) {
-  const int rows = file.problem.rows();
-  if (rows > kMostLiveRows)
+  const int rows = file.problem.rows(), most = file.problem.dimension == 3 ? kMostInSpace : kMostLiveRows;
+  if (rows > most)
     throw InputError("problem", "contacts", fmt::format("{} rows", rows),
-                     fmt::format("at most {}; the program takes more", kMostLiveRows));
+                     fmt::format("at most {}; the program takes more", most));
 }
 
 // Over doubles, as SolveIn has it.
@@ -97,7 +97,8 @@ Json AnswerToJson(const std::string& request) {
   const JsonPlace place(json, kRequest, "");
   const JsonPlace ask = place.Required("ask", "run or switches");
   const std::string& asked = ask.Text("run or switches");
-  if (asked == "switches") return {{"switches", SwitchesToJson(2)}, {"in_space", SwitchesToJson(3)}, {"limits", LimitsToJson()}};
+  if (asked == "switches")
+    return {{"switches", SwitchesToJson(2)}, {"in_space", SwitchesToJson(3)}, {"limits", LimitsToJson()}};
   if (asked == "run") return RunToJson(place);
   ask.Refuse("run or switches");
 }

@@ -21,10 +21,14 @@ namespace stiction {
 // is no less.
 inline constexpr Limits kLiveLimits = {.drives = 300, .pivots = 1000, .bits = 2000};
 inline constexpr int kMostLiveRows = 64;
+// In space: from kUpdateFrom unknowns on, directions are updated by sums of doubles that the program takes in
+// pairs, as the registers of its processor do, and a page would take one by one.
+inline constexpr int kMostInSpace = kUpdateFrom - 1;
 
 // Of {"ask": "switches"}: {"switches": the table of the policy in the plane, "in_space": what of it is built
-// there, "limits": {"max-drives", "max-pivots", "max-bits"}}. Of {"ask": "run", "problem": the text of a problem file, "method", "policy"}: {"data": as the
-// page has it}, without a picture, of that method and of complete driving beside it. Of whatever is wrong
+// there, "limits": {"max-drives", "max-pivots", "max-bits"}}. Of {"ask": "run", "problem": the text of a
+// problem file, "method", "policy"}: {"data": as the page has it}, without a picture, of that method and of
+// complete driving beside it. Of whatever is wrong
 // {"error": one line}. Never throws.
 std::string AnswerLive(const std::string& request);
 

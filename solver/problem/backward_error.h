@@ -40,13 +40,11 @@ std::optional<BackwardError> FindBackwardError(const ContactProblem<Scalar>& pro
   if (!checked.a.allFinite()) return std::nullopt;
   const auto size = [&](int row) {  // (abs(A) abs(f) + abs(b))_row
     LongDouble sum = Abs(static_cast<LongDouble>(problem.b[row]));
-    for (int j = 0; j < problem.rows(); ++j)
-      sum += Abs(static_cast<LongDouble>(problem.A(row, j)) * f[j]);
+    for (int j = 0; j < problem.rows(); ++j) sum += Abs(static_cast<LongDouble>(problem.A(row, j)) * f[j]);
     return sum;
   };
   LongDouble max_b = 0;
-  for (int i = 0; i < problem.rows(); ++i)
-    max_b = std::max(max_b, Abs(static_cast<LongDouble>(problem.b[i])));
+  for (int i = 0; i < problem.rows(); ++i) max_b = std::max(max_b, Abs(static_cast<LongDouble>(problem.b[i])));
   // What it costs to move an acceleration so far, its rounding included.
   const auto cost = [&](int row, LongDouble distance) {
     const LongDouble of = size(row);

@@ -17,7 +17,6 @@
 #include <limits>
 #include <utility>
 
-#include "solver/problem/answer.h"
 #include "solver/problem/scalar.h"
 
 namespace stiction {
@@ -26,7 +25,8 @@ class Extended {
  public:
   constexpr Extended() = default;
   constexpr Extended(int x)  // NOLINT: as long double
-      : Extended(FromInteger(x < 0, x < 0 ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x))) {}
+      : Extended(
+            FromInteger(x < 0, x < 0 ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x))) {}
   constexpr Extended(double x)  // NOLINT: as long double
       : Extended(FromDouble(x)) {}
 
@@ -227,8 +227,6 @@ template <>
 inline constexpr bool kIsRounded<Extended> = true;
 template <>
 inline constexpr bool kIsFloatingPoint<Extended> = true;
-template <>
-inline constexpr Arithmetic kArithmeticOf<Extended> = Arithmetic::kLongDouble;
 
 }  // namespace stiction
 

@@ -81,8 +81,8 @@ LongDouble ResidualBound(const ContactProblem<Scalar>& problem, FrictionLaw law,
   const CheckedAccelerations checked = Recompute(problem, f);
   const bool round = problem.dimension == 3 && law == FrictionLaw::kCoulomb;
   Residual<LongDouble> residual = problem.dimension == 2 ? MeasureResidual(problem, f, checked.a)
-                                   : round                ? MeasureCoulomb(problem, f, checked.a)
-                                                          : MeasureWeak(problem, f, checked.a);
+                                  : round                ? MeasureCoulomb(problem, f, checked.a)
+                                                         : MeasureWeak(problem, f, checked.a);
   if (!residual.is_finite) return std::numeric_limits<LongDouble>::infinity();
   const LongDouble slope = residual.r * (1 + MostFriction(problem));
   residual.worst += 3 * slope * checked.error;

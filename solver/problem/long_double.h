@@ -6,6 +6,7 @@
 #define STICTION_SOLVER_PROBLEM_LONG_DOUBLE_H_
 
 #ifdef STICTION_PORTABLE_NUMBERS
+#include "solver/problem/answer.h"
 #include "solver/problem/extended.h"
 #endif
 
@@ -13,6 +14,8 @@ namespace stiction {
 
 #ifdef STICTION_PORTABLE_NUMBERS
 using LongDouble = Extended;
+template <>
+inline constexpr Arithmetic kArithmeticOf<Extended> = Arithmetic::kLongDouble;
 #else
 using LongDouble = long double;
 #endif

@@ -349,7 +349,7 @@ void PublishedInSpace<Scalar>::Offer(Limit& limit, const Scalar& gap, const Scal
                                      const Scalar& tolerance) {
   if (IsSurelyZero(rate) || Sign(rate, tolerance) <= 0) return;
   Scalar s = gap / rate;
-  if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
+  if (!kIsExact<Scalar> && s <= 0) s = Scalar(0);  // gap < 0 by rounding only; and no zero has a sign
   if (limit.exists && !(s < limit.s)) return;
   limit = {true, std::move(s), wants};
 }

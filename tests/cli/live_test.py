@@ -20,15 +20,17 @@ import cli
 MODULE = "reports/web/solver/solver.wasm.gz"
 READINGS = [("baraff", "paper"), ("baraff", "give-up=second,ties=contacts"), ("baraff", "resume=round,file=yes"),
             ("complete", "paper"), ("lemke", "paper")]
+IN_SPACE = [("baraff", "paper"), ("baraff", "slip=redirect"), ("baraff", "give-up=second,ties=contacts"),
+            ("baraff", "resume=round,admit=eager,slip=redirect"), ("complete", "paper"), ("lemke", "paper")]
 MOST_BYTES = 2_000_000  # that a page may grow by
 
 
-def planar_corpus():
-    """The planar problems of the corpus, as they are, and with numbers of all spellings."""
-    for folder in ("", "sliding", "endless"):
+def corpus(dimension, *folders):
+    """The problems of the corpus, as they are, and with numbers of all spellings."""
+    for folder in folders:
         for file in sorted((cli.ROOT / "corpus" / folder).glob("*.json")):
             problem = json.loads(file.read_text())
-            if problem["format"] != "stiction-problem" or problem["dimension"] != 2:
+            if problem["format"] != "stiction-problem" or problem["dimension"] != dimension:
                 continue
             problem.pop("scene", None)  # of which a page has a picture
             yield problem
@@ -36,9 +38,46 @@ def planar_corpus():
                 yield dict(problem, name=f"{problem['name']}-edited", b=["-0.125", *problem["b"][1:-1], "7/30"])
 
 
+def in_space():
+    """The corpus; bilateral and sliding contacts; as many rows as a page takes."""
+    yield from corpus(3, "space")
+    loop = json.loads((cli.ROOT / "corpus/space/cycle-under-both-slips.json").read_text())
+    sliding = {"kind": "sliding", "mu": "1/2", "slip": ["3/5", "4/5"]}
+    yield dict(loop, name="sliding", contacts=[sliding, *loop["contacts"][1:]])
+    yield beside(dict(loop, contacts=[sliding, *loop["contacts"][1:]]), loop, "sliding-beside")
+    yield dict(many(2), name="bilateral", contacts=[{"kind": "bilateral"}, *many(2)["contacts"][1:]],
+               A=[[row[0], *row[3:]] for row in [many(2)["A"][0], *many(2)["A"][3:]]],
+               b=[many(2)["b"][0], *many(2)["b"][3:]])
+    yield many(5)
+
+
+def beside(problem, other, name):
+    """Two problems as one, without a word to each other."""
+    n, m = len(problem["b"]), len(other["b"])
+    return dict(problem, name=name, contacts=problem["contacts"] + other["contacts"], b=problem["b"] + other["b"],
+                A=[row + ["0"] * m for row in problem["A"]] + [["0"] * n + row for row in other["A"]])
+
+
+def many(contacts):
+    """Static contacts in space with a full and definite A of small numbers."""
+    n = 3 * contacts
+    factor = [[(7 * i * i + 3 * j + i * j) % 11 - 5 for j in range(n)] for i in range(n)]
+    product = [[sum(x * y for x, y in zip(row, other)) for other in factor] for row in factor]
+    return {"format": "stiction-problem", "version": 1, "name": f"many-{contacts}", "dimension": 3,
+            "contacts": [{"kind": "static", "mu": "9"}] * contacts,
+            "A": [[str(x + (i == j)) for j, x in enumerate(row)] for i, row in enumerate(product)],
+            "b": [str(-9 if i % 3 == 0 else (5 * i) % 7 - 3) for i in range(n)]}
+
+
 def request(problem, method="baraff", policy="paper"):
     return {"ask": "run", "problem": problem if isinstance(problem, str) else json.dumps(problem), "method": method,
             "policy": policy}
+
+
+def around(text, other):
+    """Where it is another."""
+    at = next((i for i, (x, y) in enumerate(zip(text, other)) if x != y), min(len(text), len(other)))
+    return text[max(0, at - 200):at + 100]
 
 
 class Native:
@@ -75,18 +114,41 @@ class Live(cli.TestCase):
         return data.replace("\\u003c", "<")
 
     def test_it_says_what_the_program_says_to_the_byte(self):
-        cases = [(problem, *reading) for problem in planar_corpus() for reading in READINGS]
+        cases = [(problem, *reading) for problem in corpus(2, "", "sliding", "endless") for reading in READINGS]
         self.assertGreater(len(cases), 300)
+        self.compare(cases)
+
+    def test_in_space_it_says_what_the_program_says_to_the_byte(self):
+        cases = [(problem, *reading) for problem in in_space() for reading in IN_SPACE]
+        self.assertGreater(len(cases), 100)
+        ends = self.compare(cases)
+        # The tongues of all arithmetics: doubles, run again more finely, intervals that prove or leave open.
+        for end in ("^solved", "^cycle: after rounding.*; over intervals, proved: cycle",
+                    "; over intervals, which do not decide it", "^ray.*; over intervals, proved: ray"):
+            self.assertTrue(any(re.search(end, one) for one in ends), end)
+
+    def compare(self, cases):
+        """How the runs end, which are the program's."""
         expected = ['{"data":' + self.page_data(*case) + "}" for case in cases]
         for runner in (Native(), Module()):
             answers = runner.answers([request(*case) for case in cases])
             self.assertEqual(len(answers), len(cases))
             for (problem, *reading), answer, one in zip(cases, answers, expected, strict=True):
                 self.assertTrue(answer == one, f"{type(runner).__name__}: {problem['name']}, {reading}:\n"
-                                               f"{answer[:300]}\n{one[:300]}")
+                                               f"{around(answer, one)}\n{around(one, answer)}")
+        return [json.loads(one)["data"]["runs"][0]["end"] for one in expected]
+
+    def test_in_space_the_switches_are_those_that_are_built_there(self):
+        for runner in (Native(), Module()):
+            answer = json.loads(runner.answers([{"ask": "switches"}])[0])
+            plane, space = ({row["name"]: [value["name"] for value in row["values"]] for row in answer[key]}
+                            for key in ("switches", "in_space"))
+            self.assertEqual(space.pop("slip"), ["literal", "redirect"])
+            self.assertEqual(space, {name: values for name, values in plane.items() if name not in ("file", "apex")})
 
     def test_what_is_wrong_is_named(self):
         loop = cli.REFERENCE
+        space = json.loads((cli.ROOT / "corpus/space/cycle-under-both-slips.json").read_text())
         wrong = [
             (dict(loop, b=["2", "x", "-2", "2"]), 'problem: b[1]: found "x", expected a number, such as'),
             (dict(loop, A=[["7", "-2", "-6", ""], *loop["A"][1:]]), 'problem: A[0][3]: found ""'),
@@ -95,13 +157,15 @@ class Live(cli.TestCase):
             (dict(loop, contacts=[{"kind": "static", "mu": "-1"}, loop["contacts"][1]]),
              'problem: contacts[0].mu: found "-1", expected mu >= 0'),
             (dict(loop, contacts=[{"kind": "glued"}, loop["contacts"][1]]), 'problem: contacts[0].kind: found "glued"'),
-            (json.loads((cli.ROOT / "corpus/space/cycle-under-both-slips.json").read_text()), "dimension: found 3, expected 2"),
+            (dict(space, b=["1e400", *space["b"][1:]]), "problem: b[0]: found 1"),
             (self.large(65), "contacts: found 65 rows, expected at most 64"),
+            (many(6), "contacts: found 18 rows, expected at most 15"),
             ("{", "problem: line 1, column 2"),
         ]
         bad = [*(request(problem) for problem, _ in wrong), request(loop, policy="ties=none"), request(loop, "guess"),
-               {"ask": "nothing"}, {}]
-        says = [*(text for _, text in wrong), "ties", "guess", "expected run or switches", "request: ask: found nothing"]
+               request(space, policy="apex=suspended"), {"ask": "nothing"}, {}]
+        says = [*(text for _, text in wrong), "ties", "guess", "problem: --policy apex=suspended: in space expected",
+                "expected run or switches", "request: ask: found nothing"]
         for runner in (Native(), Module()):
             for answer, text in zip(runner.answers(bad), says, strict=True):
                 error, = json.loads(answer).items()

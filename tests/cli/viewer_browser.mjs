@@ -544,10 +544,80 @@ test('a run that does not end is ended, by the page or its reader', async () => 
   }, {prepare: silent, hash: '#step-3'});
 });
 
-test('in space it is said why nothing runs', async () => {
+test('a problem in space is edited and runs as in the program', async () => {
+  const edits = [
+    {changes: [], policy: 'paper', end: /cycle: after rounding.*; over intervals, proved: cycle/},
+    {changes: [['b 0', '-1.5'], ['A 1 0', '1/4']], policy: 'paper', end: /: /},
+    {changes: [['mu 1', '2.5']], policy: 'give-up=second,slip=redirect', end: /: /},
+  ];
+  for (const {changes, policy, end} of edits) {
+    await opened('space', async page => {
+      await openEditor(page);
+      assert.match(await page.textContent('#edit .note'), /runs over rounded numbers, as in the program/);
+      assert.equal(await page.locator(field('policy file')).count(), 0);
+      for (const [key, text] of changes) await page.fill(field(key), text);
+      for (const word of policy === 'paper' ? [] : policy.split(',')) {
+        const [name, value] = word.split('=');
+        await page.selectOption(field(`policy ${name}`), value);
+      }
+      await runAgain(page);
+      await leaveFields(page);
+      assert.equal(await page.isVisible('#edited'), true);
+      assert.match(await page.textContent('#verdicts .run-0'), end);
+      await assertRunsLikeTheProgram(page, policy);
+    });
+  }
+});
+
+test('contacts in space have two rows of friction, and slip along a unit vector', async () => {
+  const rows = page => page.$$eval('#edit .entries tbody th', cells => cells.map(cell => cell.textContent));
+  let hash = '';
   await opened('space', async page => {
-    assert.match(await page.textContent('#edit'), /In space forces are irrational/);
-    assert.equal(await page.locator('#edit input').count(), 0);
+    await openEditor(page);
+    assert.deepEqual(await rows(page), ['N1', 'F1x', 'F1y', 'N2', 'F2x', 'F2y']);
+    await page.selectOption(field('kind 1'), 'frictionless');
+    assert.deepEqual(await rows(page), ['N1', 'F1x', 'F1y', 'N2']);
+    await page.click('#edit button[aria-label="Add a contact"]');
+    assert.deepEqual(await rows(page), ['N1', 'F1x', 'F1y', 'N2', 'N3', 'F3x', 'F3y']);
+    await page.selectOption(field('kind 2'), 'sliding');
+    await page.fill(field('slip 2[1]'), '1');
+    await page.click('#edit button[type=submit]');
+    await page.waitForFunction(
+        () => document.querySelector('#edit .told').textContent.startsWith('contact 3, slip: found'));
+    await page.fill(field('slip 2'), '-3/5');
+    await page.fill(field('slip 2[1]'), '4/5');
+    await runAgain(page);
+    hash = await hashOf(page);
+    const {text} = await downloaded(page);
+    assert.equal(JSON.parse(text).dimension, 3);
+    assert.deepEqual(JSON.parse(text).contacts[2], {kind: 'sliding', mu: '1', slip: ['-3/5', '4/5']});
+    await leaveFields(page);
+    await assertRunsLikeTheProgram(page, 'paper');
+  });
+  await opened('space', async page => {
+    await page.waitForSelector('#edited', {state: 'visible', timeout: 20000});
+    assert.deepEqual(await rows(page), ['N1', 'F1x', 'F1y', 'N2', 'N3', 'F3x', 'F3y']);
+    assert.equal(await page.inputValue(field('slip 2[1]')), '4/5');
+  }, {hash});
+  // Of another dimension than the page's.
+  await opened('loop', async page => assert.equal(await page.isVisible('#edited'), false), {hash});
+});
+
+test('before the first step it is said what is to come', async () => {
+  await opened('loop', async page => {
+    const story = run => page.textContent(`section.run-${run} .story`);
+    assert.match(await story(0), /First, drive 1 N1\./);
+    assert.match(await story(0), /16 steps in 7 drives\. A variable is given up at step 5, 10, 15\./);
+    assert.match(await story(0), /The loop begins after step 2 and closes at step 16\./);
+    assert.match(await story(1), /5 pieces in 4 stages\. The path turns back at piece 4\./);
+    assert.match(await story(1), /keeps step with the first run/);
+    await page.click('section.run-0 .outlook a >> text="10"');
+    await becomes(page, 'Step 10 of 16');
+    assert.equal(await page.locator('.outlook').count(), 0);
+  });
+  await opened('at-rest', async page => {
+    assert.match(await page.textContent('section.run-0 .story'), /No step is taken\./);
+    assert.equal(await page.locator('.how').count(), 0);
   });
 });
 

@@ -234,8 +234,18 @@ bug("weak-power", "if (force > 0) worst = std::max(worst, r * (f[row + 1] * a[ro
 bug = in_file("solver/problem/gate.h", "^solver: gate|^certify: solve")
 bug("rounding-not-bounded", "residual.worst += 3 * slope * checked.error;", "",
     "the residual is not an upper bound")
-bug("measure-not-bounded", "residual.worst += 32 * std::numeric_limits<long double>::epsilon() * parts;", "",
+bug("measure-not-bounded", "residual.worst += 32 * std::numeric_limits<LongDouble>::epsilon() * parts;", "",
     "the rounding of the measure itself is not counted")
+
+bug = in_file("solver/problem/extended.h", "^solver: extended")
+bug("extended-tie", "lost > half || (lost == half && (rest || (kept & 1) != 0))", "lost >= half",
+    "ties are rounded away from zero")
+bug("extended-rest", "big.negative_ == small.negative_ ? one + other : one - other - (rest ? 1 : 0)",
+    "big.negative_ == small.negative_ ? one + other : one - other", "a difference forgets what it has shifted out")
+bug("extended-zero", "sum != 0 && big.negative_", "big.negative_", "x - x is a negative zero")
+bug("extended-subnormal", "std::max(size - 64, kLeastExponent - 63 - e)", "size - 64",
+    "numbers below the normal ones keep their digits")
+bug("extended-root", "rest > root;", "rest >= root;", "a root is rounded up from below its half")
 
 bug = in_file("solver/problem/state.h", "^solver: (step size|run|published|complete)")
 bug("force-tolerance-unit", "scale.force = std::max(Scalar(tolerances.force), least) * f;",
@@ -487,6 +497,13 @@ bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)"
 bug = in_file("certify/dependent_rows.cpp", FILTERED)
 bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << problem_.A.row(i), Rational(0);", "equations between rows of A alone",
     equivalent="of the generators b is in the range of A, where the same equations hold for b")
+
+bug = in_file("certify/interval_portable.h", "^certify: portable intervals")
+bug("portable-sum", "return left > 0 ? Next(sum) : sum;", "return left < 0 ? Next(sum) : sum;", "sums are rounded inward")
+bug("portable-product", "IsTiny(product) || std::fma(x, y, -product) > 0", "std::fma(x, y, -product) > 0",
+    "a product whose rest underflows is taken for exact")
+bug("portable-quotient", "(y > 0 ? left > 0 : left < 0)", "left > 0", "quotients by negative numbers are rounded inward")
+bug("portable-root", "std::fma(-least, least, x.inf_) < 0", "false", "the lower end of a root is rounded up")
 
 bug = in_file("solver/problem/backward_error.h", FILTERED)
 bug("backward-rounding", "(distance + checked.error) / of", "distance / of", "the rounding of accelerations is forgotten",
@@ -867,6 +884,12 @@ bug("none-rounded", "fractions == FractionText::kFull", "true", "long fractions 
 
 bug = in_file("cli/words.cpp", "^program: replay")
 bug("part-of-a-word", "belongs(text[end])", "false", "drive is found in driven")
+
+bug = in_file("cli/live/live.cpp", "^program: live")
+bug("live-not-again", "if (solution.outcome() != Outcome::kSolved) RunAgainInSpace(rounded, request, solution);", "",
+    "a page does not run suspicions in space again")
+bug("live-not-proved", "TellOverIntervals(*proved, run);", "{}", "a page does not say what intervals prove")
+bug("live-reading", "RequireReading(problem, request);", "", "a page runs readings that are not built in space")
 
 bug = in_file("cli/replay.cpp", "^program: problem")
 bug("nothing-in-common", "of_some == values(grid)", "true", "what policies share is not told")

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A planar problem that is being edited, every number as the text that was typed; and the policy to run it
-// under.
+// A problem that is being edited, every number as the text that was typed; and the policy to run it under.
+// In space a contact with friction has two rows of it, and a sliding one a direction of two components.
 
 export const kKinds = ['static', 'frictionless', 'sliding', 'bilateral'];
-const rowsOf = kind => kind === 'static' || kind === 'sliding' ? 2 : 1;
-const hasMu = kind => rowsOf(kind) === 2;
+export const hasMu = kind => kind === 'static' || kind === 'sliding';
+const rowsOf = (kind, dimension) => hasMu(kind) ? dimension : 1;
+const usualSlip = dimension => dimension === 3 ? ['1', '0'] : '1';
 
 // A of a problem as rows.
 function dense(A, size) {
@@ -24,21 +25,31 @@ const typed = text => text.trim().replace(/\u2212/g, '-');
 export class Draft {
   // `problem`: of a page; `policy`: "paper", or as "ties=contacts,drop=variable".
   constructor(problem, policy) {
-    this.contacts = problem.contacts.map(({kind, mu = '1', slip = '1'}) => ({kind, mu, slip}));
+    this.dimension = problem.dimension;
+    this.contacts = problem.contacts.map(({kind, mu = '1', slip = usualSlip(this.dimension)}) => ({
+                                           kind,
+                                           mu,
+                                           slip: Array.isArray(slip) ? [...slip] : slip,
+                                         }));
     this.b = [...problem.b];
     this.A = dense(problem.A, this.b.length);
     this.policy = new Map(policy === 'paper' ? [] : policy.split(',').map(word => word.split('=')));
     this.isSymmetric = this.A.every((row, i) => row.every((x, j) => x === this.A[j][i]));
   }
 
-  // "N1", "F1", ... by row.
+  // "N1", "F1", in space "N1", "F1x", "F1y", ... by row.
   get rows() {
+    const friction = this.dimension === 3 ? ['x', 'y'] : [''];
     return this.contacts.flatMap(
-        ({kind}, i) => rowsOf(kind) === 2 ? [`N${i + 1}`, `F${i + 1}`] : [`N${i + 1}`]);
+        ({kind}, i) => [`N${i + 1}`, ...(hasMu(kind) ? friction.map(axis => `F${i + 1}${axis}`) : [])]);
+  }
+
+  rowsOf(kind) {
+    return rowsOf(kind, this.dimension);
   }
 
   firstRow(contact) {
-    return this.contacts.slice(0, contact).reduce((sum, {kind}) => sum + rowsOf(kind), 0);
+    return this.contacts.slice(0, contact).reduce((sum, {kind}) => sum + this.rowsOf(kind), 0);
   }
 
   set(i, j, text) {
@@ -61,21 +72,21 @@ export class Draft {
   }
 
   setKind(contact, kind) {
-    const at = this.firstRow(contact) + 1, before = rowsOf(this.contacts[contact].kind);
-    if (rowsOf(kind) > before) this.insertRow(at);
-    if (rowsOf(kind) < before) this.removeRow(at);
+    const at = this.firstRow(contact) + 1, before = this.rowsOf(this.contacts[contact].kind);
+    for (let k = before; k < this.rowsOf(kind); ++k) this.insertRow(at);
+    for (let k = before; k > this.rowsOf(kind); --k) this.removeRow(at);
     this.contacts[contact].kind = kind;
   }
 
   addContact() {
-    this.contacts.push({kind: 'frictionless', mu: '1', slip: '1'});
+    this.contacts.push({kind: 'frictionless', mu: '1', slip: usualSlip(this.dimension)});
     this.insertRow(this.A.length);
     this.setKind(this.contacts.length - 1, 'static');
   }
 
   removeContact(contact) {
     const at = this.firstRow(contact);
-    for (let k = rowsOf(this.contacts[contact].kind); k > 0; --k) this.removeRow(at);
+    for (let k = this.rowsOf(this.contacts[contact].kind); k > 0; --k) this.removeRow(at);
     this.contacts.splice(contact, 1);
   }
 
@@ -83,9 +94,10 @@ export class Draft {
   problem() {
     const contacts = this.contacts.map(({kind, mu, slip}) => {
       if (!hasMu(kind)) return {kind};
-      return kind === 'sliding' ? {kind, mu: typed(mu), slip} : {kind, mu: typed(mu)};
+      if (kind !== 'sliding') return {kind, mu: typed(mu)};
+      return {kind, mu: typed(mu), slip: Array.isArray(slip) ? slip.map(typed) : slip};
     });
-    return {contacts, A: this.A.map(row => row.map(typed)), b: this.b.map(typed)};
+    return {dimension: this.dimension, contacts, A: this.A.map(row => row.map(typed)), b: this.b.map(typed)};
   }
 
   policyName(switches) {
@@ -98,11 +110,11 @@ export class Draft {
 }
 
 // The text of a problem file, a contact and a row of A a line.
-export function fileOf(name, {contacts, A, b}) {
+export function fileOf(name, {dimension, contacts, A, b}) {
   const lines = list =>
       list.length === 0 ? '[]' : `[\n    ${list.map(x => JSON.stringify(x)).join(',\n    ')}\n  ]`;
   return `{\n  "format": "stiction-problem", "version": 1,\n  "name": ${
-             JSON.stringify(name)}, "dimension": 2,\n` +
+             JSON.stringify(name)}, "dimension": ${dimension},\n` +
       `  "contacts": ${lines(contacts)},\n  "A": ${lines(A)},\n  "b": ${JSON.stringify(b)}\n}\n`;
 }
 
@@ -125,14 +137,18 @@ export function decoded(letters) {
   try {
     const plain = atob(letters.replace(/-/g, '+').replace(/_/g, '/'));
     const bytes = Uint8Array.from(plain, letter => letter.charCodeAt(0));
-    const {contacts, A, b, policy} = JSON.parse(new TextDecoder().decode(bytes));
+    // An address that tells no dimension is of a problem in the plane.
+    const {dimension = 2, contacts, A, b, policy} = JSON.parse(new TextDecoder().decode(bytes));
+    if (dimension !== 2 && dimension !== 3) return null;
+    const isSlip = slip => slip === undefined ||
+        (dimension === 3 ? isTexts(slip) && slip.length === 2 : isText(slip));
     const isContact = contact => contact !== null && typeof contact === 'object' && isText(contact.kind) &&
-        isText(contact.mu ?? '') && isText(contact.slip ?? '');
+        isText(contact.mu ?? '') && isSlip(contact.slip);
     if (!Array.isArray(contacts) || !contacts.every(isContact) || !isText(policy)) return null;
-    const rows = contacts.reduce((sum, {kind}) => sum + rowsOf(kind), 0);
+    const rows = contacts.reduce((sum, {kind}) => sum + rowsOf(kind, dimension), 0);
     const has = list => isTexts(list) && list.length === rows;
     const fits = has(b) && Array.isArray(A) && A.length === rows && A.every(has);
-    return fits ? {problem: {contacts, A, b}, policy} : null;
+    return fits ? {problem: {dimension, contacts, A, b}, policy} : null;
   } catch {
     return null;
   }

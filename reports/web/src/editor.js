@@ -1,19 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel in which a reader edits the problem and the policy, and runs again.
 import {element} from './dom.js';
-import {Draft, fileOf, kKinds} from './draft.js';
+import {Draft, fileOf, hasMu, kKinds} from './draft.js';
 import {kPatience, Live} from './live.js';
 
-const kMostRows = 24;  // of A that are set as fields
+const kMostRows = {  // of A that are set as fields; in space, of which the solver takes no more
+  2: 24,
+  3: 15,
+};
 
 // Why a page cannot run its problem again; empty if it can.
-function obstacleOf({problem, rows}) {
-  if (problem.dimension === 3)
-    return 'In space forces are irrational: problems of the plane alone can be edited and run again here.';
-  if (rows.length > kMostRows)
-    return `Problems of at most ${kMostRows} rows can be edited here; stiction replay takes more.`;
+function obstacleOf({problem: {dimension}, rows}) {
+  const most = kMostRows[dimension], where = dimension === 3 ? ' in space' : '';
+  if (rows.length > most)
+    return `Problems${where} of at most ${most} rows can be edited here; stiction replay takes more.`;
   return '';
 }
+
+// What the numbers of a run are, in words.
+const kNumbers =
+    'Numbers are taken exactly: integers, fractions as -3/4, decimals as 2.5e-3. The program\'s own solver runs ' +
+    'in this page, and nothing leaves it. ';
+const kArithmetic = {
+  2: 'It runs over rationals.',
+  3: 'In space the forces of the published algorithm are irrational: it runs over rounded numbers, as in the ' +
+      'program, and a loop that it comes to is one of rounded states. What intervals prove of it is said where ' +
+      'it ends. Complete driving, on polygons of friction, runs over rationals.',
+};
 
 const button = (text, click, attributes = {}) =>
     element('button', {type: 'button', 'aria-label': text, click, ...attributes}, text);
@@ -30,9 +43,9 @@ function placeOf(error, rows) {
       rest
     };
   if (/^b\[\d+\]$/.test(path ?? '')) return {key: `b ${numbers[0]}`, name: `b, row ${rows[numbers[0]]}`, rest};
-  const contact = path?.match(/^contacts\[(\d+)\]\.(kind|mu|slip)$/);
+  const contact = path?.match(/^contacts\[(\d+)\]\.(kind|mu|slip)(\[\d\])?$/);
   if (contact)
-    return {key: `${contact[2]} ${contact[1]}`, name: `contact ${Number(contact[1]) + 1}, ${contact[2]}`, rest};
+    return {key: `${contact[2]} ${contact[1]}${contact[3] === '[1]' ? '[1]' : ''}`, name: `contact ${Number(contact[1]) + 1}, ${contact[2]}`, rest};
   return null;
 }
 
@@ -70,9 +83,7 @@ export class Editor {
         'details', {toggle: () => this.details.open && this.open()},
         element('summary', {}, 'Change A, b, friction, kinds of contacts, or the policy'),
         element(
-            'p', {class: 'note'},
-            'Numbers are taken exactly: integers, fractions as -3/4, decimals as 2.5e-3. The program\'s own solver, over ' +
-                'rationals, runs in this page; nothing leaves it.'),
+            'p', {class: 'note'}, kNumbers + kArithmetic[original.problem.dimension]),
         this.form);
     node.append(this.details);
     this.take(new Draft(original.problem, replay.policy ?? 'paper'));
@@ -96,7 +107,7 @@ export class Editor {
       this.tell(answer.error);
       return;
     }
-    this.switches = answer.switches;
+    this.switches = this.original.problem.dimension === 3 ? answer.in_space : answer.switches;
     this.limits = answer.limits;
     this.draw();
   }
@@ -137,7 +148,7 @@ export class Editor {
   contacts() {
     const {draft} = this;
     const one = (contact, i) => {
-      const name = `contact ${i + 1}`, hasMu = contact.kind === 'static' || contact.kind === 'sliding';
+      const name = `contact ${i + 1}`;
       const kind = this.select(
           `kind ${i}`, `Kind of ${name}`, contact.kind,
           [...new Set([...kKinds, contact.kind])].map(kind => [kind, kind]), kind => {
@@ -146,19 +157,30 @@ export class Editor {
           });
       const mu =
           this.input(`mu ${i}`, `Friction coefficient of ${name}`, contact.mu, text => contact.mu = text);
-      const slip = this.select(
-          `slip ${i}`, `Direction of slip of ${name}`, contact.slip,
-          [['1', 'slips along +'], ['-1', 'slips along -']], slip => contact.slip = slip);
       return element(
           'li', {}, element('b', {}, `Contact ${i + 1} `), kind,
-          hasMu ? element('span', {}, ' μ = ', mu) : null, contact.kind === 'sliding' ? slip : null,
+          hasMu(contact.kind) ? element('span', {}, ' μ = ', mu) : null,
+          contact.kind === 'sliding' ? this.slip(contact, i) : null,
           button('Remove', () => this.change(() => draft.removeContact(i)), {'aria-label': `Remove ${name}`}));
     };
-    const isFull = draft.b.length + 2 > kMostRows;
+    const isFull = draft.b.length + draft.rowsOf('static') > kMostRows[draft.dimension];
     return element(
         'fieldset', {}, element('legend', {}, 'Contacts'),
         element('ol', {class: 'contacts'}, ...draft.contacts.map(one)),
         button('Add a contact', () => this.change(() => draft.addContact()), {disabled: isFull}));
+  }
+
+  // Of a sliding contact: along its axis; in space a unit vector in the plane of the contact.
+  slip(contact, i) {
+    const label = `Direction of slip of contact ${i + 1}`;
+    if (this.draft.dimension === 2)
+      return this.select(
+          `slip ${i}`, label, contact.slip, [['1', 'slips along +'], ['-1', 'slips along -']],
+          slip => contact.slip = slip);
+    const one = k => this.input(
+        k === 0 ? `slip ${i}` : `slip ${i}[${k}]`, `${label}, ${'xy'[k]}`, contact.slip[k],
+        text => contact.slip[k] = text);
+    return element('span', {}, ' slips along ', one(0), ' ', one(1));
   }
 
   matrix() {

@@ -74,16 +74,55 @@ function sets(run, state) {
               members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
 }
 
-// `link(state, text)`: a link to a state of the run.
-export function tellStep(run, state, link) {
+const stageOf = step => step.word === undefined ? 'drive' : 'stage';
+
+const kMostMarks = 8;  // links to steps of one kind
+
+// "A variable is given up at step 5, 9."
+function marked(run, mark, words, noun, link) {
+  const states = [...run.told.keys()].map(k => k + 1).filter(state => run.mark(state) === mark);
+  if (states.length === 0) return [];
+  const links = states.slice(0, kMostMarks).flatMap((state, i) => [i === 0 ? ' ' : ', ', link(state, state)]);
+  return [` ${words} at ${noun}`, ...links, states.length > kMostMarks ? ', and later.' : '.'];
+}
+
+// Before the first step: what is to come, and how one goes there.
+function outlook(run, link) {
+  if (run.last === 0) return [element('p', {class: 'outlook'}, 'No step is taken.')];
+  const first = run.step(1), noun = run.replay.method === 'complete' ? 'piece' : 'step', why = run.why(1);
+  const drives = first.entering === undefined ? ` in ${plural(run.group(run.last), stageOf(first))}` : '';
+  const {from, to} = run.isLoop ? run.loop : {};
+  return [
+    why === '' ? null :
+                 element(
+                     'p', {class: 'why'},
+                     element('b', {}, first.entering === undefined ? `First, ${stageOf(first)} 1 ` : 'First '),
+                     ...typeset(why)),
+    element(
+        'p', {class: 'outlook'}, `${plural(run.last, noun)}${drives}.`,
+        ...marked(run, 'given up', 'A variable is given up', noun, link),
+        ...marked(run, 'fold', 'The path turns back', noun, link),
+        ...marked(run, 'descent', 'A force returns to zero', noun, link),
+        ...(run.isLoop && from > 0 ?
+                [
+                  ' The loop begins after ', link(from, `step ${from}`), ' and closes at ', link(to, `step ${to}`),
+                  run.loop.exact ? '.' : ', but for rounding.'
+                ] :
+                [])),
+  ].filter(Boolean);
+}
+
+// `link(state, text)`: a link to a state of the run. `how`: how one steps through it, before the first step.
+export function tellStep(run, state, link, how) {
   const step = run.step(state);
   if (step === null) {
     const lines = run.before.trim().split('\n').filter(line => line !== '');
     return [
-      ...lines.map(line => element('p', {class: 'event'}, ...typeset(line))), recurrence(run, 0, link)
+      ...lines.map(line => element('p', {class: 'event'}, ...typeset(line))), ...outlook(run, link),
+      recurrence(run, 0, link), run.last === 0 ? null : element('p', {class: 'how'}, ...how)
     ].filter(Boolean);
   }
-  const stage = step.word === undefined ? 'drive' : 'stage';
+  const stage = stageOf(step);
   const why = run.why(state);
   return [
     why === '' ?

@@ -50,7 +50,7 @@ async function followAddress() {
   const hash = location.hash, letters = hash.match(kAddress)?.[3] ?? '';
   if (letters !== shown.problem) {
     const found = letters === '' ? null : decoded(letters);
-    if (found !== null && editor.isPossible) {
+    if (found !== null && editor.isPossible && found.problem.dimension === original.problem.dimension) {
       editor.details.open = true;
       editor.take(new Draft(found.problem, found.policy));
       if (!await editor.run()) return;
@@ -161,6 +161,11 @@ function watchSwipes(node) {
 
 // ---- The page --------------------------------------------------------------------------------
 
+const key = name => element('kbd', {}, name);
+const howToStep = () =>
+    [key('→'), ' or a swipe to the left goes on, ', key('Space'), ' plays; each dot above is a state.'];
+const howBeside = () => ['It keeps step with the first run; the arrows at its title move it alone.'];
+
 function panel(run, i) {
   const choose = i === 0 ? state => stop(() => go(state))() : state => stop(() => go(shown.moment, state))();
   const timeline = new Timeline(run, choose), values = new Values(data, run);
@@ -183,7 +188,7 @@ function panel(run, i) {
       const noun = run.replay.method === 'complete' ? 'Piece' : 'Step';
       heading.textContent = state === 0 ? 'Before the first step' : `${noun} ${state} of ${run.last}`;
       if (round > 0) heading.textContent += `, round ${round + 1} of the loop`;
-      story.replaceChildren(...tellStep(run, state, link));
+      story.replaceChildren(...tellStep(run, state, link, i === 0 ? howToStep() : howBeside()));
       readings.replaceChildren(...tellReadings(run, state));
     },
   };
