@@ -14,6 +14,7 @@
 #include "certify/traced.h"
 #include "corpus/rounded.h"
 #include "solver/problem/long_double.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 
