@@ -35,10 +35,10 @@ STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "be
 
 FIGURES = [
     Figure("headline-loop", "README.md", "cheap", corpus.headline_loop),
-    Figure("readings", "README.md", "cheap", corpus.readings),
-    Figure("certificates", "README.md", "cheap", corpus.certificates),
-    Figure("records", "README.md", "cheap", corpus.records),
-    Figure("ten-billion", "README.md", "long", search.ten_billion, SEARCH),
+    Figure("readings", "solver/published/readings.md", "cheap", corpus.readings),
+    Figure("certificates", "cli/tour.md", "cheap", corpus.certificates),
+    Figure("records", "search/adversary/frontiers.md", "cheap", corpus.records),
+    Figure("ten-billion", "search/campaigns/README.md", "long", search.ten_billion, SEARCH),
     Figure("search-speed", "reports/speed.md", "minutes", bench.search_speed, SPEED),
     Figure("lanes", "search/README.md", "minutes", bench.lanes, SPEED),
     Figure("peers-in-short", "reports/speed.md", "long", bench.peers_in_short, PEERS),
