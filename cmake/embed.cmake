@@ -11,6 +11,9 @@ string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
 cmake_path(GET INPUT FILENAME file)
 file(WRITE ${OUTPUT} "// Written by cmake/embed.cmake from ${file}.
+#ifndef STICTION_EMBEDDED_${NAME}
+#define STICTION_EMBEDDED_${NAME}
+
 namespace stiction {
 
 inline constexpr unsigned char ${NAME}[] = {
@@ -18,4 +21,6 @@ ${bytes}
 };
 
 }  // namespace stiction
+
+#endif
 ")
