@@ -111,7 +111,7 @@ struct MixRun {
 // One round of the schedule, whose units the threads share.
 MixRun RunMix(const Campaign& campaign, int threads) {
   const auto units = static_cast<std::int64_t>(Schedule(campaign).size());
-  progress::Begin(fmt::format("a round of units, threads: {}", threads), units);
+  progress::Begin(fmt::format("a round of units, threads: {}", threads), 1);
   std::atomic<std::int64_t> next = 0;
   std::vector<MixRun> parts(static_cast<std::size_t>(threads));
   const auto work = [&](MixRun& part) {
@@ -120,7 +120,6 @@ MixRun RunMix(const Campaign& campaign, int threads) {
     for (std::int64_t unit = next++; unit < units; unit = next++) {
       const UnitResult result = runner.Run(unit);
       part.problems += result.problems;
-      progress::Done();
       auto of_unit = PartsOf(result.time);
       auto value = of_unit.begin();
       ForEachPart(part.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
@@ -141,6 +140,7 @@ MixRun RunMix(const Campaign& campaign, int threads) {
     auto value = of_part.begin();
     ForEachPart(all.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
   }
+  progress::Done();
   return all;
 }
 

@@ -24,7 +24,7 @@ class Upward {
     const double sum = x + y;
     if (!std::isfinite(sum)) return Overflown(sum, std::isfinite(x) && std::isfinite(y));
     const double of_y = sum - x, left = (x - (sum - of_y)) + (y - of_y);
-    return left > 0 ? Next(sum) : sum;
+    return left <= 0 ? sum : Next(sum);  // nor is it exact where what is left overflows
   }
   static double Product(double x, double y) {
     if (x == 0 || y == 0) return 0;

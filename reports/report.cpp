@@ -58,10 +58,10 @@ std::vector<RungLine> ReadAllRungs(const std::vector<std::filesystem::path>& fil
 void WriteMeasures(ReportFiles& folder, const ReportExtras& extras) {
   std::set<std::string> names;
   for (const auto& file : extras.benches) {
-    const std::string name = file.filename().string();
+    const std::string name = BenchName(file);
     if (!names.insert(name).second)
       throw InputError(fmt::format("--bench: found two files {}, expected names of their own", name));
-    folder.Write("bench/" + name, ReadText(file));
+    folder.Write(name, ReadText(file));
   }
   if (!extras.frontiers.empty()) folder.Write("frontiers.csv", FrontiersCsv(extras.frontiers));
 }

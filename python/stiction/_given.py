@@ -42,12 +42,19 @@ def listed(value: Any, name: str) -> list[Any]:
         raise TypeError(f"{name}: found {value!r}, expected a sequence") from None
 
 
+def unmasked(value: Any, name: str) -> Any:
+    """The value itself. ValueError for an array of which something is masked."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():
+        raise ValueError(f"{name}: found an array with masked entries, expected numbers everywhere")
+    return value
+
+
 def doubles(array: NDArray[Any]) -> Vector | None:
     """The array itself if it has doubles, or doubles that are the same numbers; None where there are none."""
     most = 2 ** 53  # up to which integers are doubles
     kind, bytes_each = array.dtype.kind, array.dtype.itemsize
     fits = (kind == "f" and bytes_each <= 8) or (
-        kind in "iu" and (bytes_each <= 4 or array.size == 0 or (array.min() >= -most and array.max() <= most)))
+        kind in "iu" and (bytes_each <= 4 or array.size == 0 or (int(array.min()) >= -most and int(array.max()) <= most)))
     return array.astype(np.float64, copy=False) if fits else None
 
 

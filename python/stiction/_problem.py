@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
-from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text
+from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text, unmasked
 
 
 def _texts(A: NDArray[Any]) -> list[list[str]]:
@@ -32,7 +32,8 @@ class Problem:
         require_text(name=name)
         if integer("dimension", dimension) not in (2, 3):
             raise ValueError(f"Problem: dimension: found {dimension}, expected 2 or 3")
-        A, b = (x if isinstance(x, np.ndarray) else np.array(x, dtype=object) for x in (A, b))
+        A, b = (unmasked(x, name) if isinstance(x, np.ndarray) else np.array(x, dtype=object)
+                for x, name in ((A, "A"), (b, "b")))
         if A.ndim != 2 or b.ndim != 1:
             raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
         if isinstance(kinds, str):

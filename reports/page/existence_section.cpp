@@ -12,13 +12,13 @@
 namespace stiction {
 namespace {
 
-HtmlCell Count(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : ""}; }
+HtmlCell CountCell(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : ""}; }
 
 // What must be zero.
 HtmlCell Exception(std::int64_t count) { return {Text(Grouped(count)), count == 0 ? "zero" : "h5"}; }
 
 HtmlCell CountAndShare(std::int64_t count, std::int64_t total) {
-  if (count == 0) return Count(0);
+  if (count == 0) return CountCell(0);
   return {Text(Grouped(count)) + Tag("small")(Percent(count, total))};
 }
 
@@ -37,8 +37,8 @@ Tally SumOf(const std::map<int, Tally>& tallies) {
 
 void AddExistence(Table& table, const std::string& contacts, const ExistenceTally& t, const char* style = "") {
   table.AddRow({{Text(contacts)},
-                Count(t.problems),
-                Count(t.solved),
+                CountCell(t.problems),
+                CountCell(t.solved),
                 Exception(t.problems - t.solved),
                 {Text(Mean(t.pieces, t.problems))},
                 CountAndShare(t.with_folds, t.problems),
@@ -64,15 +64,15 @@ Html ExistenceTable(const Record& total) {
 
 void AddAgreement(Table& table, const std::string& contacts, const AgreementTally& t, const char* style = "") {
   table.AddRow({{Text(contacts)},
-                Count(t.compared),
-                Count(t.enumerated),
+                CountCell(t.compared),
+                CountCell(t.enumerated),
                 Exception(t.disagreements),
                 CountAndShare(t.continua, t.enumerated),
                 CountAndShare(t.regular, t.enumerated),
                 Exception(t.signs_not_one),
-                Count(t.safety_decided),
+                CountCell(t.safety_decided),
                 CountAndShare(t.safe, t.safety_decided),
-                Count(t.safe_gave_up),
+                CountCell(t.safe_gave_up),
                 Exception(t.safe_gave_up_no_ties)},
                1, style);
 }
@@ -116,7 +116,7 @@ Html HistogramTable(const Record& total, const std::string& caption, Histogram A
     std::vector<HtmlCell> cells = {{Text(Grouped(contacts))}};
     for (const int value : values) {
       const auto found = (tally.*histogram).find(value);
-      cells.push_back(Count(found == (tally.*histogram).end() ? 0 : found->second));
+      cells.push_back(CountCell(found == (tally.*histogram).end() ? 0 : found->second));
     }
     table.AddRow(cells);
   }

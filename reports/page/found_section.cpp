@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section that says what was found.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -90,8 +93,9 @@ Html Tiles(const ReportContent& content) {
   const KindCounts all = CountAll(content.discoveries);
   const std::int64_t problems = ProblemsOf(content.total);
   const std::int64_t runs = RunsOf(content.total);
-  Html tiles = Tile(problems, "problems run");
-  if (runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
+  const bool random = content.Objective().empty();
+  Html tiles = random ? Tile(problems, "problems run") : Html();
+  if (random && runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
   tiles += Tile(all.met, "runs with a finding");
   tiles += Tile(all.groups, "groups of findings (signatures)", "loop");
   const auto grave = std::count_if(content.discoveries.begin(), content.discoveries.end(),
@@ -102,6 +106,17 @@ Html Tiles(const ReportContent& content) {
   tiles += Tile(all.pending, "representatives pending");
   tiles += Tile(all.found_grid, "of the finished loop under every policy, as found", "loop");
   return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
+}
+
+// Of an optimized search.
+Html BestSentence(const ReportContent& content) {
+  if (content.Objective().empty()) return {};
+  std::vector<std::string> bests;
+  for (const OwnBest& best : content.own)
+    bests.push_back(fmt::format("{} ({}, {})", best.value, best.generator, Counted(best.contacts, "contact")));
+  return Tag("p")(Html("What was sought: ") + Tag("code")(content.Objective()) +
+                  Text(bests.empty() ? "." : fmt::format(". The best: {}.", fmt::join(bests, "; ")))) +
+         Html("\n");
 }
 
 Html Featured(const std::vector<Discovery>& discoveries) {
@@ -118,9 +133,11 @@ Html FoundSection(const ReportContent& content) {
     return Section("found", "What was found",
                    Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
   }
-  Html found = FoundSentences(content) + Tiles(content);
+  Html found = FoundSentences(content) + BestSentence(content) + Tiles(content);
   if (content.since) found += SinceText(*content.since, content.discoveries);
-  if (content.discoveries.empty()) {
+  if (content.discoveries.empty() && !content.Objective().empty()) {
+    found += Html("<p>No loop was kept.</p>\n");
+  } else if (content.discoveries.empty()) {
     found +=
         Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
   } else {

@@ -2,8 +2,7 @@
 #include "reports/page/frontiers.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
+#include <fmt/ranges.h>
 
 #include "corpus/grouped.h"
 #include "corpus/rational.h"
@@ -46,31 +45,32 @@ Html RecordsTable(const std::vector<FrontierLine>& lines) {
   return table.Done();
 }
 
-// The record of an objective and number of contacts; null where records ask for more than these.
-const FrontierLine* RecordOf(const std::vector<FrontierLine>& lines, const OwnBest& best) {
-  const std::string name = fmt::format("{}-{}-contacts", best.objective, best.contacts);
-  const auto found =
-      std::find_if(lines.begin(), lines.end(), [&name](const FrontierLine& line) { return line.name == name; });
-  return found == lines.end() ? nullptr : &*found;
+// All records of an objective and number of contacts, by their names: "friction-gravity-4-contacts 1/54; ...".
+std::string RecordsOf(const std::vector<FrontierLine>& lines, const OwnBest& best) {
+  const std::string end = fmt::format("-{}-contacts", best.contacts);
+  std::vector<std::string> texts;
+  for (const FrontierLine& line : lines) {
+    if (line.objective == best.objective && line.name.ends_with(end))
+      texts.push_back(line.name + " " + ValueText(line.value));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 Html OwnTable(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
   if (own.empty()) return {};
-  Table table("The best of this search",
-              {{"sought", "", false},
-               {"generator", "", false},
-               {"contacts"},
-               {"mu"},
-               {"best here"},
-               {"record", "of this objective and number of contacts, if there is one"}});
+  Table table("The best of this search", {{"sought", "", false},
+                                          {"generator", "", false},
+                                          {"contacts"},
+                                          {"mu"},
+                                          {"best here"},
+                                          {"records", "of this objective and number of contacts", false}});
   for (const OwnBest& best : own) {
-    const FrontierLine* const record = RecordOf(lines, best);
     table.AddRow({{Text(best.objective)},
                   {Text(best.generator)},
                   {Text(std::to_string(best.contacts))},
                   {Text(best.mu)},
                   {Text(best.value)},
-                  {Text(record == nullptr ? "" : ValueText(record->value))}});
+                  {Text(RecordsOf(lines, best))}});
   }
   return Html("<p>What this search has found worst, of each generator and number of contacts:</p>\n") +
          table.Done();
@@ -86,9 +86,9 @@ Html Records(const std::vector<FrontierLine>& lines) {
              "and what drew the random problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
          FigurePlace(
              "frontiers",
-             "From the best of random problems, open, to the worst that is known, filled; without an open one "
-             "random problems reached nothing. Of condition and friction lower is worse, of all else "
-             "higher.",
+             "From the best of random problems, an open ring, to the worst that is known, a dot; a dot without "
+             "a ring: "
+             "random problems reached nothing. Of condition and friction lower is worse, of all else higher.",
              "stiction records --json") +
          RecordsTable(lines);
 }

@@ -14,6 +14,7 @@
 #include "reports/html/template.h"
 #include "reports/page/page.h"
 #include "reports/report_template.h"
+#include "reports/tables/discovery.h"
 
 namespace stiction {
 namespace {
@@ -23,21 +24,22 @@ constexpr char kMeasuredLead[] =
     "arithmetic, and "
     "how often its answer is none. Measured by <code>stiction bench</code>, on families of problems with a "
     "dial "
-    "from ordinary to extreme; no campaign of searching is told here.</p>";
+    "from ordinary to extreme.</p>";
 
 constexpr char kHowMeasured[] =
     "<p><strong>Method.</strong> All methods, over all arithmetics, are asked the same problems of a family at "
     "each "
-    "setting of its dial. <em>Wrong</em> is an end other than that of the same method over rationals; "
-    "<em>silent</em> "
-    "what is called solved within a residual that, computed over rationals, it does not have; "
-    "<em>undecided</em> what "
-    "says itself that it is no answer. Problems whose numbers an arithmetic cannot hold are not asked of it. "
-    "Times "
-    "are those of the machine that measured, medians of the settings’ medians.</p>";
+    "setting of its dial. <em>Silent</em> is what is called solved within a residual that, computed over "
+    "rationals, "
+    "it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the published "
+    "algorithm another end than over rationals; <em>undecided</em> what says itself that it is no answer. "
+    "Problems "
+    "whose numbers an arithmetic cannot hold are not asked of it. Times are those of the machine that "
+    "measured, "
+    "medians of the settings’ medians.</p>";
 
 // Of all rows of a kind of arithmetic.
-struct Answers {
+struct Runs {
   std::int64_t asked = 0, wrong = 0, silent = 0;
 
   void Add(const RungLine& line) {
@@ -47,21 +49,24 @@ struct Answers {
   }
 };
 
-bool IsExact(const std::string& arithmetic) { return arithmetic == "exact" || arithmetic == "filtered"; }
+// "double scaled" is double, with a remedy.
+std::string ArithmeticOf(const RungLine& line) { return line.arithmetic.substr(0, line.arithmetic.find(' ')); }
 
-std::string Told(const Answers& answers) {
-  return fmt::format("of {} answers {} were wrong, and {} called solved what is not", Grouped(answers.asked),
-                     Grouped(answers.wrong), Grouped(answers.silent));
+bool IsExact(const RungLine& line) { return line.arithmetic == "exact" || line.arithmetic == "filtered"; }
+
+std::string Told(const Runs& runs) {
+  return fmt::format("of {} runs {} were wrong, {} of them silently", Grouped(runs.asked), Grouped(runs.wrong),
+                     Grouped(runs.silent));
 }
 
 Html MeasuredSentences(const std::vector<RungLine>& lines) {
   std::set<std::string> families, methods, arithmetics;
-  Answers rounded, exact;
+  Runs rounded, exact;
   for (const RungLine& line : lines) {
     families.insert(line.family);
     methods.insert(line.method);
-    arithmetics.insert(line.arithmetic);
-    (IsExact(line.arithmetic) ? exact : rounded).Add(line);
+    arithmetics.insert(ArithmeticOf(line));
+    (IsExact(line) ? exact : rounded).Add(line);
   }
   const auto counted = [](const std::set<std::string>& names, const char* noun) {
     return Counted(static_cast<std::int64_t>(names.size()), noun);
@@ -77,7 +82,7 @@ Html Again(const std::vector<std::filesystem::path>& files) {
   std::string commands =
       "stiction bench --suite trade --csv trade.csv\nstiction bench --suite extremes --csv "
       "extremes.csv\nstiction report --bench";
-  for (const auto& file : files) commands += " bench/" + file.filename().string();
+  for (const auto& file : files) commands += " " + BenchName(file);
   return Section(
       "again", "Reproducing it",
       Html("<p>What measures, in the folder of the sources, and what makes this page of the files beside "
@@ -85,13 +90,15 @@ Html Again(const std::vector<std::filesystem::path>& files) {
           Tag("pre")(Tag("code")(commands + " -o again")));
 }
 
-Html Files(const std::vector<std::filesystem::path>& files, bool records) {
+Html Files(const std::vector<std::filesystem::path>& files, const std::vector<FigureTable>& figures,
+           bool records) {
   const auto row = [](const std::string& file, const char* meaning) {
     return Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   };
   Html list;
-  for (const auto& file : files) list += row("bench/" + file.filename().string(), "as bench wrote it");
-  list += row("figures/rungs.csv", "the numbers that the figure draws");
+  for (const auto& file : files) list += row(BenchName(file), "as bench wrote it");
+  for (const FigureTable& figure : figures)
+    list += row("figures/" + figure.name + ".csv", "the numbers that the figure draws");
   if (records) list += row("frontiers.csv", "the records, exactly, and what drew the random problems");
   list += row("SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check");
   return Section("files", "Files beside this page", Tag("ul")(list));
@@ -109,22 +116,26 @@ Html Links(bool records) {
 
 }  // namespace
 
+std::string BenchName(const std::filesystem::path& file) {
+  return "bench/" + FileName(file.stem().string()) + ".csv";
+}
+
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
                          const std::vector<std::filesystem::path>& files,
                          const std::vector<FigureTable>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   const bool records = !frontiers.empty();
   const Json data = {{"figures", FiguresToJson(figures)}, {"findings", Json::array()}};
-  return FilledTemplate(
-      page,
-      {{"title", Text("stiction: speed against accuracy")},
-       {"heading", Text("Speed against accuracy of friction solvers")},
-       {"lead", Html(kMeasuredLead)},
-       {"how", Html(kHowMeasured)},
-       {"navigation", Links(records)},
-       {"found", Section("found", "What was measured", MeasuredSentences(lines))},
-       {"results", RungsSection(lines) + FrontiersSection(frontiers) + Again(files) + Files(files, records)},
-       {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  return FilledTemplate(page,
+                        {{"title", Text("stiction: speed against accuracy")},
+                         {"heading", Text("Speed against accuracy of friction solvers")},
+                         {"lead", Html(kMeasuredLead)},
+                         {"how", Html(kHowMeasured)},
+                         {"navigation", Links(records)},
+                         {"found", Section("found", "What was measured", MeasuredSentences(lines))},
+                         {"results", RungsSection(lines) + FrontiersSection(frontiers) + Again(files) +
+                                         Files(files, figures, records)},
+                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
 }
 
 }  // namespace stiction

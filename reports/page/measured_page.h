@@ -14,6 +14,9 @@
 
 namespace stiction {
 
+// The name in a report of a file of bench: one that shells and links take as it is.
+std::string BenchName(const std::filesystem::path& file);
+
 // `files`: that the lines stand in, whose names are told; `figures`: those of lines and records.
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
                          const std::vector<std::filesystem::path>& files,

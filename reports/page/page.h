@@ -26,6 +26,9 @@ inline constexpr std::size_t kFindingsShown = 300;
 
 // What a store says, read once.
 struct ReportContent {
+  // What an optimized search seeks; empty of problems at random.
+  std::string Objective() const;
+
   CampaignIdentity identity;
   std::int64_t units = 0;
   std::int64_t blocks = 0;

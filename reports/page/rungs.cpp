@@ -85,14 +85,15 @@ class CellsOfLine {
 
 struct RungSum {
   std::string method, arithmetic;
-  std::int64_t asked = 0, solved = 0, undecided = 0, wrong = 0, silent = 0;
-  std::vector<double> microseconds;
+  std::int64_t asked = 0, solved = 0, undecided = 0, other = 0, wrong = 0, silent = 0;
+  std::vector<double> microseconds = {};
   double worst = 0;
 
   void Add(const RungLine& line) {
     asked += line.problems - line.refused;
     solved += line.solved;
     undecided += line.undecided;
+    other += line.other;
     wrong += line.wrong;
     silent += line.silent;
     if (line.microseconds) microseconds.push_back(*line.microseconds);
@@ -114,7 +115,7 @@ std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
       return s.method == line->method && s.arithmetic == line->arithmetic;
     });
     if (sum == sums.end())
-      sum = sums.insert(sums.end(), RungSum{line->method, line->arithmetic, 0, 0, 0, 0, 0, {}, 0});
+      sum = sums.insert(sums.end(), RungSum{.method = line->method, .arithmetic = line->arithmetic});
     sum->Add(*line);
   }
   return sums;
@@ -130,8 +131,13 @@ Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
                {"problems", "that its numbers hold"},
                {"solved"},
                {"undecided"},
-               {"wrong", "another end than over rationals; below: the share, with its interval at 95 %"},
-               {"silent", "called solved within a residual that it does not have"},
+               {"other", "other ends: a loop, a ray, no direction"},
+               {"wrong",
+                "silently wrong, or, of the published algorithm, another end than over rationals; below: the "
+                "share, with its interval at 95 %"},
+               {"silent",
+                "called solved within a residual that it does not have, or without a solution where there "
+                "is one"},
                {"worst residual", "of what is called solved, over rationals"}});
   for (const RungSum& sum : sums) {
     const Html share = Tag("small")(ShareText(sum.wrong, sum.asked));
@@ -141,6 +147,7 @@ Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
                   {Text(Grouped(sum.asked))},
                   {Text(Grouped(sum.solved))},
                   {Text(Grouped(sum.undecided))},
+                  {Text(Grouped(sum.other))},
                   {Text(Grouped(sum.wrong)) + share},
                   {Text(Grouped(sum.silent))},
                   {Text(fmt::format("{:.0e}", sum.worst))}},
@@ -195,7 +202,7 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
     line.microseconds = cells.Measure("microseconds_median");
     line.worst_residual = cells.Measure("worst_residual");
     if (line.solved + line.undecided + line.other + line.refused != line.problems ||
-        line.wrong > line.problems || line.silent > line.solved + line.other)
+        line.wrong > line.problems || line.silent > line.wrong || line.silent > line.solved + line.other)
       throw InputError(fmt::format("{}:{}: found counts that do not add up to {} problems", file.string(),
                                    i + 1, line.problems));
     lines.push_back(std::move(line));

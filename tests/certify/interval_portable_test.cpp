@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 #include "certify/interval.h"
@@ -71,6 +72,23 @@ TEST_CASE("portable intervals: their ends and their comparisons are those of CGA
   CHECK(quotients);
   CHECK(roots);
   CHECK(comparisons);
+}
+
+TEST_CASE("portable intervals: near the largest doubles sums hold what CGAL's hold") {
+  const double most = std::numeric_limits<double>::max();
+  std::mt19937_64 random{1};
+  bool held = true;
+  for (int i = 0; i < 20000; ++i) {
+    const auto near = [&] { return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), 960); };
+    const double x = i % 5 == 0 ? most : near(), y = i % 7 == 0 ? -most : near();
+    const Reference reference = Reference(x) + Reference(y);
+    const PortableInterval portable = PortableInterval(x) + PortableInterval(y);
+    held &= portable.inf() <= reference.inf() && reference.sup() <= portable.sup();
+  }
+  CHECK(held);
+  const PortableInterval sum = PortableInterval(0x1.fa8372bfe1633p+1022) + PortableInterval(-most);
+  const Reference told = Reference(0x1.fa8372bfe1633p+1022) + Reference(-most);
+  CHECK((sum.inf() <= told.inf() && told.sup() <= sum.sup()));
 }
 
 TEST_CASE("portable intervals: where digits are lost, the ends are farther out and never further in") {

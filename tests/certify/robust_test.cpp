@@ -139,7 +139,7 @@ class Off {
       for (const int body : {contact.a, contact.b}) {
         if (scene.scene.bodies[body].fixed) continue;
         const Vector2<Rational> arm = contact.point - scene.scene.bodies[body].position;
-        square = std::max(square, Dot<Rational>(arm, arm).get_d());
+        square = std::max(square, stiction::Dot<Rational>(arm, arm).get_d());
       }
     }
     reach_ = radius * Rational(std::sqrt(square) * (1 - 1e-9));

@@ -32,7 +32,7 @@ RUNGS = """\
 family,setting,method,arithmetic,problems,solved,undecided,other,refused,wrong,wrong_share_low,wrong_share_high,\
 silent,silent_share_low,silent_share_high,microseconds_low,microseconds_median,microseconds_high,residual_low,\
 residual_median,residual_high,worst_residual
-masses,8,complete,double,25,20,3,1,1,2,0,0.2,4,0,0.1,1.5,2.5,3.5,0,1e-17,1e-16,2e-16
+masses,8,complete,double,25,20,3,1,1,2,0,0.2,1,0,0.1,1.5,2.5,3.5,0,1e-17,1e-16,2e-16
 masses,8,complete,filtered,25,24,0,1,0,0,0,0.2,0,0,0.1,7,8.5,9,0,0,0,0
 """
 
@@ -165,15 +165,21 @@ class Page(cli.TestCase):
         out = self.folder / "measured"
         self.succeeds("report", "--bench", bench, "-o", out)
         page = html.unescape((out / "index.html").read_text())
-        self.assertIn("1 method over 2 arithmetics, on 1 kind of problems. Over rounded numbers of 24 answers 2 were "
-                      "wrong, and 4 called solved what is not. Over rationals and certified signs of 25 answers 0 were "
-                      "wrong, and 0 called solved what is not.", page)
+        self.assertIn("1 method over 2 arithmetics, on 1 kind of problems. Over rounded numbers of 24 runs 2 were wrong, "
+                      "1 of them silently. Over rationals and certified signs of 25 runs 0 were wrong, 0 of them silently.",
+                      page)
         self.assertEqual((out / "bench/trade.csv").read_text(), RUNGS)
         self.assertEqual(len(tables(out / "figures/rungs.csv")), 2)
         done = subprocess.run(["sha256sum", "--check", "SHA256SUMS"], cwd=out, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stdout)
-        for link in re.findall(r'href="([^"#]+)"', page):
-            self.assertTrue((out / link).is_file(), link)
+        odd = self.file("a b#c.csv", RUNGS.replace(",1.5,2.5,3.5,", ",,,,").replace(",7,8.5,9,", ",,,,"))
+        self.succeeds("report", "--bench", odd, "-o", self.folder / "odd")
+        for folder in (out, self.folder / "odd"):
+            links = re.findall(r'href="([^"]+)"', (folder / "index.html").read_text())
+            files = [link for link in links if not link.startswith("#")]
+            self.assertGreater(len(files), 3)
+            for link in files:
+                self.assertTrue((folder / link).is_file(), link)
         again = re.search(r"stiction (report --bench .*) -o again", page)[1].split()
         self.succeeds(*again, "-o", self.folder / "again", cwd=out)
         self.assertEqual((self.folder / "again/index.html").read_bytes(), (out / "index.html").read_bytes())
@@ -196,8 +202,15 @@ class Page(cli.TestCase):
         cells = [html.unescape(re.sub("<.*?>", "", cell)) for cell in re.findall(r"<td.*?</td>|<th[^>]*row.*?</th>", table)]
         record = next(row["value"] for row in tables(out / "frontiers.csv") if row["frontier"] == "steps-3-contacts")
         self.assertEqual(len(best), 1)
+        page = html.unescape((out / "index.html").read_text())
+        self.assertIn(f"The best: {best[0]['value']:g} steps (integers, 3 contacts).", page)
+        for wrong in ("0 problems run", "random friction problems", "Every run", 'id="frequencies"'):
+            self.assertNotIn(wrong, page)
+        again = re.search(r"stiction search (campaign.json .*)", page)[1].replace("again.store", str(self.folder / "again"))
+        self.succeeds("search", *again.split(), cwd=out, timeout=300)
+        self.assertEqual(json.loads(self.succeeds("report", self.folder / "again", "--text", "--json").out)["best"], best)
         self.assertEqual([*cells[:3], cells[4].split()[0], cells[5]],
-                         ["steps", "integers", "3", f"{best[0]['value']:g}", record])
+                         ["steps", "integers", "3", f"{best[0]['value']:g}", f"steps-3-contacts {record}"])
 
     def test_commands_run_in_the_folder_of_the_report(self):
         featured = re.search(r'<div class="featured">.*?<pre><code>(.*?)</code></pre>', self.page, re.S)[1]

@@ -22,6 +22,8 @@ class Taken(unittest.TestCase):
             self.assertEqual(stiction.Problem(np.array(A, kind), np.array(B, kind), 1).digest, same, kind)
         large = np.array([[2 ** 60 + 1, 0], [0, 1]])
         self.assertEqual(stiction.Problem(large, [0, 0], 1).exact_A[0][0], 2 ** 60 + 1)
+        beyond = np.array([[2 ** 53 + 1, 0], [0, 1]], np.uint64)  # which compares as doubles
+        self.assertEqual(stiction.Problem(beyond, [0, 0], 1).exact_A[0][0], 2 ** 53 + 1)
         third = np.longdouble(1) / 3
         self.assertNotEqual(third, np.float64(third))
         self.assertEqual(stiction.Problem(np.eye(2), np.array([third, 0]), 1).exact_b[0],

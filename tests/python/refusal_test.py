@@ -29,6 +29,7 @@ PROBLEMS = [
     ((np.eye(2), [0, None], 1), ValueError, r"b\[1\]: found None, expected"),
     ((np.eye(2), [0, 1j], 1), ValueError, r"b\[1\]: found 1j, expected"),
     ((np.eye(2), [0, "1/0"], 1), ValueError, r"b\[1\]: found '1/0', expected"),
+    ((np.ma.masked_equal(np.array(A, float), 7), B, 1), ValueError, "A: found an array with masked entries"),
     ((A, B[:3], [1, 1]), ValueError, "b: found 3, expected 4"),
     ((np.array(A, float)[:, :3], B, 1), ValueError, "A: found 4 x 3, expected 4 x 4"),
     ((A[:3], B, 1), ValueError, "A: found 3 x 4, expected 4 x 4"),

@@ -55,6 +55,8 @@ TEST_CASE("rungs: a file that is none of bench is refused by its place") {
                     Contains("solved: found -4"));
   CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,0,2")),
                     Contains("do not add up to 25"));
+  CHECK_THROWS_WITH(Read(kHead + "masses,8,fast,double,25,20,3,1,1,2,0,0.2,3,0,0.1,1,2,3,0,0,0,0,0,0,0\n"),
+                    Contains("do not add up to 25"));  // silent is a part of wrong
   CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,1,2", "1,nan,2")),
                     Contains("microseconds_median"));
   CHECK_THROWS_AS(ReadRungs("/nowhere/rungs.csv"), InputError);

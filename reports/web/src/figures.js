@@ -282,7 +282,7 @@ function frontierPlot(objective, rows, width) {
                 tickFormat: tickName
               }),
               p.yAxis(), ruleY(both, {y: name, x1: 'random', x2: 'record', stroke: 'var(--bar)'}),
-              dot(both, {...place, x: 'random', fill: 'var(--card)'}),
+              dot(both, {...place, r: 6, x: 'random', fill: 'var(--card)'}),
               dot(rows, {...place, x: 'record', fill: 'var(--bar)'})
             ]
           },
