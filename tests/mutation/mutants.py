@@ -499,7 +499,7 @@ bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << p
     equivalent="of the generators b is in the range of A, where the same equations hold for b")
 
 bug = in_file("certify/interval_portable.h", "^certify: portable intervals")
-bug("portable-sum", "return left > 0 ? Next(sum) : sum;", "return left < 0 ? Next(sum) : sum;", "sums are rounded inward")
+bug("portable-sum", "return left <= 0 ? sum : Next(sum);", "return left < 0 ? Next(sum) : sum;", "sums are rounded inward")
 bug("portable-product", "IsTiny(product) || std::fma(x, y, -product) > 0", "std::fma(x, y, -product) > 0",
     "a product whose rest underflows is taken for exact")
 bug("portable-quotient", "(y > 0 ? left > 0 : left < 0)", "left > 0", "quotients by negative numbers are rounded inward")
