@@ -929,9 +929,11 @@ bug("policy-of-any-method", 'wanted.method != "baraff" && request.options.policy
     "a reading of the published algorithm is asked of another method, and ignored")
 bug("sides-of-any-number", "!AreSides(wanted.options.sides)", "false", "polygons of six sides are taken")
 bug("space-refused", "request.arithmetic = Arithmetic::kDouble;", "", "no replay in space without --arithmetic")
-bug("proved-of-solved", "outcome == Outcome::kSolved", "false", "a run that ends solved is run over intervals, too")
 bug("budgets-of-claims", "wanted.limits", "Limits{}", "certify has the usual budgets, whatever is asked for")
 bug("grid-is-no-name", 'text == "*"', "false", "'*' is no policy")
+
+bug = in_file("answers/followed.cpp", PYTHON_TESTS)
+bug("proved-of-solved", "outcome == Outcome::kSolved", "false", "a run that ends solved is run over intervals, too")
 
 bug = in_file("python/module.cpp", PYTHON_TESTS)
 bug("not-finite", "std::isfinite(x)", "true", "what is no number becomes a rational")
