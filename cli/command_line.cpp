@@ -88,6 +88,9 @@ InputError Refused(const CommandLine& program, const CLI::ParseError& error, con
            ": found a value behind it, expected none";
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     text = text.substr(0, text.find(':')) + ": found nothing behind it, expected a value";
+  } else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::string words = text.substr(text.find(": ") + 2);
+    text = fmt::format("found '{}', expected nothing more", words.substr(0, words.find(' ')));
   } else if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) {
     text = fmt::format("{}: found without {}, expected it too", text.substr(0, text.find(' ')),
                        text.substr(text.rfind(' ') + 1));

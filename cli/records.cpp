@@ -122,11 +122,15 @@ std::vector<FrontierLine> KnownFrontiers() {
   return lines;
 }
 
-std::vector<OwnBest> OwnBests(const Store& store) {
-  const std::string objective = CampaignOf(store.identity(), "report").objective;
-  std::vector<OwnBest> own;
+OwnSearch OwnSearchOf(const Store& store) {
+  const Campaign campaign = CampaignOf(store.identity(), "report");
+  OwnSearch own;
+  if (campaign.objective.empty()) return own;
   for (const BestLine& best : BestLines(store))
-    own.push_back({objective, best.generator, best.mu, best.value, best.contacts});
+    own.bests.push_back({campaign.objective, best.generator, best.mu, best.value, best.contacts});
+  const std::vector<Task> schedule = Schedule(campaign);
+  for (std::int64_t unit = 0; unit < store.Units().Count(); ++unit)
+    own.problems += UnitProblems(campaign, TaskOf(schedule, unit));
   return own;
 }
 

@@ -17,7 +17,7 @@ std::filesystem::path RecordsFolder();
 // As a report tells them; none where there is no such folder. InputError if a record cannot be read.
 std::vector<FrontierLine> KnownFrontiers();
 // Of a store of an optimized search what a report tells beside them; none of another.
-std::vector<OwnBest> OwnBests(const Store& store);
+OwnSearch OwnSearchOf(const Store& store);
 
 }  // namespace stiction
 

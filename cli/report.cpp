@@ -117,7 +117,7 @@ int ReportStore(const ReportVerb& o) {
                                     o.latex,
                                     o.files.value_or(ReportExtras().files),
                                     KnownFrontiers(),
-                                    OwnBests(store),
+                                    OwnSearchOf(store),
                                     progress.Writing()});
     progress.Clear();
     TellAside(aside);

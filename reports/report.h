@@ -42,7 +42,7 @@ struct ReportExtras {
   // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
   std::vector<FrontierLine> frontiers = {};  // records, told on the page
-  std::vector<OwnBest> own = {};             // the best of an optimized search, told beside them
+  OwnSearch own = {};                        // of an optimized search, told beside them
   ShowWriting show = {};                     // told how far it is
 };
 

@@ -112,7 +112,7 @@ Html Tiles(const ReportContent& content) {
 Html BestSentence(const ReportContent& content) {
   if (content.Objective().empty()) return {};
   std::vector<std::string> bests;
-  for (const OwnBest& best : content.own)
+  for (const OwnBest& best : content.own.bests)
     bests.push_back(fmt::format("{} ({}, {})", best.value, best.generator, Counted(best.contacts, "contact")));
   return Tag("p")(Html("What was sought: ") + Tag("code")(content.Objective()) +
                   Text(bests.empty() ? "." : fmt::format(". The best: {}.", fmt::join(bests, "; ")))) +

@@ -30,6 +30,12 @@ struct OwnBest {
   int contacts = 0;
 };
 
+// What only an optimized search has.
+struct OwnSearch {
+  std::vector<OwnBest> bests;
+  std::int64_t problems = 0;  // that its units ask for
+};
+
 std::string FrontiersCsv(const std::vector<FrontierLine>& lines);
 // Each record, and what random problems reached, null if nothing, as numbers (figures.h).
 FigureTable FrontiersFigure(const std::vector<FrontierLine>& lines);

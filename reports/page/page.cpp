@@ -110,7 +110,9 @@ constexpr char kHow[] =
     "kind is certified\n"
     "and made smaller, and says the same at every step of that.</p>";
 
-bool HasFrontiers(const ReportContent& content) { return !content.frontiers.empty() || !content.own.empty(); }
+bool HasFrontiers(const ReportContent& content) {
+  return !content.frontiers.empty() || !content.own.bests.empty();
+}
 
 Html Navigation(const ReportContent& content) {
   std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"},
@@ -166,7 +168,7 @@ Html FilesSection() {
 
 // All but what was found.
 Html Results(const ReportContent& content) {
-  const Html end = FrontiersSection(content.frontiers, content.own) + RungsSection(content.rungs) +
+  const Html end = FrontiersSection(content.frontiers, content.own.bests) + RungsSection(content.rungs) +
                    AgainSection(content) + FilesSection();
   if (content.units == 0) return end;
   if (!content.Objective().empty()) return FindingsSection(content.discoveries, content.since) + end;
@@ -222,11 +224,9 @@ Html TimeTable(const ProcessorTime& time) {
   return table.Done();
 }
 
-// Of an optimized search, which tallies no problems, those of its units.
+// An optimized search tallies none.
 std::int64_t AskedProblems(const ReportContent& content) {
-  const Json definition = Lenient(content.identity.definition);
-  if (content.Objective().empty()) return ProblemsOf(content.total);
-  return content.units * definition.value("unit_problems", std::int64_t{1});
+  return content.Objective().empty() ? ProblemsOf(content.total) : content.own.problems;
 }
 
 // From the folder of the report.

@@ -36,7 +36,7 @@ struct ReportContent {
   Work work;
   std::vector<Discovery> discoveries;
   std::vector<FrontierLine> frontiers;  // the records that are known
-  std::vector<OwnBest> own;             // of an optimized search
+  OwnSearch own;                        // of an optimized search
   std::vector<RungLine> rungs;          // of a benchmark; empty: none was measured
   std::optional<Since> since;           // an earlier report
 };

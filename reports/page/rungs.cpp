@@ -232,13 +232,12 @@ Html RungsSection(const std::vector<RungLine>& lines) {
   Html tables;
   for (const auto& [family, sums] : Families(lines))
     tables += Tag("h3")(family) + Html("\n") + FamilyTable(family, sums);
-  return Section("rungs", kTitle,
-                 FigurePlace("rungs",
-                             "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends "
-                             "wrongly or undecided. A dot is a method over an arithmetic; filtered and exact "
-                             "ones are filled.",
-                             "stiction report --bench FILE -o DIR") +
-                     tables);
+  const Html figure = FigurePlace(
+      "rungs",
+      "Across: microseconds a problem, on a logarithmic scale. Up: the share that ends wrongly or undecided. "
+      "A dot is a method over an arithmetic; filtered and exact ones are filled.",
+      "stiction report --bench FILE -o DIR");
+  return Section("rungs", kTitle, (RungsFigure(lines).rows.empty() ? Html() : figure) + tables);
 }
 
 }  // namespace stiction
