@@ -202,7 +202,7 @@ class Usage(cli.TestCase):
             (("bench", "--suite", "searhc"), ["'searhc'", "did you mean search?"]),
             (("bench", "--sute", "search"), ["--sute", "did you mean --suite?"]),
             (("bench", "--generator", "smal"), ["'smal'", "did you mean small?"]),
-            (("bench", "--", "x", "--suite"), ["found 'x'", "expected nothing more"]),
+            (("bench", "--", "x", "--suite"), ["found '--suite'", "expected nothing more"]),
             (("bench", "search"), ["bench: found 'search'", "expected nothing more"]),
             (("bench", "--suite", "search", "--contacts", "9"), ["--contacts: found 9", "expected 1 to 8"]),
             (("bench", "--suite", "space", "--generator", "bilateral"), ["found bilateral", "expected one of static"]),
