@@ -189,7 +189,7 @@ class Page(cli.TestCase):
         twice = self.folder / "other" / "trade.csv"
         twice.parent.mkdir()
         twice.write_text(RUNGS)
-        self.refuses("report", "--bench", bench, twice, "-o", out, says="--bench: found two files trade.csv")
+        self.refuses("report", "--bench", bench, twice, "-o", out, says="--bench: found two files bench/trade.csv")
 
     def test_an_optimized_search_stands_beside_the_records(self):
         store, out = self.folder / "steps.store", self.folder / "steps"
