@@ -80,7 +80,9 @@ Html KindNote() {
       "reversing tangents and units; what is found under another policy than <code>paper</code> is a group "
       "of its own. The representative of a group is the first problem that shows it; finished means "
       "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
-      "represented when another unit meets them. Whole grid: a loop under every policy of the planar grid, all "
+      "represented when another unit meets them. Runs that an audit alone found, since doubles suspected "
+      "nothing, count here, and not in the rates. Whole grid: a loop under every policy of the planar grid, "
+      "all "
       "readings of the published text that stiction distinguishes there.</p>\n");
 }
 
