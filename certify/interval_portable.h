@@ -134,19 +134,7 @@ class PortableInterval {
 
 template <>
 struct Eigen::NumTraits<stiction::PortableInterval> : Eigen::GenericNumTraits<stiction::PortableInterval> {
-  using Real = stiction::PortableInterval;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 2,
-    AddCost = 2,
-    MulCost = 10
-  };
+  enum { IsSigned = 1 };
 };
 
 #endif  // STICTION_CERTIFY_INTERVAL_PORTABLE_H_

@@ -247,20 +247,6 @@ struct std::numeric_limits<stiction::Extended> {
 };
 
 template <>
-struct Eigen::NumTraits<stiction::Extended> : Eigen::GenericNumTraits<stiction::Extended> {
-  using Real = stiction::Extended;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-};
+struct Eigen::NumTraits<stiction::Extended> : Eigen::GenericNumTraits<stiction::Extended> {};
 
 #endif  // STICTION_SOLVER_PROBLEM_EXTENDED_H_

@@ -339,6 +339,18 @@ async function assertRunsLikeTheProgram(page, policy) {
 }
 const leaveFields = page => page.evaluate(() => document.activeElement.blur());
 
+// Fills fields, chooses the readings of a policy, and runs.
+async function runEdited(page, changes, policy) {
+  for (const [key, text] of changes) await page.fill(field(key), text);
+  for (const word of policy === 'paper' ? [] : policy.split(',')) {
+    const [name, value] = word.split('=');
+    await page.selectOption(field(`policy ${name}`), value);
+  }
+  await runAgain(page);
+  await leaveFields(page);
+  assert.equal(await page.isVisible('#edited'), true);
+}
+
 test('an edited problem runs in the page as in the program, to the byte', async () => {
   const edits = [
     {changes: [], policy: 'paper', outcome: 'cycle'},
@@ -349,14 +361,7 @@ test('an edited problem runs in the page as in the program, to the byte', async 
   for (const {changes, policy, outcome} of edits) {
     await opened('loop', async page => {
       await openEditor(page);
-      for (const [key, text] of changes) await page.fill(field(key), text);
-      for (const word of policy === 'paper' ? [] : policy.split(',')) {
-        const [name, value] = word.split('=');
-        await page.selectOption(field(`policy ${name}`), value);
-      }
-      await runAgain(page);
-      await leaveFields(page);
-      assert.equal(await page.isVisible('#edited'), true);
+      await runEdited(page, changes, policy);
       const [first] = await assertRunsLikeTheProgram(page, policy);
       if (outcome !== undefined) assert.equal(first.outcome, outcome);
       assert.equal(await page.textContent('section.run-0 h2'), `The published algorithm, policy ${policy}`);
@@ -555,14 +560,7 @@ test('a problem in space is edited and runs as in the program', async () => {
       await openEditor(page);
       assert.match(await page.textContent('#edit .note'), /runs over rounded numbers, as in the program/);
       assert.equal(await page.locator(field('policy file')).count(), 0);
-      for (const [key, text] of changes) await page.fill(field(key), text);
-      for (const word of policy === 'paper' ? [] : policy.split(',')) {
-        const [name, value] = word.split('=');
-        await page.selectOption(field(`policy ${name}`), value);
-      }
-      await runAgain(page);
-      await leaveFields(page);
-      assert.equal(await page.isVisible('#edited'), true);
+      await runEdited(page, changes, policy);
       assert.match(await page.textContent('#verdicts .run-0'), end);
       await assertRunsLikeTheProgram(page, policy);
     });

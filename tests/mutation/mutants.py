@@ -790,6 +790,21 @@ bug = in_file("reports/page/found_section.cpp", "^reports: ")
 bug("counted-is-pending", "pending += discovery.representative != nullptr && !discovery.Finished();",
     "pending += !discovery.Finished();", "groups that are only counted are pending")
 
+bug = in_file("reports/page/frontiers.cpp", "^reports: measured")
+bug("records-of-any-size", "line.objective == best.objective && line.name.ends_with(end)", "line.objective == best.objective",
+    "the best of four contacts stands beside a record of three")
+bug("nothing-reached-is-zero", "if (value.empty()) return nullptr;", "if (value.empty()) return 0;",
+    "where random problems reached nothing a ring is drawn at zero")
+
+bug = in_file("reports/page/measured_page.cpp", "^reports: measured")
+bug("remedy-is-an-arithmetic", "line.arithmetic.substr(0, line.arithmetic.find(' '))", "line.arithmetic",
+    "double with a remedy counts as an arithmetic")
+bug("filtered-is-rounded", 'line.arithmetic == "exact" || line.arithmetic == "filtered"', 'line.arithmetic == "exact"',
+    "what certified signs decide counts as rounded")
+
+bug = in_file("reports/page/rungs.cpp", "^reports: rungs")
+bug("silent-beyond-wrong", "line.silent > line.wrong", "false", "more silent answers than wrong ones are read")
+
 bug = in_file("reports/page/existence_section.cpp", "^reports: ")
 bug("exceptions-hidden", "Exception(t.problems - t.solved)", "Exception(0)", "unsolved problems are not told")
 bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disagreements are not told")

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of benchmarks alone, and the records with what an optimized search sets beside them.
+
+#include <catch2/catch.hpp>
+
+#include "reports/page/measured_page.h"
+
+namespace stiction {
+namespace {
+
+using Catch::Matchers::Contains;
+
+std::vector<FrontierLine> KnownRecords() {
+  return {{.name = "steps-3-contacts",
+           .what = "steps",
+           .objective = "steps",
+           .high = true,
+           .value = "78",
+           .status = "best so far",
+           .command = "search",
+           .random = "42",
+           .evaluations = 1000,
+           .random_command = "draw"},
+          {.name = "friction-gravity-3-contacts",
+           .what = "friction",
+           .objective = "friction",
+           .high = false,
+           .value = "1/88",
+           .status = "best so far",
+           .command = "search",
+           .random = "",
+           .evaluations = 300,
+           .random_command = "draw"}};
+}
+
+RungLine Measured(const std::string& arithmetic, std::int64_t wrong, std::int64_t silent) {
+  return {.family = "masses",
+          .method = "complete",
+          .arithmetic = arithmetic,
+          .setting = 8,
+          .problems = 25,
+          .solved = 24,
+          .undecided = 0,
+          .other = 0,
+          .refused = 1,
+          .wrong = wrong,
+          .silent = silent,
+          .microseconds = 2.5,
+          .worst_residual = 0};
+}
+
+TEST_CASE("measured: the figure of the records has numbers, and nothing where nothing was reached") {
+  const FigureTable figure = FrontiersFigure(KnownRecords());
+  REQUIRE(figure.rows.size() == 2);
+  CHECK(figure.rows[0] == Json({"steps-3-contacts", "steps", "higher", 78, 42, 1000, "steps"}));
+  CHECK(figure.rows[1][2] == "lower");
+  CHECK(figure.rows[1][3] == 0.0113636);
+  CHECK(figure.rows[1][4].is_null());
+}
+
+TEST_CASE("measured: the best of a search stands beside the records of its objective and size alone") {
+  const std::string section =
+      FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 3}}).markup();
+  const std::string table = section.substr(0, section.find("</table>"));
+  CHECK_THAT(table,
+             Contains("friction-gravity-3-contacts 0.0113636") || Contains("friction-gravity-3-contacts 1/88"));
+  CHECK_THAT(table, !Contains("steps-3-contacts"));
+  const std::string larger = FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 4}}).markup();
+  CHECK_THAT(larger.substr(0, larger.find("</table>")), !Contains("contacts 1/88"));
+  CHECK(FrontiersSection({}).markup().empty());
+}
+
+TEST_CASE("measured: the page counts rounded numbers apart from exact ones, and remedies as no arithmetic") {
+  const std::vector<RungLine> lines = {Measured("double", 2, 1), Measured("double scaled", 3, 0),
+                                       Line("filtered", 0, 0)};
+  const std::string page = MeasuredPage(lines, KnownRecords(), {"/somewhere/trade.csv"}, {RungsFigure(lines)});
+  CHECK_THAT(page, Contains("1 method over 2 arithmetics, on 1 kind of problems"));
+  CHECK_THAT(page, Contains("Over rounded numbers of 48 runs 5 were wrong, 1 of them silently"));
+  CHECK_THAT(page, Contains("of 24 runs 0 were wrong, 0 of them silently"));
+  CHECK_THAT(page, Contains("stiction report --bench bench/trade.csv -o again"));
+  CHECK_THAT(page, !Contains("figures/frontiers.csv\""));  // no figure of that name was given
+}
+
+TEST_CASE("measured: a file has a name that shells and links take as it is") {
+  CHECK(BenchName("/a/b/trade.csv") == "bench/trade.csv");
+  const std::string odd = BenchName("a b#c.csv");
+  CHECK(odd.find_first_of(" #") == std::string::npos);
+  CHECK(odd != BenchName("a b_c.csv"));
+}
+
+}  // namespace
+}  // namespace stiction
