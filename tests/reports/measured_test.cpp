@@ -65,14 +65,15 @@ TEST_CASE("measured: the best of a search stands beside the records of its objec
   CHECK_THAT(table,
              Contains("friction-gravity-3-contacts 0.0113636") || Contains("friction-gravity-3-contacts 1/88"));
   CHECK_THAT(table, !Contains("steps-3-contacts"));
-  const std::string larger = FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 4}}).markup();
+  const std::string larger =
+      FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 4}}).markup();
   CHECK_THAT(larger.substr(0, larger.find("</table>")), !Contains("contacts 1/88"));
   CHECK(FrontiersSection({}).markup().empty());
 }
 
 TEST_CASE("measured: the page counts rounded numbers apart from exact ones, and remedies as no arithmetic") {
   const std::vector<RungLine> lines = {Measured("double", 2, 1), Measured("double scaled", 3, 0),
-                                       Line("filtered", 0, 0)};
+                                       Measured("filtered", 0, 0)};
   const std::string page = MeasuredPage(lines, KnownRecords(), {"/somewhere/trade.csv"}, {RungsFigure(lines)});
   CHECK_THAT(page, Contains("1 method over 2 arithmetics, on 1 kind of problems"));
   CHECK_THAT(page, Contains("Over rounded numbers of 48 runs 5 were wrong, 1 of them silently"));
