@@ -74,12 +74,15 @@ TEST_CASE("measured: the best of a search stands beside the records of its objec
 TEST_CASE("measured: the page counts rounded numbers apart from exact ones, and remedies as no arithmetic") {
   const std::vector<RungLine> lines = {Measured("double", 2, 1), Measured("double scaled", 3, 0),
                                        Measured("filtered", 0, 0)};
-  const std::string page = MeasuredPage(lines, KnownRecords(), {"/somewhere/trade.csv"}, {RungsFigure(lines)});
-  CHECK_THAT(page, Contains("1 method over 2 arithmetics, on 1 kind of problems"));
-  CHECK_THAT(page, Contains("Over rounded numbers of 48 runs 5 were wrong, 1 of them silently"));
-  CHECK_THAT(page, Contains("of 24 runs 0 were wrong, 0 of them silently"));
-  CHECK_THAT(page, Contains("stiction report --bench bench/trade.csv -o again"));
-  CHECK_THAT(page, !Contains("figures/frontiers.csv\""));  // no figure of that name was given
+  const std::string page = MeasuredPage(lines, {}, {"/somewhere/trade.csv"}, {RungsFigure(lines)});
+  for (const char* said :
+       {"1 method over 2 arithmetics, on 1 kind of problems",
+        "Over rounded numbers of 48 runs 5 were wrong, 1 of them silently",
+        "of 24 runs 0 were wrong, 0 of them silently", "stiction report --bench bench/trade.csv -o again"}) {
+    INFO(said);
+    CHECK((page.find(said) != std::string::npos));
+  }
+  CHECK((page.find("frontiers.csv") == std::string::npos));  // no records were given
 }
 
 TEST_CASE("measured: a file has a name that shells and links take as it is") {
