@@ -15,10 +15,10 @@
 #include "certify/checker_files.h"
 #include "cli/records.h"
 #include "cli/shared.h"
+#include "cli/store_progress.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
-#include "corpus/stopwatch.h"
 #include "reports/comparison/comparison.h"
 #include "reports/papers/package.h"
 #include "reports/text/text_report.h"
@@ -39,13 +39,8 @@ struct ReportVerb {
 };
 
 // How far the store is read, and what is made of it written.
-class ReportProgress {
+class ReportProgress : public StoreProgress {
  public:
-  ShowFindings Reading() {
-    return [this](std::int64_t done, std::int64_t of) {
-      Show(done, of, [&] { return fmt::format("{} of {} findings read", Grouped(done), Grouped(of)); });
-    };
-  }
   ShowWriting Writing() {
     return [this](const WritingProgress& now) {
       Show(now.findings, now.of, [&] {
@@ -54,22 +49,6 @@ class ReportProgress {
       });
     };
   }
-  ~ReportProgress() { Clear(); }
-  void Clear() const { bar_.Clear(); }
-
- private:
-  // The first, and then five a second.
-  template <class Text>
-  void Show(std::int64_t done, std::int64_t of, Text text) {
-    const double now = watch_.Seconds();
-    if (now < next_) return;
-    next_ = now + 0.2;
-    bar_.Show(static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(1, of)), text());
-  }
-
-  ProgressBar bar_;
-  Stopwatch watch_{CLOCK_MONOTONIC};
-  double next_ = 0;  // s
 };
 
 int PrintReport(const ReportVerb& o, const Store& store) {

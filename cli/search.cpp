@@ -9,6 +9,7 @@
 #include <charconv>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "answers/version.h"
 #include "cli/night.h"
 #include "cli/shared.h"
+#include "cli/store_progress.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
@@ -255,7 +257,9 @@ void Watch(const std::string& file) {
 
 int RunStatus(const StatusVerb& o) {
   if (o.watch) Watch(o.store);
-  const Store store = OpenSound(o.store);
+  StoreProgress progress;
+  const Store store = OpenSound(o.store, progress.Reading());
+  progress.Clear();
   std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryOf(store, o.store));
   return kExitDone;
 }
@@ -367,19 +371,24 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
 }
 
 int RunMerge(const MergeVerb& o) {
-  const CampaignIdentity identity =
-      o.salvage ? IdentityOfAny(o.stores) : OpenSound(o.stores.front()).identity();
+  StoreProgress progress;
+  const auto open = [&](const std::string& file) { return OpenSound(file, progress.Reading(file)); };
+  std::optional<Store> first;
+  if (!o.salvage) first = open(o.stores.front());
+  const CampaignIdentity identity = first ? first->identity() : IdentityOfAny(o.stores);
   const StoreLock lock(o.out, Shard{});
   NewStore made(o.out);
   {
     Store merged(o.out, identity);
-    if (o.salvage) {
-      TakeWhatIsSound(merged, o.stores);
+    if (first) {
+      merged.MergeFrom(*first);
+      for (std::size_t k = 1; k < o.stores.size(); ++k) merged.MergeFrom(open(o.stores[k]));
     } else {
-      for (const std::string& file : o.stores) merged.MergeFrom(OpenSound(file));
+      TakeWhatIsSound(merged, o.stores);
     }
-    RequireSound(merged, o.out);
+    RequireSound(merged, o.out, progress.Reading(o.out));
   }
+  progress.Clear();
   made.Keep();
   const Store merged = Store::OpenToRead(o.out);
   std::cout << (o.json ? JsonText(SummaryToJson(merged)) + "\n" : SummaryOf(merged, o.out));

@@ -210,20 +210,28 @@ class Reports(Background):
 
     def shown(self, *arguments):
         mine, its = self.open_terminal()
-        report = self.launch("report", self.store, *arguments, stderr=its)
+        run = self.launch(*arguments, stderr=its)
         os.close(its)
         shown = self.read_terminal(mine)
         os.close(mine)
-        done = self.finish(report)
+        done = self.finish(run)
         self.assertEqual(done.code, 0)
         self.assertPlain(done)
         return shown
 
     def test_a_terminal_shows_what_is_read_and_written(self):
         for arguments in (["-o", self.folder / "report"], ["--package", self.folder / "package"]):
-            shown = self.shown(*arguments)
+            shown = self.shown("report", self.store, *arguments)
             self.assertRegex(shown, r"\r\x1b\[K\[#*\.*\] \d+ of \d+ findings read\r")
             self.assertTrue(shown.endswith("\r\x1b[K"))  # it leaves a clean line
+
+    def test_a_terminal_shows_what_status_and_merge_read(self):
+        shown = self.shown("status", self.store)
+        self.assertRegex(shown, r"\r\x1b\[K\[#*\.*\] \d+ of \d+ findings read\r")
+        self.assertTrue(shown.endswith("\r\x1b[K"))
+        shown = self.shown("merge", self.folder / "whole.store", self.store)
+        self.assertRegex(shown, r"\r\x1b\[K\[#*\.*\] \S*a\.store: \d+ of \d+ findings read\r")
+        self.assertTrue(shown.endswith("\r\x1b[K"))
 
     def test_a_log_has_nothing_of_what_takes_no_time(self):
         done = self.succeeds("report", self.store, "-o", self.folder / "report")
