@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a store is read: a bar on a terminal, lines in a log after ten seconds.
-#pragma once
+
+#ifndef STICTION_CLI_STORE_PROGRESS_H_
+#define STICTION_CLI_STORE_PROGRESS_H_
 
 #include <fmt/format.h>
 
@@ -45,3 +47,5 @@ class StoreProgress {
 };
 
 }  // namespace stiction
+
+#endif  // STICTION_CLI_STORE_PROGRESS_H_

@@ -82,8 +82,7 @@ Html KindNote() {
       "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
       "represented when another unit meets them. Runs that an audit alone found, since doubles suspected "
       "nothing, count here, and not in the rates. Whole grid: a loop under every policy of the planar grid, "
-      "all "
-      "readings of the published text that stiction distinguishes there.</p>\n");
+      "all readings of the published text that stiction distinguishes there.</p>\n");
 }
 
 Html Tile(std::int64_t value, const std::string& meaning, const char* style = "") {

@@ -929,6 +929,9 @@ bug("loop-from", 'pivots[from]["drive"] <= replay["start"]', 'pivots[from]["driv
 bug("reading-of-friction", "row.id != PolicySwitch::kDrop || !on_normal", "row.id != PolicySwitch::kDrop",
     "a friction variable is said to take something along")
 
+bug = in_file("cli/search.cpp", "^program: (search|slurm)")
+bug("merge-leaves-the-last", "k < o.stores.size()", "k + 1 < o.stores.size()", "the last store is not taken in")
+
 bug = in_file("cli/replay_file.cpp", VIEWER)
 bug("scene-of-another", "AreSame(assembled.file.problem, file.problem)", "true",
     "forces are drawn in a scene that is of another problem")
