@@ -28,13 +28,13 @@ Json SemidefiniteCertificate(const ExactProblem& problem);
 Json DefiniteCertificate(const ExactProblem& problem);
 // `in-range` or `not-in-range`.
 Json RangeCertificate(const ExactProblem& problem);
-// `h` or `not-h` (hypothesis.h); null if neither is shown, which happens in space only. InputError for problems
-// with sliding contacts.
+// `h` or `not-h` (hypothesis.h); null if neither is shown, which is rare and happens in space only. InputError
+// for problems with sliding contacts.
 Json HypothesisCertificate(const ExactProblem& problem);
 // `cycle`, for those of the policies that end in one; a null value if none does.
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
-// `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that they
-// miss; a null value if one of these is not so, or if no solution was found.
+// `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that
+// they miss; a null value if one of these is not so, or if no solution was found.
 Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
                                const Limits& limits);
 
@@ -61,7 +61,8 @@ inline constexpr std::size_t kMostContactsOfCertificate = 2000;
 
 // `source` names the certificate in reasons; `digest`, where it is not empty, is that of the problem which the
 // certificate must speak of. Never throws for a bad certificate.
-CheckReport CheckCertificate(const Json& certificate, const std::string& source, const std::string& digest = {});
+CheckReport CheckCertificate(const Json& certificate, const std::string& source,
+                             const std::string& digest = {});
 
 // The policies that a `cycle` or a `counterexample` names.
 std::vector<Policy> CertifiedPolicies(const Json& certificate);

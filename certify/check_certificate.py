@@ -211,10 +211,10 @@ def check_coulomb(problem, witness):
 
 # --- Contact modes (certify/README.md, Modes) ----------------------------------------
 
-def modes_of(contact):
+def modes_of(contact, dimension=2):
     if contact.kind == "bilateral":
         return ("hold",)
-    if contact.kind == "static" and contact.mu > 0:
+    if dimension == 2 and contact.kind == "static" and contact.mu > 0:
         return ("break", "stick", "slip+", "slip-")
     return ("break", "touch")
 
@@ -259,19 +259,43 @@ def never_negative(mode, contact, y, g):
     return gN <= sense * contact.mu * gF and sense * yF >= 0
 
 
+def never_negative_in_space(mode, contact, y, g):
+    """The same in space: a contact that touches has its force in its friction cone, whichever way it slips."""
+    yN, gN, gF = y[0], g[0], g[1:]
+    if mode == "hold":
+        return gN == 0
+    if any(y[1:]):
+        return False
+    if mode == "break":
+        return yN >= 0
+    if contact.kind == "sliding":
+        return gN <= contact.mu * dot(contact.slip, gF)
+    return gN <= 0 and gN ** 2 >= (contact.mu or 0) ** 2 * dot(gF, gF)
+
+
+def contacts_of(problem):
+    """(number, contact, its rows) in the plane and in space."""
+    row = 0
+    for i, contact in enumerate(problem.contacts):
+        span = range(row, row + (1 if contact.mu is None else problem.dimension))
+        yield i, contact, span
+        row = span.stop
+
+
 def check_refutation(problem, prefix, y, place):
     """y'b < 0, and y'(a - A f) >= 0 in every word that begins with the prefix."""
     yb, g = dot(y, problem.b), times(zip(*problem.A), y)
     need(yb < 0, place, yb, "y'b < 0")
-    for i, contact, span in planar_contacts(problem):
-        for mode in prefix[i:i + 1] or modes_of(contact):
-            need(never_negative(mode, contact, [y[row] for row in span], [g[row] for row in span]),
+    holds = never_negative if problem.dimension == 2 else never_negative_in_space
+    for i, contact, span in contacts_of(problem):
+        for mode in prefix[i:i + 1] or modes_of(contact, problem.dimension):
+            need(holds(mode, contact, [y[row] for row in span], [g[row] for row in span]),
                  place, f"a term of contact {i + 1} that can be negative",
                  f"none in mode {mode}")
 
 
 def check_no_solution(problem, witness):
-    choices = [modes_of(contact) for _, contact, _ in planar_contacts(problem)]
+    choices = [modes_of(contact, problem.dimension) for contact in problem.contacts]
     following = [1]  # words for the last 0, 1, ... contacts
     for modes in reversed(choices):
         following.append(following[-1] * len(modes))

@@ -10,7 +10,6 @@
 #include "certify/condition.h"
 #include "certify/existence.h"
 #include "certify/safe.h"
-#include "certify/space.h"
 #include "corpus/input_error.h"
 
 namespace stiction {
@@ -32,18 +31,21 @@ void RequireSpace(const ExactProblem& problem, const std::string& source) {
     throw InputError(source, "dimension", "2", "3: in the plane the claim is solution-exists");
 }
 
-Json Existing(const ExactProblem& problem, const ClaimOptions& o) {
-  return DecideExistence(problem, o.limits, o.enumeration).certificate;
+Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
+  return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
+}
+
+Json OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
+  return ExistingUnder(o.law, problem, o);
+}
+
+Json OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
+  return ExistingUnder(FrictionLaw::kBaraff, problem, o);
 }
 
 // The best bound that was found, or null.
 Json OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
-  SpaceOptions options;
-  options.law = FrictionLaw::kCoulomb;
-  options.limits = o.limits;
-  const SpaceSolution solution = SolveInSpace(problem, options);
-  if (solution.outcome != Outcome::kSolved || solution.bound <= 0) return nullptr;
-  return CoulombCertificate(problem, solution.f, solution.bound);
+  return ExistingUnder(FrictionLaw::kCoulomb, problem, o);
 }
 
 // Makers that take the problem alone.
@@ -61,7 +63,12 @@ Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
 }
 
 const std::array kRows = {
-    ClaimRow{{"solution-exists", "forces that meet all conditions"}, RequireNothing, Existing},
+    ClaimRow{{"existence", "solution-exists, in space by default coulomb-solution (--law), or no-solution"},
+             RequireNothing,
+             OfExistence},
+    ClaimRow{{"solution-exists", "forces that meet all conditions, in space (21), (22)"},
+             RequireNothing,
+             OfSolution},
     ClaimRow{{"coulomb-solution", "the same for Coulomb's law, in space"}, RequireSpace, OfCoulomb},
     ClaimRow{{"symmetric", "A = A'"}, RequireNothing, Alone<SymmetryCertificate>},
     ClaimRow{{"psd", "A is positive semidefinite"}, RequireNothing, Alone<SemidefiniteCertificate>},

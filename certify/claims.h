@@ -11,6 +11,7 @@
 
 #include "certify/enumerate.h"
 #include "corpus/problem_file.h"
+#include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
@@ -25,6 +26,7 @@ struct ClaimOptions {
   std::vector<Policy> policies = {Policy{}};  // of which runs are claimed
   Limits limits;
   EnumerationOptions enumeration;
+  FrictionLaw law = FrictionLaw::kCoulomb;  // in space, of `existence`
 };
 
 // The certificate of a claim or of its negation; null where nothing that was run shows either. InputError for a

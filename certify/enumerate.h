@@ -6,6 +6,10 @@
 // infeasible prefix ends the search below it with one Farkas vector (no_solution.h), which refutes all its
 // completions.
 //
+// In space a word is refuted, or it is left open (RefuteInSpace): its programs have polygons around the
+// friction cones (cones.h), so that what refutes them refutes the cones, with corners added where forces leave
+// the cones.
+//
 // Cost          in the worst case the product of the numbers of modes.
 // Exactness     programs with integer data, solved by CGAL's QP_solver over Gmpz, Bland's rule. Nothing that
 //               it says is believed: witnesses and Farkas vectors are verified here over rationals.
@@ -48,7 +52,7 @@ struct RefutedPrefix {
   ExactVector y;  // integers without a common factor; no_solution.h says what it proves
 };
 
-enum class EnumerationEnd : std::uint8_t { kComplete, kFirstSolution, kCancelled, kLimit };
+enum class EnumerationEnd : std::uint8_t { kComplete, kFirstSolution, kCancelled, kLimit, kOpen };
 
 struct Enumeration {
   EnumerationEnd end = EnumerationEnd::kComplete;
@@ -66,6 +70,10 @@ struct Enumeration {
 // Requires: a planar problem (otherwise InputError). Throws InternalError if a witness or a Farkas vector of
 // the linear programs does not stand exact verification.
 Enumeration EnumerateModes(const ExactProblem& problem, const EnumerationOptions& options = {});
+
+// Requires: a problem in space (otherwise InputError). Ends as kOpen at the first word that no Farkas vector is
+// found for; of `solutions` nothing is said.
+Enumeration RefuteInSpace(const ExactProblem& problem, const EnumerationOptions& options = {});
 
 }  // namespace stiction
 

@@ -73,24 +73,41 @@ LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
   return run;
 }
 
-Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
-                          const EnumerationOptions& options) {
-  const bool in_plane = problem.dimension == 2;
-  if (in_plane && problem.rows() <= kFewRows) {
+namespace {
+
+// Of an answer that is solved.
+Existence Solved(const ExactProblem& problem, const Answer<Rational>& answer) {
+  if (answer.bound.empty()) return {SolutionCertificate(problem, answer.f), answer.method};
+  return {CoulombCertificate(problem, answer.f, *ParseRational(answer.bound)), answer.method};
+}
+
+Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
+                        FrictionLaw law) {
+  for (const Method<Rational>& method : Methods<Rational>()) {
+    if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
+    const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits, .law = law});
+    if (answer.Solved() && answer.bound != "0") return Solved(problem, answer);
+  }
+  const Enumeration modes = RefuteInSpace(problem, options);
+  if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};
+  return {nullptr, "none"};
+}
+
+}  // namespace
+
+Existence DecideExistence(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
+                          FrictionLaw law) {
+  if (problem.dimension == 3) return DecideInSpace(problem, limits, options, law);
+  if (problem.rows() <= kFewRows) {
     const CompleteRun complete = RunCompleteFiltered(problem, limits).run;
     if (complete.verdict.outcome == Outcome::kSolved)
       return {SolutionCertificate(problem, complete.f), "complete"};
-  } else if (in_plane) {
+  } else {
     const Answer<Rational> answer = Solve(problem, "fast", {.limits = limits});
-    if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};
+    if (answer.Solved()) return Solved(problem, answer);
   }
-  for (const Method<Rational>& method : Methods<Rational>()) {
-    if (!method.automatic || !method.has_path || !method.IsBuilt(problem.dimension)) continue;
-    if (in_plane && method.name == "complete") continue;  // the last resort of both
-    const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits});
-    if (answer.Solved()) return {SolutionCertificate(problem, answer.f), answer.method};
-  }
-  if (problem.dimension == 3) return {nullptr, "none"};
+  const Answer<Rational> answer = Solve(problem, "lemke", {.limits = limits});  // complete driving is done
+  if (answer.Solved()) return Solved(problem, answer);
   EnumerationOptions first = options;
   first.first_solution_only = true;
   const Enumeration modes = EnumerateModes(problem, first);

@@ -6,8 +6,10 @@
 // (filtered.h: the end is solved for and verified over rationals, not the way), with many rows the cells in
 // which a run over doubles ends, solved likewise; then Lemke's method, whose path is another; both after
 // bilateral constraints and sliding contacts have left the problem (solver/problem/reduction.h); then all
-// contact modes, which decide every planar problem that is small enough. In space complete driving on polygons
-// alone (space.h): it finds solutions of (21), (22), and proves nothing where it finds none.
+// contact modes, which decide every planar problem that is small enough. In space complete driving and Lemke's
+// method on polygons and the point of the fast method (space.h), which find solutions of Coulomb's law up to a
+// bound, or of (21), (22); then words of touching and separated contacts, which may refute both laws
+// (no_solution.h).
 
 #ifndef STICTION_CERTIFY_EXISTENCE_H_
 #define STICTION_CERTIFY_EXISTENCE_H_
@@ -18,6 +20,7 @@
 
 #include "certify/enumerate.h"
 #include "solver/complete/complete.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
@@ -40,14 +43,14 @@ struct LemkeRun {
 LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits);
 
 struct Existence {
-  // `solution-exists` or `no-solution`; null if undecided.
+  // `solution-exists`, of Coulomb's law in space `coulomb-solution`, or `no-solution`; null if undecided.
   Json certificate;
   std::string_view method;  // that decided: complete, fast, lemke, enumerate; or "none"
 };
 
-// Any valid problem.
+// Any valid problem; the law is that of static contacts in space.
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
-                          const EnumerationOptions& options = {});
+                          const EnumerationOptions& options = {}, FrictionLaw law = FrictionLaw::kBaraff);
 
 }  // namespace stiction
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "certify/linear_system.h"
+#include "certify/cones.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -22,55 +22,13 @@ Rational SquareOfTangent(const ExactVector& x, int row, int dimension) {
   return square;
 }
 
-// An extreme ray of the cone of a planar contact: (1, tangent) in its rows; or a line.
-struct Edge {
-  int row;
-  Rational tangent;
-  bool rough, free;
-};
-
-std::vector<Edge> EdgesOf(const ExactProblem& problem) {
-  std::vector<Edge> edges;
-  int row = 0;
-  for (const auto& contact : problem.contacts) {
-    const bool rough = contact.HasFrictionRows();
-    edges.push_back({row, contact.mu, rough, contact.kind == ContactKind::kBilateral});
-    if (contact.mu > 0) edges.push_back({row, -contact.mu, rough, false});
-    row += rough ? 2 : 1;
-  }
-  return edges;
-}
-
-Rational Along(const Edge& edge, const Rational& normal, const Rational& tangential) {
-  return edge.rough && edge.tangent != 0 ? Rational(normal + edge.tangent * tangential) : normal;
-}
-
-// `values`, the last of them the constant, as integers; `scale` is the factor > 0.
-LinearSystem::Row IntegerRow(const std::vector<Rational>& values, mpz_class& scale) {
-  scale = 1;
-  for (const Rational& x : values) scale = lcm(scale, x.get_den());
-  LinearSystem::Row row{{}, 0, Relation::kZero};
-  for (const Rational& x : values) row.coefficients.push_back(mpz_class(x.get_num() * (scale / x.get_den())));
-  row.constant = row.coefficients.back();
-  row.coefficients.pop_back();
-  return row;
-}
-
-HypothesisObstacle MakeObstacle(const ExactProblem& problem, const std::vector<Edge>& edges, const Point& x) {
-  HypothesisObstacle obstacle{ExactVector::Constant(problem.rows(), Rational(0)), 0};
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    obstacle.v[edges[k].row] += x[k];
-    if (edges[k].rough) obstacle.v[edges[k].row + 1] += edges[k].tangent * x[k];
-  }
-  bool in_kernel = true;
-  for (int i = 0; i < problem.rows(); ++i) {
-    Rational image = 0;
-    for (int j = 0; j < problem.rows(); ++j) image += problem.A(i, j) * obstacle.v[j];
-    in_kernel &= image == 0;
-    obstacle.value += problem.b[i] * obstacle.v[i];
-  }
-  STICTION_CHECK(in_kernel && obstacle.value < 0 && !FindConeViolation(problem, obstacle.v),
-                 "a linear program solved wrongly");
+// Of v in K with A v = 0.
+HypothesisObstacle MakeObstacle(const ExactProblem& problem, ExactVector v) {
+  HypothesisObstacle obstacle{std::move(v), 0};
+  obstacle.value = problem.b.dot(obstacle.v);
+  STICTION_CHECK(
+      (problem.A * obstacle.v).isZero() && obstacle.value < 0 && !FindConeViolation(problem, obstacle.v),
+      "a linear program solved wrongly");
   return obstacle;
 }
 
@@ -127,38 +85,82 @@ ExactVector DualRest(const ExactProblem& problem, const ExactVector& y) {
   return rest;
 }
 
+namespace {
+
+using Decision = std::variant<std::monostate, HypothesisProof, HypothesisObstacle>;
+
 // Is there a v = edges x, x >= 0, with A v = 0 and b'v = -1? If not, a combination c of these equations has
 // c'A E - (multiple of b)'E <= 0 in every edge, which is y after scaling.
-std::variant<HypothesisProof, HypothesisObstacle> DecideHypothesis(const ExactProblem& problem) {
-  if (problem.dimension != 2 || HasSlidingContact(problem)) {
-    throw InputError(
-        "claim h: decided for planar problems of bilateral, frictionless and static contacts only");
-  }
-  const std::vector<Edge> edges = EdgesOf(problem);
+Decision SeekObstacle(const ExactProblem& problem, RationalPolygons& polygons) {
+  const std::vector<ConeEdge> edges = MakeEdges(problem, polygons, EdgesOf::kWithinCone);
   const int rows = problem.rows();
-  LinearSystem system;
-  std::vector<mpz_class> scales(rows + 1);
-  for (const Edge& edge : edges) system.free.push_back(edge.free);
-  for (int i = 0; i <= rows; ++i) {
-    std::vector<Rational> values;
-    for (const Edge& edge : edges) {
-      const int tangent = edge.rough ? edge.row + 1 : edge.row;
-      values.push_back(i < rows ? Along(edge, problem.A(i, edge.row), problem.A(i, tangent))
-                                : Along(edge, problem.b[edge.row], problem.b[tangent]));
-    }
-    values.push_back(i < rows ? 0 : 1);
-    system.rows.push_back(IntegerRow(values, scales[i]));
+  std::vector<bool> free;
+  std::vector<RationalRow> system(rows + 1);
+  system.back().constant = 1;
+  for (const ConeEdge& edge : edges) {
+    free.push_back(edge.free);
+    for (int i = 0; i < rows; ++i) system[i].coefficients.push_back(Along(edge, problem.A, i));
+    system.back().coefficients.push_back(Along(edge, problem.b));
   }
-  const auto answer = Solve(system);
-  if (const Point* x = std::get_if<Point>(&answer)) return MakeObstacle(problem, edges, *x);
-  const Combination& combination = std::get<Combination>(answer);
-  const Rational last = -Rational(combination.back() * scales.back());
-  STICTION_CHECK(last > 0, "a combination that shows nothing");
+  const auto answer = Solve(free, system);
+  if (const Point* x = std::get_if<Point>(&answer)) return MakeObstacle(problem, Combined(edges, *x, rows));
+  const std::vector<Rational>& combination = std::get<Multipliers>(answer).values;
+  STICTION_CHECK(combination.back() < 0, "a combination that shows nothing");
   HypothesisProof proof{ExactVector(rows)};
-  for (int i = 0; i < rows; ++i) proof.y[i] = Rational(combination[i] * scales[i]) / last;
-  const auto violation = FindDualConeViolation(problem, DualRest(problem, proof.y));
-  STICTION_CHECK(!violation, "a Farkas vector of a linear program is wrong: " + violation.value_or(""));
-  return proof;
+  for (int i = 0; i < rows; ++i) proof.y[i] = -combination[i] / combination.back();
+  const ExactVector rest = DualRest(problem, proof.y);
+  const auto violation = FindDualConeViolation(problem, rest);
+  if (!violation) return proof;
+  STICTION_CHECK(problem.dimension == 3, "a Farkas vector of a linear program is wrong: " + *violation);
+  AddCorners(problem, EdgesOf::kWithinCone, rest, polygons);
+  return {};
+}
+
+// Are there y and g = edges x, x >= 0, with A'y + g = b? If not, a combination -v of these equations has A v =
+// 0, b'v < 0, and v.e >= 0 in every edge e.
+Decision SeekProof(const ExactProblem& problem, RationalPolygons& polygons) {
+  const std::vector<ConeEdge> edges = MakeEdges(problem, polygons, EdgesOf::kWithinDualCone);
+  const int rows = problem.rows();
+  std::vector<bool> free(rows, true);
+  std::vector<RationalRow> system(rows);
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < rows; ++j) system[i].coefficients.push_back(problem.A(j, i));
+    system[i].coefficients.resize(rows + edges.size(), 0);
+    system[i].constant = -problem.b[i];
+  }
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    free.push_back(edges[k].free);
+    for (std::size_t j = 0; j < edges[k].values.size(); ++j)
+      system[edges[k].row + j].coefficients[rows + k] = edges[k].values[j];
+  }
+  const auto answer = Solve(free, system);
+  ExactVector found(rows);
+  if (const Point* x = std::get_if<Point>(&answer)) {
+    for (int i = 0; i < rows; ++i) found[i] = (*x)[i];
+    STICTION_CHECK(!FindDualConeViolation(problem, DualRest(problem, found)),
+                   "a linear program solved wrongly");
+    return HypothesisProof{found};
+  }
+  for (int i = 0; i < rows; ++i) found[i] = -std::get<Multipliers>(answer).values[i];
+  if (!FindConeViolation(problem, found)) return MakeObstacle(problem, found);
+  AddCorners(problem, EdgesOf::kWithinDualCone, found, polygons);
+  return {};
+}
+
+}  // namespace
+
+Decision DecideHypothesis(const ExactProblem& problem) {
+  constexpr int kRounds = 10;
+  if (HasSlidingContact(problem))
+    throw InputError("claim h: decided for bilateral, frictionless and static contacts only");
+  RationalPolygons polygons = FirstPolygons(problem);
+  for (int round = 0; round < kRounds; ++round) {
+    for (const auto seek : {SeekObstacle, SeekProof}) {
+      Decision decision = seek(problem, polygons);
+      if (!std::holds_alternative<std::monostate>(decision)) return decision;
+    }
+  }
+  return {};
 }
 
 }  // namespace stiction

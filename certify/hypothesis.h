@@ -8,9 +8,9 @@
 //   frictionless   vN >= 0                   gN >= 0
 //   static         abs(vF) <= mu vN          gN >= mu abs(gF)        (vN, gN >= 0)
 //
-// (H) holds if and only if b = A'y + g for a y and a g in K* where K is polyhedral, as it is in the plane: b'v
-// = y'Av + g'v. For a symmetric A, b in range(A) is the case g = 0. In space such a y still proves (H). Sliding
-// contacts have no such cone: problems that have them are refused.
+// (H) holds if b = A'y + g for a y and a g in K*: then b'v = y'Av + g'v >= 0. In the plane, where K is
+// polyhedral, only if, too. For a symmetric A, b in range(A) is the case g = 0. Sliding contacts have no such
+// cone: problems that have them are refused.
 
 #ifndef STICTION_CERTIFY_HYPOTHESIS_H_
 #define STICTION_CERTIFY_HYPOTHESIS_H_
@@ -41,9 +41,11 @@ struct HypothesisObstacle {
 
 bool HasSlidingContact(const ExactProblem& problem);
 
-// Which of the two it is, by an exact linear program; verified here. Requires a planar problem without sliding
-// contacts (otherwise InputError).
-std::variant<HypothesisProof, HypothesisObstacle> DecideHypothesis(const ExactProblem& problem);
+// Which of the two it is, by exact linear programs; verified here. In space K and K* are cones on polygons
+// within (cones.h), whose corners are added where the answers of the programs point; then it may be neither:
+// where (H) hangs on a point of the circle that is not rational, or all that is found is at the edge of K.
+// Requires a problem without sliding contacts (otherwise InputError).
+std::variant<std::monostate, HypothesisProof, HypothesisObstacle> DecideHypothesis(const ExactProblem& problem);
 
 }  // namespace stiction
 

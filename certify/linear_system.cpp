@@ -88,6 +88,32 @@ std::variant<Point, Combination> Solve(const LinearSystem& system) {
   return x;
 }
 
+namespace {
+
+// `scale`: by which the row is multiplied, > 0.
+LinearSystem::Row IntegerRow(const RationalRow& rational, mpz_class& scale) {
+  scale = rational.constant.get_den();
+  for (const Rational& x : rational.coefficients) scale = lcm(scale, x.get_den());
+  const auto scaled = [&scale](const Rational& x) { return mpz_class(x.get_num() * (scale / x.get_den())); };
+  LinearSystem::Row row{{}, scaled(rational.constant), rational.relation};
+  for (const Rational& x : rational.coefficients) row.coefficients.push_back(scaled(x));
+  return row;
+}
+
+}  // namespace
+
+std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std::vector<RationalRow>& rows) {
+  LinearSystem system{free, {}};
+  std::vector<mpz_class> scales(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) system.rows.push_back(IntegerRow(rows[i], scales[i]));
+  auto answer = Solve(system);
+  if (Point* x = std::get_if<Point>(&answer)) return std::move(*x);
+  const Combination& combination = std::get<Combination>(answer);
+  Multipliers multipliers;
+  for (std::size_t i = 0; i < rows.size(); ++i) multipliers.values.emplace_back(combination[i] * scales[i]);
+  return multipliers;
+}
+
 // QP_solver is given twice the matrix of x'Dx, below its diagonal: that is M.
 QuadraticEnd Minimize(const QuadraticProgram& program) {
   const int variables = static_cast<int>(program.c.size());

@@ -41,6 +41,18 @@ using Combination = std::vector<mpz_class>;
 // usual case here and QP_solver's other rules may cycle. A free variable is the difference of two.
 std::variant<Point, Combination> Solve(const LinearSystem& system);
 
+// The same with rational coefficients: rows are scaled to integers, and the combination is of the rows as they
+// are.
+struct RationalRow {
+  std::vector<Rational> coefficients;
+  Rational constant;
+  Relation relation = Relation::kZero;
+};
+struct Multipliers {
+  std::vector<Rational> values;  // as Combination
+};
+std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std::vector<RationalRow>& rows);
+
 // Minimize x'Mx / 2 + c'x over x >= 0. M: symmetric, positive semidefinite, by rows.
 struct QuadraticProgram {
   std::vector<std::vector<mpz_class>> M;

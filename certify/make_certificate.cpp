@@ -37,9 +37,10 @@ Json FactorsToJson(const LdltFactors& factors) {
 
 void RequireSymmetric(const ExactProblem& problem, const std::string& claim) {
   if (IsSymmetric(problem)) return;
-  throw InputError(fmt::format("claim {}: A is not symmetric, and its symmetric part meets the claim; it is made "
-                               "of symmetric A only",
-                               claim));
+  throw InputError(
+      fmt::format("claim {}: A is not symmetric, and its symmetric part meets the claim; it is made "
+                  "of symmetric A only",
+                  claim));
 }
 
 Json RunToJson(const ExactRun& run, const std::vector<std::string>& names) {
@@ -164,7 +165,7 @@ Json RangeCertificate(const ExactProblem& problem) {
                          {{"y", VectorToJson(obstacle.y)}, {"value", ToString(obstacle.value)}});
 }
 
-// Where A is symmetric, A x = b is a proof; it is the only one that is looked for in space.
+// Where A is symmetric, A x = b is a proof, and the cheapest.
 Json HypothesisCertificate(const ExactProblem& problem) {
   if (HasSlidingContact(problem)) {
     throw InputError("claim h: stated for bilateral, frictionless and static contacts; found a sliding one");
@@ -175,14 +176,14 @@ Json HypothesisCertificate(const ExactProblem& problem) {
       return MakeCertificate("h", problem, {{"y", VectorToJson(point->x)}});
     }
   }
-  if (problem.dimension != 2) return nullptr;
   const auto decision = DecideHypothesis(problem);
   if (const auto* proof = std::get_if<HypothesisProof>(&decision)) {
     return MakeCertificate("h", problem, {{"y", VectorToJson(proof->y)}});
   }
-  const auto& obstacle = std::get<HypothesisObstacle>(decision);
+  const auto* obstacle = std::get_if<HypothesisObstacle>(&decision);
+  if (obstacle == nullptr) return nullptr;
   return MakeCertificate("not-h", problem,
-                         {{"v", VectorToJson(obstacle.v)}, {"value", ToString(obstacle.value)}});
+                         {{"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
 }
 
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {

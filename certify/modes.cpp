@@ -23,12 +23,12 @@ bool HasFrictionModes(const Contact<Rational>& contact) {
 
 }  // namespace
 
-std::span<const Mode> ModesOf(const Contact<Rational>& contact) {
+std::span<const Mode> ModesOf(const Contact<Rational>& contact, int dimension) {
   static constexpr std::array<Mode, 1> kBilateral = {kHold};
   static constexpr std::array<Mode, 2> kOneSided = {kBreak, kTouch};
   static constexpr std::array<Mode, 4> kFriction = {kBreak, kStick, kSlipPlus, kSlipMinus};
   if (contact.kind == ContactKind::kBilateral) return kBilateral;
-  if (HasFrictionModes(contact)) return kFriction;
+  if (dimension == 2 && HasFrictionModes(contact)) return kFriction;
   return kOneSided;
 }
 
@@ -40,7 +40,8 @@ Json WordToJson(const ModeWord& word) {
 
 mpz_class Completions(const ExactProblem& problem, std::size_t length) {
   mpz_class count = 1;
-  for (std::size_t i = length; i < problem.contacts.size(); ++i) count *= ModesOf(problem.contacts[i]).size();
+  for (std::size_t i = length; i < problem.contacts.size(); ++i)
+    count *= ModesOf(problem.contacts[i], problem.dimension).size();
   return count;
 }
 

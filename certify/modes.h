@@ -13,8 +13,12 @@
 //                            slip-         fN >= 0, fF = +mu fN, aN = 0, aF <= 0
 //
 // The union of the modes of a contact is its law: (15), (16), (24) of [Baraff94]. A word names a mode for
-// every contact. Its conditions with a = A f + b are linear, so the solutions of a problem are a finite union
-// of polyhedra, one per word; a degenerate solution lies in several.
+// every contact. In the plane its conditions with a = A f + b are linear, so the solutions of a problem are a
+// finite union of polyhedra, one per word; a degenerate solution lies in several.
+//
+// In space a static contact has break and touch whatever its mu; touch is fN >= 0, aN = 0, fF.fF <= mu^2 fN^2,
+// aF free, which is no more than what its law implies. So words there can refute (no_solution.h), and not
+// solve.
 
 #ifndef STICTION_CERTIFY_MODES_H_
 #define STICTION_CERTIFY_MODES_H_
@@ -37,8 +41,8 @@ std::string_view Name(Mode mode);
 using ModeWord = std::vector<Mode>;  // one mode per contact, or for the first contacts: a prefix
 Json WordToJson(const ModeWord& word);
 
-// The modes of a planar contact, in the order of the search.
-std::span<const Mode> ModesOf(const Contact<Rational>& contact);
+// The modes of a contact, in the order of the search.
+std::span<const Mode> ModesOf(const Contact<Rational>& contact, int dimension = 2);
 
 // The number of words that begin with a prefix of this length; with length 0, of all words.
 mpz_class Completions(const ExactProblem& problem, std::size_t length);

@@ -36,7 +36,25 @@ FarkasVector MakeFarkasVector(const ExactProblem& problem, const ExactVector& y)
   return farkas;
 }
 
-bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas) {
+namespace {
+
+// The same in space: of touch and break, of contacts with friction rows.
+bool TermIsNonnegativeInSpace(const Contact<Rational>& contact, int row, Mode mode,
+                              const FarkasVector& farkas) {
+  const ExactVector &y = farkas.y, &g = farkas.g;
+  if (y[row + 1] != 0 || y[row + 2] != 0) return false;
+  if (mode == kBreak) return y[row] >= 0;
+  if (contact.kind == ContactKind::kSliding)
+    return g[row] <= contact.mu * (contact.slip[0] * g[row + 1] + contact.slip[1] * g[row + 2]);
+  const Rational square = g[row + 1] * g[row + 1] + g[row + 2] * g[row + 2];
+  return g[row] <= 0 && contact.mu * contact.mu * square <= g[row] * g[row];
+}
+
+}  // namespace
+
+bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas,
+                       int dimension) {
+  if (dimension == 3 && contact.HasFrictionRows()) return TermIsNonnegativeInSpace(contact, row, mode, farkas);
   const Rational &yN = farkas.y[row], &gN = farkas.g[row];
   const Rational yF = FrictionEntry(contact, row, farkas.y), gF = FrictionEntry(contact, row, farkas.g);
   const Rational along = contact.mu * gF;
@@ -69,11 +87,11 @@ std::optional<Gap> FindGap(const ExactProblem& problem, const ModeWord& prefix, 
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const auto& contact = problem.contacts[i];
-    const auto modes = i < prefix.size() ? std::span(&prefix[i], 1) : ModesOf(contact);
+    const auto modes = i < prefix.size() ? std::span(&prefix[i], 1) : ModesOf(contact, problem.dimension);
     for (const Mode mode : modes) {
-      if (!TermIsNonnegative(contact, row, mode, farkas)) return Gap{i, mode};
+      if (!TermIsNonnegative(contact, row, mode, farkas, problem.dimension)) return Gap{i, mode};
     }
-    row += contact.HasFrictionRows() ? 2 : 1;
+    row += contact.HasFrictionRows() ? problem.dimension : 1;
   }
   return std::nullopt;
 }
@@ -130,7 +148,6 @@ void RequireCover(const ExactProblem& problem, const std::vector<ModeWord>& pref
 }  // namespace
 
 Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
-  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
   RequireKeys(witness, "witness", {"prefixes"});
   const Json& listed = witness["prefixes"];
   RequireList(listed, "witness.prefixes");

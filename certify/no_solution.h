@@ -15,6 +15,14 @@
 // So if y'b < 0, y refutes every word in which each contact has a mode of which this holds. By Farkas's lemma
 // an infeasible word has such a vector.
 //
+// In space a static contact has the modes break and touch, and the term is >= 0 throughout touch if and only if
+//
+//   touch   -gN >= mu abs(gF), yF = 0          (lengths by their squares; a sliding contact: gN <= mu u.gF, yF
+//   = 0)
+//
+// which is all that Coulomb's law and (21), (22) both ask of fN, fF, aN, so the claim is of either. A problem
+// without a solution need not have such vectors there: which way a contact slips is not in them.
+//
 // Independent of the linear programs: this file needs products and signs only.
 
 #ifndef STICTION_CERTIFY_NO_SOLUTION_H_
@@ -36,7 +44,8 @@ struct FarkasVector {
 FarkasVector MakeFarkasVector(const ExactProblem& problem, const ExactVector& y);
 
 // Whether the contact's term is >= 0 throughout the mode. `row` is the contact's normal row.
-bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas);
+bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas,
+                       int dimension = 2);
 
 // Whether the vector refutes every completion of the prefix.
 bool Refutes(const ExactProblem& problem, const ModeWord& prefix, const FarkasVector& farkas);

@@ -71,7 +71,7 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
   }
   ModeWord prefix;
   for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto modes = ModesOf(problem.contacts[i]);
+    const auto modes = ModesOf(problem.contacts[i], problem.dimension);
     const auto* name = json[i].get_ptr<const std::string*>();  // null if it is no text
     const auto mode =
         std::ranges::find_if(modes, [name](Mode m) { return name != nullptr && *name == Name(m); });

@@ -169,6 +169,57 @@ TEST_CASE("(H): decided either way with a certificate, and b in range(A) implies
   CHECK(holds + outside > 420);  // (H) without b in range(A) occurs
 }
 
+TEST_CASE("(H) in space: decided either way with a certificate, but for the edge of a cone") {
+  int holds = 0, fails = 0, beyond = 0;
+  for (int index = 0; index < Few(200); ++index) {
+    CAPTURE(index);
+    Choices choices(index);
+    ExactProblem problem = RandomGram(8, 1 + index % 5, 0, choices);
+    problem.dimension = 3;
+    problem.contacts = {{ContactKind::kStatic, Rational(choices.Integer(0, 4)) / 2, {}},
+                        {index % 4 == 0 ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}},
+                        {ContactKind::kStatic, 1, {}},
+                        {ContactKind::kFrictionless, 0, {}}};
+    const Json certificate = HypothesisCertificate(problem);
+    REQUIRE(certificate.is_object());
+    const bool holding = certificate["claim"] == "h";
+    CHECK(CheckCertificate(certificate, "test").accepted);
+    if (IsInRange(problem)) CHECK(holding);
+    beyond += holding && !IsInRange(problem);
+    ++(holding ? holds : fails);
+    Json other = certificate;
+    other["claim"] = holding ? "not-h" : "h";
+    CHECK_FALSE(CheckCertificate(other, "test").accepted);
+  }
+  CHECK(holds > Few(40));
+  CHECK(fails > Few(40));
+  CHECK(beyond > Few(10));
+}
+
+TEST_CASE("(H) in space: corners are added where the circle matters") {
+  // A v = 0 for v = (5, 3, -4) t alone, which is at the edge of K, and in no polygon of eight sides in it.
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}};
+  problem.A = Matrix({{17, -15, 10}, {-15, 25, 0}, {10, 0, Rational(25, 2)}});
+  problem.b = Vector({-1, 0, 0});
+  const Json fails = HypothesisCertificate(problem);
+  REQUIRE(fails.is_object());
+  CHECK(fails["claim"] == "not-h");
+  CHECK(CheckCertificate(fails, "test").accepted);
+  problem.contacts[0].mu = Rational(99, 100);  // no v but 0 is in K
+  const Json holds = HypothesisCertificate(problem);
+  REQUIRE(holds.is_object());
+  CHECK(holds["claim"] == "h");
+  CHECK(CheckCertificate(holds, "test").accepted);
+  problem.A = ExactMatrix::Zero(3, 3);  // b itself in K*, within the octagon's cone or not
+  for (const Rational& normal : {Rational(501, 100), Rational(499, 100)}) {
+    problem.contacts[0].mu = 1;
+    problem.b = Vector({normal, 3, -4});
+    CHECK(HypothesisCertificate(problem)["claim"] == (normal > 5 ? "h" : "not-h"));
+  }
+}
+
 TEST_CASE("(H): the examples of theory, and what it is not stated for") {
   CHECK(HypothesisCertificate(ReferenceProblem())["claim"] == "h");
   const Json fails = HypothesisCertificate(NoSolution());

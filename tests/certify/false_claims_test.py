@@ -348,7 +348,72 @@ refutations("slip+ with yF < 0", IDENTITY, [-1, 2], lift=[1, 0], stick=[-1, -1],
 refutations("slip+ with gN - mu gF > 0", IDENTITY, [-1, 2], lift=[1, 0], stick=[-1, -1], plus=[1, 0], minus=[0, -1])
 refutations("slip+ with gN + mu gF <= 0 instead", [[1, -2], [-2, 5]], [-1, 3],
             lift=[1, 0], stick=[-5, -2], plus=[1, 0], minus=[1, 0])
-none(false, "in space", problem([None], [[0]], [-1], 3), ("", [1]))
+
+# In space: modes break and touch, a force that touches is anywhere in its cone.
+
+
+def first_row(*row, law=1, b=(-1, 0, 0)):
+    """One contact in space, of A the first row alone."""
+    return problem([law], [list(row), [0, 0, 0], [0, 0, 0]], b, 3)
+
+
+UP = [1, 0, 0]
+none(true, "in space, nothing pushes", problem([None], [[0]], [-1], 3), ("", [1]))
+none(true, "in space, nothing pushes a static contact", first_row(0, 0, 0), ("", UP))
+none(true, "in space, mode by mode", first_row(0, 0, 0), ("break", UP), ("touch", UP))
+none(true, "in space, at the edge of the dual cone", first_row(-5, 3, -4), ("", UP))
+none(true, "in space, mu = 0, friction that there is none of", first_row(0, 5, 0, law=0), ("", UP))
+none(false, "in space, y'b = 0", first_row(0, 0, 0, b=(0, 0, 0)), ("", UP))
+none(false, "in space, y'b > 0", first_row(0, 0, 0, b=(1, 0, 0)), ("", UP))
+none(false, "in space, outside of the dual cone by both tangents", first_row(-4, 3, -3), ("", UP))
+none(false, "in space, outside of the dual cone by the first tangent", first_row(-1, 2, 0), ("", UP))
+none(false, "in space, outside of the dual cone by the second tangent", first_row(-1, 0, 2), ("", UP))
+none(false, "in space, the opposite of the dual cone", first_row(5, 3, -4), ("", UP))
+none(false, "in space, within the cone, not within its dual", first_row(-1, 2, 0, law=2), ("", UP))
+none(false, "in space, mu = 0, touch with gN > 0", first_row(1, 0, 0, law=0), ("break", UP), ("touch", UP))
+none(false, "in space, frictionless, touch with gN > 0", problem([None], [[1]], [-1], 3), ("break", [1]), ("touch", [1]))
+none(false, "in space, break with yN < 0", first_row(0, 0, 0, b=(1, 0, 0)), ("break", [-1, 0, 0]), ("touch", [-1, 0, 0]))
+for y in ([0, 1, 0], [0, 0, 1]):
+    none(false, f"in space, break with yF /= 0, {y}", first_row(0, 0, 0, b=[1, *(-x for x in y[1:])]),
+         ("break", y), ("touch", [-1, 0, 0]))
+    none(false, f"in space, touch with yF /= 0, {y}", first_row(1, 0, 0, b=[-1, *(-x for x in y[1:])]),
+         ("break", UP), ("touch", y))
+    none(false, f"in space, mu = 0, touch with yF /= 0, {y}", first_row(1, 0, 0, law=0, b=[-1, *(-x for x in y[1:])]),
+         ("break", UP), ("touch", y))
+none(false, "in space, touch is not covered", first_row(1, 0, 0), ("break", UP))
+none(false, "in space, a prefix twice", first_row(1, 0, 0), ("break", UP), ("break", [2, 0, 0]))
+none(false, "in space, modes of the plane", first_row(0, 0, 0),
+     ("break", UP), ("stick", UP), ("slip+", UP), ("slip-", UP))
+SLANTED = ("1/2", ["3/5", "4/5"])
+none(true, "in space, sliding, gN = mu slip.gF", first_row(1, 2, 1, law=SLANTED), ("", UP))
+none(false, "in space, sliding, the slip turned round", first_row(1, -2, -1, law=SLANTED), ("", UP))
+none(false, "in space, sliding, by the first tangent alone", first_row(1, "10/3", -5, law=SLANTED), ("", UP))
+none(false, "in space, sliding, by the second tangent alone", first_row(1, -5, "5/2", law=SLANTED), ("", UP))
+none(false, "in space, sliding, touch with yF /= 0", first_row(1, 0, 0, law=SLANTED, b=(-1, -1, 0)),
+     ("break", UP), ("touch", [0, 1, 0]))
+HELD = [[0] * 4 for _ in range(4)]
+none(true, "in space, a bilateral contact before the one that nothing pushes", problem(["hold", 1], HELD, [0, -1, 0, 0], 3),
+     ("hold", [0, 1, 0, 0]))
+none(true, "in space, a bilateral contact that nothing moves", problem(["hold", 1], HELD, [-1, 0, 0, 0], 3),
+     ("hold break", [1, 0, 0, 0]), ("hold touch", [1, 0, 0, 0]))
+none(false, "in space, a bilateral contact before, then yF /= 0", problem(["hold", 1], HELD, [0, 0, -1, 0], 3),
+     ("", [0, 0, 1, 0]))
+none(false, "in space, a bilateral contact before, then yF /= 0, the last", problem(["hold", 1], HELD, [0, 0, 0, -1], 3),
+     ("", [0, 0, 0, 1]))
+for pull in (1, -1):
+    none(false, f"in space, hold with gN = {pull}", problem(["hold", 1], [[pull, 0, 0, 0], *HELD[1:]], [-1, 0, 0, 0], 3),
+         ("", [1, 0, 0, 0]))
+
+# (H) fails, and f = 0 is a solution: the contact slips with no force at all.
+for rows in (2, 3):
+    DRAWN = problem([1], [[1, 1, 0], [1, 1, 0], [0, 0, 1]], [0, 1, 0], 3) if rows == 3 else \
+        problem([1], [[1, 1], [1, 1]], [0, 1])
+    KERNEL_OF_IT = [1, -1, 0][:rows]
+    true("not-h", f"of a problem with a solution, {rows} rows", DRAWN, v=texts(KERNEL_OF_IT), value="-1")
+    true_solution(f"where (H) fails, {rows} rows", DRAWN, [0] * rows)
+    none(false, f"(H) fails, and there is a solution, {rows} rows", DRAWN, ("", KERNEL_OF_IT))
+    none(false, f"(H) fails, and there is a solution, by its modes, {rows} rows", DRAWN,
+         *((mode, KERNEL_OF_IT) for mode in (("break", "touch") if rows == 3 else ("break", "stick", "slip+", "slip-"))))
 
 # --- safe, unsafe, safe-by-condition -------------------------------------------------
 

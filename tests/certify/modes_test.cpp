@@ -43,20 +43,6 @@ ExactProblem Rod(const Rational& b) {
   return MakeProblem({2}, {{Rational(8, 5), Rational(6, 5)}, {Rational(6, 5), Rational(17, 5)}}, {b, 0});
 }
 
-// A sum of problems that do not feel each other.
-ExactProblem Decoupled(const ExactProblem& left, const ExactProblem& right) {
-  ExactProblem both = left;
-  both.contacts.insert(both.contacts.end(), right.contacts.begin(), right.contacts.end());
-  const int m = left.rows(), n = right.rows();
-  both.A = ExactMatrix::Constant(m + n, m + n, Rational(0));
-  both.b = ExactVector::Constant(m + n, Rational(0));
-  both.A.topLeftCorner(m, m) = left.A;
-  both.A.bottomRightCorner(n, n) = right.A;
-  both.b.head(m) = left.b;
-  both.b.tail(n) = right.b;
-  return both;
-}
-
 // Every kind by chance, b anywhere.
 ExactProblem RandomOfAllKinds(int contacts, std::uint64_t index) {
   const ExactProblem rough = Random<Rational>(GeneratorId::kSmall, contacts, index);

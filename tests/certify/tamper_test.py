@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 from fractions import Fraction
+from math import prod
 from pathlib import Path
 
 BATCH = 500  # files in one call of the program
@@ -49,12 +50,23 @@ SPACE = {"format": "stiction-problem", "version": 1, "name": "tampered", "dimens
          "A": [["3", "1", "0", "1"], ["1", "2", "0", "0"], ["0", "0", "1", "0"], ["1", "0", "0", "2"]],
          "b": ["-2", "3", "1", "-1"]}
 
+# In space: (H) holds though b is not in the range of A; it fails; nothing pushes the second contact, whose friction
+# the first feels.
+BESIDE = {**SPACE, "A": [["1", "-1", "0", "0"], ["-1", "1", "0", "0"], ["0", "0", "0", "0"], ["0", "0", "0", "0"]],
+          "b": ["3", "1", "-1/2", "1"]}
+WEDGE = {**SPACE, "A": [["1", "-2", "0", "1"], ["-2", "4", "0", "-2"], ["0", "0", "1", "0"], ["1", "-2", "0", "1"]],
+         "b": ["-1", "0", "0", "0"]}
+DEAD = {**SPACE, "contacts": [{"kind": "bilateral"}, {"kind": "static", "mu": "1/2"}, {"kind": "frictionless"}],
+        "A": [["2", "0", "0", "1", "0"], ["0", "0", "0", "0", "0"], ["0", "0", "1", "0", "0"],
+              ["1", "0", "0", "2", "0"], ["0", "0", "0", "0", "1"]], "b": ["1", "-1/10", "0", "2", "-1"]}
+
 # claim that is made, what is asked for, problem
 CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symmetric", SINGULAR),
           ("not-symmetric", "symmetric", ASYMMETRIC), ("psd", "psd", SINGULAR), ("not-psd", "psd", INDEFINITE),
           ("definite", "definite", REFERENCE), ("not-definite", "definite", SINGULAR),
           ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
           ("solution-exists", "solution-exists", SPACE), ("coulomb-solution", "coulomb-solution", SPACE),
+          ("h", "h", BESIDE), ("not-h", "h", WEDGE), ("no-solution", "existence", DEAD),
           ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE),
           ("counterexample", "counterexample", REFERENCE)]
 OF_RUNS = ("cycle", "counterexample")
@@ -127,16 +139,44 @@ def solves_in_space(contacts, A, b, f, a, bound):
     return bound is None or 0 < bound <= 1
 
 
-def in_cones(contacts, x, dual):
-    """Planar: abs(xF) <= mu xN, or xN >= mu abs(xF) for the dual cones."""
+def sizes(contacts, dimension):
+    """(contact, its normal row, its tangent rows)"""
     row = 0
     for contact in contacts:
-        mu = Fraction(contact.get("mu", 0))
-        normal, tangent = x[row], x[row + 1] if contact["kind"] == "static" else 0
-        row += 2 if contact["kind"] == "static" else 1
-        if normal < 0 or (normal < mu * abs(tangent) if dual else abs(tangent) > mu * normal):
+        end = row + (dimension if contact["kind"] in ("static", "sliding") else 1)
+        yield contact, row, range(row + 1, end)
+        row = end
+
+
+def in_cones(problem, x, dual):
+    """abs(xF) <= mu xN, or xN >= mu abs(xF) for the dual cones, by squares."""
+    for contact, row, tangents in sizes(problem["contacts"], problem["dimension"]):
+        mu, tangent = Fraction(contact.get("mu", 0)), sum(x[k]**2 for k in tangents)
+        if x[row] < 0 or (x[row]**2 < mu**2 * tangent if dual else tangent > mu**2 * x[row]**2):
             return False
-    return row == len(x)
+    return True
+
+
+def refuted_in_space(problem, prefixes):
+    """Every word of bilateral, frictionless and static contacts, each once."""
+    A, b = rows(problem["A"]), numbers(problem["b"])
+    modes = [("hold",) if contact["kind"] == "bilateral" else ("break", "touch") for contact in problem["contacts"]]
+    covered = 0
+    for entry in prefixes:
+        y, prefix = numbers(entry["y"]), entry["modes"]
+        g = [dot(y, column) for column in zip(*A)]
+        if dot(y, b) >= 0 or any(mode not in allowed for mode, allowed in zip(prefix, modes)):
+            return False
+        for i, (contact, row, tangents) in enumerate(sizes(problem["contacts"], 3)):
+            mu = Fraction(contact.get("mu", 0))
+            for mode in prefix[i:i + 1] or modes[i]:
+                fits = {"hold": g[row] == 0, "break": y[row] >= 0,
+                        "touch": g[row] <= 0 and g[row]**2 >= mu**2 * sum(g[k]**2 for k in tangents)}[mode]
+                if not fits or any(y[k] for k in tangents):
+                    return False
+        covered += Fraction(1, prod(len(allowed) for allowed in modes[:len(prefix)]))
+    listed = [tuple(entry["modes"]) for entry in prefixes]
+    return covered == 1 and not any(x != y and x == y[:len(x)] for x in listed for y in listed)
 
 
 def factors(A, L, D):
@@ -195,13 +235,15 @@ def is_true(altered, original):
         return factors(A, rows(witness["L"]), D) and (claim == "psd" or min(D) > 0)
     if claim == "in-range":
         return [dot(row, numbers(witness["x"])) for row in A] == b
+    if claim == "no-solution":
+        return refuted_in_space(altered["problem"], witness["prefixes"])
     if claim == "h":
         image = [dot(numbers(witness["y"]), column) for column in zip(*A)]
-        return in_cones(altered["problem"]["contacts"], [x - y for x, y in zip(b, image, strict=True)], dual=True)
+        return in_cones(altered["problem"], [x - y for x, y in zip(b, image, strict=True)], dual=True)
     value = Fraction(witness["value"])
     if claim == "not-h":
         v = numbers(witness["v"])
-        return (in_cones(altered["problem"]["contacts"], v, dual=False) and dot(b, v) == value < 0
+        return (in_cones(altered["problem"], v, dual=False) and dot(b, v) == value < 0
                 and all(dot(row, v) == 0 for row in A))
     if claim in ("not-psd", "not-definite"):
         x = numbers(witness["x"])

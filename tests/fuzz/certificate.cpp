@@ -26,7 +26,8 @@ bool ProvesNoSolution(const ExactProblem& problem) {
   EnumerationOptions options;
   options.first_solution_only = true;
   options.programs = kPrograms;
-  return IsPlanar(problem) && EnumerateModes(problem, options).ProvesNoSolution();
+  return (IsPlanar(problem) ? EnumerateModes(problem, options) : RefuteInSpace(problem, options))
+      .ProvesNoSolution();
 }
 
 bool HasSolution(const ExactProblem& problem) {
@@ -38,8 +39,9 @@ bool HasSolution(const ExactProblem& problem) {
 
 // Whether (H) is decided, and decided against `claim`.
 bool ContradictsHypothesis(const ExactProblem& problem, const char* claim) {
-  if (!IsPlanar(problem) || HasSlidingContact(problem)) return false;
-  return HypothesisCertificate(problem)["claim"] != claim;
+  if (HasSlidingContact(problem)) return false;
+  const Json decided = HypothesisCertificate(problem);
+  return decided.is_object() && decided["claim"] != claim;
 }
 
 // Of asymmetric matrices (A + A')/2 is meant.
@@ -57,6 +59,7 @@ const std::map<std::string, Contradicts>& Contradictions() {
   using P = const ExactProblem&;
   static const std::map<std::string, Contradicts> contradictions = {
       {"solution-exists", ProvesNoSolution},
+      {"coulomb-solution", ProvesNoSolution},
       {"no-solution", HasSolution},
       {"symmetric", [](P p) { return !IsSymmetric(p); }},
       {"not-symmetric", [](P p) { return IsSymmetric(p); }},

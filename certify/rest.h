@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rest: solutions under which contacts keep still, where another solution accelerates them.
+//
+// Accelerations need not be unique with friction. Forces with
+//
+//   f in K,  A f + b = 0
+//
+// (K: cones.h) meet Coulomb's law exactly, whatever the dimension: aN = aF = 0. They are sought for every group
+// of contacts that A couples by itself, by an exact linear program, in space over polygons within K, whose
+// corners are added where the programs say; there none may be found though there are some. A group with a
+// sliding contact is left.
+
+#ifndef STICTION_CERTIFY_REST_H_
+#define STICTION_CERTIFY_REST_H_
+
+#include <optional>
+
+#include "certify/properties.h"
+
+namespace stiction {
+
+// f but in the groups that it accelerates and that can rest: these rest. Empty if there is no such group.
+std::optional<ExactVector> ForcesAtRest(const ExactProblem& problem, const ExactVector& f);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_REST_H_
