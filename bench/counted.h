@@ -46,6 +46,8 @@ class Counted {
   friend bool operator==(Counted x, Counted y) { return ++counts().comparisons, x.x_ == y.x_; }
   friend bool operator!=(Counted x, Counted y) { return ++counts().comparisons, x.x_ != y.x_; }
   friend Counted abs(Counted x) { return std::abs(x.x_); }
+  friend Counted sqrt(Counted x) { return ++counts().quotients, std::sqrt(x.x_); }  // as dear as one
+  friend Counted hypot(Counted x, Counted y) { return ++counts().quotients, std::hypot(x.x_, y.x_); }
 
  private:
   double x_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods that are compared, ready to run. Entry: BenchedMethods().
 //
-// Every answer is verified: exact ones by FindViolation, doubles by the natural residual, both outside the time
+// Every answer is verified: exact ones by FindViolation, doubles by the gate, both outside the time
 // taken. A time is one call of an algorithm that keeps its memory between calls, for any number of contacts,
 // with the forces copied out: the less of wall-clock time and processor time, since a busy machine interrupts
 // what takes longer than its time slices.

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "bench/progress.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/gate.h"
 
 namespace stiction {
 namespace {
@@ -37,10 +37,7 @@ int GroupOf(const PeerProblem& problem) {
 double ResidualOf(const Contender& contender, const PeerProblem& problem) {
   const Eigen::VectorXd f = contender.Forces();
   if (f.size() != problem.rows()) return kInfinity;
-  const Eigen::VectorXd a = problem.A * f + problem.b;
-  const double residual =
-      problem.dimension == 3 ? CoulombResidual(problem, f, a) : NaturalResidual(problem, f, a);
-  return residual < kInfinity ? residual : kInfinity;
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest();
 }
 
 // Whether the first problem is solved within so many seconds of processor time, rounded up, by a child.

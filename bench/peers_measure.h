@@ -5,9 +5,9 @@
 //           problems where one is too short for the clock. No problem is solved twice in a row, which would
 //           teach the processor its branches.
 // ratio     of the times of the same group, to the first row
-// answers   solved: a residual of at most kWrong, whatever is claimed; wrong: anything else; silent: wrong and
-//           called a success; refused: called a failure, right or wrong. The residual is the natural one in the
-//           plane, that of Coulomb's law in space (solver/problem/residual.h).
+// answers   solved: an error of at most kWrong by the gate's measure (solver/problem/errors.h), in space of
+//           Coulomb's law, whatever is claimed; wrong: anything else; silent: wrong and called a success;
+//           refused: called a failure, right or wrong.
 // capped    a contender that needs more than a bound for the first problem, or dies on it: tried in a process
 //           of its own
 

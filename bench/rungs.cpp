@@ -16,7 +16,6 @@
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
 #include "solver/problem/gate.h"
-#include "solver/problem/residual.h"
 
 namespace stiction {
 namespace {
@@ -133,7 +132,7 @@ Answer<double> SolveRegularized(const ContactProblem<double>& problem, const std
 Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::string& method) {
   Answer<double> answer = Solve(problem, method);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return answer;
-  const LongVector a = Recompute(problem, answer.f.cast<long double>()).a;
+  const LongVector a = Recompute(problem, answer.f.cast<LongDouble>());
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   // Forces that press and rest are unknown, as their numbers tell.
@@ -158,7 +157,7 @@ Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::st
   Answer<double> refined = answer;
   refined.f += system.df();
   JudgeAnswer(problem, kSolvedResidual<double>, refined);
-  return refined.residual < answer.residual ? refined : answer;
+  return refined.residual() < answer.residual() ? refined : answer;
 }
 
 RungAnswer CallWith(Remedy remedy, const ContactProblem<double>& problem, const std::string& method) {
@@ -205,7 +204,7 @@ Outcome RungProblem::PublishedEnd(Arithmetic arithmetic) const {
 }
 
 double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f) {
-  return ToDouble(NaturalResidual(problem, f, Accelerations(problem, f)));
+  return ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, Accelerations(problem, f)).Largest());
 }
 
 // ---- Rows ----------------------------------------------------------------------------------------

@@ -90,7 +90,7 @@ struct RungTally {
   Json ToJson() const;
 };
 
-// f - P(f - r a) over rationals, relative as residual.h says, rounded.
+// The largest error (solver/problem/errors.h), over rationals, rounded.
 double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f);
 
 }  // namespace stiction

@@ -29,7 +29,7 @@
 #include "search/batch/batch.h"
 #include "search/generators.ipp"
 #include "search/unit.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
@@ -187,7 +187,7 @@ std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
 
 // ---- Roofline --------------------------------------------------------------------------------
 
-// Of one problem of `integers` at two contacts: drawing it, the run, the residual of its forces.
+// Of one problem of `integers` at two contacts: drawing it, the run, the errors of its forces.
 OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, double& steps) {
   ContactProblem<Counted, kBatchRows> problem;
   PublishedAlgorithm<Counted, kBatchRows> algorithm;
@@ -202,7 +202,7 @@ OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, do
     for (int i = 0; i < kBatchRows; ++i) {
       for (int j = 0; j < kBatchRows; ++j) a[i] += problem.A(i, j) * f[j];
     }
-    NaturalResidual(problem, f, a);
+    MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
   }
   return Counted::counts();
 }

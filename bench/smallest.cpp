@@ -21,7 +21,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
 #include "corpus/rounded.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
@@ -125,7 +125,7 @@ class Smallest {
     if (algorithm_.Run(problem_).outcome != Outcome::kSolved) return false;
     const auto& f = algorithm_.state().f;
     const Eigen::Vector4d a = problem_.A * f + problem_.b;
-    return NaturalResidual(problem_, f, a) <= kClear;
+    return MeasureErrors(problem_, FrictionLaw::kCoulomb, f, a).Largest() <= kClear;
   }
 
   static void Keep(std::optional<std::pair<Size, ExactProblem>>& best, const Size& size,

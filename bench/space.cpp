@@ -36,7 +36,7 @@ namespace stiction {
 namespace {
 
 constexpr int kEntry = 1000;
-constexpr double kWrongAnswer = 1e-6;  // residual, relative
+constexpr double kWrongAnswer = 1e-6;  // the largest error
 constexpr std::array<std::array<int, 2>, 5> kFrictions = {{{1, 5}, {1, 2}, {1, 1}, {2, 1}, {5, 1}}};
 
 constexpr std::array kReadings = {Slip::kLiteral, Slip::kRedirect, Slip::kPolygon};
@@ -113,7 +113,7 @@ void CountRounded(const Solution& solution, const Suspicion& first, Count& count
   switch (first.outcome) {
     case Outcome::kSolved:
       ++count.solved;
-      count.wrong += !(first.residual <= kWrongAnswer);
+      count.wrong += !(first.errors && first.errors->Largest() <= kWrongAnswer);
       count.steps.push_back(counted("steps"));
       break;
     case Outcome::kCycle:

@@ -285,6 +285,10 @@ Problem StackProblem(int boxes, int decades, Choices& choices) {
   return ProblemOf<Plane>(StackJson(boxes, {2, true, decades}, choices));
 }
 
+Problem SpaceStackProblem(int boxes, int decades, Choices& choices) {
+  return ProblemOf<Space>(StackJson(boxes, {3, true, decades}, choices));
+}
+
 Problem WallProblem(int courses, int bricks, int decades, Choices& choices) {
   return ProblemOf<Plane>(WallJson(courses, bricks, {2, true, decades}, choices));
 }

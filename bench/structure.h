@@ -36,6 +36,7 @@ std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& sc
 
 // One of them, in the plane, with friction and masses from 1 to 10^decades, at most 10^18.
 ContactProblem<double> StackProblem(int boxes, int decades, Choices& choices);
+ContactProblem<double> SpaceStackProblem(int boxes, int decades, Choices& choices);  // in space
 ContactProblem<double> WallProblem(int courses, int bricks, int decades, Choices& choices);
 
 }  // namespace stiction

@@ -23,6 +23,7 @@ enum class SuiteId {
   kTrade,
   kExtremes,
   kSilent,
+  kGate,
   kRatios,
   kMethods,
   kFrictionless,
@@ -61,6 +62,8 @@ inline constexpr std::array kSuites = {
           "the same along dials: masses, levers, units, conditioning, friction, ...", kMaxContacts},
     Suite{SuiteId::kSilent, "silent", "wrong answers that say nothing of it, counted over generators and dials",
           kMaxContacts},
+    Suite{SuiteId::kGate, "gate",
+          "whether all that is called solved is, and what is left undecided, along dials", kMaxContacts},
     Suite{SuiteId::kRatios, "ratios", "certified outcomes beside doubles, staged searches beside exact ones",
           kMaxContacts},
     Suite{SuiteId::kMethods, "methods", "the methods side by side: counts, outcomes, times", kMostOfMethods},
@@ -115,6 +118,9 @@ int BenchSmallest(const BenchOptions& options);
 int BenchTrade(const BenchOptions& options);
 int BenchExtremes(const BenchOptions& options);
 int BenchSilent(const BenchOptions& options);
+// Whether all that is called solved over inexact numbers is solved, along dials in the plane and in space
+// (gate.cpp). Exit 1 where it is not.
+int BenchGate(const BenchOptions& options);
 // What certified outcomes cost beside doubles, and searches with staged suspicions beside those without
 // (ratios.cpp).
 int BenchRatios(const BenchOptions& options);

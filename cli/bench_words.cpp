@@ -33,7 +33,8 @@ constexpr const char* kProblemsOfSuites =
     "peers, random: problems of each number of contacts (default 800, 400, 400); structure: at most so many of "
     "a "
     "family; frictionless: at most so many of each number (default 48); linear-algebra: systems of a row "
-    "(default 200); trade, extremes: problems of a row (default 60, 25); silent: all (default 20000); ratios: "
+    "(default 200); trade, extremes: problems of a row (default 60, 25); silent: all (default 20000); gate: of "
+    "a setting of a dial (default 25); ratios: "
     "of "
     "a family and size (default 200); space: problems of each family and number of contacts (default 2000); "
     "sliding: problems of each row (default 200000)";
@@ -65,7 +66,7 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
       .OneOf(GeneratorNames())
       .Details("methods: instead of the positive definite family");
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
-  verb.Option("--families", o.families, "structure, extremes, silent: these alone");
+  verb.Option("--families", o.families, "structure, extremes, silent, gate: these alone");
   verb.Option("--csv", o.csv, "trade, extremes: a file for the lines, with intervals");
   verb.Option("--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")

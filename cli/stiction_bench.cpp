@@ -33,6 +33,8 @@ auto FunctionOf(SuiteId id) -> int (*)(const BenchOptions&) {
       return BenchExtremes;
     case SuiteId::kSilent:
       return BenchSilent;
+    case SuiteId::kGate:
+      return BenchGate;
     case SuiteId::kRatios:
       return BenchRatios;
     case SuiteId::kMethods:

@@ -48,6 +48,46 @@ class Silent(cli.TestCase):
             self.assertEqual((rows["complete exact"], rows["lemke exact"]), (6 + large, 1))
 
 
+class Gate(cli.TestCase):
+    """What is called solved over inexact numbers, judged over rationals."""
+
+    FAMILIES = ["masses", "jam", "levers", "space-two-masses", "space-cube"]
+    ENDS = ["solved", "cycle", "stall", "ray", "singular", "limit", "undecided", "no-solution"]
+
+    @classmethod
+    def gate(cls, *more):
+        return cli.run("bench", "--suite", "gate", "--families", *cls.FAMILIES, "--problems", 2, *more)
+
+    def test_nothing_called_solved_is_wrong_and_every_run_is_counted_once(self):
+        first = self.gate("--json")
+        self.assertEqual(first.code, 0, first.err)
+        cells = first.json()["cells"]
+        self.assertEqual((first.json()["wrong"], sum(cell["wrong"] for cell in cells)), ([], 0))
+        for cell in cells:
+            self.assertEqual(sum(cell[end] for end in self.ENDS), cell["runs"], cell)
+            self.assertEqual(cell["runs"] + cell["refused"], 2, cell)
+            self.assertEqual(cell["dimension"], 3 if cell["dial"].startswith("space-") else 2)
+        self.assertEqual({cell["dial"] for cell in cells}, set(self.FAMILIES))
+        self.assertEqual({cell["arithmetic"] for cell in cells}, {"float", "double", "long-double", "quad", "filtered"})
+        self.assertLessEqual({"auto", "fast", "complete", "lemke", "baraff"}, {cell["method"] for cell in cells})
+        self.assertGreater(sum(cell["solved"] for cell in cells), 0.5 * sum(cell["runs"] for cell in cells))
+        self.assertEqual(self.gate("--json").json(), first.json())
+        self.assertNotEqual(self.gate("--json", "--seed", 2).json(), first.json())
+
+    def test_the_tables_are_sums_of_the_cells(self):
+        done = self.gate()
+        self.assertEqual(done.code, 0, done.err)
+        cells = self.gate("--json").json()["cells"]
+        runs, solved = (sum(cell[key] for cell in cells) for key in ("runs", "solved"))
+        self.assertIn(f"{runs} runs, {solved} called solved, 0 of them wrong", done.out)
+        for dial in self.FAMILIES:
+            of = sum(cell["runs"] for cell in cells if cell["dial"] == dial)
+            self.assertRegex(done.out, rf"(?m)^ +{dial} +{of} ")
+
+    def test_a_dial_that_is_not_known_is_refused(self):
+        self.refuses("bench", "--suite", "gate", "--families", "jams", says="'jams'")
+
+
 @unittest.skipIf(cli.SHORT, "the packages are built in the first configuration")
 class PeersExtremes(cli.TestCase):
     """Packages along dials; those that are not installed are left out, our own are always there."""

@@ -503,3 +503,32 @@ def adversary(program):
         prose(f"Of {len(rows)} objectives, by seed, at least twice as bad as random problems: {doubled(OPTIMIZERS[:1])} by "
               f"evolution, {doubled(OPTIMIZERS[1:2])} by NLopt, {doubled(OPTIMIZERS[2:])} by continuation, "
               f"{doubled(OPTIMIZERS[:2])} by evolution or NLopt, {doubled(OPTIMIZERS)} by any.")))
+
+
+def gate_table(head, cells, keys):
+    """Runs, solved, wrong, undecided, other ends and refused problems of cells with the same keys together."""
+    sums = collections.defaultdict(collections.Counter)
+    for cell in cells:
+        sums[tuple(cell[key] for key in keys)].update({name: cell[name] for name in (
+            "runs", "solved", "wrong", "undecided", "refused")})
+    rows = []
+    for key, s in sums.items():
+        runs, other = s["runs"], s["runs"] - s["solved"] - s["undecided"]
+        part = [f"{percent(number / runs)}" if runs else "-" for number in (s["undecided"], other)]
+        rows.append((*(f"`{name}`" for name in key), count(runs), count(s["solved"]), s["wrong"], *part,
+                     count(s["refused"])))
+    return table([*head, "runs", "solved", "wrong", "undecided", "another end", "out of range"], rows)
+
+
+def gate(program):
+    """What is called solved over inexact numbers, by dial and by method and arithmetic, plane and space apart."""
+    result = program.bench("gate", "--problems", program.size(60), "--seed", 6)
+    cells = result["cells"]
+    parts = [gate_table(["dial"], cells, ["dial"])]
+    for dimension, where in ((2, "plane"), (3, "space")):
+        chosen = [cell for cell in cells if cell["dimension"] == dimension]
+        parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n" + gate_table(
+            ["method", "arithmetic"], chosen, ["method", "arithmetic"]))
+    solved, wrong = (sum(cell[key] for cell in cells) for key in ("solved", "wrong"))
+    return "\n\n".join(parts) + "\n\n" + prose(
+        f"Of {count(solved)} answers called solved {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")

@@ -91,6 +91,8 @@ FIGURES = [
     Figure("trade", "reports/arithmetic.md", "minutes", rungs.trade, RUNGS),
     Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
     Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/silent.cpp")),
+    Figure("gate", "reports/arithmetic.md", "long", bench.gate,
+           ("algorithm", "bench/gate.cpp", "solver/problem/errors.h", "solver/problem/units.h")),
     Figure("peers-extremes", "reports/peers.md", "minutes", rungs.peers_extremes,
            ("algorithm", "bench/peers_rows.cpp", "bench/peers_extremes.cpp", "bench/dials.cpp")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
