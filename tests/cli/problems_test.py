@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Problems that went wrong (tests/problems): every file has its right value, by statics or over fractions, by every
+method and arithmetic that calls it solved."""
+
+import csv
+import json
+import subprocess
+import sys
+import unittest
+from fractions import Fraction
+
+import cli
+
+PROBLEMS = cli.ROOT / "tests" / "problems"
+FLOATING = ["float", "double", "long-double", "quad"]
+
+
+def problem_of(name):
+    return json.loads((PROBLEMS / f"{name}.json").read_text())
+
+
+def rows_of(problem):
+    """By contact: its normal row."""
+    rows, row = [], 0
+    for contact in problem["contacts"]:
+        rows.append(row)
+        row += problem["dimension"] if contact["kind"] in ("static", "sliding") else 1
+    return rows
+
+
+def accelerations(problem, f):
+    return [sum((Fraction(x) * y for x, y in zip(row, f)), Fraction(b)) for row, b in zip(problem["A"], problem["b"])]
+
+
+class Problems(cli.TestCase):
+    def solutions(self, name, methods=("auto", "fast", "complete", "lemke"), arithmetics=(*FLOATING, ""), *options):
+        """Forces and accelerations, as fractions, of every answer that is called solved; on the problem as given."""
+        problem = problem_of(name)
+        for method in methods:
+            for arithmetic in arithmetics:
+                words = ["--arithmetic", arithmetic] if arithmetic else []
+                done = cli.run("solve", PROBLEMS / f"{name}.json", "--json", "--method", method, *words, *options)
+                if done.code == 2:
+                    continue  # not built
+                self.assertIn(done.code, (0, 1, 3), done.err)
+                answer = done.json()
+                if answer["outcome"] != "solved":
+                    continue
+                f = [Fraction(x) for x in answer["f"]]
+                with self.subTest(name=name, method=method, arithmetic=arithmetic or "usual"):
+                    yield problem, answer, f, accelerations(problem, f)
+
+    def default(self, name, *options, code=0):
+        return self.succeeds("solve", PROBLEMS / f"{name}.json", "--json", *options, code=code).json()
+
+    # ---- Free fall -------------------------------------------------------------------------------------------
+
+    def test_a_cube_with_more_friction_than_it_needs_rests(self):
+        for name, digits in [("mu1e9-tilt", 5), ("mu3e8-small", 5), ("mu1e7-small", 4)]:
+            answers = list(self.solutions(name))
+            self.assertTrue(answers, name)
+            for problem, _, f, a in answers:
+                rows = rows_of(problem)
+                self.assertLess(max(map(abs, a)), 10 ** -digits * 10)
+                self.assertAlmostEqual(float(sum(f[n] for n in rows)), 9.81, digits - 1)
+                for k in (1, 2):
+                    self.assertAlmostEqual(float(sum(f[n + k] for n in rows)), -float(Fraction(problem["b"][k])), digits - 1)
+            self.assertEqual(self.default(name)["outcome"], "solved")
+
+    def test_its_twin_in_the_plane_rests(self):
+        answers = list(self.solutions("plane-mu1e12"))
+        self.assertTrue(answers)
+        for _, _, _, a in answers:
+            self.assertLess(max(map(abs, a)), 1e-4)
+
+    # ---- Mass ratios -----------------------------------------------------------------------------------------
+
+    def test_a_light_contact_does_not_hide_a_heavy_one(self):
+        answers = list(self.solutions("mass-ratio-1e6-complete-float", ("auto", "fast", "complete", "lemke", "baraff")))
+        self.assertTrue(answers)
+        for _, _, f, a in answers:
+            self.assertAlmostEqual(float(f[0]), 1_208_134, delta=300)
+            self.assertAlmostEqual(float(f[2]), -5.0e5, delta=1e4)
+        problem = problem_of("mass-ratio-1e9-baraff-double")
+        for _, _, f, a in self.solutions("mass-ratio-1e9-baraff-double", ("baraff", "auto", "complete"), (*FLOATING, ""),
+                                         "--max-pivots", "5000", "--max-drives", "2000"):
+            for n in rows_of(problem):
+                self.assertGreater(float(a[n]), -1e-3)
+                if f[n] > 1:
+                    self.assertLess(abs(float(a[n])), 1e-3)
+        for _, _, f, _ in self.solutions("mass-ratio-auto-double-f-zero"):
+            self.assertNotEqual(set(f), {0})
+
+    # ---- Coulomb's law by default ----------------------------------------------------------------------------
+
+    def test_friction_is_opposite_to_the_push_from_any_side(self):
+        for name in ["bullet2590-push-37", "bullet2590-push-45"]:
+            for problem, answer, f, a in self.solutions(name):
+                self.assertEqual(answer["law"], "coulomb")
+                rows = rows_of(problem)
+                push = [Fraction(problem["b"][k]) for k in (1, 2)]
+                friction = [sum(f[n + k] for n in rows) for k in (1, 2)]
+                size = sum(float(x) ** 2 for x in friction) ** 0.5
+                self.assertAlmostEqual(size, 3, 4)
+                self.assertAlmostEqual(float(friction[0] * push[1] - friction[1] * push[0]), 0, 3)
+                self.assertLess(friction[0] * push[0] + friction[1] * push[1], 0)
+                for n in rows:
+                    self.assertAlmostEqual(sum(float(a[n + k]) ** 2 for k in (1, 2)) ** 0.5, 2, 4)
+            self.assertEqual(self.default(name)["law"], "coulomb")
+
+    # ---- Escalation ------------------------------------------------------------------------------------------
+
+    def test_a_step_of_an_engine_in_float_is_solved_by_default(self):
+        answer = self.default("bullet-float-stack-10-to-1")
+        self.assertEqual((answer["outcome"], answer["law"]), ("solved", "coulomb"))
+        surveyed = self.succeeds("survey", PROBLEMS / "bullet-float-stack-10-to-1.json", "--json").json()[0]
+        self.assertIn("solved", [run["outcome"] for run in surveyed["runs"]])
+
+    # ---- Filtered, exact -------------------------------------------------------------------------------------
+
+    def test_filtered_goes_on_as_exact_does(self):
+        file = PROBLEMS / "filtered-says-ray.json"
+        for arithmetic in ("exact", "filtered"):
+            self.assertEqual(self.default("filtered-says-ray", "--arithmetic", arithmetic)["outcome"], "solved", file)
+        scripted = self.file("p.json", {"A": [["1", "-1"], ["-1", "1"]], "b": ["-1", "-1/1125899906842624"],
+                                        "contacts": [{"kind": "static", "mu": "1"}], "dimension": 2,
+                                        "format": "stiction-problem", "version": 1, "name": "p"})
+        for arithmetic in ("exact", "filtered"):
+            done = self.succeeds("solve", scripted, "--json", "--arithmetic", arithmetic, code=1)
+            self.assertEqual(done.json()["outcome"], "no-solution")
+
+    # ---- Not unique, not in range ----------------------------------------------------------------------------
+
+    def test_of_two_solutions_the_one_at_rest_is_told(self):
+        answer = self.default("mujoco3328-pinch-12N")
+        self.assertIs(answer["unique_accelerations"], False)
+        self.assertEqual({Fraction(x) for x in answer["a"]}, {0})
+        f = [Fraction(x) for x in answer["f"]]
+        self.assertEqual((f[0] + f[3], f[6] + f[9]), (12, 12))
+        self.assertEqual(sum(f[k] for k in (2, 5, 8, 11)), Fraction("0.44145"))
+        self.assertNotIn("unique_accelerations", self.default("bullet2590-push-37"))
+
+    def test_a_row_of_zeros_has_a_solution_or_a_proof_that_there_is_none(self):
+        self.assertEqual(self.default("dart892-dead-normal")["outcome"], "solved")
+        self.assertEqual(self.default("dart892-dead-normal-approaching", code=1)["outcome"], "no-solution")
+        for name, claim in [("dart892-dead-normal", "coulomb-solution"), ("dart892-dead-normal-approaching", "no-solution")]:
+            certificate = self.folder / "certificate.json"
+            self.succeeds("certify", PROBLEMS / f"{name}.json", "-o", certificate)
+            self.assertEqual(json.loads(certificate.read_text())["claim"], claim)
+            self.succeeds("check", certificate)
+            checker = [sys.executable, str(cli.ROOT / "certify" / "check_certificate.py"), str(certificate)]
+            self.assertEqual(subprocess.run(checker, capture_output=True).returncode, 0)
+
+    # ---- What was right and stays so -------------------------------------------------------------------------
+
+    def test_two_coefficients_at_a_contact_can_be_said(self):
+        self.assertEqual(self.default("dart7-split_84")["outcome"], "solved")
+
+    def test_a_wall_holds_what_is_pressed_against_it(self):
+        self.assertEqual({Fraction(x) for x in self.default("genesis2872-wall")["a"]}, {0})
+
+    def energies(self, name):
+        folder = self.folder / name
+        self.succeeds("simulate", PROBLEMS / f"{name}.json", "-o", folder, timeout=600)
+        with open(folder / "energy.csv") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_a_box_that_is_pushed_rests_whatever_mu_is(self):
+        for frame in self.energies("mu-1e9-box-pushed"):
+            self.assertLess(frame["kinetic_J"], 1e-6)
+            self.assertAlmostEqual(frame["total_J"], 5, 2)
+
+    def test_scenes_of_other_engines_users_end_as_mechanics_says(self):
+        # 6 m/s against mu g = 4.905: it stops, and after that has no energy of motion; likewise 5 m/s against 2.
+        for name in ["genesis3126-cube-6mps", "jolt983-sliding-box-yaw"]:
+            self.assertLess(self.energies(name)[-1]["kinetic_J"], 1e-6, name)
+        loop = self.energies("gazebo2608-loop")
+        self.assertLess(abs(loop[-1]["total_J"] / loop[0]["total_J"] - 1), 3e-4)
+
+
+if __name__ == "__main__":
+    cli.main()
