@@ -24,6 +24,16 @@ void AddVectors(const TracedAnswer<Scalar>& answer, Json& json) {
   if (answer.ray.size() > 0) json["ray"] = ListJson(answer.ray);
 }
 
+// Of contacts, the first is 1; null where nothing is missed.
+void AddErrors(const Errors<double>& errors, Json& json) {
+  json["residual"] = NumberToJson(errors.Largest());
+  json["acceleration_error"] = NumberToJson(errors.acceleration);
+  json["force_error"] = NumberToJson(errors.force);
+  json["backward_error"] = NumberToJson(errors.backward);
+  json["amplification"] = NumberToJson(errors.amplification);
+  json["worst_contact"] = errors.contact < 0 ? Json(nullptr) : Json(errors.contact + 1);
+}
+
 template <class Scalar>
 Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
   Json json = EndToJson(answer);
@@ -35,11 +45,8 @@ Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
   if (!answer.bound.empty()) json["bound"] = answer.bound;
   if (!answer.word.empty()) json["word"] = answer.word;
   AddVectors(answer, json);
-  if (!kIsExact<Scalar> && answer.residual >= 0) json["residual"] = NumberToJson(answer.residual);
-  if (answer.backward)
-    json["backward_error"] = {{"data", NumberToJson(answer.backward->of_data)},
-                              {"b", NumberToJson(answer.backward->of_b)},
-                              {"mu", NumberToJson(answer.backward->of_mu)}};
+  if (answer.moves_elsewhere) json["unique_accelerations"] = false;
+  if (answer.errors) AddErrors(*answer.errors, json);
   json["statistics"] = CountersToJson(answer.counters);
   return json;
 }
@@ -47,7 +54,7 @@ Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
 Json SuspicionToJson(const Suspicion& suspicion) {
   Json json = EndToJson(suspicion);
   json["arithmetic"] = Name(suspicion.arithmetic);
-  if (suspicion.residual >= 0) json["residual"] = NumberToJson(suspicion.residual);
+  if (suspicion.errors) AddErrors(*suspicion.errors, json);
   return json;
 }
 

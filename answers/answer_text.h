@@ -10,7 +10,8 @@
 namespace stiction {
 
 // {"outcome", "method", "arithmetic", "word", "f", "a", "ray", "residual", "statistics", "suspected", ...}:
-// exact numbers are strings, inexact ones numbers, enclosures pairs. What a method does not have is left out.
+// exact numbers are strings, inexact ones numbers, enclosures pairs. What a method does not have is left out,
+// and `unique_accelerations` is told where it is known to be false.
 Json SolutionToJson(const Solution& solution, int dimension);
 
 // {"outcome", "reason", "start", "period"} of an answer or a suspicion.

@@ -11,9 +11,10 @@ namespace stiction {
 namespace {
 
 FrictionLaw LawOf(const Wanted& wanted, int dimension, const std::string& source) {
+  if (wanted.law.empty()) return wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
   if (wanted.law != "baraff" && wanted.law != "coulomb")
     throw InputError(fmt::format("{}law: found {}, expected baraff or coulomb", wanted.dashes, wanted.law));
-  if (dimension == 2 && wanted.law != "baraff")
+  if (dimension == 2)
     throw InputError(source, "dimension", "2",
                      fmt::format("3: {}law chooses a law of friction in space", wanted.dashes));
   return wanted.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
@@ -85,6 +86,7 @@ SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, co
   RequirePathMethod(wanted);
   SolveRequest request = NamedRequest(wanted, problem, source);
   request.trace = KeepTrace::kYes;
+  if (wanted.law.empty()) request.options.law = FrictionLaw::kBaraff;
   if (!wanted.arithmetic.empty()) {
     RequirePathArithmetic(wanted);
     request.arithmetic = ArithmeticNamed(wanted);
@@ -111,8 +113,9 @@ std::vector<Policy> PoliciesNamed(const std::string& text) {
 
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration) {
+  const FrictionLaw law = wanted.law == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
   return CertifyClaim(problem, source, wanted.claim,
-                      {PoliciesNamed(wanted.policy), wanted.limits, enumeration});
+                      {PoliciesNamed(wanted.policy), wanted.limits, enumeration, law});
 }
 
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {

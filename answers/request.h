@@ -21,7 +21,7 @@ struct Wanted {
   std::string method{kAutomatic};
   std::string arithmetic;  // empty: the usual one
   std::string policy = "paper";
-  std::string law = "baraff";
+  std::string law = "";  // the paper's of method baraff and of runs that are followed, otherwise Coulomb's
   SolveOptions options = {};
   std::string_view dashes = "--";  // before the name of an option, where an error tells of it
 };
@@ -47,8 +47,9 @@ Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, co
 // ---- Certificates ----
 
 struct WantedClaim {
-  std::string claim = "solution-exists";
+  std::string claim = "existence";
   std::string policy = "paper";  // or "*"
+  std::string law = "coulomb";   // or "baraff"; in space
   Limits limits = {};
 };
 

@@ -49,7 +49,7 @@ InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem
   result.a = InDoubles(answer.a);
   result.ray = InDoubles(answer.ray);
   result.first_f = InDoubles(answer.first_f);
-  result.residual = answer.residual;
+  result.errors = answer.errors;
   result.word = answer.word;
   result.counters = answer.counters;
   for (const Pivot<Scalar>& pivot : answer.pivots) result.pivots.push_back(InDoubles(pivot));
@@ -57,8 +57,6 @@ InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem
     const auto doubles = Converted<double>(problem, [](const Scalar& x) { return static_cast<double>(x); });
     JudgeAnswer(doubles, bound, result);
   }
-  if (result.Solved() && problem.dimension == 2)
-    result.backward = FindBackwardError(InLongDouble(problem), result.f.template cast<LongDouble>());
   return result;
 }
 

@@ -23,6 +23,7 @@ using ExactMethod = Method<Rational>;
 using ExactTrace = Trace<Rational>;
 
 constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `auto` leaves a problem open
+constexpr std::int64_t kAutomaticProgramsInSpace = 2000;
 
 // ---- Runs ------------------------------------------------------------------------------------
 
@@ -55,6 +56,29 @@ Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions&
     answer.reason = "programs";
   } else {
     answer.reason = kStopped;
+  }
+  return answer;
+}
+
+// That there is no solution, or nothing.
+Answer<Rational> RunRefutation(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  EnumerationOptions enumeration;
+  enumeration.programs = std::min(options.limits.pivots, kAutomaticProgramsInSpace);
+  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  Answer<Rational> answer;
+  answer.law = options.law;
+  answer.reason = kStopped;
+  if (options.limits.Stopped()) return answer;
+  const Enumeration modes = RefuteInSpace(problem, enumeration);
+  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  if (modes.ProvesNoSolution()) {
+    answer.outcome = Outcome::kNoSolution;
+    answer.reason = "no mode of the contacts has a solution; certify writes the proof";
+  } else if (modes.end == EnumerationEnd::kLimit) {
+    answer.outcome = Outcome::kLimit;
+    answer.reason = "programs";
+  } else if (modes.end == EnumerationEnd::kOpen) {
+    answer.reason = "a word of touching and separated contacts is left that nothing refutes";
   }
   return answer;
 }
@@ -108,6 +132,11 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions&
   return answer;
 }
 
+// In space the modes of its point, solved exactly.
+Answer<Rational> RunFastInSpace(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  return AnswerOf(SolveNearFast(problem, SpaceOptionsOf(options, SpaceEngine::kComplete)), options.law);
+}
+
 Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
   QpRun run = SolveQp(problem);
   Answer<Rational> answer;
@@ -137,11 +166,11 @@ ExactMethod EnumerateRow() {
   return {.name = "enumerate",
           .title = "all words of contact modes, an exact linear program each",
           .source = "certify/enumerate.h",
-          .ends = "a solution, or that there is none",
+          .ends = "a solution, or that there is none; in space that there is none, or nothing",
           .automatic = true,
           .has_path = false,
           .plane = {&RunEnumeration, true},
-          .space = {}};
+          .space = {&RunRefutation, true}};
 }
 
 ExactMethod IpoptRow() {
@@ -160,10 +189,10 @@ ExactMethod FastRow() {
           .title = "projected Gauss-Seidel, then block pivoting over doubles; its cells solved exactly",
           .source = "solver/numeric/fast.h",
           .ends = kExactEnd,
-          .automatic = false,
+          .automatic = true,
           .has_path = false,
-          .plane = {&RunFastExactly, true},
-          .space = {}};
+          .plane = {&RunFastExactly, true, true},
+          .space = {&RunFastInSpace, true}};
 }
 
 constexpr std::string_view kQpTitle = "the quadratic program f'Af / 2 + b'f over f >= 0, frictionless";
@@ -198,8 +227,8 @@ std::span<const ExactMethod> Methods<Rational>() {
   static const std::array rows = {
       CompleteRow<Rational>({&RunOnPolygons<SpaceEngine::kComplete>, true}),
       LemkeRow<Rational>({&RunOnPolygons<SpaceEngine::kLemke>, true}),
-      EnumerateRow(),
       FastRow(),
+      EnumerateRow(),
       QpRow(),
       IpoptRow(),
       BaraffRow<Rational>({}),

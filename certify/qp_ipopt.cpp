@@ -2,7 +2,7 @@
 #include "certify/qp_ipopt.h"
 
 #include "corpus/rounded.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/gate.h"
 
 namespace stiction {
 
@@ -22,10 +22,10 @@ RoundedQpRun SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt, d
   const Eigen::VectorXd a = rounded.A * f + rounded.b;
   run.f = *point;
   run.a.assign(a.begin(), a.end());
-  run.residual = NaturalResidual(rounded, f, a);
+  run.residual = BoundErrors(rounded, FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest();
   const bool solved = run.residual <= tolerance;  // false for what is not a number
   run.outcome = solved ? Outcome::kSolved : Outcome::kUndecided;
-  if (!solved) run.reason = "the residual is above the tolerance";
+  if (!solved) run.reason = "the errors are above the tolerance";
   return run;
 }
 

@@ -17,11 +17,11 @@ struct RoundedQpRun {
   Outcome outcome = Outcome::kUndecided;  // solved, or undecided: nothing is concluded from Ipopt's failure
   std::string_view reason;
   std::vector<double> f, a;  // Ipopt's point and a = A f + b; empty if there was no answer
-  double residual = 0;       // NaturalResidual of f, a
+  double residual = 0;       // the largest error of f
   std::int64_t iterations = 0;
 };
 
-// Solved: a residual of at most `tolerance`. InputError as for SolveQp, but A is not looked at.
+// Solved: errors of at most `tolerance`. InputError as for SolveQp, but A is not looked at.
 RoundedQpRun SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt, double tolerance = 1e-6);
 
 }  // namespace stiction

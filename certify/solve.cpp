@@ -5,18 +5,22 @@
 
 #include <algorithm>
 
+#include "certify/escalate.h"
 #include "certify/filtered.h"
 #include "certify/inexact.h"
 #include "certify/published_space.h"
 #include "certify/quad.h"
+#include "certify/rest.h"
+#include "certify/space.h"
 #include "certify/traced.h"
+#include "certify/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
 namespace {
 
-constexpr int kExactRows = 60;  // from which on `auto` solves over doubles
+constexpr int kExactRows = 60, kExactRowsInSpace = 24;  // from which on `auto` solves over doubles
 
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
@@ -79,9 +83,36 @@ template <class Scalar>
 Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
   const ContactProblem<Scalar> rounded = Rounded<Scalar>(problem);
   Solution solution;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
+      Escalated escalated = SolveEscalating(rounded, request.options);
+      return {.answer = std::move(escalated.answer), .suspected = std::move(escalated.suspected)};
+    }
+  }
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
   Confirm(Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); }), request, solution);
   return solution;
+}
+
+// ---- Exact numbers -------------------------------------------------------------------------------
+
+// Of several solutions, one whose contacts rest. The word is of the one that was found first.
+void PreferRest(const ExactProblem& problem, ExactAnswer& answer) {
+  auto rest = ForcesAtRest(problem, answer.f);
+  if (!rest) return;
+  answer.f = *std::move(rest);
+  answer.a = Accelerations(problem, answer.f);
+  answer.word.clear();
+  answer.moves_elsewhere = true;
+  if (answer.bound.empty()) return;
+  answer.bound = ToString(CoulombBound(problem, answer.f).value_or(0));
+}
+
+ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
+  ExactAnswer answer = SolveExactly(problem, request);
+  const bool is_asked = request.method == kAutomatic && request.trace == KeepTrace::kNo;
+  if (is_asked && answer.Solved() && !request.options.limits.Stopped()) PreferRest(problem, answer);
+  return answer;
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -151,8 +182,8 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     SolveRequest complete = request;
     complete.method = "complete";
     Solution solution = SolveFiltered(problem, complete);
-    if (solution.outcome() == Outcome::kSolved || solution.rung == Rung::kExact) return solution;
-    return {.answer = SolveExactly(problem, request), .rung = Rung::kExact};
+    if (solution.outcome() == Outcome::kSolved) return solution;
+    return {.answer = SolveRestingExactly(problem, request), .rung = Rung::kExact};
   }
   for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
     if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer), .rung = rung};
@@ -213,9 +244,9 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
 
 ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem) {
   using enum Arithmetic;
-  if (method == kAutomatic && problem.rows() > kExactRows)
-    return {kDouble,
-            fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), kExactRows)};
+  const int most = problem.dimension == 2 ? kExactRows : kExactRowsInSpace;
+  if (method == kAutomatic && problem.rows() > most)
+    return {kDouble, fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), most)};
   if (method == "fast") return {kDouble, "the method is made for doubles"};
   if (Refusal(method, problem.dimension, kExact).empty())
     return {kExact, "nothing is lost, and there are few rows"};
@@ -240,7 +271,7 @@ Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {
     case Arithmetic::kFiltered:
       return SolveFiltered(problem, request);
     default:
-      return {.answer = SolveExactly(problem, request)};
+      return {.answer = SolveRestingExactly(problem, request)};
   }
 }
 

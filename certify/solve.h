@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/problem/backward_error.h"
 #include "solver/solve.h"
 
 namespace stiction {
@@ -83,7 +82,7 @@ template <class Scalar>
 struct TracedAnswer : Answer<Scalar> {
   std::vector<Pivot<Scalar>> pivots;              // where asked for
   std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
-  std::optional<BackwardError> backward;          // of floating-point forces called solved, in the plane
+  bool moves_elsewhere = false;  // f is at rest where another solution is known that accelerates (rest.h)
 };
 using ExactAnswer = TracedAnswer<Rational>;
 using InexactAnswer = TracedAnswer<double>;
@@ -94,12 +93,12 @@ struct Suspicion {
   std::string reason;
   std::int64_t start = 0, period = 0;
   Arithmetic arithmetic = Arithmetic::kDouble;
-  double residual = -1;
+  std::optional<Errors<double>> errors;
   std::vector<Counter> counters;
 };
 inline Suspicion SuspicionOf(const InexactAnswer& answer) {
-  return {answer.outcome,    answer.reason,   answer.start,   answer.period,
-          answer.arithmetic, answer.residual, answer.counters};
+  return {answer.outcome,    answer.reason, answer.start,   answer.period,
+          answer.arithmetic, answer.errors, answer.counters};
 }
 
 // A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.

@@ -22,7 +22,6 @@ ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& reques
   if (!answer.Solved()) return answer;
   const auto violation = ViolationOf(problem, answer);
   STICTION_CHECK(!violation, fmt::format("{} calls solved what is not: {}", answer.method, *violation));
-  answer.residual = 0;
   return answer;
 }
 

@@ -92,6 +92,29 @@ SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& opti
   return SolveOnPolygons(problem, options, toward, trace);
 }
 
+SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+  SpaceSolution solution;
+  solution.reason = "the modes of the fast method's point are no solution";
+  ContactProblem<double> rounded;
+  try {
+    rounded = Rounded<double>(problem);
+  } catch (const InputError&) {
+    return solution;
+  }
+  const Answer<double> fast =
+      Solve(rounded, "fast", {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides});
+  if (fast.f.size() != problem.rows() || !fast.f.allFinite()) return solution;
+  const ExactVector near = fast.f.unaryExpr([](double x) { return Rational(x); });
+  const auto f = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+  if (!f) return solution;
+  const auto bound = CoulombBound(problem, *f);
+  if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *f).has_value() : !bound || *bound <= 0)
+    return solution;
+  Accept(problem, *f, solution);
+  solution.bound = bound.value_or(0);
+  return solution;
+}
+
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f) {
   constexpr int kPlaces = 200;
   if (FindCoulombViolation(problem, f, 0)) return std::nullopt;
@@ -115,81 +138,6 @@ std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVec
   Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
   bound.canonicalize();
   return bound < 0 ? Rational(0) : bound;
-}
-
-// ---- The residual of doubles -----------------------------------------------------------------
-
-namespace {
-
-// value <= the number <= value + gap.
-struct Enclosed {
-  Rational value = 0, gap = 0;
-};
-
-// The gap is at most 2^-100 of the root. Requires x >= 0.
-Enclosed SquareRoot(const Rational& x) {
-  if (x == 0) return {};
-  const auto bits = [](const mpz_class& z) { return static_cast<int>(mpz_sizeinbase(z.get_mpz_t(), 2)); };
-  const int places = 110 + std::max(0, bits(x.get_den()) - bits(x.get_num()) + 1) / 2;
-  const mpz_class scaled = (x.get_num() << (2 * places)) / x.get_den();
-  Rational root(sqrt(scaled), mpz_class(1) << places), unit(1, mpz_class(1) << places);
-  root.canonicalize();
-  unit.canonicalize();
-  return {root, unit};
-}
-
-// abs(f - P(f - r (a + mu abs(aF) e_N))), from above. P moves no two points apart; rounding abs(aF) by d
-// moves its argument by r mu d. Rounding abs(xF) by d moves P itself by less than 3 d: there
-// mu abs(xN) <= max(1, mu^2) abs(xF).
-Rational StaticGap(const Rational* f, const Rational* a, const Rational& r, const Rational& mu) {
-  const Enclosed slip = SquareRoot(a[1] * a[1] + a[2] * a[2]);
-  const Rational x[3] = {Rational(f[0] - r * (a[0] + mu * slip.value)), Rational(f[1] - r * a[1]),
-                         Rational(f[2] - r * a[2])};
-  const Rational square = x[1] * x[1] + x[2] * x[2];
-  Rational to[3] = {x[0], x[1], x[2]}, error = r * mu * slip.gap;
-  if (x[0] <= 0 && mu * mu * square <= x[0] * x[0]) {
-    to[0] = to[1] = to[2] = 0;
-  } else if (x[0] < 0 || square > mu * mu * x[0] * x[0]) {
-    const Enclosed length = SquareRoot(square);
-    to[0] = (x[0] + mu * length.value) / (1 + mu * mu);
-    for (int k = 1; k <= 2; ++k) to[k] = mu * to[0] / length.value * x[k];
-    error += 3 * length.gap;
-  }
-  Rational gap = 0;
-  for (int k = 0; k < 3; ++k) gap += (f[k] - to[k]) * (f[k] - to[k]);
-  const Enclosed distance = SquareRoot(gap);
-  return distance.value + distance.gap + error;
-}
-
-Rational GapOf(const Contact<Rational>& contact, const Rational* f, const Rational* a, const Rational& r) {
-  if (contact.kind == ContactKind::kStatic) return StaticGap(f, a, r, contact.mu);
-  if (contact.kind == ContactKind::kBilateral) return abs(Rational(r * a[0]));
-  const Rational normal = f[0] - std::max<Rational>(0, f[0] - r * a[0]);
-  Rational square = normal * normal;
-  for (int k = 1; k <= 2 && contact.kind == ContactKind::kSliding; ++k) {
-    const Rational gap = f[k] + contact.mu * f[0] * contact.slip[k - 1];
-    square += gap * gap;
-  }
-  const Enclosed length = SquareRoot(square);
-  return length.value + length.gap;
-}
-
-}  // namespace
-
-Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f) {
-  const ExactVector a = Accelerations(problem, f);
-  Rational max_A = 0, max_b = 0, worst = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    max_A = std::max<Rational>(max_A, problem.A(i, i));
-    max_b = std::max<Rational>(max_b, abs(problem.b[i]));
-  }
-  const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    worst = std::max<Rational>(worst, GapOf(contact, &f[row], &a[row], r));
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
-  return max_b > 0 ? Rational(worst / (max_b * r)) : worst;
 }
 
 }  // namespace stiction

@@ -14,6 +14,10 @@
 //             rounded to rational points of the circle, is solved as linear equations, and c measured. If that
 //             fails, corners are added opposite to the accelerations, and the engine runs again.
 //
+// Where b is not in range(A) both engines may end in a ray although there is a solution; then SolveNearFast may
+// find it. A solution of Coulomb's law up to a bound whose contacts slip with abs(fF) = mu fN is one of (21),
+// (22), too.
+//
 // Whatever is returned as solved was verified by verify_solution.h.
 
 #ifndef STICTION_CERTIFY_SPACE_H_
@@ -29,13 +33,13 @@ namespace stiction {
 SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
                            Trace<Rational>* trace = nullptr);
 
+// The modes of the point in which the fast method ends over doubles (solver/numeric/fast.h), solved exactly:
+// whether or not b is in range(A). undecided where they are no solution, or doubles do not hold the problem.
+SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
+
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
-
-// An upper bound of CoulombResidual (solver/problem/residual.h) of f with a = A f + b, evaluated over
-// rationals, with square roots to 100 binary digits. Any kinds of contacts.
-Rational CoulombResidualBound(const ExactProblem& problem, const ExactVector& f);
 
 }  // namespace stiction
 

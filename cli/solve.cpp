@@ -35,26 +35,35 @@ int ExitOf(Outcome outcome) {
 
 // ---- Text for people ---------------------------------------------------------------------------
 
-// Which conditions the forces of an answer are held to.
-std::string ConditionsOf(const Json& result) {
-  if (!result.contains("law")) return "every condition";
-  return result["law"] == "coulomb" ? "every condition of Coulomb's law"
-                                    : "(21), (22) and every other condition";
+// The law that the forces of an answer obey, in words.
+std::string LawOf(const Json& result) {
+  if (!result.contains("law")) return "(15) and (16)";
+  return result["law"] == "coulomb" ? "Coulomb's law" : "(21) and (22), which leave the direction of slip free";
+}
+
+// An exact solution of Coulomb's law, whose directions of slip are rational: 1 - bound.
+std::string WithinText(const Json& result) {
+  const Rational gap = 1 - *ParseRational(result["bound"].get<std::string>());
+  if (gap == 0) return "solved: these forces meet Coulomb's law and every other condition, exactly";
+  return fmt::format(
+      "solved, Coulomb's law within {:.0e}: these forces meet every condition exactly, but where a contact "
+      "slips "
+      "-fF.aF is only proved to be at least mu fN |aF| times `bound`",
+      ToDouble(gap));
 }
 
 std::string SolvedSentence(const Json& result, const Solution& solution) {
-  const std::string conditions = ConditionsOf(result);
-  if (result.contains("bound") && result["bound"] != "1")
-    return fmt::format(
-        "solved: these forces meet {} but that of slipping friction, for which `bound`, proved, is at most "
-        "|fF| / (mu fN) times the cosine between fF and -aF",
-        conditions);
+  const std::string law = LawOf(result);
+  if (result.contains("bound")) return WithinText(result);
   if (std::holds_alternative<ExactAnswer>(solution.answer))
-    return fmt::format("solved: these forces meet {}, exactly", conditions);
+    return fmt::format("solved: these forces meet every condition, {}, exactly", law);
   if (!std::get<InexactAnswer>(solution.answer).f_enclosed.empty())
-    return fmt::format("solved: forces within these bounds meet {}, proved", conditions);
-  return fmt::format("solved: these forces meet {} but for a relative residual of {:.2g}", conditions,
-                     std::get<InexactAnswer>(solution.answer).residual);
+    return fmt::format("solved: forces within these bounds meet every condition, {}, proved", law);
+  const Errors<double>& errors = *std::get<InexactAnswer>(solution.answer).errors;
+  return fmt::format(
+      "solved: these forces meet every condition, {}, but for errors of at most {:.2g} in accelerations and "
+      "{:.2g} in forces, in units of what acts at each contact",
+      law, errors.acceleration, errors.force);
 }
 
 // The most important: how it ended, and what that means.
@@ -127,36 +136,18 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
                     const Json& result) {
   const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
   fmt::print("{}\n{}", OutcomeSentence(result, solution), VariablesTable(problem, result, fractions));
+  if (result.contains("unique_accelerations"))
+    fmt::print("another solution with other accelerations is known; this is the one at rest\n");
   for (const auto& [key, value] : result.items()) {
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
-                      key == "ray" || key == "reason";
+                      key == "ray" || key == "reason" || key == "unique_accelerations";
     if (told) continue;
-    const std::string text = key == "assumptions"        ? AssumptionsText(value, o.file)
-                             : value.contains("meaning") ? value["meaning"].get<std::string>()
-                             : value.is_object()         ? FieldsText(value)
-                             : value.is_string()         ? value.get<std::string>()
-                                                         : value.dump();
+    const std::string text = key == "assumptions" ? AssumptionsText(value, o.file)
+                             : value.is_object()  ? FieldsText(value)
+                             : value.is_string()  ? value.get<std::string>()
+                                                  : value.dump();
     fmt::print("{:15} {}\n", WithBlanks(key), text);
   }
-}
-
-// A backward error in words: of the scene, where the problem has one.
-std::string Meaning(const BackwardError& error, const ProblemFile& file) {
-  const bool has_scene =
-      file.scene || (file.origin && file.origin->is_object() && file.origin->contains("scene"));
-  if (!has_scene)
-    return fmt::format(
-        "the forces are exact for a problem nearby: every entry of A and b moved by at most {:.2g} of itself, "
-        "every "
-        "mu by at most {:.2g}",
-        error.of_data, error.of_mu);
-  double most = 0;
-  for (const Rational& b : file.problem.b.reshaped()) most = std::max(most, std::abs(ToDouble(b)));
-  return fmt::format(
-      "the forces are exact for a scene nearby: the same masses and positions, loads that accelerate no "
-      "contact by "
-      "more than {:.2g} m/s^2 besides, and coefficients of friction moved by at most {:.2g} of themselves",
-      error.of_b * most, error.of_mu);
 }
 
 int RunSolve(const SolveVerb& o) {
@@ -166,9 +157,6 @@ int RunSolve(const SolveVerb& o) {
   request.options.limits.stop = stop.flag();
   const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);
-  const auto* inexact = std::get_if<InexactAnswer>(&solution.answer);
-  if (inexact != nullptr && inexact->backward)
-    result["backward_error"]["meaning"] = Meaning(*inexact->backward, file);
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
   result["assumptions"] = FailedAssumptions(file.problem);
@@ -202,15 +190,17 @@ void AddSolve(CommandLine& program) {
           "By default exact where the method is built so, double for method fast and for large problems. "
           "'stiction methods' has the table of what is built.");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
-  verb.Option("--law", o.law, "friction in space; inexact answers but those of baraff obey coulomb")
+  verb.Option("--law", o.law, "friction in space; by default coulomb, of method baraff its own")
       .Choices({{"baraff", "the paper's conditions (21), (22), which leave the direction of slip free; exact"},
                 {"coulomb",
                  "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
   verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
-  verb.Option("--residual", o.options.residual, "largest relative residual of inexact forces called solved")
+  verb.Option("--residual", o.options.residual, "largest error of inexact forces called solved")
       .Range(0, 1)
-      .Details("0, the default: 1e-6 over float, 1e-8 over wider numbers.");
+      .Details(
+          "Of accelerations and of forces, in units of what acts at each contact. 0, the default: 1e-6 over "
+          "float, 1e-8 over wider numbers.");
   verb.Option("--seconds", o.seconds, "after so long the best forces so far are told, undecided; 0: never")
       .Range(0, 1e9);
   verb.Flag("--fractions", o.fractions,

@@ -27,7 +27,7 @@
 #include "corpus/stopwatch.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 namespace {
@@ -35,7 +35,7 @@ namespace {
 constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
 constexpr int kExactSpatialContacts = 10;
 constexpr int kPublishedContacts = 32;     // up to here the published algorithm runs over rationals
-constexpr double kWrong = 1e-6;            // a natural residual above it is no solution
+constexpr double kWrong = 1e-6;            // a larger error is no solution
 constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
 
 struct SurveyOptions {
@@ -116,15 +116,16 @@ Json MeetsAll(const Json& entry) {
 
 // ---- Runs ------------------------------------------------------------------------------------
 
-// The residual of f, a double vector, on the exact problem: evaluated over rationals, in space bounded.
+// The largest error of f, a double vector, on the exact problem: evaluated over rationals.
+template <class Problem>
+double VerifiedResidual(const Problem& problem, const ExactVector& f) {
+  const ExactVector a = problem.A * f + problem.b;
+  return ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest());
+}
 template <class Problem>
 double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
   const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
-  if constexpr (std::is_same_v<Problem, ExactProblem>) {
-    if (problem.dimension == 3) return ToDouble(CoulombResidualBound(problem, exact));
-  }
-  const ExactVector a = problem.A * exact + problem.b;
-  return ToDouble(NaturalResidual(problem, exact, a));
+  return VerifiedResidual(problem, exact);
 }
 
 // What solves over doubles, judged on the problem as it is given: its rounding is the method's, too.
@@ -141,6 +142,31 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
   run["residual"] = VerifiedResidual(problem, answer.f);
   if (answer.Solved() && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
   return run;
+}
+
+// What `solve` does by default.
+Json RunByDefault(const ExactProblem& problem, const Limits& limits) {
+  SolveRequest request{.options = {.limits = limits}};
+  request.arithmetic = UsualArithmetic(request.method, problem).arithmetic;
+  const Stopwatch watch(CLOCK_MONOTONIC);
+  const Solution solution = SolveIn(problem, request);
+  return std::visit(
+      [&](const auto& answer) {
+        Json run = {{"method", answer.method}, {"arithmetic", Name(answer.arithmetic)}};
+        run["outcome"] = Name(answer.outcome);
+        run["seconds"] = watch.Seconds();
+        run["statistics"] = CountersToJson(answer.counters);
+        if (!answer.reason.empty()) run["reason"] = answer.reason;
+        if (answer.f.size() == problem.rows()) run["residual"] = VerifiedResidual(problem, answer.f);
+        return run;
+      },
+      solution.answer);
+}
+
+bool IsDecided(const Json& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const Json& run) {
+    return run["outcome"] == "solved" || run["outcome"] == "no-solution";
+  });
 }
 
 // The proximal method, for which A stays sparse.
@@ -251,7 +277,7 @@ Json RunPublished(const ExactProblem& problem, const Limits& limits) {
   run["pivots"] = published.verdict.statistics.pivots;
   if (!published.verdict.reason.empty()) run["reason"] = published.verdict.reason;
   if (published.verdict.outcome == Outcome::kSolved)
-    run["residual"] = ToDouble(NaturalResidual(problem, published.state.f, published.a));
+    run["residual"] = VerifiedResidual(problem, published.state.f);
   return run;
 }
 
@@ -273,6 +299,7 @@ Json PlanarRuns(const ExactProblem& problem, const SurveyOptions& o) {
                                  [](const auto& group) { return group.size() <= kExactContacts; });
   if (!is_found && problem.contacts.size() <= kPublishedContacts) runs.push_back(RunPublished(problem, limits));
   if (!has_solution && small) runs.push_back(RunExactly(problem, groups, limits));
+  if (!IsDecided(runs)) runs.push_back(RunByDefault(problem, limits));
   return runs;
 }
 
@@ -297,13 +324,14 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   run["certificate"] = report.claim;
   run["bound"] = ToString(solution.bound);
   run["cosine gap"] = ToDouble(Rational(1 - solution.bound));
-  run["residual"] = ToDouble(CoulombResidualBound(problem, solution.f));
+  run["residual"] = VerifiedResidual(problem, solution.f);
   return run;
 }
 
 Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
   Json runs = Json::array({RunInDoubles(problem, "fast", limits)});
   if (problem.contacts.size() <= kExactSpatialContacts) runs.push_back(CertifyCoulomb(problem, limits));
+  if (!IsDecided(runs)) runs.push_back(RunByDefault(problem, limits));
   return runs;
 }
 
@@ -417,11 +445,9 @@ void AddSurvey(CommandLine& program) {
   auto [verb, o] =
       program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
   verb.footer =
-      "A residual is natural, zero exactly at solutions, and relative. In the plane: to the larger of max |f| "
-      "and max |b| / max A_ii. In space it is that of Coulomb's law, the largest "
-      "|f - P(f - r (a + mu |aF| e_N))| of a contact, P the nearest point of the cone |fF| <= mu fN, "
-      "r = 1 / max A_ii, relative to max |b| / max A_ii alone; `solved` is at most 1e-8 there. Both are those "
-      "of the returned doubles, evaluated over rationals on the matrix of the row. Witnesses of what fails: "
+      "The error is the largest of any acceleration or force, by Coulomb's law, in units of what acts at its "
+      "contact: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned doubles, "
+      "evaluated over rationals on the matrix of the row. Witnesses of what fails: "
       "`import` the file, then `certify --claim psd` or `--claim in-range`.";
   verb.Positional("PATH", o.paths,
                   "problems in any format that import reads, stiction-problem files, or folders")

@@ -63,7 +63,7 @@ void PrintRuns(const std::string& file, const std::string& contacts, const std::
 }  // namespace
 
 void PrintSurveyHead() {
-  fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "residual", "seconds",
+  fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "error", "seconds",
              "outcome");
 }
 
@@ -107,7 +107,7 @@ std::string RunsText(const Json& facts) {
     found = true;
     existence = outcome == "no-solution"
                     ? "it has no solution, as a certificate says"
-                    : fmt::format("{} solves it {}, with a residual of {}", method,
+                    : fmt::format("{} solves it {}, with an error of {}", method,
                                   exact ? "exactly" : "over doubles", Short(run["residual"].get<double>()));
   }
   return existence + published;

@@ -5,7 +5,7 @@
 //   disagreement-of-methods  exact methods contradict each other or what is proved (certify/agreement.h)
 //   cycle, stall, ...        an exact outcome other than solved, in space one that intervals prove
 //   undecided                in space: a loop over doubles that intervals neither prove nor deny
-//   wrong-answer             doubles said solved, with a natural residual above 1e-6
+//   wrong-answer             doubles said solved, with an error above the bound of the gate
 //   disagreement             doubles ended in another outcome than exact numbers, of the same problem
 
 #ifndef STICTION_CORPUS_KINDS_H_

@@ -134,4 +134,14 @@ std::int64_t Bits(const Rational& x) {
   return std::max(BitLength<Integer>::Of(Parts::Numerator(x)), BitLength<Integer>::Of(Parts::Denominator(x)));
 }
 
+Rational SquareRoot<Rational>::Of(const Rational& x) {
+  using Parts = Fractions<Rational>;
+  if (x == 0) return 0;
+  const Integer numerator = Parts::Numerator(x), denominator = Parts::Denominator(x);
+  const std::int64_t short_of = BitLength<Integer>::Of(denominator) - BitLength<Integer>::Of(numerator) + 1;
+  const auto places = static_cast<unsigned>(110 + std::max<std::int64_t>(0, short_of) / 2);
+  const Integer scaled = (numerator << (2 * places)) / denominator;
+  return Parts::Quotient(Integer(sqrt(scaled)), Integer(Integer(1) << places));
+}
+
 }  // namespace stiction

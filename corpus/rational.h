@@ -30,6 +30,12 @@ double ToDouble(const Rational& x);
 // Bits of the longer of numerator and denominator.
 std::int64_t Bits(const Rational& x);
 
+// Within 2^-100 of the root, from below. Requires x >= 0.
+template <>
+struct SquareRoot<Rational> {
+  static Rational Of(const Rational& x);
+};
+
 template <>
 struct BitLength<Rational> {
   static std::int64_t Of(const Rational& x) { return Bits(x); }

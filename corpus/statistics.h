@@ -82,7 +82,7 @@ struct Tally {
   std::int64_t audited = 0;                           // run again exactly without a suspicion, as a sample
   std::int64_t misjudged = 0;                         // of these, with another exact outcome
   std::array<std::int64_t, kRungCount> rungs = {};    // that decided, of the filtered runs
-  std::int64_t wrong = 0;  // called solved with a natural residual above 1e-6, or not a number
+  std::int64_t wrong = 0;  // called solved with an error above the bound of the gate, or not a number
   std::int64_t with_zero_steps = 0;
   std::int64_t with_give_ups = 0;
   Statistics sums;

@@ -5,8 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "solver/problem/gate.h"
 #include "solver/problem/reduction.ipp"
-#include "solver/problem/residual.h"
+#include "solver/problem/row_scale.h"
 
 namespace stiction {
 namespace {
@@ -14,8 +15,21 @@ namespace {
 constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
 constexpr int kProximalPoints = 3;
 
-// Residuals of a problem with the rows that reduction took out.
-constexpr double kWholeResidual = 1e-7, kWholeResidualInSpace = 10 * kLooseResidual;
+// The largest error of forces, where accelerations of the rounding of b are none: what a scene makes of b is
+// known to a few roundings of its largest entry, and rows that nothing else acts on, as the second hinge of an
+// axis has some, would be held to that rounding.
+template <class Problem>
+double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
+  constexpr double kNoise = 1e-12;
+  const LongVector forces = f.template cast<LongDouble>();
+  LongVector a = Recompute(problem, forces);
+  const LongDouble noise = problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
+  for (LongDouble& x : a) x = Abs(x) <= noise ? 0 : x;
+  return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
+}
+
+// Errors of a problem with the rows that reduction took out.
+constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
 
 template <class Problem>
 bool HasFriction(const Problem& problem) {
@@ -26,7 +40,7 @@ bool HasFriction(const Problem& problem) {
 // Joints that repeat each other, as two hinges of a door do, contradict each other by rounding, which may be
 // much beside a small drift; the residual of the whole problem has the last word.
 Tolerances ForReduction(Tolerances tolerances, int dimension) {
-  if (dimension == 3) tolerances.acceleration = kWholeResidualInSpace;
+  tolerances.acceleration = dimension == 3 ? kLooseWholeResidual : kWholeResidual;
   return tolerances;
 }
 
@@ -50,45 +64,70 @@ SceneSolver::SceneSolver(const SceneSolverOptions& options)
       coulomb_(options.coulomb),
       sparse_coulomb_(options.coulomb) {}
 
-SceneAnswer SceneSolver::Solve(const Dense& problem) {
+template <class Problem>
+SceneAnswer SceneSolver::SolveScaled(const Problem& problem) {
+  const RowScale scale = FindScale(problem);
+  SceneAnswer answer = SolveAsIs(Scaled(problem, scale));
+  ScaleBy(answer.f, scale.f);
+  return answer;
+}
+
+SceneAnswer SceneSolver::Solve(const Dense& problem) { return SolveScaled(problem); }
+SceneAnswer SceneSolver::Solve(const Sparse& problem) { return SolveScaled(problem); }
+
+SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
   SceneAnswer answer;
   if (!Reduction<double>::Concerns(problem)) {
-    answer.solved = TryInTurn(kDenseSteps, problem, answer);
+    answer.solved =
+        TryInTurn(kDenseSteps, problem, answer, [&](const Dense::Vector& f) { return ErrorOf(problem, f); });
     return answer;
   }
   const Reduction<double> reduction(problem, ForReduction(fast_.options().tolerances, problem.dimension));
   if (reduction.end() != ReductionEnd::kReduced) return answer;
   answer.f.resize(0);
-  if (reduction.problem().rows() > 0 && !TryInTurn(kDenseSteps, reduction.problem(), answer)) return answer;
+  // What remains may be held to the rounding of what was taken out; the whole is not.
+  const auto of_whole = [&](const Dense::Vector& f) { return ErrorOf(problem, reduction.Forces(f)); };
+  if (reduction.problem().rows() > 0 && !TryInTurn(kDenseSteps, reduction.problem(), answer, of_whole))
+    return answer;
   answer.f = reduction.Forces(answer.f);
-  answer.solved = IsAccepted(problem, answer.f);
+  const double error = ErrorOf(problem, answer.f);
+  answer.solved = error <= kLooseWholeResidual;
+  answer.loose += answer.solved && answer.loose == 0 && error > kWholeResidual;
   return answer;
 }
 
-SceneAnswer SceneSolver::Solve(const Sparse& problem) {
+SceneAnswer SceneSolver::SolveAsIs(const Sparse& problem) {
   SceneAnswer answer;
-  answer.solved = TryInTurn(kSparseSteps, problem, answer);
+  answer.solved =
+      TryInTurn(kSparseSteps, problem, answer, [&](const Sparse::Vector& f) { return ErrorOf(problem, f); });
   return answer;
 }
 
-template <class Problem, std::size_t Count>
-bool SceneSolver::TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer) {
+template <class Problem, std::size_t Count, class Error>
+bool SceneSolver::TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer,
+                            Error error_of) {
   const bool friction = HasFriction(problem);
   if (!friction && problem.dimension == 3) {
     Problem planar = problem;  // one row each, as in the plane
     planar.dimension = 2;
-    return TryInTurn(steps, planar, answer);
+    return TryInTurn(steps, planar, answer, error_of);
   }
-  return std::any_of(std::begin(steps), std::end(steps), [&](const Step<Problem>& step) {
-    return step.friction == friction && step.dimension == problem.dimension &&
-           (this->*step.run)(problem, answer);
-  });
-}
-
-bool SceneSolver::IsAccepted(const Dense& problem, const Dense::Vector& f) const {
-  const Dense::Vector a = problem.A * f + problem.b;
-  if (problem.dimension == 2) return NaturalResidual(problem, f, a) <= kWholeResidual;
-  return CoulombResidual(problem, f, a) <= kWholeResidualInSpace;
+  typename Problem::Vector best;
+  double least = kLooseResidual;
+  for (const Step<Problem>& step : steps) {
+    if (step.friction != friction || step.dimension != problem.dimension) continue;
+    if ((this->*step.run)(problem, answer)) return true;
+    if (answer.f.size() != problem.rows() || !answer.f.allFinite()) continue;
+    const double error = error_of(answer.f);
+    if (error <= kWholeResidual) return true;
+    if (!(error <= least)) continue;
+    least = error;
+    best = answer.f;
+  }
+  if (best.size() == 0) return false;
+  answer.f = best;
+  ++answer.loose;
+  return true;
 }
 
 // ---- Methods ---------------------------------------------------------------------------------
@@ -102,9 +141,9 @@ bool SceneSolver::GuessCells(const Dense& problem, const std::vector<Cell>& gues
 }
 
 bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
-  if (!GuessCells(problem, {})) return false;
+  const bool solved = GuessCells(problem, {});
   answer.f = fast_.f();
-  return true;
+  return solved;
 }
 
 bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
@@ -121,10 +160,7 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
     f = fast_.f();
     cells = fast_.cells();
     const Dense::Vector a = problem.A * f + problem.b;
-    const Residual<double> measured = MeasureResidual(problem, f, a);
-    // Relative to b: where there is no solution forces grow like 1 / eps, and any violation is small beside
-    // them.
-    residual = measured.worst / measured.b_scale;
+    residual = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
   }
   return residual <= fast_.options().residual;
 }
@@ -144,23 +180,21 @@ bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
   const CoulombVerdict verdict = coulomb_.Run(problem);
   answer.fallbacks += verdict.statistics.polygons > 0;
   answer.f = coulomb_.f();
-  if (verdict.outcome == Outcome::kSolved) return true;
-  answer.loose += verdict.residual <= kLooseResidual;
-  return verdict.residual <= kLooseResidual;
+  return verdict.outcome == Outcome::kSolved;
 }
 
 bool SceneSolver::SparseProximal(const Sparse& problem, SceneAnswer& answer) {
-  if (proximal_.Run(problem).outcome != Outcome::kSolved) return false;
+  const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
   answer.f = proximal_.f();
-  ++answer.sparse;
-  return true;
+  answer.sparse += solved;
+  return solved;
 }
 
 bool SceneSolver::SparseCoulomb(const Sparse& problem, SceneAnswer& answer) {
-  if (sparse_coulomb_.Run(problem).outcome != Outcome::kSolved) return false;
+  const bool solved = sparse_coulomb_.Run(problem).outcome == Outcome::kSolved;
   answer.f = sparse_coulomb_.f();
-  ++answer.sparse;
-  return true;
+  answer.sparse += solved;
+  return solved;
 }
 
 }  // namespace stiction

@@ -12,14 +12,16 @@
 //     complete    FastSolver with complete driving: counted
 //   in space with friction
 //     Coulomb     CoulombSolver: a few Gauss-Seidel sweeps from f = 0, then Newton's method, on the law and on
-//                 smoothed ones; complete driving on polygons behind it, counted. Loose answers: counted
+//                 smoothed ones; complete driving on polygons behind it, counted
 //   without friction, where plane and space have the same rows
 //     complete, proximal
 //
 //   of a sparse A, in which joints and sliding contacts stay: counted
 //     proximal in the plane and without friction, Coulomb without polygons in space
 //
-// Forces of a reduced problem are checked by the residual of the whole one.
+// Where none ends in a solution, the forces of the smallest errors are taken up to kLooseResidual, and counted.
+// A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the
+// whole one.
 
 #ifndef STICTION_SCENE_SOLVE_SCENE_H_
 #define STICTION_SCENE_SOLVE_SCENE_H_
@@ -32,10 +34,10 @@
 
 namespace stiction {
 
-// In space a problem need not be solved as far as rounding allows, and cannot always. Where contacts are more
-// than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left, and
-// equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that no
-// forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
+// A problem need not be solved as far as rounding allows, and in space cannot always be. Where contacts are
+// more than bodies can tell apart, b is in range(A) only as far as contacts at rest have no velocities left,
+// and equal gaps: what is left of them, squared or over h^2, asks for accelerations of 1e-8 to 1e-5 m/s^2 that
+// no forces take away. The solution is then one of contacts that creep or part by so much, and the forces that
 // tell them from contacts at rest differ by their whole size. What is not solved to the residual of the options
 // is accepted to this one, and counted.
 inline constexpr double kLooseResidual = 1e-5;
@@ -81,12 +83,18 @@ class SceneSolver {
     bool friction;
     bool (SceneSolver::*run)(const Problem&, SceneAnswer&);
   };
+  template <class Problem>
+  SceneAnswer SolveScaled(const Problem& problem);
+  SceneAnswer SolveAsIs(const Dense& problem);
+  SceneAnswer SolveAsIs(const Sparse& problem);
+
   static const Step<Dense> kDenseSteps[];
   static const Step<Sparse> kSparseSteps[];
 
-  template <class Problem, std::size_t Count>
-  bool TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer);
-  bool IsAccepted(const Dense& problem, const Dense::Vector& f) const;
+  // error_of(f): by which forces are taken where no method ends in a solution.
+  template <class Problem, std::size_t Count, class Error>
+  bool TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer,
+                 Error error_of);
   bool GuessCells(const Dense& problem, const std::vector<Cell>& guess);
 
   bool Cells(const Dense& problem, SceneAnswer& answer);

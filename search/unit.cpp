@@ -23,14 +23,13 @@
 #include "search/work_meter.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/reduction.h"
-#include "solver/problem/residual.h"
 #include "solver/published/published.ipp"
 #include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
 
-constexpr double kWrongAnswer = 1e-6;  // natural residual, relative
+constexpr double kWrongAnswer = 1e-6;  // error (solver/problem/errors.h)
 
 ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,
                    const ExactProblem& problem) {
@@ -513,13 +512,13 @@ struct Judgement {
   bool suspected = false;  // not a verified solution
 };
 
-// Counts a run over doubles. residual() is that of its forces.
-template <class Residual>
+// Counts a run over doubles. error() is the largest of its forces.
+template <class Error>
 Judgement Judge(Collector& collector, std::size_t policy, const Drawn& drawn, const Verdict& verdict,
-                Residual residual) {
+                Error error) {
   collector.Count(policy, drawn, verdict);
   const bool solved = verdict.outcome == Outcome::kSolved;
-  const bool wrong = solved && !(residual() <= kWrongAnswer);
+  const bool wrong = solved && !(error() <= kWrongAnswer);
   collector.tally(policy).wrong += wrong;
   return {wrong, !solved || wrong};
 }
@@ -555,9 +554,10 @@ class Kernel final : public SizedKernel {
     const auto draw = [&](Choices& choices) {
       drawn_ = Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
       if constexpr (Rows == Eigen::Dynamic) {
-        const Reduction<double> reduction(problem_);
-        reduced = reduction.end() == ReductionEnd::kReduced;
-        if (reduced) problem_ = reduction.problem();
+        whole_ = problem_;
+        reduction_.emplace(whole_);
+        reduced = reduction_->end() == ReductionEnd::kReduced;
+        if (reduced) problem_ = reduction_->problem();
       }
     };
     TryAll(campaign_, unit, task, collector.meter(), draw,
@@ -587,7 +587,7 @@ class Kernel final : public SizedKernel {
           batch_->Get(i, problem_);
           Try(index, 0, audit, collector);
         } else {
-          Conclude(batch_->VerdictOf(i), index, 0, audit, collector, [&] { return batch_->Residual(i); });
+          Conclude(batch_->VerdictOf(i), index, 0, audit, collector, [&] { return batch_->Error(i); });
         }
       }
     }
@@ -624,18 +624,22 @@ class Kernel final : public SizedKernel {
       solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
       f = &distorted;
     }
-    Conclude(verdict, index, policy, audit, collector, [&] { return Residual(*f); });
+    Conclude(verdict, index, policy, audit, collector, [&] { return Error(*f); });
   }
 
-  template <class ResidualOf>
+  template <class ErrorOf>
   void Conclude(const Verdict& verdict, std::int64_t index, std::size_t policy, bool audit,
-                Collector& collector, ResidualOf residual) {
-    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, residual);
+                Collector& collector, ErrorOf error) {
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, error);
     if (suspected || audit) collector.RunAgain(index, policy, verdict.outcome, wrong, suspected);
   }
 
-  // Of f alone: the accelerations are computed anew.
-  double Residual(const Vector& f) const {
+  // Of f alone: the accelerations are computed anew. Of the whole problem, whose A is symmetric.
+  double Error(const Vector& f) {
+    if constexpr (Rows == Eigen::Dynamic) {
+      const Vector forces = reduction_->Forces(f), a = whole_.A * forces + whole_.b;
+      return MeasureErrors(whole_, FrictionLaw::kCoulomb, forces, a, units_, 0.0).Largest();
+    }
     Vector a = problem_.b;
     const int rows = problem_.rows();
     for (int i = 0; i < rows; ++i) {
@@ -643,13 +647,16 @@ class Kernel final : public SizedKernel {
       for (int j = 0; j < rows; ++j) sum += problem_.A(i, j) * f[j];
       a[i] = sum;
     }
-    return NaturalResidual(problem_, f, a);
+    return MeasureErrors(problem_, FrictionLaw::kCoulomb, f, a, units_, 0.0).Largest();
   }
 
   const Campaign& campaign_;
   const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double, Rows> problem_;
+  ContactProblem<double> whole_;                // of other kinds, before reduction
+  std::optional<Reduction<double>> reduction_;  // likewise
+  Units<double> units_;
   Drawn drawn_;
   std::unique_ptr<Batch> batch_;  // null: problems are run one by one
 };
@@ -691,7 +698,7 @@ class SpaceKernel final : public SizedKernel {
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
     const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {
-      return ResidualBound(problem_, FrictionLaw::kBaraff, f.cast<long double>());
+      return BoundErrors(problem_, FrictionLaw::kBaraff, f.cast<LongDouble>()).Largest();
     });
     if (suspected || audit) collector.RunOverIntervals(index, policy, verdict, wrong, suspected);
   }

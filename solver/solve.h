@@ -4,12 +4,12 @@
 // Methods() is the table of all that this library has over a scalar; whatever chooses or names a method reads
 // it. Solve() does what every call needs:
 //
-//   scale     A and b by powers of two where their products could leave the range of the scalar (exact)
+//   scale     A and b by powers of two, each contact in units of its own (row_scale.h; exact)
 //   reduce    bilateral and sliding contacts leave the problem, for methods that do not take them (4.5, 6)
 //   run       the method
 //   restore   rows, contacts and units of the whole problem
-//   gate      `solved` is said of forces whose own residual, with a = A f + b computed anew and its rounding
-//             bounded, is at most the stated bound; whatever else claims to be solved is `undecided`
+//   gate      `solved` is said of forces whose own errors, with a = A f + b computed anew and its rounding
+//             bounded, are at most the stated bound; whatever else claims to be solved is `undecided`
 //
 // Over exact scalars nothing is scaled, and the gate is the verification of certify.
 //
@@ -34,14 +34,14 @@ struct SolveOptions {
   Policy policy = {};          // of the published algorithm
   Tolerances tolerances = {};  // of inexact arithmetics
   Limits limits = {};
-  FrictionLaw law = FrictionLaw::kBaraff;  // in space; inexact answers of methods that know it obey kCoulomb
-  int sides = 8;                           // of friction polygons in space, a multiple of 4
-  double residual = 0;                     // of an answer that is called solved; 0: that of the arithmetic
+  FrictionLaw law = FrictionLaw::kCoulomb;  // in space; of the method baraff it is kBaraff
+  int sides = 8;                            // of friction polygons in space, a multiple of 4
+  double residual = 0;                      // of an answer that is called solved; 0: that of the arithmetic
 
   bool operator==(const SolveOptions&) const = default;
 };
 
-// Relative residual up to which forces of a scalar are called a solution, where nobody asks for another.
+// Errors (problem/errors.h) up to which forces of a scalar are called a solution, where nobody asks for others.
 template <class Scalar>
 inline constexpr double kSolvedResidual = 1e-8;
 template <>
@@ -55,6 +55,7 @@ template <class Scalar>
 struct MethodIn {
   MethodRun<Scalar> run = nullptr;
   bool takes_all_kinds = false;  // otherwise bilateral and sliding contacts leave a problem first
+  bool on_request = false;       // `auto` passes it over, though the row is automatic
 };
 
 // A row of the table.
@@ -71,6 +72,7 @@ struct Method {
 
   const MethodIn<Scalar>& In(int dimension) const { return dimension == 2 ? plane : space; }
   bool IsBuilt(int dimension) const { return In(dimension).run != nullptr; }
+  bool IsAutomatic(int dimension) const { return automatic && IsBuilt(dimension) && !In(dimension).on_request; }
 };
 
 // The methods over a scalar: here float, double, long double; exact ones in certify.
@@ -95,7 +97,7 @@ template <class Scalar>
 Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
                        const SolveOptions& options, Trace<Scalar>* trace = nullptr);
 
-// The gate. Floating-point scalars. Sets answer.a and answer.residual; an answer that calls itself solved and
+// The gate. Floating-point scalars. Sets answer.a and answer.errors; an answer that calls itself solved and
 // whose forces are not finite or do not meet the bound becomes undecided.
 template <class Scalar>
 void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer);

@@ -16,6 +16,7 @@
 #include "solver/lemke/lemke.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/remainder.h"
+#include "solver/problem/row_scale.h"
 #include "solver/published/published.h"
 #include "solver/solve.h"
 
@@ -123,55 +124,30 @@ Method<Scalar> LemkeRow(MethodIn<Scalar> space) {
 
 // ---- The call --------------------------------------------------------------------------------
 
-// A and b are divided by powers of two, which rounds nothing, where a product of three of their numbers could
-// leave the range of the scalar.
-struct BinaryScale {
-  int A = 0, b = 0;
-
-  int f() const { return b - A; }
-  bool IsOne() const { return A == 0 && b == 0; }
-};
-
-template <class Numbers>
-int ExponentOf(const Numbers& numbers) {
-  if (numbers.size() == 0) return 0;
-  const auto most = numbers.cwiseAbs().maxCoeff();
-  using std::ilogb;
-  return most > 0 ? ilogb(most) : 0;
+// The unit of a step: of the driven force, or of the variable that enters in Lemke's method.
+template <class Scalar>
+int UnitOfStep(const Pivot<Scalar>& pivot, const RowScale& scale) {
+  if (pivot.entering.empty()) return scale.f[pivot.driven];
+  if (pivot.driven < 0) return scale.b;
+  const char kind = pivot.entering.front();  // lemke.h: fN1, m1; aN1, l1
+  return kind == 'f' || kind == 'm' ? scale.f[pivot.driven] : scale.a[pivot.driven];
 }
 
 template <class Scalar>
-BinaryScale FindScale(const ContactProblem<Scalar>& problem) {
-  constexpr int kSafe = std::numeric_limits<Scalar>::max_exponent / 8;
-  const BinaryScale scale{ExponentOf(problem.A), ExponentOf(problem.b)};
-  const bool is_safe = std::abs(scale.A) < kSafe && std::abs(scale.b) < kSafe;
-  return is_safe ? BinaryScale{} : scale;
-}
-
-template <class Values>
-void ScaleBy(Values& values, int exponent) {
-  using std::ldexp;
-  for (auto& x : values.reshaped()) x = ldexp(x, exponent);
-}
-
-template <class Scalar>
-ContactProblem<Scalar> Scaled(ContactProblem<Scalar> problem, const BinaryScale& scale) {
-  ScaleBy(problem.A, -scale.A);
-  ScaleBy(problem.b, -scale.b);
-  return problem;
-}
-
-template <class Scalar>
-void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const BinaryScale& scale) {
-  ScaleBy(answer.f, scale.f());
-  ScaleBy(answer.first_f, scale.f());
+void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const RowScale& scale) {
+  ScaleBy(answer.f, scale.f);
+  ScaleBy(answer.first_f, scale.f);
+  ScaleBy(answer.ray, scale.f, -scale.b);  // any length will do
   if (trace == nullptr) return;
   using std::ldexp;
   for (Pivot<Scalar>& pivot : trace->pivots) {
-    ScaleBy(pivot.f, scale.f());
-    ScaleBy(pivot.a, scale.b);
-    ScaleBy(pivot.da, scale.A);
-    pivot.s = ldexp(pivot.s, scale.f());
+    const int unit = UnitOfStep(pivot, scale);
+    ScaleBy(pivot.f, scale.f);
+    ScaleBy(pivot.a, scale.a);
+    ScaleBy(pivot.df, scale.f, -unit);
+    ScaleBy(pivot.da, scale.a, -unit);
+    pivot.s = ldexp(pivot.s, unit);
+    pivot.cover = ldexp(pivot.cover, scale.b);
   }
 }
 
@@ -179,11 +155,10 @@ void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const BinaryScale& sc
 template <class Scalar>
 bool IsFinite(const ContactProblem<Scalar>& problem) {
   return problem.A.allFinite() && problem.b.allFinite() &&
-         std::all_of(problem.contacts.begin(), problem.contacts.end(),
-                     [](const auto& contact) {
-                       using std::isfinite;
-                       return isfinite(contact.mu);
-                     });
+         std::all_of(problem.contacts.begin(), problem.contacts.end(), [](const auto& contact) {
+           using std::isfinite;
+           return isfinite(contact.mu);
+         });
 }
 
 template <class Scalar>
@@ -233,13 +208,30 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
   const LongVector f = answer.f.template cast<LongDouble>();
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
   if constexpr (kIsFloatingPoint<Scalar>) {
-    answer.residual = static_cast<double>(ResidualBound(problem, answer.law, f));
+    answer.errors = BoundErrors(problem, answer.law, f);
   } else {
-    answer.residual = static_cast<double>(ResidualBound(InLongDouble(problem), answer.law, f));
+    answer.errors = BoundErrors(InLongDouble(problem), answer.law, f);
   }
-  if (!answer.Solved() || (is_finite && answer.residual <= bound)) return;
+  const bool passes = is_finite && answer.errors->Largest() <= bound;
+  if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits
+    answer.outcome = Outcome::kSolved;
+    answer.reason.clear();
+  }
+  if (!answer.Solved() || passes) return;
   answer.outcome = Outcome::kUndecided;
-  answer.reason = is_finite ? "the residual is above the bound" : "a number is not finite";
+  answer.reason = !is_finite                            ? "a number is not finite"
+                  : answer.errors->acceleration > bound ? "the error of an acceleration is above the bound"
+                                                        : "the error of a force is above the bound";
+}
+
+template <class Scalar>
+Answer<Scalar> RunScaled(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
+                         const SolveOptions& options, Trace<Scalar>* trace) {
+  const bool compares = method.name == "baraff" && options.policy.scan == Scan::kMostViolated;
+  const RowScale scale = FindScale(problem, compares);
+  Answer<Scalar> answer = RunAsIs(method, Scaled(problem, scale), options, trace);
+  Unscale(answer, trace, scale);
+  return answer;
 }
 
 template <class Scalar>
@@ -251,17 +243,9 @@ Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar
     answer = RunAsIs(method, problem, options, trace);
     if (answer.f.size() == problem.rows()) answer.a = problem.A * answer.f + problem.b;
   } else {
-    const double bound = options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
-    const BinaryScale scale = FindScale(problem);
-    if (!IsFinite(problem)) {
-      answer = Unstarted(problem, Outcome::kUndecided, "a number is not finite");
-    } else if (scale.IsOne()) {
-      answer = RunAsIs(method, problem, options, trace);
-    } else {
-      answer = RunAsIs(method, Scaled(problem, scale), options, trace);
-      Unscale(answer, trace, scale);
-    }
-    JudgeAnswer(problem, bound, answer);
+    answer = IsFinite(problem) ? RunScaled(method, problem, options, trace)
+                               : Unstarted(problem, Outcome::kUndecided, "a number is not finite");
+    JudgeAnswer(problem, options.residual > 0 ? options.residual : kSolvedResidual<Scalar>, answer);
   }
   answer.method = method.name;
   return answer;
@@ -281,7 +265,7 @@ Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const S
                                   Trace<Scalar>* trace) {
   std::optional<Answer<Scalar>> first;
   for (const Method<Scalar>& method : Methods<Scalar>()) {
-    if (!method.automatic || !method.IsBuilt(problem.dimension)) continue;
+    if (!method.IsAutomatic(problem.dimension)) continue;
     Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
     if (answer.outcome == Outcome::kNoSolution && first) answer.ray = std::move(first->ray);
     if (answer.Solved() || answer.outcome == Outcome::kNoSolution) return answer;

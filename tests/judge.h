@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
+#include "certify/judge.h"
 #include "certify/solve.h"
 #include "certify/space.h"
 #include "certify/verify_solution.h"
 #include "corpus/rounded.h"
-#include "solver/problem/residual.h"
 
 namespace stiction::testing {
 
@@ -23,47 +23,6 @@ inline ExactProblem AsRun(const ExactProblem& problem, Arithmetic arithmetic) {
   if (arithmetic == Arithmetic::kExact) return problem;
   if (arithmetic == Arithmetic::kFloat) return Unrounded(Rounded<float>(problem));
   return Unrounded(Rounded<double>(problem));
-}
-
-// Of a contact in space at its first row: whether no part of its weak residual (weak_residual.h) exceeds
-// `most`.
-inline bool IsWeaklyWithin(const Contact<Rational>& contact, const Rational* f, const Rational* a,
-                           const Rational& r, const Rational& most) {
-  const auto within = [&most](const Rational& x) { return abs(x) <= most; };
-  if (contact.kind == ContactKind::kBilateral) return within(r * a[0]);
-  if (!within(std::min<Rational>(f[0], r * a[0]))) return false;
-  if (contact.kind == ContactKind::kFrictionless) return true;
-  const Rational limit = contact.mu * f[0];
-  if (contact.kind == ContactKind::kSliding) {
-    const Rational x = f[1] + limit * contact.slip[0], y = f[2] + limit * contact.slip[1];
-    return x * x + y * y <= most * most;
-  }
-  const Rational force = f[1] * f[1] + f[2] * f[2], answer = a[1] * a[1] + a[2] * a[2];  // squares
-  const Rational along = f[1] * a[1] + f[2] * a[2], above = limit + most, below = limit - most;
-  const bool in_cone = above >= 0 && force <= above * above;
-  const bool at_limit = below <= 0 || force >= below * below;
-  const bool opposes = along <= 0 || r * r * along * along <= most * most * force;
-  return in_cone && (at_limit || r * r * answer <= most * most) && opposes;
-}
-
-// Whether the weak residual of forces is at most `bound`.
-inline bool IsWeakSolution(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
-  const ExactVector a = Accelerations(problem, f);
-  const Residual<Rational> scale = MeasureScale(problem, f, a);
-  const Rational most = scale.scale > 0 ? Rational(bound * scale.scale) : bound;
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    if (!IsWeaklyWithin(contact, &f[row], &a[row], scale.r, most)) return false;
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
-  return true;
-}
-
-inline bool IsSolutionWithin(const ExactProblem& problem, const ExactVector& f, FrictionLaw law,
-                             const Rational& bound) {
-  if (problem.dimension == 2) return NaturalResidual(problem, f, Accelerations(problem, f)) <= bound;
-  if (law == FrictionLaw::kCoulomb) return CoulombResidualBound(problem, f) <= bound;
-  return IsWeakSolution(problem, f, bound);
 }
 
 // What is wrong with an exact answer that is called solved; empty if nothing is.
@@ -81,8 +40,9 @@ inline std::string FaultOf(const ExactProblem& problem, const InexactAnswer& ans
   if (answer.f.size() != problem.rows()) return "solved without forces";
   if (!answer.f.allFinite()) return "forces that are not finite";
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const Rational most = Rational(bound) * (1 + Rational(1, 1 << 30));  // the gate measures in long double
-  return IsSolutionWithin(problem, f, answer.law, most) ? "" : "called solved, with a larger residual";
+  const Rational most = Rational(bound) * (1 + Rational(1, 1 << 30));  // roots round
+  const auto fault = FindMiss(problem, f, answer.law, most);
+  return fault ? "called solved: " + *fault : "";
 }
 
 // What is wrong with a solution of the problem that calls itself solved; empty if nothing is, or if it does

@@ -14,6 +14,7 @@
 #include "certify/exact.h"
 #include "search/exponential.h"
 #include "search/generators.h"
+#include "solver/complete/polygon_errors.h"
 
 namespace stiction::testing {
 
@@ -28,6 +29,20 @@ inline bool Short() {
 
 // So many, or a quarter of them.
 inline int Few(int count) { return Short() ? count / 4 : count; }
+
+// The largest error of forces: of Coulomb's law, of (21), (22), of the law on polygons.
+template <class Problem, class Vector>
+auto ErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
+  return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
+}
+template <class Problem, class Vector>
+auto WeakErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
+  return MeasureErrors(problem, FrictionLaw::kBaraff, f, a).Largest();
+}
+template <class Problem, class Polygons, class Vector>
+auto PolygonErrorOf(const Problem& problem, const Polygons& polygons, const Vector& f, const Vector& a) {
+  return PolygonErrors(problem, polygons, f, a).Largest();
+}
 
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }
 
@@ -72,6 +87,20 @@ inline ExactProblem ThreeSolutions() { return MakeProblem({1}, {{1, 2}, {2, 5}},
 
 // A positive semidefinite, b not in its range, no solution.
 inline ExactProblem NoSolution() { return MakeProblem({1}, {{1, -1}, {-1, 1}}, {-1, 0}); }
+
+// A sum of problems that do not feel each other.
+inline ExactProblem Decoupled(const ExactProblem& left, const ExactProblem& right) {
+  ExactProblem both = left;
+  both.contacts.insert(both.contacts.end(), right.contacts.begin(), right.contacts.end());
+  const int m = left.rows(), n = right.rows();
+  both.A = ExactMatrix::Constant(m + n, m + n, Rational(0));
+  both.b = ExactVector::Constant(m + n, Rational(0));
+  both.A.topLeftCorner(m, m) = left.A;
+  both.A.bottomRightCorner(n, n) = right.A;
+  both.b.head(m) = left.b;
+  both.b.tail(n) = right.b;
+  return both;
+}
 
 inline ExactProblem NoContacts() { return MakeProblem({}, {}, {}); }
 

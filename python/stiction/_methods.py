@@ -145,7 +145,7 @@ def _chosen(**values: float | None) -> dict[str, float]:
 
 
 def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: str = "paper", *,
-          law: str = "baraff", sides: int = 8, residual: float = 0, seconds: float = 0,
+          law: str = "", sides: int = 8, residual: float = 0, seconds: float = 0,
           max_drives: int | None = None, max_pivots: int | None = None, max_bits: int | None = None,
           acceleration_tolerance: float | None = None, force_tolerance: float | None = None,
           pivot_tolerance: float | None = None, loop_grain: float | None = None) -> Answer:
@@ -188,7 +188,7 @@ def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: 
     return said
 
 
-def certify(problem: Problem, claim: str = "solution-exists", policy: str = "paper", *,
+def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *,
             max_drives: int | None = None, max_pivots: int | None = None,
             max_bits: int | None = None) -> Certificate | None:
     """A certificate of a claim that `stiction certify --claim` knows, or of its negation.

@@ -29,7 +29,7 @@ constexpr char kMeasuredLead[] =
 constexpr char kHowMeasured[] =
     "<p><strong>Method.</strong> All methods, over all arithmetics, are asked the same problems of a family at "
     "each "
-    "setting of its dial. <em>Silent</em> is what is called solved within a residual that, computed over "
+    "setting of its dial. <em>Silent</em> is what is called solved within errors that, computed over "
     "rationals, "
     "it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the published "
     "algorithm another end than over rationals; <em>undecided</em> what says itself that it is no answer. "

@@ -95,8 +95,8 @@ Html MethodsSection(const ReportContent& content) {
           "The same problems for all are the finished findings, in the last rows: what the published algorithm "
           "makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a "
           "certificate "
-          "says that there is one. A solution counts only if it is verified; over doubles, if its natural "
-          "residual is at most 1e-6.</p>\n") +
+          "says that there is one. A solution counts only if it is verified; over doubles, if its "
+          "errors are at most 1e-6.</p>\n") +
           FigurePlace("methods",
                       "Share of the problems that each method solved, of those that it was asked about, "
                       "by number of contacts; lines: exact intervals at 95 %.") +

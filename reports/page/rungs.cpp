@@ -136,7 +136,7 @@ Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
                 "silently wrong, or, of the published algorithm, another end than over rationals; below: the "
                 "share, with its interval at 95 %"},
                {"silent",
-                "called solved within a residual that it does not have, or without a solution where there "
+                "called solved within errors that it does not keep, or without a solution where there "
                 "is one"},
                {"worst residual", "of what is called solved, over rationals"}});
   for (const RungSum& sum : sums) {

@@ -209,14 +209,15 @@ std::vector<HtmlCell> TrustCells(const Tally& tally) {
 }
 
 Html TrustTable(const Record& total) {
-  Table table("Suspicions, audits and wrong answers per generator",
-              {{"generator", "", false},
-               {"runs"},
-               {"suspicious", "not solved, or with a wrong answer; below: per million"},
-               {"refuted", "the exact run of a suspicious problem is solved; below: share of the suspicious"},
-               {"audited", "run again exactly without a suspicion, as a sample"},
-               {"misjudged", "audited with another exact outcome"},
-               {"wrong answers", "called solved with a natural residual above 1e-6; below: per million"}});
+  Table table(
+      "Suspicions, audits and wrong answers per generator",
+      {{"generator", "", false},
+       {"runs"},
+       {"suspicious", "not solved, or with a wrong answer; below: per million"},
+       {"refuted", "the exact run of a suspicious problem is solved; below: share of the suspicious"},
+       {"audited", "run again exactly without a suspicion, as a sample"},
+       {"misjudged", "audited with another exact outcome"},
+       {"wrong answers", "called solved with an error above the bound of the gate; below: per million"}});
   for (const auto& [generator, tally] : MergedBy(total, ByGenerator)) {
     table.AddRow(Joined({{Text(generator)}}, TrustCells(tally)));
   }
@@ -327,20 +328,21 @@ Html StepsSection(const Record& total) {
 }
 
 Html DoublesSection(const Record& total) {
-  return Section("doubles", "How often doubles lie",
-                 Html("<p>A run in doubles is suspicious if it does not end in a solution, or if its solution "
-                      "has a natural residual above 1e-6. Every suspicious problem is run again in exact "
-                      "rational arithmetic, and so is a sample of the others. Where a generator rounds its "
-                      "problems to doubles, the exact run is that of the problem before rounding. Rows: "
-                      "how the suspicious runs ended in doubles; columns: how they end exactly.</p>\n") +
-                     FigurePlace("doubles",
-                                 "Suspicious runs by what doubles said, and what exact arithmetic says of "
-                                 "them.") +
-                     VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") +
-                     FigurePlace("trust",
-                                 "Share of the audited runs that doubles misjudged, and of all runs that "
-                                 "ended in a wrong answer; lines: exact intervals at 95 %.") +
-                     TrustTable(total));
+  return Section(
+      "doubles", "How often doubles lie",
+      Html("<p>A run in doubles is suspicious if it does not end in a solution, or if its solution "
+           "has an error above the bound of the gate. Every suspicious problem is run again in exact "
+           "rational arithmetic, and so is a sample of the others. Where a generator rounds its "
+           "problems to doubles, the exact run is that of the problem before rounding. Rows: "
+           "how the suspicious runs ended in doubles; columns: how they end exactly.</p>\n") +
+          FigurePlace("doubles",
+                      "Suspicious runs by what doubles said, and what exact arithmetic says of "
+                      "them.") +
+          VerdictTable(AllOf(total)) + Html("<h3>By generator</h3>\n") +
+          FigurePlace("trust",
+                      "Share of the audited runs that doubles misjudged, and of all runs that "
+                      "ended in a wrong answer; lines: exact intervals at 95 %.") +
+          TrustTable(total));
 }
 
 }  // namespace stiction

@@ -53,8 +53,8 @@ class Batch {
   Verdict VerdictOf(int i) const;
   bool IsLeft(int i) const { return block_.ends[i].is_left; }
   std::span<const double, kBatchRows> Forces(int i) const { return block_.f[i]; }
-  // NaturalResidual of the forces, with accelerations computed anew.
-  double Residual(int i) const { return block_.residual[i]; }
+  // The largest of MeasureErrors (solver/problem/errors.h), with accelerations computed anew.
+  double Error(int i) const { return block_.error[i]; }
 
  private:
   const LaneCode* code_;

@@ -31,7 +31,7 @@ struct Block {
   std::int32_t columns[kBlockRoom];
   LaneEnd ends[kBlockProblems];
   double f[kBlockProblems][4];
-  double residual[kBlockProblems];  // natural, with accelerations computed anew
+  double error[kBlockProblems];  // the largest, with accelerations computed anew
 };
 
 // Of Scale, before they are multiplied by the numbers of a problem.

@@ -9,6 +9,8 @@
 // (solver/published/readings.md, 6). Lanes that give up, drive a variable that has a set, or drive a force to
 // zero are left.
 
+#include <limits>
+
 #include "search/batch/lanes.h"
 #include "solver/problem/index_sets.h"
 
@@ -49,7 +51,7 @@ class LaneRuns {
   // ---- Lanes take problems and give them back ----
 
   void Retire(unsigned free) {
-    MeasureResidual();
+    MeasureError();
     for (int lane = 0; lane < kLanes; ++lane) {
       const int i = number_[lane];
       if ((free >> lane & 1u) == 0 || i < 0) continue;
@@ -58,7 +60,7 @@ class LaneRuns {
       block_.ends[i] = {is_left_[lane] != 0, count(drives_),           count(steps_),
                         count(zero_steps_),  count(longest_zero_run_), count(singular_directions_)};
       for (int row = 0; row < 4; ++row) block_.f[i][row] = f_[row][lane];
-      block_.residual[i] = residual_[lane];
+      block_.error[i] = error_[lane];
     }
   }
 
@@ -413,31 +415,76 @@ class LaneRuns {
     driving_ &= ~ends;
   }
 
-  // ---- MeasureResidual of solver/problem/residual.h, of f alone ----
+  // ---- MeasureErrors of solver/problem/errors.h, of f alone ----
 
-  void MeasureResidual() {
-    Real a[4];
+  void MeasureError() {
+    Real a[4], sum[4], size[4], unit[4], force_unit[4];
     for (int i = 0; i < 4; ++i) {
       a[i] = b_[i];
       for (int j = 0; j < 4; ++j) a[i] += A_[i][j] * f_[j];
+      sum[i] = size[i] = All(0);
     }
-    Real max_A = All(0), max_b = All(0), max_f = All(0);
+    for (int j = 0; j < 4; ++j) {
+      const Real own = Abs(A_[j][j]), asked = Select(own > 0, Abs(b_[j]) / own, All(0));
+      const Real counts = Max(Abs(f_[j]), asked);
+      for (int i = 0; i < 4; ++i) {
+        sum[i] += Abs(A_[i][j]) * counts;
+        size[i] += Abs(A_[i][j]) * Abs(f_[j]);
+      }
+    }
+    Mask coupled = Never();
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 2; j < 4; ++j) coupled |= (A_[i][j] != 0) | (A_[j][i] != 0);
+    }
+    const Real one = LeastWork(a, size, 0, 2), other = LeastWork(a, size, 2, 4),
+               both = LeastWork(a, size, 0, 4);
     for (int i = 0; i < 4; ++i) {
-      max_A = Max(max_A, A_[i][i]);
-      max_b = Max(max_b, Abs(b_[i]));
-      max_f = Max(max_f, Abs(f_[i]));
+      const Real own = Abs(A_[i][i]), work = Select(coupled, both, i < 2 ? one : other);
+      unit[i] = Abs(b_[i]) + Min(sum[i], Root(own * work));
+      force_unit[i] = Select(own > 0, unit[i] / own, All(0));
     }
-    const Real r = Select(max_A > 0, 1 / max_A, All(1));
-    const Real scale = Max(max_f, max_b * r);
-    Real worst = All(0);
-    for (int contact = 0; contact < 2; ++contact) {
-      const int normal = 2 * contact, friction = normal + 1;
-      worst = Max(worst, Abs(Min(f_[normal], r * a[normal])));
-      const Real bound = mu_[contact] * Max(All(0), f_[normal]);
-      const Real least = f_[friction] - bound, most = f_[friction] + bound;
-      worst = Max(worst, Abs(Min(most, Max(least, r * a[friction]))));
+    const Real first = ErrorOfContact(0, a, unit, force_unit), second = ErrorOfContact(1, a, unit, force_unit);
+    error_ = Max(Max(All(0), first), second);
+  }
+
+  Real LeastWork(const Real (&a)[4], const Real (&size)[4], int from, int to) const {
+    const Real rounding = All(4 * 6 * std::numeric_limits<double>::epsilon() / 2);
+    Real done = All(0), free = All(0), error = All(0);
+    for (int i = from; i < to; ++i) {
+      done += f_[i] * (a[i] - b_[i]);
+      free += f_[i] * b_[i];
+      error += rounding * Abs(f_[i]) * (size[i] + Abs(b_[i]));
     }
-    residual_ = Select(scale > 0, worst / scale, worst);
+    return Max(All(0), Min(Abs(done), Abs(free)) - error);
+  }
+
+  Real ErrorOfContact(int contact, const Real (&a)[4], const Real (&unit)[4],
+                      const Real (&force_unit)[4]) const {
+    const int n = 2 * contact, t = n + 1;
+    const Real zero = All(0), speed = Abs(a[t]);
+    const Real limit = Select(f_[n] > 0, mu_[contact] * f_[n], zero);
+    const Real wide = Select(force_unit[n] > 0, mu_[contact] * force_unit[n], zero);
+    const Real friction_unit = Max(force_unit[t], wide);
+    Real open = InUnits(Max(zero, -a[n]), unit[n]);
+    open = Max(open, InUnits(Abs(f_[n]), force_unit[n]));
+    open = Max(open, InUnits(Abs(f_[t]), force_unit[t]));
+    Real closed = InUnits(Abs(a[n]), unit[n]);
+    closed = Max(closed, InUnits(Max(zero, -f_[n]), force_unit[n]));
+    const Real sticks = Max(InUnits(speed, unit[t]), InUnits(Max(zero, Abs(f_[t]) - limit), friction_unit));
+    const Real slips =
+        Select(speed > 0, InUnits(Abs(f_[t] + limit * (a[t] / speed)), friction_unit), Infinite());
+    return Min(open, Max(closed, Min(sticks, slips)));
+  }
+
+  static Real Infinite() { return All(0) + std::numeric_limits<double>::infinity(); }
+  static Real InUnits(Real x, Real unit) {
+    const Real quotient = Select((unit > 0) & (x < Infinite()), x / unit, Infinite());
+    return Select(x == 0, All(0), quotient);
+  }
+  static Real Root(Real x) {
+    Real root;
+    for (int lane = 0; lane < kLanes; ++lane) root[lane] = __builtin_sqrt(x[lane]);
+    return root;
   }
 
   Block& block_;
@@ -460,7 +507,7 @@ class LaneRuns {
   // Of one step.
   Mask is_driven_[4], unknown_[4], at_upper_[2], at_lower_[2], is_limiting_[4];
   Real df_[4], da_[4], s_ = {}, wants_ = {};
-  Real residual_;
+  Real error_;
 };
 
 }  // namespace

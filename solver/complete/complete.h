@@ -56,8 +56,8 @@
 namespace stiction {
 
 // limits.pivots bounds the pieces, limits.stop ends a run; the other limits are not read: the cells bound the
-// stages, and Cramer's rule the bits. `residual` is the largest natural residual of an inexact answer that is
-// called solved.
+// stages, and Cramer's rule the bits. `residual` is the largest error (problem/errors.h) of an inexact answer
+// that is called solved.
 struct CompleteOptions {
   Tolerances tolerances;
   Limits limits;

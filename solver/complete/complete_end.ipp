@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "solver/complete/complete.h"
-#include "solver/complete/polygon_residual.h"
+#include "solver/complete/polygon_errors.h"
 #include "solver/problem/check.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 
@@ -53,7 +53,9 @@ void CompleteDriving<Scalar, Rows>::ComputeAccelerations() {
 
 template <class Scalar, int Rows>
 Scalar CompleteDriving<Scalar, Rows>::Residual() const {
-  return InSpace() ? PolygonResidual(*problem_, *polygons_, f_, a_) : NaturalResidual(*problem_, f_, a_);
+  return (InSpace() ? PolygonErrors(*problem_, *polygons_, f_, a_)
+                    : MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_))
+      .Largest();
 }
 
 // ---- The trace -------------------------------------------------------------------------------

@@ -43,7 +43,7 @@
 // Names        of contact 1, in the trace: fN1, f+1, f-1, l1 with aN1, a+1, a-1, m1; in space beta_k is f0.1,
 //              f1.1, ... with a0.1, a1.1, ...; and z0.
 // Exactness    only + - * / and signs. Over inexact scalars signs are relative to the column (option
-//              `pivot`), equal quotients to the option `force`. An answer whose natural residual exceeds the
+//              `pivot`), equal quotients to the option `force`. An answer whose errors exceed the
 //              option `loop_grain` is `undecided`; so is a ray unless its forces show A ray = 0, b'ray < 0.
 //              Over enclosures (problem/enclosure.h) the variables that are multiples of z0 by the rows of
 //              their contact end with it, which no ends of intervals could tell; and the tableau is computed

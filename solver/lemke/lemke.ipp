@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/polygon_residual.h"
+#include "solver/complete/polygon_errors.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/check.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 
@@ -410,8 +410,8 @@ void LemkeAlgorithm<Scalar, Rows>::Eliminate(int row) {
   }
 }
 
-// By minors: the denominator, |det B|, divides every product of the rule of three (Edmonds 1967, Bareiss 1968). Only z0
-// comes in on a negative pivot.
+// By minors: the denominator, |det B|, divides every product of the rule of three (Edmonds 1967, Bareiss 1968).
+// Only z0 comes in on a negative pivot.
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::EliminateIntegers(int row) {
   if constexpr (kFractionFree<Scalar>) {  // over other scalars nothing calls it
@@ -522,11 +522,10 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeRay(int entering) {
 template <class Scalar, int Rows>
 Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
-    const Scalar residual = polygons_ == nullptr ? NaturalResidual(*problem_, f_, a_)
-                                                 : PolygonResidual(*problem_, *polygons_, f_, a_);
-    // Written so that a residual that is no number is refused.
-    if (!(residual <= residual_tolerance_)) {
-      verdict_.reason = "residual of the answer";
+    const Errors<Scalar> errors = polygons_ == nullptr ? MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_)
+                                                       : PolygonErrors(*problem_, *polygons_, f_, a_);
+    if (errors.Largest() > residual_tolerance_) {
+      verdict_.reason = "errors of the answer";
       return Outcome::kUndecided;
     }
   }

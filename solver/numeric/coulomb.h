@@ -20,7 +20,7 @@
 // = 0; then the solutions of complete driving on polygons of more and more sides, which exist wherever A is
 // semidefinite and b in range(A). A need not be symmetric.
 //
-// Over floating-point scalars only. `solved` means a measured natural residual (CoulombResidual) of at most
+// Over floating-point scalars only. `solved` means measured errors (problem/errors.h) of at most
 // CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
 // Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
 // Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
@@ -37,6 +37,7 @@
 #include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"
 #include "solver/problem/sparse_problem.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 
@@ -48,11 +49,12 @@ enum class CoulombStart : std::uint8_t {
 struct CoulombOptions {
   Tolerances tolerances;  // of complete driving
   Limits limits;
-  double residual = 1e-8;  // relative; see CoulombResidual
+  double residual = 1e-8;  // largest error of an answer that is called solved
   CoulombStart start = CoulombStart::kSweeps;
   int sides = 8;          // of the first polygon; 2, 4 and 8 times as many follow; 0: none
   int sweeps = 20;        // the first time; then four times as many each time
   int newton_steps = 60;  // at a time
+  std::int64_t most_newton_steps = std::int64_t{1} << 40;  // in all
 
   bool operator==(const CoulombOptions&) const = default;
 };
@@ -142,6 +144,7 @@ class CoulombSolver {
   Matrix regular_;
   Vector f_, a_;
   Vector best_f_, best_a_;
+  Units<Scalar> units_;
   Scalar best_ = Scalar(0);
   CoulombStatistics statistics_;
 };

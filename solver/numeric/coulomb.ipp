@@ -13,7 +13,7 @@
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/one_contact.h"
 #include "solver/numeric/smooth_law.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 
@@ -65,7 +65,7 @@ void CoulombSolver<Scalar, ProblemType>::Start(const Problem& problem) {
   f_ = Vector::Zero(problem.rows());
   best_f_ = f_;
   best_a_ = problem.b;
-  best_ = CoulombResidual(problem, best_f_, best_a_);
+  best_ = MeasureErrors(problem, FrictionLaw::kCoulomb, best_f_, best_a_, units_, Scalar(0)).Largest();
 }
 
 template <class Scalar, class ProblemType>
@@ -75,7 +75,7 @@ bool CoulombSolver<Scalar, ProblemType>::Reached() const {
 
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::Done() const {
-  return Reached() || options_.limits.Stopped();
+  return Reached() || options_.limits.Stopped() || statistics_.newton_steps >= options_.most_newton_steps;
 }
 
 template <class Scalar, class ProblemType>
@@ -163,7 +163,7 @@ auto CoulombSolver<Scalar, ProblemType>::ForceOf(int i) const -> Triple {
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Note() {
   const Vector a = problem_->A * f_ + problem_->b;
-  const Scalar residual = CoulombResidual(*problem_, f_, a);
+  const Scalar residual = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a, units_, Scalar(0)).Largest();
   if (!(residual < best_)) return;
   best_ = residual;
   best_f_ = f_;
@@ -195,7 +195,7 @@ bool CoulombSolver<Scalar, ProblemType>::Newton() {
   int idle = 0;
   for (int step = 0; step < options_.newton_steps && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
     if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
-    if (options_.limits.Stopped()) return false;
+    if (options_.limits.Stopped() || statistics_.newton_steps >= options_.most_newton_steps) return false;
     ++statistics_.newton_steps;
     for (std::size_t i = 0; i < r_.size(); ++i) slopes[i] = SlopeOf(static_cast<int>(i));
     const auto improves = [&] {

@@ -16,11 +16,11 @@
 //   resweep   with friction, where exchanging has not ended: more sweeps, and again
 //   complete  complete driving, for the kinds that it is built for
 //
-// Whatever is found is called solved only if the natural residual of (f, A f + b), computed from f alone, is
-// at most `residual`; otherwise the outcome is `undecided`. How the cells were found is of no account.
-// Shapes      f, a: rows x 1. Units: f in N, a in m/s^2.
-// Cost        a factorization of the free rows per exchange; typically 1 to 5 of them.
-// Source      exchange: J. J. Judice, F. M. Pires, Computers and Operations Research 21, 1994, 587-596; active:
+// Whatever is found is called solved only if the errors of (f, A f + b), computed from f alone, are at most
+// `residual` (problem/errors.h); otherwise the outcome is `undecided`. How the cells were found is of no
+// account. Shapes      f, a: rows x 1. Units: f in N, a in m/s^2. Cost        a factorization of the free rows
+// per exchange; typically 1 to 5 of them. Source      exchange: J. J. Judice, F. M. Pires, Computers and
+// Operations Research 21, 1994, 587-596; active:
 //             C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23.
 
 #ifndef STICTION_SOLVER_NUMERIC_FAST_H_
@@ -35,13 +35,14 @@
 
 #include "solver/complete/complete.h"
 #include "solver/linear/dense_factor.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 
 struct FastOptions {
   Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
   Limits limits;           // of complete driving; limits.pivots bounds `active` too
-  double residual = 1e-8;  // largest natural residual of an answer that is called solved
+  double residual = 1e-8;  // largest error of an answer that is called solved
 
   bool operator==(const FastOptions&) const = default;
 };
@@ -158,6 +159,7 @@ class FastSolver {
   std::vector<Scalar> u_;      // forces of the unknowns
   bool symmetric_ = false, dropped_ = false;
   DenseFactor<Scalar> factor_;
+  Units<Scalar> units_;
 
   CompleteDriving<Scalar> driving_;
 };

@@ -10,7 +10,7 @@
 
 #include "solver/complete/complete.ipp"
 #include "solver/numeric/fast.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published.h"
 
 namespace stiction {
@@ -148,15 +148,15 @@ std::string FastSolver<Scalar>::Word() const {
   return word;
 }
 
-// The residual of f alone: a is A f + b already, unless a force had to be moved. All of A enters, so that one
+// The errors of f alone: a is A f + b already, unless a force had to be moved. All of A enters, so that one
 // number that is not finite spoils the answer.
 template <class Scalar>
 bool FastSolver<Scalar>::Verify() {
   if (Project()) SetAccelerations();
   const Scalar spoiled = (problem_->A.array() - problem_->A.array()).sum();
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-  const Residual<Scalar> residual = MeasureResidual(*problem_, f_, a_);
-  return residual.worst + spoiled <= std::max(Scalar(options_.residual), least) * residual.scale;
+  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_, units_, Scalar(0));
+  return errors.Largest() + spoiled <= std::max(Scalar(options_.residual), least);
 }
 
 // Up to `tolerance`: an A from which bilateral rows were eliminated is symmetric but for rounding.

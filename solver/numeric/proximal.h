@@ -5,15 +5,14 @@
 //              Where A is positive semidefinite its matrix is positive definite. Its solution is the next f.
 //              eps is halved as long as that works, and grows where it does not. At a fixed point f the
 //              problem itself is solved, whatever eps is.
-//   Newton     every contact's cell is read from f - inv(D) a, as in the natural residual; the cells give a
+//   Newton     every contact's cell is read from f - inv(D) a, as in a natural residual; the cells give a
 //              linear system in the forces that they leave free, whose solution gives the next cells: a
 //              semismooth Newton method, or block pivoting.
 //
-// For contacts of any kind. What is found is called solved only if its natural residual relative to b, computed
-// from f alone, is at most `residual`; otherwise the outcome is `undecided`. Where there is no solution, forces
-// grow without end.
-// Shapes      f, a: rows x 1. Units: f in N, a in m/s^2.
-// Requires    nothing of A and b. Without friction and with A semidefinite, proximal points converge (R. T.
+// For contacts of any kind. What is found is called solved only if its errors (problem/errors.h), computed
+// from f alone, are at most `residual`; otherwise the outcome is `undecided`. Where there is no solution,
+// forces grow without end. Shapes      f, a: rows x 1. Units: f in N, a in m/s^2. Requires    nothing of A and
+// b. Without friction and with A semidefinite, proximal points converge (R. T.
 //             Rockafellar, SIAM Journal on Control and Optimization 14, 1976); with friction there is no such
 //             theorem.
 // Cost        one sparse LU factorization of the free rows per step of Newton's method.
@@ -26,13 +25,13 @@
 #include <vector>
 
 #include "solver/complete/complete.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/problem/sparse_problem.h"
 
 namespace stiction {
 
 struct ProximalOptions {
-  double residual = 1e-8;  // largest natural residual of an answer that is called solved, relative to b
+  double residual = 1e-8;  // largest error of an answer that is called solved
   double aim = 1e-8;       // residual at which it ends; between the two it ends when points gain nothing
   double first_eps = 0.1;
   int points = 200;    // proximal problems tried
@@ -64,7 +63,7 @@ class ProximalNewton {
   const Vector& a() const { return best_a_; }
 
  private:
-  static inline const Scalar kSettled = Scalar(1e-12);  // natural residual of a proximal problem
+  static inline const Scalar kSettled = Scalar(1e-12);  // error of a proximal problem
 
   void Start(const Problem& problem);
   Scalar Measured() const;

@@ -17,7 +17,7 @@ template <class Scalar>
 ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
   Start(problem);
   const Scalar kHopeless(1e6);  // so large an eps keeps f where it is
-  constexpr int kIdle = 4;          // points that gain nothing before a solution is good enough
+  constexpr int kIdle = 4;      // points that gain nothing before a solution is good enough
   Scalar eps(options_.first_eps), best = Measured();
   int idle = 0;
   while (!(best <= Scalar(options_.aim))) {
@@ -52,12 +52,11 @@ ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
   return verdict_;
 }
 
-// Of f_, relative to b, with the rounding of A f.
+// The largest error of f_, with the rounding of A f.
 template <class Scalar>
 Scalar ProximalNewton<Scalar>::Measured() const {
-  const Residual<Scalar> residual = MeasureResidual(*problem_, f_, a_);
-  const Scalar worst = residual.worst + std::numeric_limits<Scalar>::epsilon() * residual.scale;
-  return residual.b_scale > 0 ? Scalar(worst / residual.b_scale) : worst;
+  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_);
+  return errors.Largest() + std::numeric_limits<Scalar>::epsilon() * errors.amplification;
 }
 
 template <class Scalar>
@@ -99,12 +98,15 @@ template <class Scalar>
 bool ProximalNewton<Scalar>::Settle() {
   trial_ = f_;
   trial_a_ = proximal_.A * trial_ + proximal_.b;
+  std::vector<Cell> before;
   for (int step = 0; step < options_.newton; ++step) {
+    before = cells_;
     TakeCells();
+    if (step > 0 && cells_ == before) return true;  // their equations are solved already
     ListUnknowns();
     if (!SolveCells()) return false;
     trial_a_ = proximal_.A * trial_ + proximal_.b;
-    if (NaturalResidual(proximal_, trial_, trial_a_) <= kSettled) return true;
+    if (MeasureErrors(proximal_, FrictionLaw::kCoulomb, trial_, trial_a_).Largest() <= kSettled) return true;
   }
   return false;
 }

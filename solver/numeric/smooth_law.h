@@ -10,8 +10,8 @@
 //            the cone abs(zF) <= zN, which is  (p(z+) + p(z-)) / 2,  (p(z+) - p(z-)) / 2 zF / abs(zF)  with
 //            z+- = zN +- abs(zF)
 //
-// x in the cone, y in the cone and x.y = 0 is Coulomb's law (De Saxce's change of variables, residual.h). Where
-// a contact sticks, the smoothed law keeps its force away from the bounds of friction.
+// x in the cone, y in the cone and x.y = 0 is Coulomb's law (De Saxce's change of variables, cited from
+// memory). Where a contact sticks, the smoothed law keeps its force away from the bounds of friction.
 //
 // Units: r kg, m N, e m/s^2. Floating-point scalars.
 

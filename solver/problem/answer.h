@@ -6,10 +6,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "solver/problem/errors.h"
+#include "solver/problem/law.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/solution.h"
 
@@ -38,13 +41,6 @@ template <>
 inline constexpr Arithmetic kArithmeticOf<double> = Arithmetic::kDouble;
 template <>
 inline constexpr Arithmetic kArithmeticOf<long double> = Arithmetic::kLongDouble;
-
-// Friction in space. kBaraff: (21), (22), which leave the direction of slip free. kCoulomb: friction opposite
-// to the acceleration, which implies them. In the plane they are the same.
-enum class FrictionLaw : std::uint8_t { kBaraff, kCoulomb };
-inline constexpr std::string_view Name(FrictionLaw law) {
-  return law == FrictionLaw::kBaraff ? "baraff" : "coulomb";
-}
 
 // A counter of a method by the name that its table of statistics gives it.
 struct Counter {
@@ -85,14 +81,16 @@ struct Answer {
   Arithmetic arithmetic = kArithmeticOf<Scalar>;
   FrictionLaw law = FrictionLaw::kBaraff;  // that f is meant to obey
   Vector f, a;                             // where the run ended; a = A f + b
-  Vector ray;            // the direction of a step without limit; impulsive where contacts slide (6)
-  Vector first_f;        // before the first step: zero but for bilateral contacts
-  double residual = -1;  // of f, by the law that the answer is for; -1: not measured
-  std::string bound;     // exact, Coulomb's law in space: proved cosine of fF and -aF, a fraction
-  std::string word;      // the cell of every contact
+  Vector ray;      // the direction of a step without limit; impulsive where contacts slide (6)
+  Vector first_f;  // before the first step: zero but for bilateral contacts
+  std::optional<Errors<double>> errors;  // of f, by the law that the answer is for; not of exact answers
+  std::string bound;  // exact, Coulomb's law in space: proved cosine of fF and -aF, a fraction
+  std::string word;   // the cell of every contact
   std::vector<Counter> counters;
 
   bool Solved() const { return outcome == Outcome::kSolved; }
+  // The largest error; -1: not measured.
+  double residual() const { return errors ? errors->Largest() : -1; }
 };
 
 }  // namespace stiction

@@ -60,6 +60,28 @@ Scalar Abs(const Scalar& x) {
   }
 }
 
+// The square root; over rationals, where it is specialised, rounded down.
+template <class Scalar>
+struct SquareRoot {
+  static Scalar Of(const Scalar& x) {
+    using std::sqrt;
+    return sqrt(x);
+  }
+};
+
+// sqrt(x^2 + y^2), as exact as the root.
+template <class Scalar>
+Scalar Length(const Scalar& x, const Scalar& y) {
+  if (y == 0) return Abs(x);
+  if (x == 0) return Abs(y);
+  if constexpr (kIsExact<Scalar>) {
+    return SquareRoot<Scalar>::Of(Scalar(x * x + y * y));
+  } else {
+    using std::hypot;
+    return hypot(x, y);
+  }
+}
+
 // Longest numerator or denominator of an exact scalar, in bits; specialised beside the scalar.
 template <class Scalar>
 struct BitLength {

@@ -222,7 +222,7 @@ TEST_CASE("solve: forces that are none do not pass the gate") {
 
 TEST_CASE("solve: a bound that is asked for is met or nothing is called solved") {
   const ContactProblem<double> problem = Rounded<double>(MakeProblem({1}, {{2, 1}, {1, 3}}, {-1, 1}));
-  CHECK(Solve(problem, "complete", {.residual = 1e-12}).residual <= 1e-12);
+  CHECK(Solve(problem, "complete", {.residual = 1e-12}).residual() <= 1e-12);
   CHECK(Solve(problem, "complete", {.residual = 1e-30}).outcome == Outcome::kUndecided);
 }
 

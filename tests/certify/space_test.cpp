@@ -9,9 +9,10 @@
 #include "certify/exact.h"
 #include "certify/existence.h"
 #include "certify/lemke_space.h"
+#include "certify/no_solution.h"
 #include "certify/verify_solution.h"
-#include "solver/complete/polygon_residual.h"
-#include "solver/problem/residual.h"
+#include "solver/complete/polygon_errors.h"
+#include "solver/problem/errors.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -97,40 +98,6 @@ TEST_CASE("coulomb bound: rounded down, to eight digits of its distance from one
   CHECK(!CoulombBound(problem, Vector({0, 0, 0})));
 }
 
-TEST_CASE("coulomb residual bound: above the residual of doubles by rounding only") {
-  for (int index = 0; index < 100; ++index) {
-    CAPTURE(index);
-    Choices choices(100 + index);
-    const ExactProblem problem = RandomInSpace(1 + index % 4, index);
-    ContactProblem<double> rounded;
-    rounded.dimension = 3;
-    for (const auto& contact : problem.contacts)
-      rounded.contacts.push_back({contact.kind, ToDouble(contact.mu), {}});
-    rounded.A = problem.A.unaryExpr(&ToDouble);
-    rounded.b = problem.b.unaryExpr(&ToDouble);
-    ExactVector f(problem.rows());
-    for (Rational& x : f) x = Rational(choices.Integer(-50, 50), 64);
-    const Eigen::VectorXd near = f.unaryExpr(&ToDouble);
-    const double residual = CoulombResidual(rounded, near, Eigen::VectorXd(rounded.A * near + rounded.b));
-    CHECK(ToDouble(CoulombResidualBound(problem, f)) == Approx(residual).epsilon(1e-9));
-  }
-}
-
-TEST_CASE("coulomb residual bound: proves what is below the rounding of doubles") {
-  // fF = -mu fN aF / abs(aF) with a rational direction: a solution, exactly.
-  const ExactProblem slips = OneContact(Rational(1, 2), {-1, 3, 4});
-  const Rational zero = CoulombResidualBound(slips, Vector({1, Rational(-3, 10), Rational(-2, 5)}));
-  CHECK(zero >= 0);
-  CHECK(zero < Rational(1, 1) / Rational("1000000000000000000000000000"));
-  const Rational tiny("1/100000000000000000000");
-  const Rational bound = CoulombResidualBound(slips, Vector({1, Rational(-3, 10) + tiny, Rational(-2, 5)}));
-  CHECK(bound > tiny / 8);
-  CHECK(bound < tiny);
-  // A solution without a rational length: slip along (1, 1).
-  const ExactProblem diagonal = OneContact(1, {-1, 5, 5});
-  CHECK(CoulombResidualBound(diagonal, Vector({1, Rational(-7, 10), Rational(-7, 10)})) > Rational(1, 1000));
-}
-
 TEST_CASE("space: every problem in range is certified, under either law") {
   int refined = 0, edges = 0;
   for (int index = 0; index < 150; ++index) {
@@ -181,11 +148,11 @@ TEST_CASE("lemke in space: the law on polygons, exactly") {
       const RationalPolygons polygons(problem.contacts.size(), FrictionPolygon<Rational>(sides));
       LemkeAlgorithm<Rational> lemke;
       REQUIRE(lemke.Run(problem, polygons).outcome == Outcome::kSolved);
-      CHECK(PolygonResidual(problem, polygons, lemke.f(), lemke.a()) == 0);
+      CHECK(PolygonErrorOf(problem, polygons, lemke.f(), lemke.a()) == 0);
       CHECK(lemke.a() == Accelerations(problem, lemke.f()));
       if (problem.contacts.size() == 1) {
         const SpaceRun driven = RunSpace(problem, polygons, Limits{});
-        CHECK(PolygonResidual(problem, polygons, driven.f, driven.a) == 0);
+        CHECK(PolygonErrorOf(problem, polygons, driven.f, driven.a) == 0);
       }
     }
   }
@@ -195,7 +162,7 @@ TEST_CASE("lemke in space: what solves the law on polygons, and what does not") 
   const ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
   const RationalPolygons polygons(1, FrictionPolygon<Rational>(4));
   const auto residual = [&](std::vector<Rational> f) {
-    return PolygonResidual(problem, polygons, Vector(f), Accelerations(problem, Vector(f)));
+    return PolygonErrorOf(problem, polygons, Vector(f), Accelerations(problem, Vector(f)));
   };
   CHECK(residual({1, 0, Rational(-1, 2)}) == 0);
   CHECK(residual({1, Rational(-1, 2), 0}) > 0);
@@ -224,7 +191,7 @@ TEST_CASE("lemke in space: over doubles an answer is right or undecided") {
     const Verdict verdict = lemke.Run(problem, polygons);
     if (verdict.outcome != Outcome::kSolved) continue;
     ++solved;
-    CHECK(PolygonResidual(problem, polygons, lemke.f(), lemke.a()) <= 1e-9);
+    CHECK(PolygonErrorOf(problem, polygons, lemke.f(), lemke.a()) <= 1e-9);
   }
   CHECK(solved >= 80);
 }
@@ -286,7 +253,7 @@ TEST_CASE("space: Lemke's method with contacts of every kind") {
     const RationalPolygons polygons(3, FrictionPolygon<Rational>(8));
     const SpaceRun run = RunLemkeInSpace(problem, polygons, Limits{});
     REQUIRE(run.verdict.outcome == Outcome::kSolved);
-    CHECK(PolygonResidual(problem, polygons, run.f, run.a) == 0);
+    CHECK(PolygonErrorOf(problem, polygons, run.f, run.a) == 0);
   }
   CHECK(slides > 10);
 }
@@ -317,12 +284,105 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   SpaceOptions by_lemke;
   by_lemke.engine = SpaceEngine::kLemke;
   CHECK(SolveInSpace(wedge, by_lemke).outcome == Outcome::kRay);
+  // Touching, it has forces that pull its friction against its slip: nothing without directions refutes it.
+  CHECK(RefuteInSpace(wedge).end == EnumerationEnd::kOpen);
   CHECK(DecideExistence(wedge, {}).certificate.is_null());
   wedge.contacts[0].mu = Rational(1, 2);
   const SpaceSolution solved = SolveInSpace(wedge, {});
   REQUIRE(solved.outcome == Outcome::kSolved);
   CHECK(solved.f == Vector({2, 1, 0}));
   CHECK(!DecideExistence(wedge, {}).certificate.is_null());
+}
+
+TEST_CASE("space: that there is no solution is proved word by word, or not at all") {
+  // aN = fN - mu fF.u - 1 for the first contact, and of the second -1/2 while the first does not touch.
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}, {ContactKind::kStatic, Rational(1, 2), {}}};
+  problem.A = ExactMatrix::Zero(6, 6);
+  problem.A.row(0) = Vector({-5, 3, -4, 0, 0, 0}).transpose();
+  problem.b = Vector({-1, 0, 0, 1, 0, 0});
+  const Enumeration first = RefuteInSpace(problem);
+  REQUIRE(first.ProvesNoSolution());
+  CHECK(first.programs > 1);  // a polygon of eight sides does not do
+  CHECK(CheckCertificate(NoSolutionCertificate(problem, first), "here").accepted);
+  problem.A.row(0) = Vector({-4, 3, -4, 0, 0, 0}).transpose();  // and now f0 (5 - 4) = 1 has an answer
+  CHECK(RefuteInSpace(problem).end == EnumerationEnd::kOpen);
+
+  // Two words of four by one contact, the others by both.
+  problem.A = ExactMatrix::Zero(6, 6);
+  problem.A(0, 0) = problem.A(3, 0) = 1;
+  problem.A(3, 3) = -1;
+  problem.b = Vector({-1, 0, 0, -2, 0, 0});
+  const Enumeration words = RefuteInSpace(problem);
+  REQUIRE(words.ProvesNoSolution());
+  CHECK(words.refuted.size() > 1);
+  CHECK(CheckCertificate(NoSolutionCertificate(problem, words), "here").accepted);
+  for (const std::int64_t budget : {0, 1}) {
+    EnumerationOptions few;
+    few.programs = budget;
+    CHECK(RefuteInSpace(problem, few).end == EnumerationEnd::kLimit);
+  }
+  EnumerationOptions cancelled;
+  cancelled.progress = [](const EnumerationProgress&) { return false; };
+  CHECK(RefuteInSpace(problem, cancelled).end == EnumerationEnd::kCancelled);
+  CHECK_THROWS_AS(RefuteInSpace(ThreeSolutions()), InputError);
+}
+
+TEST_CASE("space: what is solved is not refuted, and what is refuted is proved") {
+  int refuted = 0;
+  for (int index = 0; index < Few(120); ++index) {
+    CAPTURE(index);
+    ExactProblem problem = RandomInSpace(1 + index % 3, index);
+    if (index % 4 == 1) {  // nothing moves the first contact up or down
+      problem.A.row(0).setZero();
+      problem.A.col(0).setZero();
+      problem.b[0] = index % 8 == 1 ? -1 : 1;
+    }
+    const Enumeration modes = RefuteInSpace(problem);
+    const Existence weak = DecideExistence(problem, {}),
+                    strict = DecideExistence(problem, {}, {}, FrictionLaw::kCoulomb);
+    for (const Json& certificate : {weak.certificate, strict.certificate}) {
+      if (certificate.is_null()) continue;
+      CHECK(CheckCertificate(certificate, "here").accepted);
+      CHECK((certificate["claim"] == "no-solution") == modes.ProvesNoSolution());
+    }
+    if (IsInRange(problem)) CHECK(strict.certificate["claim"] == "coulomb-solution");
+    refuted += modes.ProvesNoSolution();
+  }
+  CHECK(refuted >= Few(12));
+}
+
+// A contact that nothing can lift beside two that press: u has ones in normal rows and in some tangents.
+ExactProblem DeadNormal(const Rational& free) {
+  ExactProblem problem;
+  problem.dimension = 3;
+  problem.contacts.assign(3, {ContactKind::kStatic, 1, {}});
+  const ExactVector u = Vector({1, 0, 0, 1, 0, 1, 0, 1, 0});
+  problem.A = 2 * u * u.transpose();
+  problem.A(8, 8) = 2;
+  problem.b = Vector({-1, 0, Rational(1, 2), -1, 0, Rational(1, 3), free, Rational(1, 4), 0});
+  return problem;
+}
+
+TEST_CASE("space: a solution out of range(A) is found near doubles, where paths end in rays") {
+  CHECK(!IsInRange(DeadNormal(0)));
+  for (const FrictionLaw law : {FrictionLaw::kBaraff, FrictionLaw::kCoulomb}) {
+    const ExactProblem problem = DeadNormal(0);
+    SpaceOptions options;
+    options.law = law;
+    CHECK(SolveInSpace(problem, options).outcome == Outcome::kRay);
+    const SpaceSolution near = SolveNearFast(problem, options);
+    REQUIRE(near.outcome == Outcome::kSolved);
+    CHECK(!FindWeakViolation(problem, near.f));
+    CHECK(near.bound > 1 - Rational(1, 1 << 20));
+    const Existence existence = DecideExistence(problem, {}, {}, law);
+    CHECK(existence.method == "fast");
+    CHECK(existence.certificate["claim"] ==
+          (law == FrictionLaw::kCoulomb ? "coulomb-solution" : "solution-exists"));
+    CHECK(DecideExistence(DeadNormal(Rational(-1, 10)), {}, {}, law).certificate["claim"] == "no-solution");
+  }
+  CHECK(SolveNearFast(DeadNormal(Rational(-1, 10)), {}).outcome == Outcome::kUndecided);
 }
 
 TEST_CASE("space: altered certificates are rejected") {

@@ -134,7 +134,7 @@ class Formats(cli.TestCase):
         said = words(loop)
         self.assertIn("The problem meets the paper's assumptions: A is symmetric and semidefinite, b in its range.", said)
         self.assertIn("the published algorithm loops for ever (policy paper, exactly)", said)
-        self.assertIn("complete solves it over doubles, with a residual of ", said)
+        self.assertIn("complete solves it over doubles, with an error of ", said)
         rough = self.file("fc.dat", FRICTION)
         self.assertIn("The problem does not meet the paper's assumptions: A is not symmetric, A is not semidefinite.", words(rough))
         self.assertIn("With (A + A')/2 in place of A it ", words(rough))

@@ -65,7 +65,7 @@ class Solve(cli.TestCase):
             self.assertGreater(solved, 5)
 
     def test_a_suspicion_is_answered_with_exact_forces(self):
-        done = self.succeeds("solve", cli.ROOT / "corpus/wrong-in-doubles-2-contacts.json", "--method", "baraff",
+        done = self.succeeds("solve", cli.ROOT / "corpus/wrong-in-doubles-3-contacts.json", "--method", "baraff",
                              "--arithmetic", "double", "--json").json()
         self.assertEqual((done["outcome"], done["arithmetic"]), ("solved", "exact"))
         self.assertEqual(done["suspected"]["outcome"], "undecided")

@@ -132,17 +132,90 @@ class Space(cli.TestCase):
         for method in ("complete", "fast"):
             done = self.succeeds("solve", problem, "--method", method, "--arithmetic", "double", "--json", code=3)
             self.assertEqual(done.json()["outcome"], "undecided")
-        for claim in ("solution-exists", "coulomb-solution"):
+        for words in ((), ("--law", "baraff"), ("--claim", "solution-exists"), ("--claim", "coulomb-solution")):
             out = self.folder / "none.json"
-            self.succeeds("certify", problem, "-o", out, "--claim", claim, code=3)
+            self.succeeds("certify", problem, "-o", out, *words, code=3)
             self.assertFalse(out.exists())
+
+    def dead_normal(self, free, name="dead.json"):
+        """Nothing lifts the third contact, whose free acceleration is this; b is not in the range of A."""
+        u = [1, 0, 0, 1, 0, 1, 0, 1, 0]
+        A = [[str(2 * x * y + 2 * (i == j == 8)) for j, y in enumerate(u)] for i, x in enumerate(u)]
+        return self.file(name, {"format": "stiction-problem", "version": 1, "name": "dead-normal", "dimension": 3,
+                                "contacts": [{"kind": "static", "mu": "1"}] * 3, "A": A,
+                                "b": ["-1", "0", "1/2", "-1", "0", "1/3", free, "1/4", "0"]})
+
+    def test_a_contact_that_nothing_lifts(self):
+        out = self.folder / "c.json"
+        for law in ("baraff", "coulomb"):
+            done = self.succeeds("solve", self.dead_normal("0"), "--law", law, "--json").json()
+            self.assertEqual((done["outcome"], done["method"], done["law"]), ("solved", "fast", law))
+            ray = self.succeeds("solve", self.dead_normal("0"), "--law", law, "--method", "complete", "--json", code=1)
+            self.assertEqual(ray.json()["outcome"], "ray")
+            self.succeeds("certify", self.dead_normal("0"), "-o", out, "--law", law)
+            claim = "coulomb-solution" if law == "coulomb" else "solution-exists"
+            self.assertEqual(json.loads(out.read_text())["claim"], claim)
+            self.check(out, accepted=True)
+            done = self.succeeds("solve", self.dead_normal("-1/10"), "--law", law, "--json", code=1).json()
+            self.assertEqual((done["outcome"], done["method"]), ("no-solution", "enumerate"))
+            self.succeeds("certify", self.dead_normal("-1/10"), "-o", out, "--law", law)
+            self.assertEqual(json.loads(out.read_text())["claim"], "no-solution")
+            self.check(out, accepted=True)
+
+    def test_a_proof_that_there_is_no_solution_has_a_budget(self):
+        # a1 = f1 - 1, a2 = f1 - f2 - 2: each can be kept up, both as they must not
+        problem = self.file("p.json", {
+            "format": "stiction-problem", "version": 1, "dimension": 3, "name": "three-programs",
+            "contacts": [{"kind": "frictionless"}] * 2, "A": [["1", "0"], ["1", "-1"]], "b": ["-1", "-2"]})
+        done = self.succeeds("solve", problem, "--json", code=1).json()
+        self.assertEqual((done["outcome"], done["statistics"]), ("no-solution", {"prefixes": 3, "programs": 3}))
+        few = self.succeeds("solve", problem, "--method", "enumerate", "--max-pivots", 2, "--json", code=3).json()
+        self.assertEqual((few["outcome"], few["reason"]), ("limit", "programs"))
+
+    def test_the_hypothesis_on_b_is_decided(self):
+        out = self.folder / "h.json"
+        wedge = cli.ROOT / "corpus/space/no-solution-scripted-wedge.json"
+        self.succeeds("certify", wedge, "-o", out, "--claim", "h")
+        found = json.loads(out.read_text())
+        self.assertEqual((found["claim"], found["witness"]["v"], found["witness"]["value"]), ("not-h", ["1", "1", "0"], "-1"))
+        self.check(out, accepted=True)
+        steep = json.loads(wedge.read_text())
+        steep["contacts"][0]["mu"] = "99/100"
+        del steep["origin"]
+        self.succeeds("certify", self.file("steep.json", steep), "-o", out, "--claim", "h")
+        self.assertEqual(json.loads(out.read_text())["claim"], "h")
+        self.check(out, accepted=True)
+
+    def test_certify_asks_for_coulombs_law_unless_told(self):
+        out, problem = self.folder / "c.json", cli.ROOT / "corpus/space/three-sliding-contacts.json"
+        for words, claim in [((), "coulomb-solution"), (("--law", "coulomb"), "coulomb-solution"),
+                             (("--law", "baraff"), "solution-exists"), (("--claim", "solution-exists"), "solution-exists"),
+                             (("--claim", "existence"), "coulomb-solution")]:
+            self.succeeds("certify", problem, "-o", out, *words)
+            self.assertEqual(json.loads(out.read_text())["claim"], claim)
+            self.check(out, accepted=True)
+        self.refuses("certify", problem, "-o", out, "--law", "amontons", says="--law")
+
+    def test_of_several_solutions_the_one_at_rest(self):
+        pinched = cli.ROOT / "corpus/space/capsule-pinched.json"
+        for law in ("baraff", "coulomb"):
+            done = self.succeeds("solve", pinched, "--law", law, "--json").json()
+            f = [Fraction(x) for x in done["f"]]
+            self.assertEqual((done["outcome"], set(done["a"]), done["unique_accelerations"]), ("solved", {"0"}, False))
+            self.assertEqual(("bound" in done, done.get("bound", "1")), (law == "coulomb", "1"))
+            self.assertEqual((f[0] + f[3], f[6] + f[9]), (12, 12))
+            self.assertEqual(sum(f[2::3]), Fraction("0.44145"))
+            self.assertIn("another solution with other accelerations is known; this is the one at rest\n",
+                          self.succeeds("solve", pinched, "--law", law).out)
+            moving = self.succeeds("solve", pinched, "--law", law, "--method", "complete", "--json").json()
+            self.assertNotEqual(set(moving["a"]), {"0"})
+            self.assertNotIn("unique_accelerations", moving)
 
     def test_what_is_not_built_for_space_is_refused(self):
         problem = cli.ROOT / "corpus/space/three-sliding-contacts.json"
         out = self.folder / "c.json"
-        for method in ("enumerate", "ipopt"):
-            self.refuses("solve", problem, "--method", method, says=[method, "in space", "not built", "complete"])
-        self.refuses("solve", problem, "--method", "fast", "--arithmetic", "exact", says=["fast", "exact", "in space"])
+        self.refuses("solve", problem, "--method", "ipopt", says=["ipopt", "in space", "not built", "complete"])
+        self.refuses("solve", problem, "--method", "enumerate", "--arithmetic", "double", says=["enumerate", "in space"])
         self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
         self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
         self.refuses("certify", problem, "--all", says=["dimension", "3"])

@@ -213,19 +213,22 @@ TEST_CASE("judge: forces that are no solution are not called one") {
   }
 }
 
-TEST_CASE("judge: the weak residual is compared without a root") {
+TEST_CASE("judge: the paper's law in space") {
+  const auto holds = [](const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
+    return !FindMiss(problem, f, FrictionLaw::kBaraff, bound);
+  };
   ExactProblem problem = MakeProblem({1}, {{1, 0}, {0, 1}}, {-5, 0});
   problem.dimension = 3;
   problem.A = ExactMatrix::Identity(3, 3);
   problem.b = Vector({-5, -3, -4});
-  CHECK(IsWeakSolution(problem, Vector({5, 3, 4}), 0));   // sticks
-  CHECK(!IsWeakSolution(problem, Vector({5, 3, 3}), 0));  // slips inside of the cone
-  CHECK(IsWeakSolution(problem, Vector({5, 3, Number("3.9")}), Number("0.02")));
-  CHECK(!IsWeakSolution(problem, Vector({5, 3, Number("3.9")}), Number("0.01")));
+  CHECK(holds(problem, Vector({5, 3, 4}), 0));   // sticks
+  CHECK(!holds(problem, Vector({5, 3, 3}), 0));  // slips inside of the cone
+  CHECK(holds(problem, Vector({5, 3, Number("3.9")}), Number("0.02")));
+  CHECK(!holds(problem, Vector({5, 3, Number("3.9")}), Number("0.01")));
   problem.contacts[0].mu = Number("0.5");
-  CHECK(IsWeakSolution(problem, Vector({5, Number("1.5"), 2}), 0));     // slips, at the limit
-  CHECK(!IsWeakSolution(problem, Vector({5, Number("-1.5"), -2}), 0));  // pushes along
-  CHECK(!IsWeakSolution(problem, Vector({5, 3, 4}), Number("0.1")));    // out of the cone
+  CHECK(holds(problem, Vector({5, Number("1.5"), 2}), 0));     // slips, at the limit
+  CHECK(!holds(problem, Vector({5, Number("-1.5"), -2}), 0));  // pushes along
+  CHECK(!holds(problem, Vector({5, 3, 4}), Number("0.1")));    // out of the cone
 }
 
 TEST_CASE("claims: a false one is noticed, whatever the checker says of it") {

@@ -21,7 +21,7 @@
 #include "corpus/kinds.h"
 #include "search/signature.h"
 #include "search/unit.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -244,7 +244,7 @@ TEST_CASE("alarms: the residual that a wrong answer is told by is that of its fo
         Eigen::VectorXd moved(f.size());
         for (std::size_t i = 0; i < f.size(); ++i) moved[i] = f[i] *= 1 + error;
         const Eigen::VectorXd a = problem.A * moved + problem.b;
-        wrong = NaturalResidual(problem, moved, a) > 1e-6;
+        wrong = ErrorOf(problem, moved, a) > 1e-6;
       };
       CAPTURE(unit, error);
       const UnitResult result = UnitRunner(campaign, solvers).Run(unit);  // sets `wrong`

@@ -14,7 +14,7 @@
 
 #include "search/generators.ipp"
 #include "search/unit.h"
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
@@ -31,12 +31,12 @@ std::vector<InstructionSet> SetsOfLanes() {
 
 std::uint64_t BitsOf(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-double ResidualOfForces(const SmallProblem& problem, const SmallProblem::Vector& f) {
+double ErrorOfForces(const SmallProblem& problem, const SmallProblem::Vector& f) {
   SmallProblem::Vector a = problem.b;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) a[i] += problem.A(i, j) * f[j];
   }
-  return NaturalResidual(problem, f, a);
+  return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
 }
 
 struct LaneComparison {
@@ -50,7 +50,7 @@ bool EndsAlike(const Batch& batch, int i, const SmallProblem& problem, const Ver
               mine.statistics == verdict.statistics && mine.start == verdict.start &&
               mine.period == verdict.period && mine.reason == verdict.reason;
   for (int row = 0; row < 4; ++row) same &= BitsOf(batch.Forces(i)[row]) == BitsOf(f[row]);
-  return same && BitsOf(batch.Residual(i)) == BitsOf(ResidualOfForces(problem, f));
+  return same && BitsOf(batch.Error(i)) == BitsOf(ErrorOfForces(problem, f));
 }
 
 LaneComparison CompareLanes(InstructionSet set, const std::vector<SmallProblem>& problems) {

@@ -678,7 +678,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
       if (verdict.outcome != Outcome::kSolved) continue;
       ExactVector f(exact.rows());
       for (int i = 0; i < exact.rows(); ++i) f[i] = Rational(static_cast<double>(algorithm.f()[i]));
-      CHECK(NaturalResidual(exact, f, Accelerations(exact, f)) <= Rational(1, 1000000));
+      CHECK(ErrorOf(exact, f, Accelerations(exact, f)) <= Rational(1, 1000000));
     }
   }
   CHECK(counts[Outcome::kSolved] + counts[Outcome::kUndecided] == 300 * kOrdinaryGeneratorCount);

@@ -19,11 +19,11 @@ SparseProblem Sparse(const ExactProblem& problem) {
   return ToSparse(file);
 }
 
-// The natural residual of the doubles in which a run ended, evaluated over rationals.
+// The error of the doubles in which a run ended, evaluated over rationals.
 Rational ExactResidual(const SparseProblem& problem, const ProximalNewton<double>& method) {
   const SparseContactProblem<Rational> exact = OverRationals(problem);
   const ExactVector f = method.f().unaryExpr([](double x) { return Rational(x); });
-  return NaturalResidual(exact, f, ExactVector(exact.A * f + exact.b));
+  return ErrorOf(exact, f, ExactVector(exact.A * f + exact.b));
 }
 
 // `columns` discs of unit mass in a row of columns, `height` in each, between walls: a disc touches the one
@@ -89,7 +89,7 @@ TEST_CASE("proximal: problems of every generator are solved, or undecided, never
       if (method.Run(problem).outcome != Outcome::kSolved) continue;
       ++solved;
       const Eigen::VectorXd a = problem.A * method.f() + problem.b;
-      CHECK(NaturalResidual(problem, method.f(), a) <= 1e-8);
+      CHECK(ErrorOf(problem, method.f(), a) <= 1e-8);
     }
   }
   CHECK(solved > 0.9 * runs);

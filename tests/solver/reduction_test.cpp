@@ -6,8 +6,8 @@
 #include "certify/existence.h"
 #include "certify/verify_solution.h"
 #include "solver/linear/direction.ipp"
+#include "solver/problem/errors.h"
 #include "solver/problem/reduction.ipp"
-#include "solver/problem/residual.h"
 #include "solver/published/published.ipp"
 #include "tests/support.h"
 
@@ -144,7 +144,7 @@ TEST_CASE("doubles: forces of the reduction leave a residual of rounding size") 
     CompleteDriving<double> driving;
     if (driving.Run(reduction.problem()).outcome != Outcome::kSolved) continue;
     const Eigen::VectorXd f = reduction.Forces(driving.f());
-    CHECK(NaturalResidual(problem, f, Eigen::VectorXd(problem.A * f + problem.b)) < 1e-9);
+    CHECK(ErrorOf(problem, f, Eigen::VectorXd(problem.A * f + problem.b)) < 1e-9);
   }
 }
 

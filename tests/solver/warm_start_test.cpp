@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/problem/residual.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published.h"
 #include "tests/support.h"
 
@@ -39,7 +39,7 @@ Problem Nearby(Problem problem, double change, Choices& choices) {
 
 double Residual(const Problem& problem, const Algorithm& algorithm) {
   const Eigen::VectorXd a = problem.A * algorithm.state().f + problem.b;
-  return NaturalResidual(problem, algorithm.state().f, a);
+  return MeasureErrors(problem, FrictionLaw::kCoulomb, algorithm.state().f, a).Largest();
 }
 
 Sets RandomSets(const Problem& problem, Choices& choices) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// RowScale: A and b in units that suit them, by powers of two, which round nothing.
+//
+// Each contact has its own, so that the diagonal of A is about 1 whatever the masses are, and each group of
+// contacts that A couples has b about 1. A problem in other units, D A D and D b, is the same problem then, and
+// its run the same run.
+
+#ifndef STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
+#define STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solver/problem/units.h"
+
+namespace stiction {
+
+// Exponents of what one unit of the scaled problem is: f_i = 2^f[i] f'_i, a_i = 2^a[i] a'_i.
+struct RowScale {
+  std::vector<int> f, a;
+  int b = 0;  // of the group with the largest b
+};
+
+template <class Scalar>
+int ExponentOf(const Scalar& x) {
+  using std::ilogb;
+  return x > 0 ? ilogb(x) : 0;
+}
+
+// Half the exponent of the largest A_ii of each contact, by row; one for all if they may not differ.
+template <class Problem>
+std::vector<int> ExponentsOfContacts(const Problem& problem, const Groups& groups, bool uniform) {
+  using Scalar = typename Problem::Vector::Scalar;
+  const int rows = problem.rows();
+  std::vector<Scalar> largest(problem.contacts.size(), Scalar(0));
+  for (int i = 0; i < rows; ++i) {
+    Scalar& most = largest[uniform ? 0 : groups.ContactOf(i)];
+    most = std::max(most, Abs(Scalar(problem.A.coeff(i, i))));
+  }
+  std::vector<int> exponents(rows);
+  for (int i = 0; i < rows; ++i)
+    exponents[i] = ExponentOf(largest[uniform ? 0 : groups.ContactOf(i)]) >> 1;  // rounded down
+  return exponents;
+}
+
+template <class Problem>
+RowScale FindScale(const Problem& problem, bool uniform = false) {
+  using Scalar = typename Problem::Vector::Scalar;
+  using std::ldexp;
+  const int rows = problem.rows();
+  Groups groups;
+  groups.Find(problem);
+  const std::vector<int> half = ExponentsOfContacts(problem, groups, uniform);
+  std::vector<Scalar> largest(problem.contacts.size(), Scalar(0));  // b in these units, by group
+  Scalar coupling(0), most(0);                                      // of A; b of all groups
+  const auto group = [&](int i) { return uniform ? 0 : groups.OfRow(i); };
+  for (int i = 0; i < rows; ++i) {
+    largest[group(i)] = std::max(largest[group(i)], Scalar(ldexp(Abs(problem.b[i]), -half[i])));
+    most = std::max(most, largest[group(i)]);
+  }
+  ForEachEntry(problem.A, [&](int i, int j, const Scalar& x) {
+    coupling = std::max(coupling, Scalar(ldexp(Abs(x), -half[i] - half[j])));
+  });
+  // Of an A that is not semidefinite entries beside the diagonal may be large beside it.
+  const int rest = std::max(0, ExponentOf(coupling));
+  RowScale scale{std::vector<int>(rows), std::vector<int>(rows), ExponentOf(most)};
+  for (int i = 0; i < rows; ++i) {
+    const int b = ExponentOf(largest[group(i)]);
+    scale.a[i] = b + half[i];
+    scale.f[i] = b - half[i] - rest;
+  }
+  return scale;
+}
+
+template <class Vector>
+void ScaleBy(Vector& values, const std::vector<int>& exponents, int extra = 0) {
+  using std::ldexp;
+  for (int i = 0; i < values.size(); ++i) values[i] = ldexp(values[i], exponents[i] + extra);
+}
+
+template <class Problem>
+Problem Scaled(Problem problem, const RowScale& scale) {
+  using Scalar = typename Problem::Vector::Scalar;
+  using std::ldexp;
+  ForEachEntry(problem.A, [&](int i, int j, const Scalar& x) {
+    if (x != 0) problem.A.coeffRef(i, j) = ldexp(x, scale.f[j] - scale.a[i]);
+  });
+  for (int i = 0; i < problem.rows(); ++i) problem.b[i] = ldexp(problem.b[i], -scale.a[i]);
+  return problem;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
