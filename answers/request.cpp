@@ -10,14 +10,16 @@
 namespace stiction {
 namespace {
 
-FrictionLaw LawOf(const Wanted& wanted, int dimension, const std::string& source) {
-  if (wanted.law.empty()) return wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
-  if (wanted.law != "baraff" && wanted.law != "coulomb")
-    throw InputError(fmt::format("{}law: found {}, expected baraff or coulomb", wanted.dashes, wanted.law));
+// The law of this name; of none, `usual`.
+FrictionLaw LawNamed(const std::string& law, FrictionLaw usual, int dimension, const std::string& source,
+                     std::string_view dashes) {
+  if (law.empty()) return usual;
+  if (law != "baraff" && law != "coulomb")
+    throw InputError(fmt::format("{}law: found {}, expected baraff or coulomb", dashes, law));
   if (dimension == 2)
     throw InputError(source, "dimension", "2",
-                     fmt::format("3: {}law chooses a law of friction in space", wanted.dashes));
-  return wanted.law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
+                     fmt::format("3: {}law chooses a law of friction in space", dashes));
+  return law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
 }
 
 Arithmetic ArithmeticNamed(const Wanted& wanted) {
@@ -54,7 +56,8 @@ void RequirePathArithmetic(const Wanted& wanted) {
 SolveRequest NamedRequest(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
   SolveRequest request{.method = wanted.method, .options = wanted.options};
   request.options.policy = ParsePolicy(wanted.policy);
-  request.options.law = LawOf(wanted, problem.dimension, source);
+  const FrictionLaw usual = wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
+  request.options.law = LawNamed(wanted.law, usual, problem.dimension, source, wanted.dashes);
   if (!AreSides(wanted.options.sides))
     throw InputError(
         fmt::format("{}sides: found {}, expected {}", wanted.dashes, wanted.options.sides, kSidesExpected));
@@ -113,7 +116,11 @@ std::vector<Policy> PoliciesNamed(const std::string& text) {
 
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration) {
-  const FrictionLaw law = wanted.law == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
+  const FrictionLaw law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
+  if (!wanted.law.empty() && wanted.claim != "existence")
+    throw InputError(
+        fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
+                    wanted.dashes, wanted.law, wanted.claim));
   return CertifyClaim(problem, source, wanted.claim,
                       {PoliciesNamed(wanted.policy), wanted.limits, enumeration, law});
 }

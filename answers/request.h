@@ -49,8 +49,9 @@ Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, co
 struct WantedClaim {
   std::string claim = "existence";
   std::string policy = "paper";  // or "*"
-  std::string law = "coulomb";   // or "baraff"; in space
+  std::string law = "";  // of claim existence in space; empty: Coulomb's
   Limits limits = {};
+  std::string_view dashes = "--";
 };
 
 // "paper" -> one policy, "*" -> the planar grid. std::invalid_argument for what is neither.

@@ -126,10 +126,10 @@ std::optional<ExactVector> RestOf(const ExactProblem& problem) {
 
 }  // namespace
 
-std::optional<ExactVector> ForcesAtRest(const ExactProblem& problem, const ExactVector& f) {
-  const ExactVector a = Accelerations(problem, f);
+std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
+                                          const ExactVector& a) {
   const std::vector<int> group = GroupOfContacts(problem);
-  std::optional<ExactVector> rest;
+  std::optional<RestingForces> rest;
   for (int i = 0; i < static_cast<int>(group.size()); ++i) {
     if (group[i] != i) continue;
     const PartAtRest part = PartOf(problem, group, i);
@@ -138,8 +138,11 @@ std::optional<ExactVector> ForcesAtRest(const ExactProblem& problem, const Exact
     if (!forces) continue;
     STICTION_CHECK(!FindConeViolation(part.problem, *forces) && Accelerations(part.problem, *forces).isZero(),
                    "forces at rest that are none");
-    if (!rest) rest = f;
-    for (std::size_t k = 0; k < part.rows.size(); ++k) (*rest)[part.rows[k]] = (*forces)[static_cast<int>(k)];
+    if (!rest) rest = RestingForces{f, std::vector<bool>(f.size(), false)};
+    for (std::size_t k = 0; k < part.rows.size(); ++k) {
+      rest->f[part.rows[k]] = (*forces)[static_cast<int>(k)];
+      rest->rests[part.rows[k]] = true;
+    }
   }
   return rest;
 }

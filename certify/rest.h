@@ -14,13 +14,22 @@
 #define STICTION_CERTIFY_REST_H_
 
 #include <optional>
+#include <vector>
 
 #include "certify/properties.h"
 
 namespace stiction {
 
-// f but in the groups that it accelerates and that can rest: these rest. Empty if there is no such group.
-std::optional<ExactVector> ForcesAtRest(const ExactProblem& problem, const ExactVector& f);
+// Forces of the groups that accelerate and can rest, by row; the others' are as they were.
+struct RestingForces {
+  ExactVector f;
+  std::vector<bool> rests;  // by row: whether its group did not
+};
+
+// a: accelerations under f, zero where they are not known to be anything else. Empty if nothing accelerates
+// that can rest.
+std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
+                                          const ExactVector& a);
 
 }  // namespace stiction
 

@@ -8,6 +8,7 @@
 #include "certify/escalate.h"
 #include "certify/filtered.h"
 #include "certify/inexact.h"
+#include "certify/interval.h"
 #include "certify/published_space.h"
 #include "certify/quad.h"
 #include "certify/rest.h"
@@ -25,6 +26,73 @@ constexpr int kExactRows = 60, kExactRowsInSpace = 24;  // from which on `auto` 
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
          arithmetic == Arithmetic::kLongDouble || arithmetic == Arithmetic::kQuad;
+}
+
+// ---- Exact numbers -------------------------------------------------------------------------------
+
+// `auto` prefers, of several solutions, one whose contacts rest. The word is of the one that was found first.
+template <class Scalar>
+bool MayPreferRest(const TracedAnswer<Scalar>& answer, const SolveRequest& request) {
+  return request.method == kAutomatic && request.trace == KeepTrace::kNo && answer.Solved() &&
+         !request.options.limits.Stopped();
+}
+
+void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
+  if (!MayPreferRest(answer, request)) return;
+  auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
+  if (!rest) return;
+  answer.f = std::move(rest->f);
+  answer.a = Accelerations(problem, answer.f);
+  answer.word.clear();
+  answer.moves_elsewhere = true;
+  if (!answer.bound.empty()) answer.bound = ToString(CoulombBound(problem, answer.f).value_or(0));
+}
+
+ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
+  ExactAnswer answer = SolveExactly(problem, request);
+  PreferRest(problem, request, answer);
+  return answer;
+}
+
+// ---- Rest, of rounded forces ---------------------------------------------------------------------
+
+// Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
+ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
+  constexpr double kMoves = 1e-6;
+  Units<double> units;
+  units.Take(problem, answer.f, answer.a);
+  ExactVector moving = ExactVector::Zero(answer.a.size());
+  for (int i = 0; i < moving.size(); ++i) {
+    const bool moves = answer.a_enclosed.empty()
+                           ? std::abs(answer.a[i]) > kMoves * units.acceleration(i)
+                           : answer.a_enclosed[i].low > 0 || answer.a_enclosed[i].high < 0;
+    if (moves) moving[i] = answer.a[i];
+  }
+  return moving;
+}
+
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved.
+void PreferRest(const ContactProblem<double>& rounded, const ExactProblem& problem, const SolveRequest& request,
+                InexactAnswer& answer) {
+  if (!MayPreferRest(answer, request)) return;
+  const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
+  const auto rest = ForcesAtRest(problem, f, Moving(rounded, answer));
+  if (!rest) return;
+  InexactAnswer resting = answer;
+  resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  JudgeAnswer(rounded, BoundOf<double>(request.options), resting);
+  if (!resting.Solved()) return;
+  if (!answer.f_enclosed.empty()) resting.a = answer.a;
+  for (int i = 0; i < static_cast<int>(answer.f_enclosed.size()); ++i) {
+    if (!rest->rests[i]) continue;
+    const Interval around = Around(rest->f[i]);
+    resting.f_enclosed[i] = {around.inf(), around.sup()};
+    resting.a_enclosed[i] = {0, 0};
+    resting.a[i] = 0;
+  }
+  resting.word.clear();
+  resting.moves_elsewhere = true;
+  answer = std::move(resting);
 }
 
 // ---- Floating point ------------------------------------------------------------------------------
@@ -86,33 +154,15 @@ Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) 
   if constexpr (std::is_same_v<Scalar, double>) {
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
       Escalated escalated = SolveEscalating(rounded, request.options);
+      PreferRest(rounded, problem, request, escalated.answer);
       return {.answer = std::move(escalated.answer), .suspected = std::move(escalated.suspected)};
     }
   }
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
-  Confirm(Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); }), request, solution);
+  const auto ran = Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); });
+  Confirm(ran, request, solution);
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, problem, request, *answer);
   return solution;
-}
-
-// ---- Exact numbers -------------------------------------------------------------------------------
-
-// Of several solutions, one whose contacts rest. The word is of the one that was found first.
-void PreferRest(const ExactProblem& problem, ExactAnswer& answer) {
-  auto rest = ForcesAtRest(problem, answer.f);
-  if (!rest) return;
-  answer.f = *std::move(rest);
-  answer.a = Accelerations(problem, answer.f);
-  answer.word.clear();
-  answer.moves_elsewhere = true;
-  if (answer.bound.empty()) return;
-  answer.bound = ToString(CoulombBound(problem, answer.f).value_or(0));
-}
-
-ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
-  ExactAnswer answer = SolveExactly(problem, request);
-  const bool is_asked = request.method == kAutomatic && request.trace == KeepTrace::kNo;
-  if (is_asked && answer.Solved() && !request.options.limits.Stopped()) PreferRest(problem, answer);
-  return answer;
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -182,8 +232,14 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     SolveRequest complete = request;
     complete.method = "complete";
     Solution solution = SolveFiltered(problem, complete);
-    if (solution.outcome() == Outcome::kSolved) return solution;
-    return {.answer = SolveRestingExactly(problem, request), .rung = Rung::kExact};
+    if (solution.outcome() != Outcome::kSolved)
+      return {.answer = SolveRestingExactly(problem, request), .rung = Rung::kExact};
+    if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
+      PreferRest(problem, request, *exact);
+    } else {
+      PreferRest(Rounded<double>(problem), problem, request, std::get<InexactAnswer>(solution.answer));
+    }
+    return solution;
   }
   for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
     if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer), .rung = rung};

@@ -336,7 +336,7 @@ void AddCertify(CommandLine& program) {
   verb.Positional("FILE", o.file, "stiction-problem file").Required();
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
   verb.Option("--claim", o.claim, "what to certify, or its negation if that holds").Choices(ClaimChoices());
-  verb.Option("--law", o.law, "friction in space, of the claim existence")
+  verb.Option("--law", o.law, "friction in space, of the claim existence; by default coulomb")
       .Choices({{"coulomb", "Coulomb's law up to a proved bound on the angle: coulomb-solution"},
                 {"baraff", "the paper's conditions (21), (22): solution-exists"}});
   verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe for the published algorithm")

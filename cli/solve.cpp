@@ -46,9 +46,8 @@ std::string WithinText(const Json& result) {
   const Rational gap = 1 - *ParseRational(result["bound"].get<std::string>());
   if (gap == 0) return "solved: these forces meet Coulomb's law and every other condition, exactly";
   return fmt::format(
-      "solved, Coulomb's law within {:.0e}: these forces meet every condition exactly, but where a contact "
-      "slips "
-      "-fF.aF is only proved to be at least mu fN |aF| times `bound`",
+      "solved, Coulomb's law within {:.0e}: where a contact slips, -fF.aF is at least `bound` times mu fN |aF|; "
+      "every other condition is met without error",
       ToDouble(gap));
 }
 

@@ -260,8 +260,9 @@ py::object EndsOfProblem(const PythonProblem& problem, const std::string& arithm
 
 // The text of the certificate; None where nothing that was run shows the claim or its negation.
 std::optional<std::string> CertifyProblem(const PythonProblem& problem, const std::string& claim,
-                                          const std::string& policy, const Numbers& numbers) {
-  WantedClaim wanted{.claim = claim, .policy = policy};
+                                          const std::string& policy, const std::string& law,
+                                          const Numbers& numbers) {
+  WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
   const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;

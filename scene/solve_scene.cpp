@@ -15,12 +15,18 @@ namespace {
 constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
 constexpr int kProximalPoints = 3;
 
-// The largest error of forces, where accelerations of the rounding of b are none: what a scene makes of b is
-// known to a few roundings of its largest entry, and rows that nothing else acts on, as the second hinge of an
-// axis has some, would be held to that rounding.
+// What a scene makes of b is known to a few roundings of its largest entry. Accelerations of that size are no
+// error: rows that nothing else acts on, as the second hinge of an axis has some, would be held to rounding.
+constexpr double kNoise = 1e-12;
+
+FastOptions WithNoise(FastOptions options) {
+  options.noise = kNoise;
+  return options;
+}
+
+// The largest error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  constexpr double kNoise = 1e-12;
   const LongVector forces = f.template cast<LongDouble>();
   LongVector a = Recompute(problem, forces);
   const LongDouble noise = problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
@@ -59,7 +65,7 @@ const SceneSolver::Step<SparseContactProblem<double>> SceneSolver::kSparseSteps[
 };
 
 SceneSolver::SceneSolver(const SceneSolverOptions& options)
-    : fast_(options.fast),
+    : fast_(WithNoise(options.fast)),
       proximal_({.residual = options.fast.residual, .aim = kProximalAim}),
       coulomb_(options.coulomb),
       sparse_coulomb_(options.coulomb) {}
@@ -156,8 +162,9 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
   f.setZero(problem.rows());
   for (int point = 0; point < kProximalPoints && residual > kProximalAim; ++point) {
     near.b = problem.b - eps * f;
-    if (!GuessCells(near, cells)) return false;
+    const bool solved = GuessCells(near, cells);
     f = fast_.f();
+    if (!solved) return false;
     cells = fast_.cells();
     const Dense::Vector a = problem.A * f + problem.b;
     residual = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();

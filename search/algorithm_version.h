@@ -13,6 +13,10 @@ namespace stiction {
 
 inline constexpr int kAlgorithmVersion = 1;
 
+// Of what is counted of runs besides their steps and ends: which answers of doubles are wrong. A store is gone
+// on with, and merged, under one such version; it is raised with the other, too.
+inline constexpr int kCountsVersion = 2;
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_ALGORITHM_VERSION_H_

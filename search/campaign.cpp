@@ -292,7 +292,7 @@ Json DefinitionToJson(const Campaign& campaign) {
 CampaignIdentity IdentityOf(const Campaign& campaign) {
   Json policies = Json::array();
   for (const Policy& policy : campaign.policies) policies.push_back(PolicyName(policy));
-  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), kAlgorithmVersion};
+  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), kCountsVersion};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {

@@ -188,16 +188,16 @@ def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: 
     return said
 
 
-def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *,
+def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *, law: str = "",
             max_drives: int | None = None, max_pivots: int | None = None,
             max_bits: int | None = None) -> Certificate | None:
     """A certificate of a claim that `stiction certify --claim` knows, or of its negation.
 
     None where nothing that was run shows either: within the budgets, which are of runs of a method. Policy '*' is the
-    whole planar grid.
+    whole planar grid. A law is chosen of the claim 'existence' in space: Coulomb's, unless it is 'baraff'.
     """
-    require_text(claim=claim, policy=policy)
-    text = _stiction.certify(compiled(problem, "certify"), claim, policy,
+    require_text(claim=claim, policy=policy, law=law)
+    text = _stiction.certify(compiled(problem, "certify"), claim, policy, law,
                              _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
     return None if text is None else Certificate(json.loads(text)["claim"], text)
 

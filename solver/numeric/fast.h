@@ -43,6 +43,7 @@ struct FastOptions {
   Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
   Limits limits;           // of complete driving; limits.pivots bounds `active` too
   double residual = 1e-8;  // largest error of an answer that is called solved
+  double noise = 0;        // accelerations up to so much of the largest b are its rounding, and no error
 
   bool operator==(const FastOptions&) const = default;
 };
@@ -144,6 +145,7 @@ class FastSolver {
   const Problem* problem_ = nullptr;
   FastVerdict verdict_;
   Vector f_, a_, inverse_;  // inverse_: of the diagonal of A
+  Vector a_told_;           // but for noise
   std::vector<Cell> cells_, next_;
   std::vector<int> row_of_;                                             // normal row by contact
   bool frictionless_ = false;                                           // one row per contact

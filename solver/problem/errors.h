@@ -63,11 +63,16 @@ struct FrictionGap {
   Scalar moved_force, moved_acceleration;  // the same where both move; likewise
 };
 
-// Over rationals a number beyond all doubles that are asked about.
+// Over rationals 2^65536: beyond products of four numbers of any other arithmetic.
 template <class Scalar>
 Scalar Infinity() {
   if constexpr (kIsExact<Scalar>) {
-    return Scalar(1e300);
+    static const Scalar huge = [] {
+      Scalar x(2);
+      for (int k = 0; k < 16; ++k) x *= Scalar(x);
+      return x;
+    }();
+    return huge;
   } else {
     return std::numeric_limits<Scalar>::infinity();
   }

@@ -68,7 +68,7 @@ class PublishedProblems(cli.TestCase):
                 self.assertEqual(entry["contacts"], contacts)
                 [run] = entry["runs"]
                 self.assertEqual((run["method"], run["outcome"]), ("proximal", "solved"))
-                self.assertLess(run["residual"], 1e-9)
+                self.assertLess(run["residual"], 1e-8)  # of every contact in its own units
 
     def test_all_in_space_obey_coulombs_law(self):
         spatial = [name for name in FILES if FILES[name][1] == 3] + ([] if cli.SHORT else list(LARGER))

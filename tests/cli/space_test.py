@@ -195,6 +195,8 @@ class Space(cli.TestCase):
             self.assertEqual(json.loads(out.read_text())["claim"], claim)
             self.check(out, accepted=True)
         self.refuses("certify", problem, "-o", out, "--law", "amontons", says="--law")
+        self.refuses("certify", problem, "-o", out, "--law", "baraff", "--claim", "h", says=["--law baraff", "--claim existence", "found h"])
+        self.refuses("certify", self.file("plane.json", cli.SOLVED), "-o", out, "--law", "coulomb", says=["dimension", "--law"])
 
     def test_of_several_solutions_the_one_at_rest(self):
         pinched = cli.ROOT / "corpus/space/capsule-pinched.json"

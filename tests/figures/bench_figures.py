@@ -2,8 +2,11 @@
 """Figures of the benchmark: the methods side by side, readings in space, sliding contacts, timings."""
 
 import collections
+import json
+import subprocess
 
 from markdown import count, machine, prose, rate, share, spread, table, three
+from program import ROOT
 
 PAPER = ("baraff", "paper", "exact")
 EXACT = ("complete", "", "exact")
@@ -505,30 +508,44 @@ def adversary(program):
               f"{doubled(OPTIMIZERS[:2])} by evolution or NLopt, {doubled(OPTIMIZERS)} by any.")))
 
 
-def gate_table(head, cells, keys):
-    """Runs, solved, wrong, undecided, other ends and refused problems of cells with the same keys together."""
+def gate_sums(cells, keys):
     sums = collections.defaultdict(collections.Counter)
     for cell in cells:
         sums[tuple(cell[key] for key in keys)].update({name: cell[name] for name in (
-            "runs", "solved", "wrong", "undecided", "refused")})
+            "runs", "solved", "wrong", "undecided")})
+    return sums
+
+
+def gate_table(cells, before, keys):
+    """Today's runs, and what they were called, each after what cceb0e3 called the same."""
+    then, now = gate_sums(before, keys), gate_sums(cells, keys)
     rows = []
-    for key, s in sums.items():
-        runs, other = s["runs"], s["runs"] - s["solved"] - s["undecided"]
-        part = [f"{percent(number / runs)}" if runs else "-" for number in (s["undecided"], other)]
-        rows.append((*(f"`{name}`" for name in key), count(runs), count(s["solved"]), s["wrong"], *part,
-                     count(s["refused"])))
-    return table([*head, "runs", "solved", "wrong", "undecided", "another end", "out of range"], rows)
+    for key, s in now.items():
+        pairs = []
+        for name in ("solved", "wrong", "undecided"):
+            shares = [f"{100 * sums[key][name] / sums[key]['runs']:.1f}" if sums[key]["runs"] else "-"
+                      for sums in (then, now)]
+            pairs += [count(then[key]["wrong"]), count(s["wrong"])] if name == "wrong" else shares
+        rows.append((*(f"`{name}`" for name in key), count(s["runs"]), *pairs))
+    columns = ["runs", "solved then, %", "now, %", "wrong then", "now", "undecided then, %", "now, %"]
+    return table([*keys, *columns], rows)
 
 
 def gate(program):
-    """What is called solved over inexact numbers, by dial and by method and arithmetic, plane and space apart."""
-    result = program.bench("gate", "--problems", program.size(60), "--seed", 6)
-    cells = result["cells"]
-    parts = [gate_table(["dial"], cells, ["dial"])]
+    """What is called solved over inexact numbers, by dial and by method and arithmetic, plane and space apart; before
+    there was one gate, and now."""
+    words = ("--problems", program.size(60), "--seed", 6)
+    cells = program.bench("gate", *words)["cells"]
+    script = "bench/gate_before.sh"
+    program.show(f"{script} build/gate-before {' '.join(map(str, words))}")
+    done = subprocess.run([ROOT / script, ROOT / "build/gate-before", *map(str, words), "--json"], text=True,
+                          stdout=subprocess.PIPE)
+    before = json.loads(done.stdout)["cells"]  # exit 1: some are wrong
+    parts = [gate_table(cells, before, ["dial"])]
     for dimension, where in ((2, "plane"), (3, "space")):
-        chosen = [cell for cell in cells if cell["dimension"] == dimension]
-        parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n" + gate_table(
-            ["method", "arithmetic"], chosen, ["method", "arithmetic"]))
+        chosen, then = ([cell for cell in some if cell["dimension"] == dimension] for some in (cells, before))
+        parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n"
+                     + gate_table(chosen, then, ["method", "arithmetic"]))
     solved, wrong = (sum(cell[key] for cell in cells) for key in ("solved", "wrong"))
     return "\n\n".join(parts) + "\n\n" + prose(
-        f"Of {count(solved)} answers called solved {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")
+        f"Of {count(solved)} answers called solved now {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")

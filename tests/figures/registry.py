@@ -28,7 +28,8 @@ SEARCH = ("algorithm",)
 METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
 PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
          "bench/peers_tables.cpp")
-ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/filtered.cpp")
+JUDGED = ("solver/problem/errors.h", "solver/problem/units.h")
+ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/filtered.cpp", *JUDGED)
 RUNGS = (*ANSWERS, "bench/ladder.cpp")
 SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers_search.cpp", "bench/peak.cpp")
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
@@ -92,7 +93,7 @@ FIGURES = [
     Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
     Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/silent.cpp")),
     Figure("gate", "reports/arithmetic.md", "long", bench.gate,
-           ("algorithm", "bench/gate.cpp", "solver/problem/errors.h", "solver/problem/units.h")),
+           ("algorithm", "bench/gate.cpp", "bench/gate_before.sh", *JUDGED)),
     Figure("peers-extremes", "reports/peers.md", "minutes", rungs.peers_extremes,
            ("algorithm", "bench/peers_rows.cpp", "bench/peers_extremes.cpp", "bench/dials.cpp")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),

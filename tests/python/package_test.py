@@ -235,6 +235,8 @@ class Claims(unittest.TestCase):
         certificate = stiction.certify(slides, "coulomb-solution")
         self.assertEqual(certificate.kind, "coulomb-solution")
         self.assertTrue(stiction.check(slides, certificate))
+        self.assertEqual(stiction.certify(slides).kind, "coulomb-solution")
+        self.assertEqual(stiction.certify(slides, law="baraff").kind, "solution-exists")
 
     def test_a_check_rejects_what_is_changed(self):
         problem = stiction.load(LOOP)

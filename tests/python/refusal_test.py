@@ -85,6 +85,8 @@ CERTIFIED = [
     ({"claim": "coulomb-solution"}, ValueError, "dimension: found 2, expected 3"),
     ({"claim": None}, TypeError, "claim: found None, expected text"),
     ({"policy": "scan=never"}, ValueError, "found 'never'"),
+    ({"law": "coulomb"}, ValueError, "dimension: found 2, expected 3"),
+    ({"law": "amonton"}, ValueError, "^law: found amonton, expected baraff or coulomb"),
     ({"max_drives": -1}, ValueError, "max_drives: found -1, expected"),
     ({"max_bits": "9"}, TypeError, "max_bits: found '9', expected an integer"),
 ]
@@ -108,6 +110,8 @@ class Refused(unittest.TestCase):
                 self.refuses(error, named, call, problem, **chosen)
         self.refuses(ValueError, "arithmetic: found double, expected exact", stiction.ends, problem,
                      arithmetic="double")
+        self.refuses(ValueError, "^law baraff: expected claim existence, found h", stiction.certify,
+                     stiction.load(SPACE), "h", law="baraff")
         self.refuses(ValueError, "slip=polygon", stiction.replay, stiction.load(SPACE), "slip=polygon")
         self.refuses(ValueError, "exact.*not built", stiction.replay, stiction.load(SPACE), "slip=polygon",
                      arithmetic="exact")

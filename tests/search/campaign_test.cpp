@@ -207,7 +207,7 @@ TEST_CASE("campaign: the identity is the same however the file is written, and d
     CAPTURE(members);
     CHECK_FALSE(identity(members) == identity(""));
   }
-  CHECK(identity("").algorithm == kAlgorithmVersion);
+  CHECK(identity("").algorithm == kCountsVersion);
   CHECK(identity(R"("seed": 5)").definition == identity("").definition);
   CHECK(identity(R"("policies": ["ties=contacts"])").definition == identity("").definition);
 }

@@ -73,6 +73,23 @@ TEST_CASE("errors: other units of force or acceleration do not change it") {
   CHECK(abs(Rational(Residual(heavy, f) - residual)) < tiny);
 }
 
+TEST_CASE("errors: forces of any size are judged alike") {
+  for (int i = 0; i < 20; ++i) {
+    const ExactProblem problem = Random<Rational>(GeneratorId::kBodies, 2, i);
+    const ExactVector f = RunExact(problem, {}).state.f;
+    for (const char* unit : {"1e-300", "1e300", "1e-4000", "1e4000"}) {
+      CAPTURE(i, unit);
+      const Rational factor = *ParseRational(unit);
+      ExactProblem other = problem;
+      other.A *= factor;
+      const ExactVector same = f / factor, wrong = Rational(1, 2) * same;
+      CHECK(Residual(other, same) == Residual(problem, f));
+      CHECK(abs(Rational(Residual(other, wrong) - Residual(problem, f / 2))) <
+            Rational("1/10000000000000000000000000"));
+    }
+  }
+}
+
 TEST_CASE("errors: of no contacts and of a problem of zeros it is zero") {
   CHECK(Residual(NoContacts(), Vector({})) == 0);
   CHECK(Residual(MakeProblem({1}, {{0, 0}, {0, 0}}, {0, 0}), Vector({0, 0})) == 0);
