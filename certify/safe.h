@@ -30,8 +30,9 @@
 //
 // Not so under `apex=kept`, hence `paper`: there a friction variable can be in CF while fN = 0, with row F and
 // column A_F. That is a fifth mode, of which safety says nothing; safe_test.cpp has a safe problem of two
-// contacts in which `paper` gives up. If the determinants with this mode are positive too, none was seen to
-// (checked).
+// contacts in which `paper` gives up. If the determinants with this mode are positive too, nothing is given up
+// for b in general position, but under give-up=previous (proved; where_loops_begin.md, which also has loops of
+// safe problems with ties).
 //
 // A body with two sticking contacts has a singular word, so A of most scenes is not safe. *Weakly safe*: no
 // determinant is negative. Then (proved; condition_number.md) complete driving has no fold and no descent, at

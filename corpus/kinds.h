@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kinds of findings, the gravest first. A signature begins with its kind.
 //
-//   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized
+//   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized: there are
+//                            such, with ties (certify/where_loops_begin.md)
 //   disagreement-of-methods  exact methods contradict each other or what is proved (certify/agreement.h)
 //   cycle, stall, ...        an exact outcome other than solved, in space one that intervals prove
 //   undecided                in space: a loop over doubles that intervals neither prove nor deny

@@ -7,7 +7,7 @@
 namespace stiction {
 namespace {
 
-constexpr std::array<KnownSignature, 15> kKnown = {{
+constexpr std::array<KnownSignature, 17> kKnown = {{
     {"cycle-2c-4d-10s-49a1b31911ac6e78", "two-contact-cycle"},
     {"cycle-2c-4d-10s-aceed2539a95827b", "cycle-or-ray-without-solution"},
     {"cycle-2c-4d-12s-6c339e38a865485c", "smallest-integers"},
@@ -23,6 +23,8 @@ constexpr std::array<KnownSignature, 15> kKnown = {{
     {"cycle-2c-5d-14s-b25341001876a8e6", "cycle-of-a-block-in-a-valley"},
     {"cycle-3c-3d-10s", "cycle-of-sliding-contacts"},
     {"cycle-3c-3d-12s", "three-contact-cycle-with-a-frictionless-one"},
+    {"cycle-3c-6d-15s", "safe-tie-cycle-3-contacts"},
+    {"cycle-6c-6d-18s", "safe-tie-cycle-7-contacts"},
 }};
 
 }  // namespace

@@ -22,7 +22,8 @@ from pathlib import Path
 DRAWN = 900  # random pairs of a problem and a policy
 POLICIES = 20  # of a problem of the corpus
 CORPUS = ("two-contact-cycle", "cycle-under-some-policies-a", "three-contact-cycle-with-a-frictionless-one",
-          "two-contact-cycle-13-steps", "safe-tie-yet-given-up", "safe-yet-given-up", "sliding/cycle-of-sliding-contacts")
+          "two-contact-cycle-13-steps", "safe-tie-yet-given-up", "safe-yet-given-up", "safe-tie-cycle-7-contacts",
+          "safe-cycle-8-contacts", "sliding/cycle-of-sliding-contacts")
 MOST_STEPS = 300
 sys.dont_write_bytecode = True
 
