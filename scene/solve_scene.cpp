@@ -17,11 +17,11 @@ constexpr int kProximalPoints = 3;
 
 // What a scene makes of b is known to a few roundings of its largest entry. Accelerations of that size are no
 // error: rows that nothing else acts on, as the second hinge of an axis has some, would be held to rounding.
-constexpr double kNoise = 1e-12;
+constexpr double kNoise = 1e-11;
 
-FastOptions WithNoise(FastOptions options) {
-  options.noise = kNoise;
-  return options;
+template <class Problem>
+double NoiseOf(const Problem& problem) {
+  return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
 }
 
 // The largest error of forces.
@@ -29,7 +29,7 @@ template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
   const LongVector forces = f.template cast<LongDouble>();
   LongVector a = Recompute(problem, forces);
-  const LongDouble noise = problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
+  const double noise = NoiseOf(problem);
   for (LongDouble& x : a) x = Abs(x) <= noise ? 0 : x;
   return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
 }
@@ -65,7 +65,7 @@ const SceneSolver::Step<SparseContactProblem<double>> SceneSolver::kSparseSteps[
 };
 
 SceneSolver::SceneSolver(const SceneSolverOptions& options)
-    : fast_(WithNoise(options.fast)),
+    : fast_(options.fast),
       proximal_({.residual = options.fast.residual, .aim = kProximalAim}),
       coulomb_(options.coulomb),
       sparse_coulomb_(options.coulomb) {}
@@ -83,6 +83,7 @@ SceneAnswer SceneSolver::Solve(const Sparse& problem) { return SolveScaled(probl
 
 SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
   SceneAnswer answer;
+  fast_.options().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
   if (!Reduction<double>::Concerns(problem)) {
     answer.solved =
         TryInTurn(kDenseSteps, problem, answer, [&](const Dense::Vector& f) { return ErrorOf(problem, f); });

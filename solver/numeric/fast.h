@@ -43,7 +43,7 @@ struct FastOptions {
   Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
   Limits limits;           // of complete driving; limits.pivots bounds `active` too
   double residual = 1e-8;  // largest error of an answer that is called solved
-  double noise = 0;        // accelerations up to so much of the largest b are its rounding, and no error
+  double noise = 0;        // accelerations up to it are rounding of b, and no error; m/s^2
 
   bool operator==(const FastOptions&) const = default;
 };

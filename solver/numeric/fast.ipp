@@ -156,7 +156,7 @@ bool FastSolver<Scalar>::Verify() {
   const Scalar spoiled = (problem_->A.array() - problem_->A.array()).sum();
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
   a_told_ = a_;
-  const Scalar noise = Scalar(options_.noise) * max_b_;
+  const Scalar noise = Scalar(options_.noise);
   for (Scalar& x : a_told_) x = Abs(x) <= noise ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_told_, units_, Scalar(0));
   return errors.Largest() + spoiled <= std::max(Scalar(options_.residual), least);
