@@ -338,19 +338,25 @@ CampaignIdentity IdentityOfAny(const std::vector<std::string>& stores) {
 // A store that was made only now goes with a merge that failed.
 class NewStore {
  public:
-  explicit NewStore(std::string file) : file_(std::move(file)), is_new_(!std::filesystem::exists(file_)) {}
+  explicit NewStore(const std::string& file) {
+    if (IsThere(file)) return;
+    for (const char* end : {"", "-wal", "-shm"})
+      if (!IsThere(file + end)) files_.push_back(file + end);
+  }
   NewStore(const NewStore&) = delete;
   NewStore& operator=(const NewStore&) = delete;
   ~NewStore() {
     std::error_code ignored;
-    if (!is_new_) return;
-    for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file_ + end, ignored);
+    for (const std::string& file : files_) std::filesystem::remove(file, ignored);
   }
-  void Keep() { is_new_ = false; }
+  void Keep() { files_.clear(); }
 
  private:
-  std::string file_;
-  bool is_new_;
+  static bool IsThere(const std::string& file) {
+    return std::filesystem::exists(std::filesystem::symlink_status(file));
+  }
+
+  std::vector<std::string> files_;
 };
 
 void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
