@@ -243,6 +243,15 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
+void RequireAffordable(const Json& certificate, const std::string& file) {
+  const CheckReport report = CheckCertificate(certificate, file);
+  if (report.accepted) return;
+  throw InputError(
+      fmt::format("{}: found a problem whose certificate no checker would take, {}: try another claim, "
+                  "or a smaller problem",
+                  file, report.reason));
+}
+
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all && !o.safe && !o.robust)
     throw InputError("certify: expected -o CERT, --all, --safe or --robust");
@@ -257,6 +266,7 @@ int RunCertify(const CertifyOptions& o) {
   const Json certificate = CertificateOf(o, file.problem, o.file, Shown(bar));
   bar.Clear();
   const bool certified = !certificate.is_null();
+  if (certified) RequireAffordable(certificate, o.file);
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");
   // With the certificate itself on standard output, nothing else may stand there.
