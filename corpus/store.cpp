@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -180,6 +181,7 @@ void Store::Make(const fs::path& file, const CampaignIdentity& identity) {
   const fs::path name = folder.path() / "store";
   {
     Store store(OpenDatabase(name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
+    store.Execute("PRAGMA journal_mode = WAL");  // now: two that open it could not both change it
     Transaction transaction(store.db_.get());
     store.CreateTables();
     store.WriteIdentity(identity);
@@ -321,10 +323,12 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
 void Store::RequireSound() const {
   Statement check(db_.get(), "PRAGMA quick_check(1)");
   if (check.Step() && check.Text(0) != "ok") {
+    std::string said = check.Text(0);
+    std::ranges::replace(said, '\n', ' ');
     throw InputError(
         fmt::format("{0}: found pages that do not fit together ({1}), expected a whole database: the "
                     "store is damaged. What is sound is saved by: stiction merge --salvage NEW_FILE {0}",
-                    StoreName(db_.get()), check.Text(0)));
+                    StoreName(db_.get()), said));
   }
   for (const StoreTable& table : StoreTables()) {
     Statement rows(db_.get(), SelectFrom(table.name, ""));

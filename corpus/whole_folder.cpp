@@ -18,6 +18,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/input_error.h"
 #include "corpus/json_text.h"
+#include "corpus/output_error.h"
 
 namespace stiction {
 namespace {
@@ -170,7 +171,12 @@ void WholeFolder::LockAndEmpty() {
     fstat(lock_.number(), &locked);
   } while (locked.st_ino == 0 || StatusOf(building_).st_ino != locked.st_ino);
   Empty(building_);
-  WriteList();
+  try {
+    WriteList();
+  } catch (const OutputError& error) {  // a full disk: nobody else would remove it
+    Remove(building_);
+    throw OutputError(fmt::format("{}: {}", target_.string(), error.what()));
+  }
 }
 
 fs::path WholeFolder::Place(const fs::path& path) const {

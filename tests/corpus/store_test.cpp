@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <barrier>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -632,14 +633,20 @@ TEST_CASE("store: of two that make one at the same time both work on the same") 
   for (int k = 0; k < 20; ++k) {
     const fs::path file = scratch / fmt::format("{}.store", k);
     std::barrier start(2);
+    std::array<std::string, 2> errors;
     const auto work = [&](int shard) {
       start.arrive_and_wait();
-      Store store(file, Identity());
-      store.AddUnit({shard, 2}, shard, RecordOf(shard), {});
+      try {
+        Store store(file, Identity());
+        store.AddUnit({shard, 2}, shard, RecordOf(shard), {});
+      } catch (const std::exception& error) {
+        errors[static_cast<std::size_t>(shard)] = error.what();
+      }
     };
     std::thread other(work, 1);
     work(0);
     other.join();
+    CHECK(errors == std::array<std::string, 2>{});
     CHECK(Store::OpenToRead(file).Units().Count() == 2);
   }
 }
