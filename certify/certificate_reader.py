@@ -278,7 +278,7 @@ def planar_contacts(problem):
         row = span.stop
 
 
-# --- Work: what a check will cost, bounded before it begins ---------------------------
+# --- What a check will cost, bounded before it begins ---------------------------
 
 def product_operations(n, times=1):
     """Of A x, n rows."""
@@ -295,7 +295,7 @@ def reduced_operations(n, times=1):
     return times * (n**3 + 240 * n) // 240
 
 
-class Work:
+class Cost:
     """So many operations on numbers whose bits add up: a determinant of A has no more bits than the rows of A
     together, each over its common denominator."""
 

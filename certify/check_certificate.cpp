@@ -27,7 +27,7 @@ namespace {
 
 // A x and x'Ax are not too dear.
 void RequireProduct(const ExactProblem& problem, const ExactVector& x) {
-  Work(ProductOperations(problem, 1)).LongestRow(problem).Vector(x, 2);
+  Cost(ProductOperations(problem, 1)).LongestRow(problem).Vector(x, 2);
 }
 
 // witness.f, once witness.a is A f + b.
@@ -100,7 +100,7 @@ ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
       RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
   }
   RequireSymmetric(problem);
-  Work(EliminationOperations(problem, 1)).AllRows(problem);
+  Cost(EliminationOperations(problem, 1)).AllRows(problem);
   ExactMatrix rest = problem.A;
   for (int k = 0; k < rows; ++k) {
     for (int i = k; i < rows; ++i)
@@ -307,7 +307,7 @@ void RequireFewSteps(const ExactProblem& problem, const Json& runs) {
   double steps = 0;
   for (const Json& run : runs)
     steps += static_cast<double>(LengthOf(run, "policies")) * static_cast<double>(LengthOf(run, "pivots") + 1);
-  Work(ReducedOperations(problem, steps)).AllRows(problem);
+  Cost(ReducedOperations(problem, steps)).AllRows(problem);
 }
 
 Json CheckRuns(const ExactProblem& problem, const Json& witness) {

@@ -25,7 +25,7 @@ from math import prod
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (Work, brief, dot, elimination_operations, exact, fields, integer, items, main, need,
+from certificate_reader import (Cost, brief, dot, elimination_operations, exact, fields, integer, items, main, need,
                                 one_of, planar_contacts, product_operations, reduced_operations, rows, times, vector)
 from check_runs import check_runs
 
@@ -39,7 +39,7 @@ def equal(found, expected, place, meaning):
 def factor_of_products(problem, witness, name):
     """A vector of the witness, of which A x and x'Ax are not too dear."""
     x = vector(witness[name], f"$.witness.{name}", len(problem.b))
-    Work(product_operations(len(x))).longest_row(problem).numbers(x, 2)
+    Cost(product_operations(len(x))).longest_row(problem).numbers(x, 2)
     return x
 
 
@@ -65,7 +65,7 @@ def factored(problem, witness):
         need(D[i] >= 0, f"$.witness.D[{i}]", D[i], "D >= 0")
         equal(L[i][i:], [1] + [0] * (n - i - 1), f"$.witness.L[{i}][{i}:]",
               "a lower triangle with unit diagonal")
-    Work(elimination_operations(n)).all_rows(problem)
+    Cost(elimination_operations(n)).all_rows(problem)
     rest = [list(row) for row in problem.A]
     for k in range(n):
         equal([row[k] for row in rest[k:]], [row[k] * D[k] for row in L[k:]],
@@ -316,7 +316,7 @@ def check_no_solution(problem, witness):
     covered, prefixes = 0, {}
     listed = items(witness["prefixes"], "$.witness.prefixes")
     operations = product_operations(len(problem.b), len(listed))
-    longest = Work(operations).longest_row(problem).total
+    longest = Cost(operations).longest_row(problem).total
     for at, entry in listed:
         fields(entry, at, "modes", "y")
         named = items(entry["modes"], at + ".modes")
@@ -326,7 +326,7 @@ def check_no_solution(problem, witness):
              f"no prefix twice, see {prefixes.get(prefix)}")
         prefixes[prefix] = at
         y = vector(entry["y"], at + ".y", len(problem.b))
-        Work(operations).add(longest).numbers(y, 2)
+        Cost(operations).add(longest).numbers(y, 2)
         check_refutation(problem, prefix, y, at + ".y")
         covered += following[len(choices) - len(prefix)]
     for prefix, at in prefixes.items():
@@ -393,7 +393,7 @@ def check_safe(problem, witness):
     count, choices = words_of(problem)
     smallest = Fraction(1)  # that of the word in which every contact breaks
     stated = items(witness["determinants"], "$.witness.determinants", count)
-    Work(reduced_operations(len(problem.b), count)).all_rows(problem)
+    Cost(reduced_operations(len(problem.b), count)).all_rows(problem)
     for word, (at, value) in zip(product(*choices), stated):
         value = reduced_determinant(problem, word, value, at)
         need(value > 0, at, value, "a determinant > 0")
@@ -424,7 +424,7 @@ def check_safe_by_condition(problem, witness):
         need(d[i] > 0, f"$.witness.scaling[{i}]", d[i], "a number > 0")
     least, most = exact(witness["least"], "$.witness.least"), exact(witness["most"], "$.witness.most")
     need(least > 0, "$.witness.least", least, "a number > 0")
-    Work(elimination_operations(n, 2)).all_rows(problem).numbers(d, 2 * n).numbers([least, most], n)
+    Cost(elimination_operations(n, 2)).all_rows(problem).numbers(d, 2 * n).numbers([least, most], n)
     B = [[d[i] * problem.A[i][j] * d[j] for j in range(n)] for i in range(n)]
     below = [[B[i][j] - least * (i == j) for j in range(n)] for i in range(n)]
     above = [[most * (i == j) - B[i][j] for j in range(n)] for i in range(n)]
@@ -441,7 +441,7 @@ def check_unsafe(problem, witness):
     choices = words_of(problem)[1]
     named = items(witness["word"], "$.witness.word", len(choices))
     word = [one_of(mode, at, modes) for (at, mode), modes in zip(named, choices)]
-    Work(elimination_operations(len(problem.b))).all_rows(problem)
+    Cost(elimination_operations(len(problem.b))).all_rows(problem)
     value = reduced_determinant(problem, word, witness["determinant"], "$.witness.determinant")
     need(value <= 0, "$.witness.determinant", value, "a determinant <= 0")
     return f"{' '.join(word)}, determinant {brief(value)}"

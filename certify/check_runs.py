@@ -24,7 +24,7 @@ from functools import cached_property, lru_cache
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (Work, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
+from certificate_reader import (Cost, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
                                 times)
 
 # --- Problems and policies -----------------------------------------------------------
@@ -417,7 +417,7 @@ def check_runs(problem, witness):
         fields(stated, place, "policies", "start", "period", "pivots", "state")
     steps = sum(len(items(stated["policies"], place + ".policies")) * (len(items(stated["pivots"], place + ".pivots")) + 1)
                 for place, stated in listed)
-    Work(reduced_operations(len(problem.b), steps)).all_rows(problem)
+    Cost(reduced_operations(len(problem.b), steps)).all_rows(problem)
     for place, stated in listed:
         policies = items(stated["policies"], place + ".policies")
         need(policies, place + ".policies", [], "at least one policy")

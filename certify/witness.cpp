@@ -86,7 +86,7 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
   return prefix;
 }
 
-// ---- Work --------------------------------------------------------------------------------------
+// ---- Cost --------------------------------------------------------------------------------------
 
 double ProductOperations(const ExactProblem& problem, double times) {
   const double n = problem.rows();
@@ -103,14 +103,14 @@ double ReducedOperations(const ExactProblem& problem, double times) {
   return std::floor(times * (n * n * n + 240 * n) / 240);
 }
 
-Work::Work(double operations)
+Cost::Cost(double operations)
     : most_(static_cast<std::int64_t>(std::sqrt(std::floor(kMostWork / std::max(operations, 1.0))))) {
   if (operations <= static_cast<double>(kMostOperations)) return;
   throw TooDear{{"certificate", fmt::format("a claim that takes {:.0f} operations", operations),
                  fmt::format("at most {}", kMostOperations)}};
 }
 
-void Work::Add(std::int64_t bits) {
+void Cost::Add(std::int64_t bits) {
   bits_ += bits;
   if (bits_ <= most_) return;
   throw TooDear{{"certificate", fmt::format("numbers that grow beyond {} bits", most_),
@@ -118,7 +118,7 @@ void Work::Add(std::int64_t bits) {
 }
 
 // Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit.
-std::int64_t Work::Bits(std::span<const Rational> numbers) const {
+std::int64_t Cost::Bits(std::span<const Rational> numbers) const {
   using Parts = Fractions<Rational>;
   Parts::Integer denominator = 1;
   std::int64_t numerator = 1;
@@ -131,12 +131,12 @@ std::int64_t Work::Bits(std::span<const Rational> numbers) const {
   return BitLength<Parts::Integer>::Of(denominator) + numerator;
 }
 
-Work& Work::Numbers(std::span<const Rational> numbers, int times) {
+Cost& Cost::Numbers(std::span<const Rational> numbers, int times) {
   Add(times * Bits(numbers));
   return *this;
 }
 
-Work& Work::Vector(const ExactVector& x, int times) {
+Cost& Cost::Vector(const ExactVector& x, int times) {
   return Numbers({x.data(), static_cast<std::size_t>(x.size())}, times);
 }
 
@@ -151,7 +151,7 @@ std::vector<Rational> RowOf(const ExactProblem& problem, int i) {
 
 }  // namespace
 
-Work& Work::LongestRow(const ExactProblem& problem) {
+Cost& Cost::LongestRow(const ExactProblem& problem) {
   std::int64_t longest = 0;
   for (int i = 0; i < problem.rows(); ++i) {
     const ExactVector column = problem.A.col(i);
@@ -162,7 +162,7 @@ Work& Work::LongestRow(const ExactProblem& problem) {
   return *this;
 }
 
-Work& Work::AllRows(const ExactProblem& problem) {
+Cost& Cost::AllRows(const ExactProblem& problem) {
   std::vector<Rational> mu;
   for (const Contact<Rational>& contact : problem.contacts)
     if (contact.HasFrictionRows()) mu.push_back(contact.mu);

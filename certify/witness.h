@@ -32,7 +32,7 @@ struct Rejected {
 // More work than any checker does for a certificate, whether its claim is true or not.
 struct TooDear : Rejected {};
 
-// ---- Work --------------------------------------------------------------------------------------
+// ---- Cost --------------------------------------------------------------------------------------
 //
 // What a check will cost is bounded before it begins, in every checker by the same rule. `operations` counts
 // those of the check on numbers as long as they get; these are bounded by the bits of rows and vectors over
@@ -46,16 +46,16 @@ double ProductOperations(const ExactProblem& problem, double times);      // A x
 double EliminationOperations(const ExactProblem& problem, double times);  // of A
 double ReducedOperations(const ExactProblem& problem, double times);      // of a reduced matrix: half as large
 
-class Work {
+class Cost {
  public:
   // TooDear beyond kMostOperations.
-  explicit Work(double operations);
+  explicit Cost(double operations);
 
   // Each adds bits, and throws TooDear where there are too many.
-  Work& Numbers(std::span<const Rational> numbers, int times = 1);  // over their common denominator
-  Work& Vector(const ExactVector& x, int times = 1);
-  Work& LongestRow(const ExactProblem& problem);  // or column, of A and b
-  Work& AllRows(const ExactProblem& problem);     // of A and b, each with the coefficients of friction
+  Cost& Numbers(std::span<const Rational> numbers, int times = 1);  // over their common denominator
+  Cost& Vector(const ExactVector& x, int times = 1);
+  Cost& LongestRow(const ExactProblem& problem);  // or column, of A and b
+  Cost& AllRows(const ExactProblem& problem);     // of A and b, each with the coefficients of friction
 
  private:
   std::int64_t Bits(std::span<const Rational> numbers) const;
