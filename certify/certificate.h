@@ -48,16 +48,20 @@ Json VectorToJson(const ExactProblem::Vector& values);
 
 struct CheckReport {
   bool accepted = false;
-  std::string claim;   // as far as it could be read
-  std::string reason;  // why it was rejected: JSON path, found, expected
-  std::string digest;  // of the problem (corpus/digest.h), as far as it could be read
-  Json facts;          // of an accepted certificate: policies, start, period, ...
+  std::string claim;         // as far as it could be read
+  std::string reason;        // why it was rejected: JSON path, found, expected
+  bool is_too_dear = false;  // rejected for the work that it asks for, not for what it says
+  std::string digest;        // of the problem (corpus/digest.h), as far as it could be read
+  Json facts;                // of an accepted certificate: policies, start, period, ...
 };
 
 // A certificate comes from anywhere; no honest one has come near these, nor near kMostJsonDepth and
 // kMostCharactersOfNumber.
-inline constexpr std::size_t kMostBytesOfCertificate = std::size_t{1} << 26;
-inline constexpr std::size_t kMostContactsOfCertificate = 2000;
+inline constexpr std::size_t kMostBytesOfCertificate = std::size_t{1} << 24;
+inline constexpr int kMostRowsOfCertificate = 1000;
+// Of all its numbers together, numerators and denominators, as they are written with their exponents written
+// out.
+inline constexpr std::int64_t kMostDigitsOfCertificate = 10'000'000;
 
 // `source` names the certificate in reasons; `digest`, where it is not empty, is that of the problem which the
 // certificate must speak of. Never throws for a bad certificate.

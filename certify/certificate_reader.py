@@ -5,8 +5,9 @@ What check_certificate.py and check_runs.py have in common: JSON, exact numbers,
 and the command line. All numbers are fractions.Fraction. Trusted: Python, its json, fractions and hashlib
 modules, and this file, which was written from certify/README.md and shares no code or tables with the C++.
 
-A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number and
-MOST_CONTACTS keep it from taking memory or time; no honest one has come near.
+A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number, MOST_DIGITS
+of all numbers and MOST_ROWS keep reading it from taking memory or time; MOST_OPERATIONS and MOST_WORK keep checking
+it from that (certify/README.md, What a check may cost).
 """
 
 import argparse
@@ -17,13 +18,16 @@ import re
 import sys
 from collections import namedtuple
 from fractions import Fraction
-from math import isinf
+from math import isinf, isqrt, lcm
 from stat import S_ISREG
 
-MOST_BYTES = 1 << 26
+MOST_BYTES = 1 << 24
 MOST_DEPTH = 100
 MOST_CHARACTERS = 20000
-MOST_CONTACTS = 2000
+MOST_DIGITS = 10_000_000
+MOST_ROWS = 1000
+MOST_OPERATIONS = 2_000_000
+MOST_WORK = 10**13
 sys.set_int_max_str_digits(0)  # of what is computed
 
 
@@ -128,6 +132,30 @@ RATIO = re.compile(r"-?[0-9]+/([0-9]+)")
 DECIMAL = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE]([+-]?[0-9]+))?")
 
 
+def digits_of(text):
+    """Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no number, or
+    one that `exact` refuses."""
+    if len(text) > MOST_CHARACTERS:
+        return 0
+    if RATIO.fullmatch(text):
+        return sum(len(part.lstrip("-0")) for part in text.split("/"))
+    decimal = DECIMAL.fullmatch(text)
+    exponent = int(decimal[1] or 0) if decimal else 0
+    if not decimal or abs(exponent) > 10000:
+        return 0
+    whole, _, fraction = re.split("[eE]", text)[0].partition(".")
+    digits = len((whole.lstrip("-") + fraction).lstrip("0"))
+    return digits and digits + abs(exponent - len(fraction))
+
+
+def all_digits(value):
+    """Of all texts in a value; it has few levels."""
+    if type(value) is str:
+        return digits_of(value)
+    inner = value.values() if type(value) is dict else value if type(value) is list else ()
+    return sum(map(all_digits, inner))
+
+
 def exact(value, place):
     """The rational that an exact string stands for."""
     need(type(value) is str, place, value, "an exact number as a string")
@@ -217,9 +245,10 @@ def read_problem(value, place="$.problem", number=exact, optional=()):
     integer(value["version"], place + ".version", 1, 2)
     dimension = integer(value["dimension"], place + ".dimension", 2, 4)
     listed = items(value["contacts"], place + ".contacts")
-    need(len(listed) <= MOST_CONTACTS, place + ".contacts", len(listed), f"at most {MOST_CONTACTS}")
+    need(len(listed) <= MOST_ROWS, place + ".contacts", len(listed), f"at most {MOST_ROWS}")
     contacts = [read_contact(item, at, dimension, number) for at, item in listed]
     size = sum(dimension if "mu" in KEYS[contact.kind] else 1 for contact in contacts)
+    need(size <= MOST_ROWS, place + ".contacts", f"contacts of {size} rows", f"at most {MOST_ROWS}")
     return Problem(dimension, contacts, matrix(value["A"], place + ".A", size, number),
                    vector(value["b"], place + ".b", size, number))
 
@@ -249,6 +278,69 @@ def planar_contacts(problem):
         row = span.stop
 
 
+# --- What a check will cost, bounded before it begins ---------------------------
+
+def product_operations(n, times=1):
+    """Of A x, n rows."""
+    return times * (n**2 + 8 * n) // 8
+
+
+def elimination_operations(n, times=1):
+    """Of A."""
+    return times * (n**3 + 10 * n**2) // 10
+
+
+def reduced_operations(n, times=1):
+    """Of a reduced matrix: half as large."""
+    return times * (n**3 + 240 * n) // 240
+
+
+class Cost:
+    """So many operations on numbers whose bits add up: a determinant of A has no more bits than the rows of A
+    together, each over its common denominator."""
+
+    def __init__(self, operations):
+        need(operations <= MOST_OPERATIONS, "$", f"a claim that takes {operations} operations",
+             f"at most {MOST_OPERATIONS}")
+        self.most, self.total = isqrt(MOST_WORK // max(operations, 1)), 0
+
+    def bits(self, numbers):
+        """Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit."""
+        denominator, numerator = 1, 1
+        for x in numbers:
+            denominator = lcm(denominator, x.denominator)
+            if denominator.bit_length() > self.most:
+                return self.most + 1
+        for x in numbers:
+            numerator = max(numerator, (x.numerator * (denominator // x.denominator)).bit_length())
+        return denominator.bit_length() + numerator
+
+    def add(self, bits):
+        self.total += bits
+        need(self.total <= self.most, "$", f"numbers that grow beyond {self.most} bits",
+             "fewer, for as many operations as the claim takes")
+        return self
+
+    def numbers(self, numbers, times=1):
+        return self.add(times * self.bits(numbers))
+
+    def longest_row(self, problem):
+        """Or column, of A and b."""
+        longest = 0
+        for row, right, column in zip(problem.A, problem.b, zip(*problem.A)):
+            longest = max(longest, self.bits([right, *row]), self.bits(column))
+            if longest > self.most:
+                break
+        return self.add(longest)
+
+    def all_rows(self, problem):
+        """Of A and b, each with the coefficients of friction."""
+        friction = self.bits([contact.mu for contact in problem.contacts if contact.mu is not None])
+        for row, right in zip(problem.A, problem.b):
+            self.add(self.bits([right, *row]) + friction)
+        return self
+
+
 # --- The command line --------------------------------------------------------------
 
 def check(certificate, claims, expected=None):
@@ -260,6 +352,8 @@ def check(certificate, claims, expected=None):
     one_of(certificate["format"], "$.format", ("stiction-certificate",))
     integer(certificate["version"], "$.version", 1, 2)
     claim = one_of(certificate["claim"], "$.claim", claims)
+    digits = all_digits(certificate["problem"]) + all_digits(certificate["witness"])
+    need(digits <= MOST_DIGITS, "$", f"numbers of {digits} digits", f"at most {MOST_DIGITS} in all")
     problem = read_problem(certificate["problem"])
     found = digest(problem)
     need(expected in (None, found), "$.problem", found, f"{expected}, the problem that was asked for")

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -16,16 +18,23 @@
 #include "certify/verify_solution.h"
 #include "certify/witness.h"
 #include "corpus/digest.h"
+#include "corpus/exact_number.h"
 
 namespace stiction {
 namespace {
 
 // ---- Claims about a solution and about A and b -----------------------------------------------
 
+// A x and x'Ax are not too dear.
+void RequireProduct(const ExactProblem& problem, const ExactVector& x) {
+  Cost(ProductOperations(problem, 1)).LongestRow(problem).Vector(x, 2);
+}
+
 // witness.f, once witness.a is A f + b.
 ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
   const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
   const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
+  RequireProduct(problem, f);
   const ExactVector answer = Accelerations(problem, f);
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));
   return f;
@@ -55,12 +64,16 @@ Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
   return {{"bound", ToString(bound)}};
 }
 
-Json CheckSymmetric(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {});
+void RequireSymmetric(const ExactProblem& problem) {
   if (const auto pair = FindAsymmetry(problem.A)) {
     throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
                    "A = A'"};
   }
+}
+
+Json CheckSymmetric(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {});
+  RequireSymmetric(problem);
   return Json::object();
 }
 
@@ -73,7 +86,8 @@ Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-// D, once A = L diag(D) L' with D >= 0, which is symmetric.
+// D, once A = L diag(D) L' with D >= 0, which is symmetric. One column of L after the other is taken away, so
+// that no number grows beyond the minors of A, whatever L and D are.
 ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
   const int rows = problem.rows();
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
@@ -85,11 +99,14 @@ ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
     for (int j = i; j < rows; ++j)
       RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
   }
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < rows; ++j) {
-      Rational entry = 0;
-      for (int k = 0; k <= std::min(i, j); ++k) entry += L(i, k) * D[k] * L(j, k);
-      RequireEqual(problem.A(i, j), entry, fmt::format("problem.A[{}][{}]", i, j));
+  RequireSymmetric(problem);
+  Cost(EliminationOperations(problem, 1)).AllRows(problem);
+  ExactMatrix rest = problem.A;
+  for (int k = 0; k < rows; ++k) {
+    for (int i = k; i < rows; ++i)
+      RequireEqual(rest(i, k), L(i, k) * D[k], fmt::format("(A - L diag(D) L')[{}][{}]", i, k));
+    for (int i = k + 1; i < rows; ++i) {
+      for (int j = k + 1; j <= i && D[k] != 0; ++j) rest(i, j) -= L(i, k) * rest(j, k);
     }
   }
   return D;
@@ -118,6 +135,7 @@ Json CheckDefinite(const ExactProblem& problem, const Json& witness) {
 std::pair<ExactVector, Rational> ReadCurvature(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
+  RequireProduct(problem, x);
   const Rational curvature = x.dot(problem.A * x);
   RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");
   return {x, curvature};
@@ -139,6 +157,7 @@ Json CheckNotDefinite(const ExactProblem& problem, const Json& witness) {
 Json CheckInRange(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
+  RequireProduct(problem, x);
   const ExactVector image = problem.A * x;
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], problem.b[i], fmt::format("(A x)[{}]", i));
   return Json::object();
@@ -147,6 +166,7 @@ Json CheckInRange(const ExactProblem& problem, const Json& witness) {
 Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "y"});
   const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
+  RequireProduct(problem, y);
   const ExactVector image = problem.A.transpose() * y;
   for (int j = 0; j < problem.rows(); ++j) RequireEqual(image[j], 0, fmt::format("(y'A)[{}]", j));
   const Rational product = y.dot(problem.b);
@@ -165,6 +185,7 @@ Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"y"});
   RequireCones(problem);
   const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
+  RequireProduct(problem, y);
   if (const auto violation = FindDualConeViolation(problem, DualRest(problem, y))) {
     throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};
   }
@@ -175,6 +196,7 @@ Json CheckNotHypothesis(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"v", "value"});
   RequireCones(problem);
   const ExactVector v = ReadVector(witness["v"], "witness.v", problem.rows());
+  RequireProduct(problem, v);
   const ExactVector image = problem.A * v;
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));
   const Rational product = problem.b.dot(v);
@@ -276,10 +298,23 @@ Json NumbersOf(const Json& runs, const char* key) {
   return numbers;
 }
 
+std::size_t LengthOf(const Json& run, const char* key) {
+  return run.is_object() && run.contains(key) && run[key].is_array() ? run[key].size() : 0;
+}
+
+// As many steps as are stated of every policy, each by an elimination.
+void RequireFewSteps(const ExactProblem& problem, const Json& runs) {
+  double steps = 0;
+  for (const Json& run : runs)
+    steps += static_cast<double>(LengthOf(run, "policies")) * static_cast<double>(LengthOf(run, "pivots") + 1);
+  Cost(ReducedOperations(problem, steps)).AllRows(problem);
+}
+
 Json CheckRuns(const ExactProblem& problem, const Json& witness) {
   if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
   const Json& runs = witness["runs"];
   if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shown(runs), "at least one run"};
+  RequireFewSteps(problem, runs);
   const std::vector<std::string> names = VariableNames(problem);
   std::set<std::string> policies, different;
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -358,13 +393,63 @@ WitnessCheck& ReadClaim(const Json& certificate, CheckReport& report) {
   throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(claims, ", "))};
 }
 
-// Before a matrix is made of them.
-void RequireFewContacts(const Json& problem) {
-  if (!problem.is_object() || !problem.contains("contacts")) return;  // refused where it is read
-  const std::size_t contacts = problem["contacts"].size();
-  if (contacts <= kMostContactsOfCertificate) return;
-  throw Rejected{"problem.contacts", fmt::format("{} contacts", contacts),
-                 fmt::format("at most {}", kMostContactsOfCertificate)};
+// Before a matrix is made of them. What is no list of contacts is refused where it is read.
+void RequireFewRows(const Json& problem) {
+  if (!problem.is_object() || !problem.contains("contacts") || !problem.contains("dimension")) return;
+  const std::size_t with_friction = problem["dimension"] == 3 ? 3 : 2;
+  std::size_t rows = 0;
+  for (const Json& contact : problem["contacts"])
+    rows += contact.is_object() && contact.contains("mu") ? with_friction : 1;
+  if (rows <= kMostRowsOfCertificate) return;
+  throw Rejected{"problem.contacts", fmt::format("contacts of {} rows", rows),
+                 fmt::format("at most {}", kMostRowsOfCertificate)};
+}
+
+// Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no
+// number, or one that is refused where it is read.
+std::int64_t DigitsOf(std::string_view text) {
+  std::int64_t digits = 0, places = 0, exponent = 0;
+  bool in_fraction = false;
+  if (text.size() > kMostCharactersOfNumber) return 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c >= '0' && c <= '9') {
+      digits += digits > 0 || c != '0';
+      places += in_fraction;
+    } else if (c == '/') {
+      return digits + DigitsOf(text.substr(k + 1));
+    } else if (c == '.') {
+      in_fraction = true;
+    } else if (c == 'e' || c == 'E') {
+      const auto sign = text.substr(k + 1).starts_with('+') ? 2 : 1;
+      const auto end = std::from_chars(text.data() + k + sign, text.data() + text.size(), exponent);
+      if (end.ec != std::errc() || std::abs(exponent) > 10000) return 0;
+      break;
+    } else if (c != '-') {
+      return 0;
+    }
+  }
+  return digits == 0 ? 0 : digits + std::abs(exponent - places);
+}
+
+std::int64_t AllDigits(const Json& json) {
+  if (const auto* text = json.get_ptr<const std::string*>()) return DigitsOf(*text);
+  std::int64_t digits = 0;
+  if (json.is_structured())
+    for (const Json& item : json) digits += AllDigits(item);
+  return digits;
+}
+
+// Before any is read.
+void RequireFewDigits(const Json& certificate) {
+  const std::int64_t digits = AllDigits(certificate["problem"]) + AllDigits(certificate["witness"]);
+  if (digits <= kMostDigitsOfCertificate) return;
+  throw Rejected{"certificate", fmt::format("numbers of {} digits", digits),
+                 fmt::format("at most {} in all", kMostDigitsOfCertificate)};
+}
+
+std::string ReasonOf(const Rejected& rejected) {
+  return rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;
 }
 
 }  // namespace
@@ -373,7 +458,8 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
   CheckReport report;
   try {
     WitnessCheck& check = ReadClaim(certificate, report);
-    RequireFewContacts(certificate["problem"]);
+    RequireFewRows(certificate["problem"]);
+    RequireFewDigits(certificate);
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
     report.digest = ProblemDigest(problem);
     if (!digest.empty() && report.digest != digest) {
@@ -381,8 +467,11 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
     }
     report.facts = check(problem, certificate["witness"]);
     report.accepted = true;
+  } catch (const TooDear& rejected) {
+    report.is_too_dear = true;
+    report.reason = ReasonOf(rejected);
   } catch (const Rejected& rejected) {
-    report.reason = rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;
+    report.reason = ReasonOf(rejected);
   } catch (const InputError& error) {
     report.reason = error.what();
   }

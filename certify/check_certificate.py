@@ -25,8 +25,8 @@ from math import prod
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (brief, dot, exact, fields, integer, items, main, need, one_of,
-                                planar_contacts, rows, times, vector)
+from certificate_reader import (Cost, brief, dot, elimination_operations, exact, fields, integer, items, main, need,
+                                one_of, planar_contacts, product_operations, reduced_operations, rows, times, vector)
 from check_runs import check_runs
 
 # --- A and b: each check returns the facts to print ---------------------------------
@@ -34,6 +34,13 @@ from check_runs import check_runs
 def equal(found, expected, place, meaning):
     for i, (x, y) in enumerate(zip(found, expected)):
         need(x == y, f"{place}[{i}]", x, y, f" ({meaning})")
+
+
+def factor_of_products(problem, witness, name):
+    """A vector of the witness, of which A x and x'Ax are not too dear."""
+    x = vector(witness[name], f"$.witness.{name}", len(problem.b))
+    Cost(product_operations(len(x))).longest_row(problem).numbers(x, 2)
+    return x
 
 
 def check_symmetric(problem, witness):
@@ -49,7 +56,8 @@ def check_not_symmetric(problem, witness):
 
 
 def factored(problem, witness):
-    """D, once A is symmetric and A = L diag(D) L' with D >= 0, so x'Ax = sum of D_i (L'x)_i^2 >= 0."""
+    """D, once A is symmetric and A = L diag(D) L' with D >= 0, so x'Ax = sum of D_i (L'x)_i^2 >= 0. One column of L
+    after the other is taken away, so that no number grows beyond the minors of A, whatever L and D are."""
     n = len(problem.b)
     L, D = rows(witness["L"], "$.witness.L", n), vector(witness["D"], "$.witness.D", n)
     check_symmetric(problem, {})
@@ -57,8 +65,14 @@ def factored(problem, witness):
         need(D[i] >= 0, f"$.witness.D[{i}]", D[i], "D >= 0")
         equal(L[i][i:], [1] + [0] * (n - i - 1), f"$.witness.L[{i}][{i}:]",
               "a lower triangle with unit diagonal")
-        scaled = [x * y for x, y in zip(L[i], D)]
-        equal(times(L, scaled), problem.A[i], f"$.witness (L diag(D) L')[{i}]", "A")
+    Cost(elimination_operations(n)).all_rows(problem)
+    rest = [list(row) for row in problem.A]
+    for k in range(n):
+        equal([row[k] for row in rest[k:]], [row[k] * D[k] for row in L[k:]],
+              f"$.witness (A - L diag(D) L')[{k}:][{k}]", "the column of L, times D")
+        for i in range(k + 1, n):
+            if L[i][k] and D[k]:
+                rest[i] = [x - L[i][k] * y for x, y in zip(rest[i], rest[k])]
     return D
 
 
@@ -81,14 +95,14 @@ def stated(witness, computed, meaning):
 
 
 def check_not_psd(problem, witness):
-    x = vector(witness["x"], "$.witness.x", len(problem.b))
+    x = factor_of_products(problem, witness, "x")
     value = stated(witness, dot(x, times(problem.A, x)), "x'Ax")
     need(value < 0, "$.witness.value", value, "a value < 0")
     return f"{len(x)} rows"
 
 
 def check_not_definite(problem, witness):
-    x = vector(witness["x"], "$.witness.x", len(problem.b))
+    x = factor_of_products(problem, witness, "x")
     need(any(x), "$.witness.x", witness["x"], "a vector other than 0")
     value = stated(witness, dot(x, times(problem.A, x)), "x'Ax")
     need(value <= 0, "$.witness.value", value, "a value <= 0")
@@ -96,13 +110,13 @@ def check_not_definite(problem, witness):
 
 
 def check_in_range(problem, witness):
-    x = vector(witness["x"], "$.witness.x", len(problem.b))
+    x = factor_of_products(problem, witness, "x")
     equal(times(problem.A, x), problem.b, "$.witness (A x)", "b")
     return f"{len(x)} rows"
 
 
 def check_not_in_range(problem, witness):
-    y = vector(witness["y"], "$.witness.y", len(problem.b))
+    y = factor_of_products(problem, witness, "y")
     value = stated(witness, dot(y, problem.b), "y'b")
     need(value != 0, "$.witness.value", value, "a value other than 0")
     equal(times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")
@@ -121,7 +135,7 @@ def cones(problem):
 
 def check_h(problem, witness):
     """b = A'y + g, g in the dual of the friction cones: b'v = y'Av + g'v >= 0 where A v = 0."""
-    y = vector(witness["y"], "$.witness.y", len(problem.b))
+    y = factor_of_products(problem, witness, "y")
     g = [x - z for x, z in zip(problem.b, times(zip(*problem.A), y))]
     for kind, mu, normal, tangents in cones(problem):
         place, gN = f"$.witness (b - A'y)[{normal}]", g[normal]
@@ -133,7 +147,7 @@ def check_h(problem, witness):
 
 def check_not_h(problem, witness):
     """v in the friction cones with A v = 0 and b'v < 0."""
-    v = vector(witness["v"], "$.witness.v", len(problem.b))
+    v = factor_of_products(problem, witness, "v")
     value = stated(witness, dot(v, problem.b), "b'v")
     need(value < 0, "$.witness.value", value, "a value < 0")
     equal(times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")
@@ -148,7 +162,7 @@ def check_not_h(problem, witness):
 
 def forces(problem, witness):
     """f and a of a witness, once a = A f + b."""
-    f, a = (vector(witness[k], f"$.witness.{k}", len(problem.b)) for k in "fa")
+    f, a = factor_of_products(problem, witness, "f"), vector(witness["a"], "$.witness.a", len(problem.b))
     equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")
     return f, a
 
@@ -300,7 +314,10 @@ def check_no_solution(problem, witness):
     for modes in reversed(choices):
         following.append(following[-1] * len(modes))
     covered, prefixes = 0, {}
-    for at, entry in items(witness["prefixes"], "$.witness.prefixes"):
+    listed = items(witness["prefixes"], "$.witness.prefixes")
+    operations = product_operations(len(problem.b), len(listed))
+    longest = Cost(operations).longest_row(problem).total
+    for at, entry in listed:
         fields(entry, at, "modes", "y")
         named = items(entry["modes"], at + ".modes")
         need(len(named) <= len(choices), at + ".modes", len(named), f"<= {len(choices)} modes")
@@ -308,7 +325,9 @@ def check_no_solution(problem, witness):
         need(prefix not in prefixes, at + ".modes", prefix,
              f"no prefix twice, see {prefixes.get(prefix)}")
         prefixes[prefix] = at
-        check_refutation(problem, prefix, vector(entry["y"], at + ".y", len(problem.b)), at + ".y")
+        y = vector(entry["y"], at + ".y", len(problem.b))
+        Cost(operations).add(longest).numbers(y, 2)
+        check_refutation(problem, prefix, y, at + ".y")
         covered += following[len(choices) - len(prefix)]
     for prefix, at in prefixes.items():
         for length in range(len(prefix)):
@@ -374,6 +393,7 @@ def check_safe(problem, witness):
     count, choices = words_of(problem)
     smallest = Fraction(1)  # that of the word in which every contact breaks
     stated = items(witness["determinants"], "$.witness.determinants", count)
+    Cost(reduced_operations(len(problem.b), count)).all_rows(problem)
     for word, (at, value) in zip(product(*choices), stated):
         value = reduced_determinant(problem, word, value, at)
         need(value > 0, at, value, "a determinant > 0")
@@ -404,6 +424,7 @@ def check_safe_by_condition(problem, witness):
         need(d[i] > 0, f"$.witness.scaling[{i}]", d[i], "a number > 0")
     least, most = exact(witness["least"], "$.witness.least"), exact(witness["most"], "$.witness.most")
     need(least > 0, "$.witness.least", least, "a number > 0")
+    Cost(elimination_operations(n, 2)).all_rows(problem).numbers(d, 2 * n).numbers([least, most], n)
     B = [[d[i] * problem.A[i][j] * d[j] for j in range(n)] for i in range(n)]
     below = [[B[i][j] - least * (i == j) for j in range(n)] for i in range(n)]
     above = [[most * (i == j) - B[i][j] for j in range(n)] for i in range(n)]
@@ -420,6 +441,7 @@ def check_unsafe(problem, witness):
     choices = words_of(problem)[1]
     named = items(witness["word"], "$.witness.word", len(choices))
     word = [one_of(mode, at, modes) for (at, mode), modes in zip(named, choices)]
+    Cost(elimination_operations(len(problem.b))).all_rows(problem)
     value = reduced_determinant(problem, word, witness["determinant"], "$.witness.determinant")
     need(value <= 0, "$.witness.determinant", value, "a determinant <= 0")
     return f"{' '.join(word)}, determinant {brief(value)}"

@@ -24,7 +24,8 @@ from functools import cached_property, lru_cache
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import dot, exact, fields, items, main, need, planar_contacts, times
+from certificate_reader import (Cost, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
+                                times)
 
 # --- Problems and policies -----------------------------------------------------------
 
@@ -411,8 +412,13 @@ def check_policy(rows, stated, place, policy):
 def check_runs(problem, witness):
     """The runs of a witness; the facts to print."""
     rows, first, runs = Rows(problem), {}, []
-    for place, stated in items(witness["runs"], "$.witness.runs"):
+    listed = items(witness["runs"], "$.witness.runs")
+    for place, stated in listed:
         fields(stated, place, "policies", "start", "period", "pivots", "state")
+    steps = sum(len(items(stated["policies"], place + ".policies")) * (len(items(stated["pivots"], place + ".pivots")) + 1)
+                for place, stated in listed)
+    Cost(reduced_operations(len(problem.b), steps)).all_rows(problem)
+    for place, stated in listed:
         policies = items(stated["policies"], place + ".policies")
         need(policies, place + ".policies", [], "at least one policy")
         for at, policy in policies:

@@ -183,6 +183,8 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
   const Rational least = ReadNumber(witness["least"], "witness.least");
   const Rational most = ReadNumber(witness["most"], "witness.most");
   if (least <= 0) throw Rejected{"witness.least", ToString(least), "a number > 0"};
+  const int n = problem.rows();
+  Cost(EliminationOperations(problem, 2)).AllRows(problem).Vector(d, 2 * n).Numbers({{least, most}}, n);
   const ExactMatrix B = Scaled(problem.A, d), I = ExactMatrix::Identity(B.rows(), B.cols());
   if (!IsSemidefinite(B - least * I)) {
     throw Rejected{"witness.least", ToString(least), "no more than the least eigenvalue of DAD"};

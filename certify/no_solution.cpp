@@ -152,11 +152,13 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
   const Json& listed = witness["prefixes"];
   RequireList(listed, "witness.prefixes");
   std::vector<ModeWord> prefixes;
+  const Cost cost = Cost(ProductOperations(problem, static_cast<double>(listed.size()))).LongestRow(problem);
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::string path = ElementPath("witness.prefixes", k);
     RequireKeys(listed[k], path, {"modes", "y"});
     prefixes.push_back(ReadPrefix(listed[k]["modes"], path + ".modes", problem));
     const ExactVector y = ReadVector(listed[k]["y"], path + ".y", problem.rows());
+    Cost(cost).Vector(y, 2);
     if (const auto gap = FindRefutationGap(problem, prefixes.back(), MakeFarkasVector(problem, y))) {
       throw Rejected{path + ".y", *gap, "a refutation of the prefix"};
     }

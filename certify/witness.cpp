@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "corpus/exact_number.h"
 
@@ -84,9 +86,96 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
   return prefix;
 }
 
+// ---- Cost --------------------------------------------------------------------------------------
+
+double ProductOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n + 8 * n) / 8);
+}
+
+double EliminationOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n * n + 10 * n * n) / 10);
+}
+
+double ReducedOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n * n + 240 * n) / 240);
+}
+
+Cost::Cost(double operations)
+    : most_(static_cast<std::int64_t>(std::sqrt(std::floor(kMostWork / std::max(operations, 1.0))))) {
+  if (operations <= static_cast<double>(kMostOperations)) return;
+  throw TooDear{{"certificate", fmt::format("a claim that takes {:.0f} operations", operations),
+                 fmt::format("at most {}", kMostOperations)}};
+}
+
+void Cost::Add(std::int64_t bits) {
+  bits_ += bits;
+  if (bits_ <= most_) return;
+  throw TooDear{{"certificate", fmt::format("numbers that grow beyond {} bits", most_),
+                 "fewer, for as many operations as the claim takes"}};
+}
+
+// Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit.
+std::int64_t Cost::Bits(std::span<const Rational> numbers) const {
+  using Parts = Fractions<Rational>;
+  Parts::Integer denominator = 1;
+  std::int64_t numerator = 1;
+  for (const Rational& x : numbers) {
+    Parts::Include(denominator, x);
+    if (BitLength<Parts::Integer>::Of(denominator) > most_) return most_ + 1;
+  }
+  for (const Rational& x : numbers)
+    numerator = std::max(numerator, BitLength<Parts::Integer>::Of(Parts::Numerator(x, denominator)));
+  return BitLength<Parts::Integer>::Of(denominator) + numerator;
+}
+
+Cost& Cost::Numbers(std::span<const Rational> numbers, int times) {
+  Add(times * Bits(numbers));
+  return *this;
+}
+
+Cost& Cost::Vector(const ExactVector& x, int times) {
+  return Numbers({x.data(), static_cast<std::size_t>(x.size())}, times);
+}
+
+namespace {
+
+// Row i of A and b.
+std::vector<Rational> RowOf(const ExactProblem& problem, int i) {
+  std::vector<Rational> row = {problem.b[i]};
+  for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j));
+  return row;
+}
+
+}  // namespace
+
+Cost& Cost::LongestRow(const ExactProblem& problem) {
+  std::int64_t longest = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    const ExactVector column = problem.A.col(i);
+    longest = std::max({longest, Bits(RowOf(problem, i)), Bits({column.data(), std::size_t(column.size())})});
+    if (longest > most_) break;
+  }
+  Add(longest);
+  return *this;
+}
+
+Cost& Cost::AllRows(const ExactProblem& problem) {
+  std::vector<Rational> mu;
+  for (const Contact<Rational>& contact : problem.contacts)
+    if (contact.HasFrictionRows()) mu.push_back(contact.mu);
+  const std::int64_t friction = Bits(mu);
+  for (int i = 0; i < problem.rows(); ++i) Add(Bits(RowOf(problem, i)) + friction);
+  return *this;
+}
+
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {
   try {
     check(problem, witness);
+    return std::nullopt;
+  } catch (const TooDear&) {
     return std::nullopt;
   } catch (const Rejected& rejected) {
     return rejected;

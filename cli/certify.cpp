@@ -2,6 +2,7 @@
 // stiction certify, stiction check: claims with exact witnesses, made and verified.
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <iostream>
@@ -84,7 +85,7 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
                            {"programs", modes.programs}})
               << "\n";
   } else {
-    fmt::print("{}", SolutionsText(modes));
+    fmt::print(std::cout, "{}", SolutionsText(modes));
   }
   return complete ? kExitDone : kExitUndecided;
 }
@@ -215,10 +216,10 @@ Json RadiusToJson(const std::optional<Rational>& radius) { return radius ? Json(
 void ShowRadiusOf(const std::string& policy, const std::optional<Rational>& radius, std::string_view what,
                   std::string_view measure) {
   if (radius)
-    fmt::print("{}: loops for all {} within {} of these, proved ({})\n", policy, what, ToString(*radius),
-               measure);
+    fmt::print(std::cout, "{}: loops for all {} within {} of these, proved ({})\n", policy, what,
+               ToString(*radius), measure);
   else
-    fmt::print("{}: no loop of {} that is proved\n", policy, what);
+    fmt::print(std::cout, "{}: no loop of {} that is proved\n", policy, what);
 }
 
 int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
@@ -243,6 +244,15 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
+void RequireAffordable(const Json& certificate, const std::string& file) {
+  const CheckReport report = CheckCertificate(certificate, file);
+  if (report.accepted) return;
+  throw InputError(
+      fmt::format("{}: found a problem whose certificate no checker would take, {}: try another claim, "
+                  "or a smaller problem",
+                  file, report.reason));
+}
+
 int RunCertify(const CertifyOptions& o) {
   if (o.output.empty() && !o.all && !o.safe && !o.robust)
     throw InputError("certify: expected -o CERT, --all, --safe or --robust");
@@ -257,6 +267,7 @@ int RunCertify(const CertifyOptions& o) {
   const Json certificate = CertificateOf(o, file.problem, o.file, Shown(bar));
   bar.Clear();
   const bool certified = !certificate.is_null();
+  if (certified) RequireAffordable(certificate, o.file);
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");
   // With the certificate itself on standard output, nothing else may stand there.
@@ -310,11 +321,11 @@ int RunCheck(const CheckOptions& o) {
     try {
       const CheckReport report = CheckText(ReadText(file), file, digest);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
-      if (!o.json) fmt::print("{}: {}\n", file, ReportText(report));
+      if (!o.json) fmt::print(std::cout, "{}: {}\n", file, ReportText(report));
       reports.push_back(ReportToJson(file, report));
     } catch (const InputError& error) {
       exit = kExitBadInput;
-      fmt::print(stderr, "stiction: {}\n", error.what());
+      fmt::print(std::cerr, "stiction: {}\n", error.what());
       reports.push_back({{"file", file}, {"accepted", false}, {"reason", error.what()}});
     }
   }

@@ -4,6 +4,7 @@
 #include "search/minimize.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <iostream>
@@ -150,14 +151,16 @@ int ListPolicies(const PoliciesVerb& o) {
                     {"planar", row.planar},
                     {"values", values}});
     if (o.json) continue;
-    fmt::print("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
-               row.reads);
-    for (const PolicyValue& value : row.values) fmt::print("    {:14} {}\n", value.name, value.meaning);
+    fmt::print(std::cout, "{}: {}{}\n    {}\n", row.name, row.question,
+               row.planar ? "" : " (not in the planar grid)", row.reads);
+    for (const PolicyValue& value : row.values)
+      fmt::print(std::cout, "    {:14} {}\n", value.name, value.meaning);
   }
   if (o.json) {
     std::cout << JsonText(rows) << "\n";
   } else {
-    fmt::print("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+    fmt::print(std::cout,
+               "The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
                PlanarGrid().size());
   }
   return kExitDone;

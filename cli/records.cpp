@@ -4,6 +4,7 @@
 #include "cli/records.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <filesystem>
 #include <iostream>
@@ -61,7 +62,7 @@ int Add(const RecordsVerb& o) {
   record.random_command = o.random_command;
   const std::string file = FolderOf(o) + "/" + o.frontier + ".json";
   WriteText(file, Print(record));
-  fmt::print("{}: {}\n", file, Shown(record.value));
+  fmt::print(std::cout, "{}: {}\n", file, Shown(record.value));
   return kExitDone;
 }
 
@@ -85,8 +86,8 @@ int RunRecords(const RecordsVerb& o) {
     if (o.check) row["fault"] = fault.empty() ? Json() : Json(fault);
     rows.push_back(std::move(row));
     if (o.json) continue;
-    fmt::print("{:28} {:>14}  {}, {}; random: {} of {}{}\n    {}\n", record.frontier, Shown(record.value),
-               record.objective->sign > 0 ? "to be high" : "to be low", record.status,
+    fmt::print(std::cout, "{:28} {:>14}  {}, {}; random: {} of {}{}\n    {}\n", record.frontier,
+               Shown(record.value), record.objective->sign > 0 ? "to be high" : "to be low", record.status,
                record.random_value ? Shown(*record.random_value) : "nothing",
                Grouped(record.random_evaluations),
                !o.check        ? ""

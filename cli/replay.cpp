@@ -2,6 +2,7 @@
 // stiction replay: a path method on one problem, step by step, exactly where it is built so.
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <iostream>
 #include <map>
@@ -137,9 +138,10 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     std::string told = ToldForPeople(o, file, solution, narration);
     if (proved) told += OverIntervalsText(*proved) + "\n";
     if (!expected.empty() && expected != Name(solution.outcome())) told += "expected: " + expected + "\n";
-    fmt::print("{}", told);
+    fmt::print(std::cout, "{}", told);
     if (o.step)
-      fmt::print("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
+      fmt::print(std::cout, "\nThe words (numbers in brackets are sections of the paper):\n{}",
+                 GlossaryOf(told));
   }
   return ExitOf(solution.outcome(), expected);
 }
@@ -181,7 +183,7 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
   for (const Policy& policy : grid) {
     const std::string name = PolicyName(policy), outcome = outcomes[name]["outcome"].get<std::string>();
     by_outcome[outcome].push_back(policy);
-    if (o.list) fmt::print("{:10} {}\n", outcome, name);
+    if (o.list) fmt::print(std::cout, "{:10} {}\n", outcome, name);
   }
   for (const auto& [outcome, some] : by_outcome) {
     std::vector<std::string> common;
@@ -189,11 +191,11 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
       if (const std::string text = InCommon(row, some, grid); !text.empty()) common.push_back(text);
     }
     const bool all = some.size() == grid.size();
-    fmt::print("{}: {} policies{}{}\n", outcome,
+    fmt::print(std::cout, "{}: {} policies{}{}\n", outcome,
                all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
                common.empty() ? "" : ", all with ", fmt::join(common, ", "));
   }
-  if (!o.list && by_outcome.size() > 1) fmt::print("(--list: a line for every policy)\n");
+  if (!o.list && by_outcome.size() > 1) fmt::print(std::cout, "(--list: a line for every policy)\n");
 }
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
@@ -219,7 +221,7 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   } else {
     PrintOutcomes(o, grid, outcomes);
     if (!unexpected.empty())
-      fmt::print("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
+      fmt::print(std::cout, "{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
                  unexpected.size());
   }
   return unexpected.empty() ? kExitDone : kExitNotSo;

@@ -4,6 +4,7 @@
 #include "search/search.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <charconv>
@@ -128,7 +129,7 @@ int ExitOf(const Store& store, const std::string& file) {
   int grave = 0;
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
-  fmt::print(stderr,
+  fmt::print(std::cerr,
              "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles\n",
              file, grave);
   return kExitGrave;
@@ -170,7 +171,7 @@ int RunSearchVerb(const SearchVerb& o) {
   const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
   SearchOptions options = OptionsOf(o);
   options.started = [&] {
-    fmt::print(stderr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
+    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
                options.threads, o.shard, o.store);
   };
   NightLog log(options.minutes);
@@ -190,7 +191,8 @@ int RunSearchVerb(const SearchVerb& o) {
       });
   log.Finish(report.progress);
   if (untold > 0)
-    fmt::print(stderr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(), untold);
+    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(),
+               untold);
   const Store store = Store::OpenToRead(o.store);
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
@@ -198,7 +200,7 @@ int RunSearchVerb(const SearchVerb& o) {
     std::cout << SummaryOf(store, o.store);
   }
   if (report.end == SearchEnd::kInterrupted) {
-    fmt::print(stderr,
+    fmt::print(std::cerr,
                "{} Interrupted; everything done so far is stored. The same command goes on from here.\n",
                TimeOfDay());
   }
@@ -246,13 +248,13 @@ void Watch(const std::string& file) {
     if (std::filesystem::exists(file)) {  // a search makes it in its first moment
       const Look now = LookAt(OpenSound(file));
       if (!before || now.problems != before->problems)
-        fmt::print(stderr, "{} {}\n", TimeOfDay(), Changes(before.value_or(now), now));
+        fmt::print(std::cerr, "{} {}\n", TimeOfDay(), Changes(before.value_or(now), now));
       before = now;
     }
     for (double waited = 0; waited < kLook && !interrupted && StoreLock::IsHeld(file); waited += 0.1)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  if (!interrupted) fmt::print(stderr, "{} no process works on {}\n", TimeOfDay(), file);
+  if (!interrupted) fmt::print(std::cerr, "{} no process works on {}\n", TimeOfDay(), file);
 }
 
 int RunStatus(const StatusVerb& o) {
@@ -338,19 +340,25 @@ CampaignIdentity IdentityOfAny(const std::vector<std::string>& stores) {
 // A store that was made only now goes with a merge that failed.
 class NewStore {
  public:
-  explicit NewStore(std::string file) : file_(std::move(file)), is_new_(!std::filesystem::exists(file_)) {}
+  explicit NewStore(const std::string& file) {
+    if (IsThere(file)) return;
+    for (const char* end : {"", "-wal", "-shm"})
+      if (!IsThere(file + end)) files_.push_back(file + end);
+  }
   NewStore(const NewStore&) = delete;
   NewStore& operator=(const NewStore&) = delete;
   ~NewStore() {
     std::error_code ignored;
-    if (!is_new_) return;
-    for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file_ + end, ignored);
+    for (const std::string& file : files_) std::filesystem::remove(file, ignored);
   }
-  void Keep() { is_new_ = false; }
+  void Keep() { files_.clear(); }
 
  private:
-  std::string file_;
-  bool is_new_;
+  static bool IsThere(const std::string& file) {
+    return std::filesystem::exists(std::filesystem::symlink_status(file));
+  }
+
+  std::vector<std::string> files_;
 };
 
 void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
@@ -358,14 +366,14 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
   for (const std::string& file : stores) {
     try {
       const std::vector<std::string> lines = merged.Salvage(file);
-      for (const std::string& line : lines) fmt::print(stderr, "left out: {}\n", line);
+      for (const std::string& line : lines) fmt::print(std::cerr, "left out: {}\n", line);
       left_out += lines.size();
     } catch (const InputError& error) {
-      fmt::print(stderr, "left out: {}\n", error.what());
+      fmt::print(std::cerr, "left out: {}\n", error.what());
       ++refused;
     }
   }
-  fmt::print(stderr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
+  fmt::print(std::cerr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
   if (refused == stores.size())
     throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
 }

@@ -2,6 +2,7 @@
 #include "cli/shared.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <csignal>
@@ -102,7 +103,7 @@ void AddReplace(Verb& verb, bool& replace) {
 Occupied OccupiedIf(bool replace) { return replace ? Occupied::kSetAside : Occupied::kRefused; }
 
 void TellAside(const std::filesystem::path& aside) {
-  if (!aside.empty()) fmt::print(stderr, "stiction: what stood there is kept as {}\n", aside.string());
+  if (!aside.empty()) fmt::print(std::cerr, "stiction: what stood there is kept as {}\n", aside.string());
 }
 
 std::string Expected(const ProblemFile& file, const Policy& policy) {

@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "cli/shared.h"
 #include "cli/verbs.h"
@@ -100,8 +102,9 @@ shard=${1-}
 whole=shards/$shard.store
 [[ ! -e $whole ]] || exit 0
 # Of this attempt alone: another one may still be running on a node that was given up.
-store=shards/.$shard.${SLURM_JOB_ID:-$$}.${SLURM_RESTART_COUNT:-0}
-trap 'rm -f -- "$store" "$store"-wal "$store"-shm "$store".lock' EXIT
+work=$(mktemp -d "shards/.$shard.XXXXXX") || exit 74
+trap 'rm -rf -- "$work"' EXIT
+store=$work/store
 
 # What a signal or a lost child leaves is done again, a few times. Slurm does not requeue a task whose program was killed.
 again() {
@@ -128,7 +131,7 @@ esac
 have=$(units_of "$store")
 [[ $have == "$(units_wanted "$shard")" ]] || again "has ${have:-no} units, expected $(units_wanted "$shard")"
 [[ ! -s $store-wal ]] || again "its store is not closed"
-sync -- "$store" && mv -f -- "$store" "$whole" || exit 74
+sync -- "$store" && mv -fT -- "$store" "$whole" || exit 74
 note "shard $shard: $have units"
 )sh";
 
@@ -153,7 +156,7 @@ for ((shard = 0; shard < shards; ++shard)); do
     stores+=("$store")
   else
     note "shard $shard: ${have:-no} units can be read, expected $(units_wanted "$shard"); kept as $store.damaged"
-    mv -f -- "$store" "$store.damaged"
+    mv -fT -- "$store" "$store.damaged"
     missing+=("$shard")
   fi
 done
@@ -167,8 +170,9 @@ if ((${#missing[@]})); then
   exit 0
 fi
 
-merged=.merged.${SLURM_JOB_ID:-$$}.store
-trap 'rm -f -- "$merged" "$merged"-wal "$merged"-shm "$merged".lock' EXIT
+work=$(mktemp -d .merged.XXXXXX) || exit 74
+trap 'rm -rf -- "$work"' EXIT
+merged=$work/store
 for ((first = 0; first < ${#stores[@]}; first += 1000)); do  # a command line has an end
   "$stiction" merge "$merged" "${stores[@]:first:1000}" >/dev/null
   status=$?
@@ -178,8 +182,8 @@ done
 "$stiction" search --store "$merged" --finish --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >/dev/null
 status=$?
 [[ $status == 0 || $status == 4 ]] || exit "$status"
-mv -f -- "$merged" merged.store || exit 74
-rm -f -- shards/.[0-9]*  # of tasks whose nodes died
+mv -fT -- "$merged" merged.store || exit 74
+rm -rf -- shards/.[0-9]*  # of tasks whose nodes died
 "$stiction" report merged.store -o report || exit
 "$stiction" status merged.store
 exit "$status"
@@ -189,6 +193,7 @@ constexpr const char* kSubmit = R"sh(#!/bin/bash
 # Submits the shards, and the merge after them. Options are sbatch's, for both: --partition=... --account=...
 cd -- @DIR@ || exit 2
 rm -f -- options
+set -C  # never through a link
 for option; do printf '%s\n' "$option"; done >options || exit 74
 @ARRAYS@
 jobs=$(submit_tasks $(seq 0 @LAST@)) && merge=$(submit_merge "$jobs" 1) || exit
@@ -202,13 +207,18 @@ std::string ShellWord(const std::string& text) {
   return word + "'";
 }
 
-std::string Filled(std::string text, const std::map<std::string, std::string>& values) {
-  for (const auto& [name, value] : values) {
-    const std::string mark = "@" + name + "@";
-    for (auto at = text.find(mark); at != text.npos; at = text.find(mark, at + value.size()))
-      text.replace(at, mark.size(), value);
+// Each mark @NAME@ of the text replaced by its value, in which no mark is looked for.
+std::string Filled(std::string_view text, const std::map<std::string, std::string>& values) {
+  std::string filled;
+  while (!text.empty()) {
+    const auto value = std::find_if(values.begin(), values.end(), [text](const auto& entry) {
+      return text.starts_with("@" + entry.first + "@");
+    });
+    const bool is_mark = value != values.end();
+    filled += is_mark ? value->second : std::string(text.substr(0, 1));
+    text.remove_prefix(is_mark ? value->first.size() + 2 : 1);
   }
-  return text;
+  return filled;
 }
 
 // The whole campaign as a file.

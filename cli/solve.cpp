@@ -4,6 +4,7 @@
 #include "certify/solve.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <iostream>
@@ -46,7 +47,8 @@ std::string WithinText(const Json& result) {
   const Rational gap = 1 - *ParseRational(result["bound"].get<std::string>());
   if (gap == 0) return "solved: these forces meet Coulomb's law and every other condition, exactly";
   return fmt::format(
-      "solved, Coulomb's law within {:.0e}: where a contact slips, -fF.aF is at least `bound` times mu fN |aF|; "
+      "solved, Coulomb's law within {:.0e}: where a contact slips, -fF.aF is at least `bound` times mu fN "
+      "|aF|; "
       "every other condition is met without error",
       ToDouble(gap));
 }
@@ -134,9 +136,10 @@ std::string AssumptionsText(const Json& assumptions, const std::string& file) {
 void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solution& solution,
                     const Json& result) {
   const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
-  fmt::print("{}\n{}", OutcomeSentence(result, solution), VariablesTable(problem, result, fractions));
+  fmt::print(std::cout, "{}\n{}", OutcomeSentence(result, solution),
+             VariablesTable(problem, result, fractions));
   if (result.contains("unique_accelerations"))
-    fmt::print("another solution with other accelerations is known; this is the one at rest\n");
+    fmt::print(std::cout, "another solution with other accelerations is known; this is the one at rest\n");
   for (const auto& [key, value] : result.items()) {
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
                       key == "ray" || key == "reason" || key == "unique_accelerations";
@@ -145,7 +148,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
                                                   : value.dump();
-    fmt::print("{:15} {}\n", WithBlanks(key), text);
+    fmt::print(std::cout, "{:15} {}\n", WithBlanks(key), text);
   }
 }
 

@@ -2,6 +2,7 @@
 // stiction survey: which assumptions of the paper a problem meets, what solves it, and how well.
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -429,7 +430,7 @@ int Survey(const SurveyOptions& o) {
     } catch (const InputError& error) {
       exit = kExitBadInput;
       bar.Clear();
-      fmt::print(stderr, "stiction: {}\n", error.what());
+      fmt::print(std::cerr, "stiction: {}\n", error.what());
       entries.push_back({{"file", file.string()}, {"error", error.what()}});
     }
   }

@@ -2,9 +2,11 @@
 #include "cli/survey_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <string>
 #include <vector>
@@ -133,11 +135,11 @@ std::string MeetingText(const Json& entries) {
 }  // namespace
 
 void PrintSurveySentences(const Json& entry) {
-  fmt::print("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
+  fmt::print(std::cout, "\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
   if (!entry.contains("symmetrized")) return;
   const Json& symmetrized = entry["symmetrized"];
-  fmt::print("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n", AssumptionsText(symmetrized),
-             RunsText(symmetrized));
+  fmt::print(std::cout, "With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n",
+             AssumptionsText(symmetrized), RunsText(symmetrized));
 }
 
 void PrintSurveyCounts(const Json& entries, bool suspicions) {
@@ -149,12 +151,12 @@ void PrintSurveyCounts(const Json& entries, bool suspicions) {
       ++counts[method][run["outcome"].get<std::string>()];
     }
   }
-  fmt::print("\n{}Each method, and how it ended{}:\n", MeetingText(entries),
+  fmt::print(std::cout, "\n{}Each method, and how it ended{}:\n", MeetingText(entries),
              suspicions ? "; exact: those that doubles leave open" : "");
   for (const auto& [method, outcomes] : counts) {
     std::vector<std::string> parts;
     for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
-    fmt::print("{:24} {}\n", method, fmt::join(parts, ", "));
+    fmt::print(std::cout, "{:24} {}\n", method, fmt::join(parts, ", "));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <iostream>
 #include <system_error>
 
@@ -60,10 +61,14 @@ void Sync(int descriptor, const fs::path& file) {
   if (fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) RefuseOutput(file, errno);
 }
 
-Descriptor Open(const fs::path& file, int flags, const fs::path& target) {
-  Descriptor opened(open(file.c_str(), flags | O_CLOEXEC, 0666));
-  if (!opened.valid()) RefuseOutput(target, errno);
-  return opened;
+// A file that was not there before: O_EXCL follows no link.
+constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+
+void WriteOpened(const fs::path& file, int flags, std::string_view text) {
+  Descriptor out(open(file.c_str(), flags, 0666));
+  if (!out.valid()) RefuseOutput(file, errno);
+  WriteAll(out.number(), text, file);
+  if (out.Close() != 0) RefuseOutput(file, errno);
 }
 
 // A new file beside the target, which takes its place or goes.
@@ -72,8 +77,11 @@ class Replacement {
   explicit Replacement(const fs::path& target) : target_(target) {
     static std::atomic<int> count = 0;
     if (access(target.c_str(), F_OK) == 0 && access(target.c_str(), W_OK) != 0) RefuseOutput(target, errno);
-    name_ = FolderOf(target) / fmt::format(".stiction-{}-{}", getpid(), ++count);
-    out_ = Open(name_, O_WRONLY | O_CREAT | O_TRUNC, target);
+    do {  // what has the name, a link above all, is left alone
+      name_ = FolderOf(target) / fmt::format(".stiction-{}-{}", getpid(), ++count);
+      out_ = Descriptor(open(name_.c_str(), kNew, 0666));
+    } while (!out_.valid() && errno == EEXIST);
+    if (!out_.valid()) RefuseOutput(target, errno);
     struct stat old = {};
     if (stat(target.c_str(), &old) == 0) fchmod(out_.number(), old.st_mode & 07777);
   }
@@ -113,19 +121,16 @@ void SyncFolder(const fs::path& folder) {
   if (opened.valid()) Sync(opened.number(), folder);  // a folder that may be written but not read: no way
 }
 
-void WriteDirectly(const fs::path& file, std::string_view text) {
-  Descriptor out = Open(file, O_WRONLY | O_CREAT | O_TRUNC, file);
-  WriteAll(out.number(), text, file);
-  if (out.Close() != 0) RefuseOutput(file, errno);
-}
+void WriteNew(const fs::path& file, std::string_view text) { WriteOpened(file, kNew, text); }
 
 void WriteText(const fs::path& file, std::string_view text) {
   if (IsStandardOutput(file)) {
-    std::cout << text;
-    return;
+    std::cout.flush();  // whose text is for people (cli/program.cpp)
+    std::fflush(stdout);
+    return WriteAll(STDOUT_FILENO, text, "standard output");
   }
   const fs::path target = Followed(file);
-  if (IsWrittenDirectly(target)) return WriteDirectly(target, text);
+  if (IsWrittenDirectly(target)) return WriteOpened(target, O_WRONLY | O_TRUNC | O_CLOEXEC, text);
   Replacement replacement(target);
   replacement.Write(text);
   replacement.Commit();

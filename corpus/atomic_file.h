@@ -3,8 +3,8 @@
 //
 // The new content is written beside the target, brought to the disk, and renamed. Where that fails the
 // target is untouched and nothing is left behind; a process that is killed leaves at most a file
-// `.stiction-PID-N` beside the target. A link is followed: the file that it leads to is replaced. Pipes and
-// devices are written directly.
+// `.stiction-PID-N` beside the target; a name that something has is passed over. The target itself may be a
+// link: the file that it leads to is replaced. Pipes and devices are written directly.
 
 #ifndef STICTION_CORPUS_ATOMIC_FILE_H_
 #define STICTION_CORPUS_ATOMIC_FILE_H_
@@ -19,8 +19,8 @@ namespace stiction {
 // OutputError where the disk is full or the place cannot be written.
 void WriteText(const std::filesystem::path& file, std::string_view text);
 
-// Creates or overwrites a file in place: for pipes, and in a folder that is renamed as a whole.
-void WriteDirectly(const std::filesystem::path& file, std::string_view text);
+// Creates a file in place, where nothing is, not even a link: in a folder that is renamed as a whole.
+void WriteNew(const std::filesystem::path& file, std::string_view text);
 
 // Throws what a failed call on a path means: InputError or OutputError. `error`: of errno.
 [[noreturn]] void RefuseOutput(const std::filesystem::path& file, int error);

@@ -138,7 +138,7 @@ void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
 }
 
 // A of more rows is refused before it is made.
-constexpr int kMostRows = 8192;
+constexpr int kMostRows = 4096;
 
 void RequireMemory(const JsonPlace& place, int rows) {
   if (rows <= kMostRows) return;

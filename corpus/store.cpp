@@ -3,8 +3,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -13,6 +15,7 @@
 #include <utility>
 
 #include "corpus/atomic_file.h"
+#include "corpus/descriptor.h"
 #include "corpus/output_error.h"
 #include "corpus/store_rows.h"
 #include "solver/problem/check.h"
@@ -65,10 +68,11 @@ std::string UriOf(const fs::path& file) {
   return uri;
 }
 
+// A new folder, of this user alone, whose name begins as given; `target`: what it is for.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "stiction-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) RefuseOutput(path_, errno);
+  TemporaryFolder(const fs::path& begin, const fs::path& target) : path_(begin.string() + "XXXXXX") {
+    if (mkdtemp(path_.data()) == nullptr) RefuseOutput(target, errno);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -96,16 +100,37 @@ void RequireFile(const fs::path& file) {
         "-: found standard input, expected a store in a file: it is read and written at many places");
 }
 
+// SQLite writes beside the store by name: nothing there is another's file, under a second name or behind a
+// link.
+void RequireOwnFiles(const fs::path& file) {
+  for (const char* end : {"-wal", "-shm", "-journal"}) {
+    const std::string name = file.string() + end;
+    struct stat status = {};
+    if (lstat(name.c_str(), &status) != 0 || (S_ISREG(status.st_mode) && status.st_nlink == 1)) continue;
+    throw InputError(
+        name + ": found a link or no regular file, expected a file of the store or nothing: move it away");
+  }
+}
+
 void RequireDatabase(const fs::path& file) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   const auto refuse = [&file](const std::string& found) {
     throw InputError(fmt::format("{}: is no stiction store but {}", file.string(), found));
   };
+  RequireOwnFiles(file);
   if (fs::is_directory(file)) refuse("a directory");
   if (!fs::is_regular_file(file)) refuse("no regular file");
   std::string head(kMagic.size(), ' ');
   std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
   if (head != kMagic) refuse(fmt::format("another file of {} bytes", fs::file_size(file)));
+}
+
+// Some network file systems have none. SQLite would wait for one, in vain.
+bool HasLocks(const fs::path& file) {
+  const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  struct flock range = {};
+  range.l_type = F_RDLCK;
+  return !opened.valid() || fcntl(opened.number(), F_OFD_GETLK, &range) == 0;
 }
 
 // A database with tables of somebody else must not get ours beside them.
@@ -128,7 +153,7 @@ Store::~Store() = default;
 
 Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   RequireFile(file);
-  if (!fs::exists(file)) Make(file, identity);
+  if (!fs::exists(fs::symlink_status(file))) Make(file, identity);
   RequireDatabase(file);
   db_.reset(OpenDatabase(file, SQLITE_OPEN_READWRITE));
   RefuseForeignDatabase(db_.get(), file);
@@ -150,21 +175,20 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
                   file.string(), Difference(*stored, identity)));
 }
 
-// Under another name first: a store is never half made, and no file that came meanwhile is overwritten.
+// In a folder of its own first: a store is never half made, and no file that came meanwhile is overwritten.
 void Store::Make(const fs::path& file, const CampaignIdentity& identity) {
-  fs::path name = file;
-  name += fmt::format(".new-{}", getpid());
+  const TemporaryFolder folder(file.string() + ".new-", file);
+  const fs::path name = folder.path() / "store";
   {
     Store store(OpenDatabase(name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
+    store.Execute("PRAGMA journal_mode = WAL");  // now: two that open it could not both change it
     Transaction transaction(store.db_.get());
     store.CreateTables();
     store.WriteIdentity(identity);
     transaction.Commit();
   }
-  if (renameat2(AT_FDCWD, name.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0) return;
-  const int error = errno;
-  fs::remove(name);
-  if (error != EEXIST) RefuseOutput(file, error);
+  if (renameat2(AT_FDCWD, name.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) != 0 && errno != EEXIST)
+    RefuseOutput(file, errno);
 }
 
 Store Store::OpenToRead(const fs::path& file) {
@@ -180,6 +204,7 @@ Store Store::OpenUnchecked(const fs::path& file) {
   if (!fs::exists(file))
     throw InputError(fmt::format("{}: found no such store, expected one that a search wrote", file.string()));
   RequireDatabase(file);
+  if (!HasLocks(file)) return ReadAlone(file);
   try {
     return Snapshot(OpenDatabase(file, SQLITE_OPEN_READWRITE), file);
   } catch (const OutputError&) {  // a folder where the files that readers share cannot be made
@@ -194,7 +219,7 @@ Store Store::ReadAlone(const fs::path& file) {
   std::error_code none;
   if (const auto size = fs::file_size(log, none); none || size == 0)
     return Snapshot(OpenDatabase(UriOf(file) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI), file);
-  const TemporaryFolder folder;
+  const TemporaryFolder folder(fs::temp_directory_path() / "stiction-", fs::temp_directory_path());
   const fs::path copy = folder.path() / "store";
   CopyFile(file, copy);
   CopyFile(log, copy.string() + "-wal");
@@ -204,6 +229,7 @@ Store Store::ReadAlone(const fs::path& file) {
 // For all that is read: a running search may close a block between two questions.
 Store Store::Snapshot(sqlite3* db, const fs::path& file) {
   Store store(db);
+  store.Execute("PRAGMA writable_schema = ON");  // reads a file that ends too early, too, as far as it goes
   store.Execute("BEGIN");
   const auto identity = store.ReadIdentity();
   if (!identity) throw InputError(fmt::format("{}: is no stiction store", file.string()));
@@ -297,10 +323,12 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
 void Store::RequireSound() const {
   Statement check(db_.get(), "PRAGMA quick_check(1)");
   if (check.Step() && check.Text(0) != "ok") {
+    std::string said = check.Text(0);
+    std::ranges::replace(said, '\n', ' ');
     throw InputError(
         fmt::format("{0}: found pages that do not fit together ({1}), expected a whole database: the "
                     "store is damaged. What is sound is saved by: stiction merge --salvage NEW_FILE {0}",
-                    StoreName(db_.get()), check.Text(0)));
+                    StoreName(db_.get()), said));
   }
   for (const StoreTable& table : StoreTables()) {
     Statement rows(db_.get(), SelectFrom(table.name, ""));

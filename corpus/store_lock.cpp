@@ -79,9 +79,17 @@ std::optional<Holder> ReadLine(int file, int line) {
   return holder;
 }
 
+// A lock has this name alone, and nothing in its first byte. A link would have us write into what it leads to.
+bool IsLock(int file) {
+  struct stat status = {};
+  char first = 0;
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink <= 1 &&
+         pread(file, &first, 1, 0) >= 0 && first == 0;
+}
+
 bool IsSameFile(int file, const std::filesystem::path& name) {
   struct stat opened = {}, named = {};
-  return fstat(file, &opened) == 0 && stat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+  return fstat(file, &opened) == 0 && lstat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
          opened.st_dev == named.st_dev;
 }
 
@@ -104,7 +112,13 @@ StoreLock::StoreLock(const std::filesystem::path& store, const Shard& shard) : f
 // The file that has the name, and its first byte.
 void StoreLock::Open() {
   do {
-    lock_ = Descriptor(open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    lock_ = Descriptor(open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+    if (lock_.valid() ? !IsLock(lock_.number()) : errno == ELOOP) {
+      throw InputError(
+          fmt::format("{}: found a link or another file, expected the lock of a store or nothing: "
+                      "move it away",
+                      file_.string()));
+    }
     if (!lock_.valid() || SetLock(lock_.number(), 0, F_WRLCK, F_OFD_SETLKW) != 0) RefuseOutput(file_, errno);
   } while (!IsSameFile(lock_.number(), file_));  // removed by its last holder meanwhile
 }
@@ -125,9 +139,10 @@ int StoreLock::FreeLine(const std::filesystem::path& store, const Shard& shard) 
 }
 
 bool StoreLock::IsHeld(const std::filesystem::path& store) {
-  const Descriptor file(open((store.string() + ".lock").c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file(
+      open((store.string() + ".lock").c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   bool held = false;
-  for (int line = 1; file.valid() && !held && ReadLine(file.number(), line); ++line)
+  for (int line = 1; file.valid() && IsLock(file.number()) && !held && ReadLine(file.number(), line); ++line)
     held = IsHeldByAnother(file.number(), line);
   return held;
 }

@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "corpus/store_rows.h"
@@ -160,11 +164,23 @@ void Store::MergeWork(const Statement& row) {
 
 // Those that units of the other store may have completed.
 void Store::CloseBlocksOf(const Store& other) {
+  std::vector<std::pair<Shard, std::int64_t>> listed;  // first: closing one changes the table
   Statement blocks(other.db_.get(), "SELECT DISTINCT shards, shard, block FROM units");
-  while (blocks.Step()) CloseBlockIfComplete(ReadShard(blocks), ReadBlock(blocks, 2));
+  while (blocks.Step()) listed.emplace_back(ReadShard(blocks), ReadBlock(blocks, 2));
+  for (const auto& [shard, block] : listed) CloseBlockIfComplete(shard, block);
 }
 
 // ---- What is sound of a damaged store ---------------------------------------------------------
+
+namespace {
+
+// Of a table with a key of one column.
+StoreValue KeyOf(const StoreTable& table, const Statement& row) {
+  if (table.name == "findings") return row.Text(0);
+  return row.Integer(0);
+}
+
+}  // namespace
 
 std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
   const Store other = OpenUnchecked(file);
@@ -174,14 +190,37 @@ std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
   std::vector<std::string> left_out;
   Transaction transaction(db_.get());
   for (const StoreTable& table : StoreTables()) SalvageTable(table, other, left_out);
-  CloseBlocksOf(other);
+  CloseBlocksOf(*this);  // the other may not be read to its end
   transaction.Commit();
   return left_out;
 }
 
-// From both ends: a page that cannot be read ends a walk.
+namespace {
+
+constexpr int kMostPages = 100'000;  // that cannot be read: keys may be in any order where pages are damaged
+
+// Keys from which to go on behind one whose page cannot be read, the nearest first.
+std::vector<StoreValue> KeysBehind(const StoreValue& last) {
+  std::vector<StoreValue> keys;
+  if (const auto* number = std::get_if<std::int64_t>(&last)) {
+    for (std::int64_t k = 1; k <= Store::kUnitsPerBlock; ++k) keys.emplace_back(*number + k);
+    return keys;
+  }
+  for (std::string text = std::get<std::string>(last); !text.empty(); text.pop_back()) {
+    std::string next = text;
+    ++next.back();
+    keys.emplace_back(next);
+  }
+  return keys;
+}
+
+}  // namespace
+
+// From both ends: a page that cannot be read ends a walk. Where one column is the key, the walk goes on behind
+// it.
 void Store::SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out) {
   bool whole = true;
+  std::optional<StoreValue> last;  // key that was read by the walk upwards
   const auto walk = [&](const char* direction) {
     std::string order;
     for (int i = 0; i < table.keys; ++i)
@@ -190,6 +229,7 @@ void Store::SalvageTable(const StoreTable& table, const Store& other, std::vecto
     try {
       Statement rows(other.db_.get(), SelectFrom(table.name, "ORDER BY " + order));
       for (; rows.Step(); ++rows_read) {
+        if (table.keys == 1 && whole) last = KeyOf(table, rows);
         if (auto reason = SalvageRow(table, other, rows); !reason.empty() && (whole || rows_read == 0))
           left_out.push_back(std::move(reason));
       }
@@ -200,7 +240,27 @@ void Store::SalvageTable(const StoreTable& table, const Store& other, std::vecto
     }
   };
   walk("ASC");
-  if (!whole) walk("DESC");
+  if (whole) return;
+  walk("DESC");
+  bool at_end = false;
+  const auto take_from = [&](const StoreValue& key) {
+    try {
+      Statement rows(other.db_.get(),
+                     SelectFrom(table.name, fmt::format("WHERE {0} >= ? ORDER BY {0}", table.columns[0])));
+      std::visit([&rows](const auto& value) { rows.Bind(value); }, key);
+      while (rows.Step()) {
+        last = KeyOf(table, rows);
+        SalvageRow(table, other, rows);
+      }
+      at_end = true;
+    } catch (const InputError&) {  // another page that cannot be read
+    }
+  };
+  for (int pages = 0; last && !at_end && pages < kMostPages; ++pages) {
+    const std::vector<StoreValue> keys = KeysBehind(*last);
+    last.reset();
+    for (std::size_t k = 0; k < keys.size() && !last && !at_end; ++k) take_from(keys[k]);
+  }
 }
 
 // Empty if the row was taken in, otherwise why it was not.

@@ -18,6 +18,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/input_error.h"
 #include "corpus/json_text.h"
+#include "corpus/output_error.h"
 
 namespace stiction {
 namespace {
@@ -78,14 +79,39 @@ fs::path ForeignEntry(const fs::path& folder, const std::string& writer) {
   return {};
 }
 
+// Of the name itself, not of what a link leads to; empty if there is nothing.
 struct stat StatusOf(const fs::path& path) {
   struct stat status = {};
-  if (stat(path.c_str(), &status) != 0) status.st_ino = 0;
+  if (lstat(path.c_str(), &status) != 0) status = {};
   return status;
 }
 
 Descriptor OpenFolder(const fs::path& folder) {
-  return Descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return Descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+}
+
+// All but the list, by which a folder that was left is known as ours.
+void Empty(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != kList) fs::remove_all(entry.path());
+  }
+}
+
+// The list last: a process may be killed meanwhile.
+void Remove(const fs::path& folder) noexcept {
+  std::error_code ignored;
+  try {
+    if (fs::exists(fs::symlink_status(folder))) Empty(folder);
+  } catch (const fs::filesystem_error&) {
+  }
+  fs::remove_all(folder, ignored);
+}
+
+// A folder that a stopped run left: of this user, and empty or with the list of what it wrote.
+bool IsLeft(const fs::path& folder) {
+  const struct stat status = StatusOf(folder);
+  return S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
+         (fs::is_empty(folder) || S_ISREG(StatusOf(folder / kList).st_mode));
 }
 
 // Where the file system has no locks, nobody holds one.
@@ -104,8 +130,7 @@ WholeFolder::WholeFolder(const fs::path& target, std::string writer, Occupied oc
 }
 
 WholeFolder::~WholeFolder() {
-  std::error_code ignored;
-  if (!committed_) fs::remove_all(building_, ignored);
+  if (!committed_) Remove(building_);
 }
 
 void WholeFolder::RequireReplaceable(Occupied occupied) const {
@@ -124,18 +149,34 @@ void WholeFolder::RequireReplaceable(Occupied occupied) const {
          "another folder, or --replace, which keeps this one under another name");
 }
 
-// Whoever holds the lock of the folder that has the name owns it; a killed process holds none.
+// Whoever holds the lock of the folder that has the name owns it; a killed process holds none. What somebody
+// else put there, a link above all, is left alone.
 void WholeFolder::LockAndEmpty() {
+  struct stat locked = {};
+  bool is_new = false;
   do {
-    if (mkdir(building_.c_str(), 0777) != 0 && errno != EEXIST) RefuseOutput(target_, errno);
+    is_new = mkdir(building_.c_str(), 0777) == 0;
+    if (!is_new && errno != EEXIST) RefuseOutput(target_, errno);
     lock_ = OpenFolder(building_);
-    if (!lock_.valid() && errno != ENOENT) RefuseOutput(building_, errno);
     if (lock_.valid() && IsLockedByAnother(lock_)) {
       throw InputError(fmt::format("{}: found another process that writes it", target_.string()));
     }
-  } while (!lock_.valid() ||
-           StatusOf(building_).st_ino != StatusOf(fmt::format("/proc/self/fd/{}", lock_.number())).st_ino);
-  for (const auto& entry : fs::directory_iterator(building_)) fs::remove_all(entry.path());
+    if (StatusOf(building_).st_ino == 0) continue;  // another process was done with it
+    if (!lock_.valid() || (!is_new && !IsLeft(building_))) {
+      throw InputError(
+          fmt::format("{}: found what no stopped run of stiction left, expected nothing of this "
+                      "name: move it away, or write another folder than {}",
+                      building_.string(), target_.string()));
+    }
+    fstat(lock_.number(), &locked);
+  } while (locked.st_ino == 0 || StatusOf(building_).st_ino != locked.st_ino);
+  Empty(building_);
+  try {
+    WriteList();
+  } catch (const OutputError& error) {  // a full disk: nobody else would remove it
+    Remove(building_);
+    throw OutputError(fmt::format("{}: {}", target_.string(), error.what()));
+  }
 }
 
 fs::path WholeFolder::Place(const fs::path& path) const {
@@ -146,7 +187,7 @@ fs::path WholeFolder::Place(const fs::path& path) const {
 void WholeFolder::Write(const fs::path& name, std::string_view text) const {
   const fs::path file = building_ / name;
   MakeFolders(file.parent_path());
-  WriteDirectly(file, text);
+  WriteNew(file, text);
 }
 
 fs::path WholeFolder::Commit() {
@@ -159,6 +200,7 @@ fs::path WholeFolder::Commit() {
 }
 
 void WholeFolder::WriteList() const {
+  fs::remove(building_ / kList);
   std::string list = writer_ + "\n";
   for (const fs::path& name : Entries(building_, false)) list += name.string() + "\n";
   Write(kList, list);
@@ -176,18 +218,18 @@ fs::path WholeFolder::SetAside() const {
 void WholeFolder::TakePlace() {
   const Descriptor before = OpenFolder(target_);
   if (before.valid()) IsLockedByAnother(before);
-  fs::path old = building_;
+  std::string old = building_;
   const bool exchanged =
       before.valid() && renameat2(AT_FDCWD, building_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0;
   if (!exchanged) {
-    fs::remove_all(old += "-old");
-    if (before.valid() && rename(target_.c_str(), old.c_str()) != 0) RefuseOutput(target_, errno);
+    old += "-XXXXXX";
+    if (before.valid() && (mkdtemp(old.data()) == nullptr || rename(target_.c_str(), old.c_str()) != 0))
+      RefuseOutput(target_, errno);
     if (rename(building_.c_str(), target_.c_str()) != 0) RefuseOutput(target_, errno);
   }
   committed_ = true;
   SyncFolder(target_.parent_path());
-  std::error_code ignored;
-  fs::remove_all(old, ignored);
+  Remove(old);
 }
 
 }  // namespace stiction

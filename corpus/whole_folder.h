@@ -5,7 +5,7 @@
 // they change places in one call, otherwise in two. The new folder names its files in `.stiction-files`, so
 // that the verb that wrote it may replace it without asking; a folder that holds anything else is refused, or,
 // if its owner agrees, kept under another name. What a killed process leaves is `.NAME.stiction` beside the
-// target; the next one removes it.
+// target; the next one removes it. Anything else of that name, a link above all, is left alone and refused.
 
 #ifndef STICTION_CORPUS_WHOLE_FOLDER_H_
 #define STICTION_CORPUS_WHOLE_FOLDER_H_
@@ -23,7 +23,7 @@ enum class Occupied { kRefused, kSetAside };  // a target that holds what its wr
 class WholeFolder {
  public:
   // `writer`: the verb. InputError for a target that is no folder, that is occupied, that holds the current
-  // folder or is a mount point, and while another process writes it; OutputError where it cannot be written.
+  // folder or is a mount point, where `.NAME.stiction` is somebody else's, and while another process writes it; OutputError where it cannot be written.
   WholeFolder(const std::filesystem::path& target, std::string writer, Occupied occupied);
   WholeFolder(const WholeFolder&) = delete;
   WholeFolder& operator=(const WholeFolder&) = delete;

@@ -155,12 +155,24 @@ class FclibReader {
     if (count > 0 && H5Dget_storage_size(set.id()) == 0) {  // HDF5 would make zeros of it, however many
       Refuse(path, fmt::format("{} numbers that were never written", count), expected);
     }
+    Spend(path, static_cast<std::size_t>(count) * sizeof(Number));
     std::vector<Number> values(count);
     const hid_t memory = kInteger ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
     if (count > 0 && H5Dread(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
       Refuse(path, "data that cannot be read", expected);
     }
     return values;
+  }
+
+  // What is compressed may be a thousand times as long, and is made exact, at some twenty times more.
+  void Spend(const std::string& path, std::size_t bytes) {
+    constexpr std::size_t kTimes = 32, kAlways = std::size_t{1} << 24;
+    const std::size_t most = kAlways + kTimes * text_.size();
+    bytes_ += bytes;
+    if (bytes_ <= most) return;
+    Refuse(path, fmt::format("{} bytes of numbers up to here, in a file of {}", bytes_, text_.size()),
+           fmt::format("at most {}, {} times those of the file and {} beside: write it without compression",
+                       most, kTimes, kAlways));
   }
 
   int Integer(const std::string& name, int least, int most) {
@@ -291,7 +303,8 @@ class FclibReader {
     MakeContacts("W", rows, R.rows);
     problem_.b.head(rows) = Vector("q", rows);
     problem_.b.tail(R.rows) = s;
-    for (const auto& [i, j, value] : W.entries) problem_.A[{i, j}] += Rational(value);
+    for (const auto& [i, j, value] : W.entries)
+      if (value != 0) problem_.A[{i, j}] += Rational(value);
     for (const auto& [i, j, value] : R.entries) problem_.A[{rows + i, rows + j}] += Rational(value);
     for (const auto& [i, j, value] : V.entries) {
       problem_.A[{i, rows + j}] += Rational(value);
@@ -370,6 +383,7 @@ class FclibReader {
   const std::string source_;
   std::string text_;
   Handle file_;
+  std::size_t bytes_ = 0;  // of all numbers so far
   std::string group_;
   SparseProblem problem_;
 };
@@ -504,6 +518,7 @@ class FclibWriter {
 }  // namespace
 
 SparseProblem ParseFclib(std::string text, const std::string& source) {
+  if (text.empty()) throw InputError(source, "/", "an empty file", "an HDF5 file");
   Silence();
   return FclibReader(std::move(text), source).Read();
 }

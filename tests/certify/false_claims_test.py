@@ -474,6 +474,38 @@ by_condition(false, "the first contact has the friction",
              problem([1, 0], [[1, 2, 0, 0], [2, 5, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], [0] * 4),
              [1, 1, 1, 1], ONE_SIXTH, 6)
 
+# --- A bilateral contact, of one row in space too, before another -----------------------
+
+def behind_a_hinge(b, A=None):
+    return problem(["hold", 1], A or [[0] * 4 for _ in range(4)], b, 3)
+
+
+true("h", "in space, behind a bilateral contact", behind_a_hinge([0, 5, 3, -4]), y=texts([0] * 4))
+false("h", "in space, behind a bilateral contact, outside of the dual cone", behind_a_hinge([0, 4, 3, -3]), y=texts([0] * 4))
+false("h", "in space, at a bilateral contact", behind_a_hinge([1, 5, 3, -4]), y=texts([0] * 4))
+true("not-h", "in space, behind a bilateral contact", behind_a_hinge([0, 0, -1, 0]), v=texts([-1, 5, 3, -4]), value="-3")
+false("not-h", "in space, behind a bilateral contact, outside of the cone", behind_a_hinge([0, 0, -1, 0]),
+      v=texts([9, 4, 3, -3]), value="-3")
+for claim, more in (("solution-exists", {}), ("coulomb-solution", {"bound": "1"})):
+    def hinged(how, what, f, a):
+        how(claim, f"in space, behind a bilateral contact: {what}", behind_a_hinge(a), f=texts(f), a=texts(a), **more)
+
+    hinged(true, "slips at the edge of its cone", [-2, 5, 3, -4], [0, 0, -3, 4])
+    hinged(false, "slips within its cone", [5, 5, 3, -3], [0, 0, -3, 3])
+    hinged(false, "outside of its cone", [5, 4, 3, -4], [0, 0, 0, 0])
+    hinged(false, "friction drives", [5, 5, 3, -4], [0, 0, 3, -4])
+    hinged(false, "pulls", [5, -1, 0, 0], [0, 0, 0, 0])
+    hinged(false, "penetrates", [0, 0, 0, 0], [0, -1, 0, 0])
+    hinged(false, "both fN and aN", [0, 1, 0, 0], [0, 1, 0, 0])
+    hinged(false, "the bilateral contact parts", [0, 0, 0, 0], [1, 0, 0, 0])
+SUPPORT = [[0] * 4, [0, 1, 0, 0], [0] * 4, [0] * 4]
+true("no-solution", "in space, of a bilateral contact before another", behind_a_hinge([1, -1, 0, 0], SUPPORT),
+     prefixes=[{"modes": [], "y": texts([-1, 0, 0, 0])}])
+false("no-solution", "in space, of a contact behind a bilateral one", behind_a_hinge([0, -1, 0, 0], SUPPORT),
+      prefixes=[{"modes": [], "y": texts([0, 1, 0, 0])}])
+false("no-solution", "in space, by the friction of a contact behind a bilateral one", behind_a_hinge([0, 0, -1, 0]),
+      prefixes=[{"modes": [], "y": texts([0, 0, 1, 0])}])
+
 # --- cycle -------------------------------------------------------------------------
 
 CYCLING = problem([1, 1], [[7, -2, -6, 0], [-2, 9, -1, -7], [-6, -1, 7, 3], [0, -7, 3, 7]], [2, -1, -2, 2])
@@ -493,10 +525,10 @@ STEPS = """1 N2 establish 2/7 N2 none C
 STATE = {"sets": {"N1": "C", "F1": "none", "N2": "C", "F2": "CF"}, "f": ["10/7", "0", "2", "-8/7"]}
 
 
-def pivots(count=13):
+def pivots(count=13, steps=STEPS):
     keys = ("drive", "driven", "goal", "step", "limiting", "from", "to")
     return [dict(zip(keys, (int(line.split()[0]), *line.split()[1:])))
-            for line in STEPS.splitlines()[:count]]
+            for line in steps.splitlines()[:count]]
 
 
 def run(policies, start=3, period=4, count=13, state=None):
@@ -517,6 +549,39 @@ false("cycle", "a run without its last step", CYCLING, runs=[run(["paper"], coun
 false("cycle", "a run with a step too many", CYCLING,
       runs=[{**run(["paper"]), "pivots": pivots() + pivots()[-1:]}])
 false("cycle", "no runs", CYCLING, runs=[])
+
+# Without friction a contact has one row in the plane and in space, and the run would be the same.
+SMOOTH_STEPS = """1 N1 establish 3 N1 none C
+2 N4 establish 1 N1 C NC
+2 N4 establish 1 N4 none C
+3 N3 establish 1/2 N1 NC C
+3 N3 establish 7/18 N4 C NC
+3 N3 establish 1/9 N1 C NC
+3 N3 establish 1 N3 none C
+4 N2 establish 3/11 N1 NC C
+4 N2 establish 0 N1 C none
+4 N2 establish 13/33 N3 C NC
+4 N2 establish 4/3 N2 none C
+5 N1 establish 4/11 N4 NC C
+5 N1 establish 0 N4 C none
+5 N1 establish 10/33 N2 C NC
+5 N1 establish 7/3 N1 none C
+6 N4 establish 7/11 N3 NC C
+6 N4 establish 0 N3 C none
+6 N4 establish 4/11 N1 C NC
+6 N4 establish 1 N4 none C
+7 N3 establish 4/11 N2 NC C
+7 N3 establish 0 N2 C none
+7 N3 establish 3/22 N1 NC C
+7 N3 establish 7/18 N4 C NC
+7 N3 establish 1/9 N1 C NC
+7 N3 establish 1 N3 none C"""
+SMOOTH_RUN = {"policies": ["paper"], "start": 3, "period": 4, "pivots": pivots(None, SMOOTH_STEPS),
+              "state": {"sets": {"N1": "NC", "N2": "none", "N3": "C", "N4": "NC"}, "f": ["0", "0", "2", "0"]}}
+for dimension, claim in ((2, true), (3, false)):
+    claim("cycle", f"without friction, in dimension {dimension}",
+          problem([None] * 4, [[1, -2, 3, 3], [3, 1, -2, 3], [3, 3, 1, -2], [-2, 3, 3, 1]], [-3, -2, -2, -2], dimension),
+          runs=[SMOOTH_RUN])
 false("cycle", "a run of no policy", CYCLING, runs=[run([])])
 false("cycle", "a policy twice", CYCLING, runs=[run(["paper", "paper"])])
 false("cycle", "a run twice", CYCLING, runs=[run(["paper"]), run(["ties=contacts"])])

@@ -36,7 +36,7 @@ class Slurm(cli.TestCase):
         bin_ = self.folder / "bin"
         if not bin_.exists():
             bin_.mkdir()
-            for name in ("bash", "date", "head", "mv", "rm", "sed", "sleep", "sync", "tr", "cat"):
+            for name in ("bash", "date", "head", "mktemp", "mv", "rm", "sed", "sleep", "sync", "tr", "cat"):
                 (bin_ / name).symlink_to(shutil.which(name))
         for name, text in more.items():
             (bin_ / name).write_text(f"#!/bin/bash\n{text}\n")
@@ -161,7 +161,7 @@ class Slurm(cli.TestCase):
         self.addCleanup(task.wait)
         self.addCleanup(task.kill)
         end = time.monotonic() + 60
-        while not list((folder / "shards").glob(".0.*-wal")) and time.monotonic() < end:
+        while not list((folder / "shards").glob(".0.*/store-wal")) and time.monotonic() < end:
             time.sleep(0.02)
         return task
 
@@ -189,6 +189,11 @@ class Slurm(cli.TestCase):
         os.kill(self.child_of(task), signal.SIGKILL)
         task.communicate(timeout=60)
         self.assertEqual((task.returncode, calls.read_text()), (75, ""))
+
+    def test_a_name_that_looks_like_a_mark_is_a_name(self):
+        folder = self.make(1, problems=2000, name="at@UNITS@@DIR@")
+        self.assertIn("/at@UNITS@@DIR@'", (folder / "task.sh").read_text())
+        self.assertEqual(self.script(folder, "task.sh", 0).returncode, 0)
 
     def test_what_cannot_be_cut_is_refused(self):
         campaign, out = self.file("c.json", CAMPAIGN), self.folder / "out"

@@ -172,9 +172,36 @@ TEST_CASE("whole folder: what appears in the target while it is written is kept"
 TEST_CASE("whole folder: the rest of a killed process is removed") {
   const Scratch scratch;
   Put(scratch / ".out.stiction/torn", "x");
+  Put(scratch / ".out.stiction/.stiction-files", "simulate\n");
   WriteFolder(scratch / "out", "new");
   CHECK_FALSE(fs::exists(scratch / "out/torn"));
   CHECK(scratch.Entries() == 1);
+}
+
+TEST_CASE(
+    "whole folder: what stands at the name of the unfinished one and is not of a stopped run is left alone") {
+  const Scratch scratch;
+  const fs::path unfinished = scratch / ".out.stiction";
+  const auto refused = Contains(".out.stiction: found what no stopped run");
+  Put(scratch / "theirs/file", "x");
+  fs::create_symlink("theirs", unfinished);
+  CHECK_THROWS_WITH(WriteFolder(scratch / "out", "new"), refused);
+  fs::remove(unfinished);
+  Put(unfinished / "file", "x");
+  CHECK_THROWS_WITH(WriteFolder(scratch / "out", "new"), refused);
+  fs::create_symlink("file", unfinished / ".stiction-files");
+  CHECK_THROWS_WITH(WriteFolder(scratch / "out", "new"), refused);
+  CHECK(ReadText(unfinished / "file") == "x");
+  CHECK(ReadText(scratch / "theirs/file") == "x");
+}
+
+TEST_CASE("whole folder: a file is written once, and through no link") {
+  const Scratch scratch;
+  Put(scratch / "theirs", "x");
+  WholeFolder folder(scratch / "out", "report", Occupied::kRefused);
+  fs::create_symlink(scratch / "theirs", folder.Place(scratch / "out/file"));
+  CHECK_THROWS_AS(folder.Write("file", "y"), OutputError);
+  CHECK(ReadText(scratch / "theirs") == "x");
 }
 
 // ---- The lock of a store ---------------------------------------------------------------------
@@ -214,9 +241,28 @@ TEST_CASE("store lock: whoever goes makes room, and the last one removes the fil
 
 TEST_CASE("store lock: a file that a killed process left holds nobody") {
   const Scratch scratch;
-  Put(scratch / "s.lock", std::string(256, ' ') + "0/1 process 1 on here since long ago");
+  Put(scratch / "s.lock", std::string(256, '\0') + "0/1 process 1 on here since long ago");
   const StoreLock lock(scratch / "s", Shard{});
   CHECK_THROWS_AS(StoreLock(scratch / "s", Shard{}), InputError);
+}
+
+TEST_CASE("store lock: a link, a second name and a file of others are refused, and are nobody's lock") {
+  const Scratch scratch;
+  Put(scratch / "theirs", std::string(300, '\0'));
+  Put(scratch / "text", "mine");
+  const auto refused = [&scratch](const std::string& store) {
+    CHECK_THROWS_WITH(StoreLock(scratch / store, Shard{}),
+                      Contains(store + ".lock: found a link or another file"));
+    CHECK_FALSE(StoreLock::IsHeld(scratch / store));
+  };
+  fs::create_symlink("theirs", scratch / "a.lock");
+  refused("a");
+  fs::create_hard_link(scratch / "theirs", scratch / "b.lock");
+  refused("b");
+  fs::rename(scratch / "text", scratch / "c.lock");
+  refused("c");
+  CHECK(ReadText(scratch / "theirs") == std::string(300, '\0'));
+  CHECK(ReadText(scratch / "c.lock") == "mine");
 }
 
 }  // namespace

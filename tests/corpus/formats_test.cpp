@@ -472,6 +472,32 @@ TEST_CASE("FCLIB: a global problem is condensed exactly, its equations are bilat
   CheckCondensed(ReadPublished(folder / "global.hdf5"));
 }
 
+TEST_CASE(
+    "FCLIB: an empty file, and a small one of many numbers, are refused before anything is made of them") {
+  const Folder folder;
+  std::ofstream(folder / "empty");
+  CHECK_THROWS_WITH(ReadPublished(folder / "empty", "fclib"), Contains("found an empty file"));
+  Sets sets;
+  sets["/fclib_local/spacedim"] = std::vector<int>{2};
+  for (const char* name : {"m", "n", "nz"}) sets[std::string("/fclib_local/W/") + name] = std::vector<int>{0};
+  const std::string file = folder / "zeros.hdf5";
+  WriteSets(file, sets);
+  constexpr hsize_t kZeros = 4 << 20, kChunk = 1 << 16;
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), packed = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(packed, 1, &kChunk);
+  H5Pset_deflate(packed, 9);
+  const hid_t space = H5Screate_simple(1, &kZeros, nullptr);
+  const hid_t set =
+      H5Dcreate2(id, "/fclib_local/W/x", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, packed, H5P_DEFAULT);
+  const std::vector<double> zeros(kZeros);
+  REQUIRE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros.data()) >= 0);
+  H5Dclose(set);
+  H5Sclose(space);
+  H5Pclose(packed);
+  H5Fclose(id);
+  CHECK_THROWS_WITH(ReadPublished(file), Contains("W/x") && Contains("bytes of numbers"));
+}
+
 TEST_CASE("FCLIB: triplets with rows in p, as fclib.h has it, are told by the shape") {
   const Folder folder;
   Sets sets = GlobalProblem();

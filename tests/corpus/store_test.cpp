@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <barrier>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +17,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "corpus/input_error.h"
@@ -608,6 +611,57 @@ TEST_CASE("store: a row that is not as it was written is named, and nothing is r
     CHECK_THROWS_WITH(into.MergeFrom(Store::OpenToRead(scratch / "b.store")), Contains(name));
     CHECK(into.Units().Count() == 0);
   }
+}
+
+TEST_CASE("store: pages that do not fit together are refused, though every row is as it was written") {
+  const Scratch scratch;
+  const fs::path file = MakeFullStore(scratch, "a.store");
+  Execute(file, "PRAGMA wal_checkpoint(TRUNCATE)");
+  std::fstream pages(file, std::ios::in | std::ios::out | std::ios::binary);
+  constexpr int kPage = 4096, kCount = 28;  // the number of pages stands there, its most significant byte first
+  const std::uint32_t count = static_cast<std::uint32_t>(fs::file_size(file) / kPage) + 1;
+  pages.seekp(kCount);
+  for (const int shift : {24, 16, 8, 0}) pages.put(static_cast<char>(count >> shift));
+  pages.seekp(0, std::ios::end);
+  pages << std::string(kPage, '\0');  // of which nothing says what it is
+  pages.close();
+  CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("pages that do not fit together"));
+}
+
+TEST_CASE("store: of two that make one at the same time both work on the same") {
+  const Scratch scratch;
+  for (int k = 0; k < 20; ++k) {
+    const fs::path file = scratch / fmt::format("{}.store", k);
+    std::barrier start(2);
+    std::array<std::string, 2> errors;
+    const auto work = [&](int shard) {
+      start.arrive_and_wait();
+      try {
+        Store store(file, Identity());
+        store.AddUnit({shard, 2}, shard, RecordOf(shard), {});
+      } catch (const std::exception& error) {
+        errors[static_cast<std::size_t>(shard)] = error.what();
+      }
+    };
+    std::thread other(work, 1);
+    work(0);
+    other.join();
+    CHECK(errors == std::array<std::string, 2>{});
+    CHECK(Store::OpenToRead(file).Units().Count() == 2);
+  }
+}
+
+TEST_CASE("store: of one that ends too early salvage saves rows") {
+  const Scratch scratch;
+  const fs::path file = MakeFullStore(scratch, "a.store");
+  Execute(file, "PRAGMA wal_checkpoint(TRUNCATE)");
+  const auto whole = Store::OpenToRead(file).Units().Count();
+  fs::resize_file(file, fs::file_size(file) - 4096);
+  CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("--salvage NEW_FILE"));
+  Store rest(scratch / "rest", Identity());
+  rest.Salvage(file);
+  CHECK(rest.Units().Count() + static_cast<std::int64_t>(rest.Findings().size()) > 0);
+  CHECK(rest.Units().Count() <= whole);
 }
 
 TEST_CASE("store: salvage saves what is sound and names what it leaves out") {

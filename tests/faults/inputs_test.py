@@ -6,6 +6,7 @@ inputs_test.py PATH_TO_STICTION [SOURCES]
 
 import json
 import os
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -84,11 +85,37 @@ class Inputs(cli.TestCase):
         self.assertEqual(json.loads(back.stdout)["A"], cli.SOLVED["A"])
 
     def test_a_matrix_that_no_memory_holds_is_refused_before_it_is_made(self):
-        rows = 200000
-        problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * rows, "b": [0] * rows,
-                   "A": {"size": rows, "entries": []}}
-        file = self.file("large.json", problem)
-        self.refuses("solve", file, says=[file, "A: found 200000 rows, 2.38e+03 GiB as a dense matrix"])
+        for rows, found in ((4097, "4097 rows, 1 GiB"), (200000, "200000 rows, 2.38e+03 GiB")):
+            problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * rows, "b": [0] * rows,
+                       "A": {"size": rows, "entries": []}}
+            file = self.file("large.json", problem)
+            self.refuses("solve", file, says=[file, f"A: found {found} as a dense matrix"])
+
+    def test_numbers_that_no_memory_holds_end_in_one_line(self):
+        """Of ten bytes each in the file, and of four kilobytes in memory."""
+        rows = 400
+        problem = {**cli.SOLVED, "contacts": [{"kind": "frictionless"}] * rows, "b": ["0"] * rows,
+                   "A": [["1e9999"] * rows] * rows}
+        file = self.file("long.json", problem)
+        most = 500 << 20
+        done = subprocess.run([cli.program, "solve", file], capture_output=True, text=True, timeout=120,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (3, "", "stiction: limit: out of memory\n"))
+
+    def test_names_move_no_cursor(self):
+        """Control characters of names reach no terminal; files keep them."""
+        name = "red\x1b[31m\r\x07\x7f"
+        file = self.file("p.json", {**cli.REFERENCE, "name": name})
+        for verb in ("solve", "replay"):
+            self.assertPlain(cli.run(verb, file))
+        done = self.refuses("solve", self.folder / name)
+        self.assertNotIn("\x07", done.err)
+        self.assertIn("red?[31m", done.err)
+        copy = self.folder / "q.json"
+        self.succeeds("minimize", file, "-o", copy)
+        for at in ("-", copy):
+            done = cli.run("export", file, "-o", at, "--format", "siconos-fc")
+            self.assertEqual(done.code, 0, done.err)
 
     def test_both_checkers_call_the_same_files_unreadable(self):
         texts = ["", "{", '{"a": 1, "a": 2}', '{"a": 1e999}', '{"a": ' + "9" * 400 + "}", '{"a": NaN}', "\ufeff{}",

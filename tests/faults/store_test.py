@@ -45,6 +45,39 @@ class Stores(cli.TestCase):
         self.succeeds("search", *CAMPAIGN, "--store", store, "--problems", problems)
         return store
 
+    def test_where_locks_fail_readers_go_on(self):
+        """As on some network file systems: a library in between lets every lock fail."""
+        source, library = self.folder / "no_locks.c", self.folder / "no_locks.so"
+        source.write_text("""
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+int fcntl64(int file, int command, ...) {
+  va_list more;
+  va_start(more, command);
+  void* argument = va_arg(more, void*);
+  va_end(more);
+  if (command == F_SETLK || command == F_SETLKW || command == F_GETLK || command == F_OFD_SETLK ||
+      command == F_OFD_SETLKW || command == F_OFD_GETLK) {
+    errno = ENOLCK;
+    return -1;
+  }
+  return syscall(SYS_fcntl, file, command, argument);
+}
+int fcntl(int file, int command, ...) __attribute__((alias("fcntl64")));
+""")
+        if shutil.which("gcc") is None:
+            self.skipTest("SKIPPED: no compiler")
+        subprocess.run(["gcc", "-shared", "-fPIC", "-w", "-o", library, source], check=True)
+        store = self.search(self.folder / "s.store")
+        for arguments in (("status", store), ("report", store, "-o", self.folder / "report")):
+            done = subprocess.run([cli.program, *map(str, arguments)], env={**os.environ, "LD_PRELOAD": str(library)},
+                                  capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     # ---- One process at a time ----
 
     def test_a_second_search_on_a_shard_is_refused_and_told_who_is_at_work(self):

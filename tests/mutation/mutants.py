@@ -282,7 +282,12 @@ bug("claim-symmetric", """throw Rejected{fmt::format("problem.A[{}][{}]", pair->
 bug("claim-not-symmetric", 'if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", '
     '"different entries"};', "", "no A is symmetric")
 bug("claim-psd-negative", "D[i] < 0", "false", "psd: D may be negative")
-bug("claim-psd-product", "k <= std::min(i, j)", "k < std::min(i, j)", "psd: the product lacks its last term")
+bug("claim-psd-product", "rest(i, j) -= L(i, k) * rest(j, k)", "rest(i, j) -= L(i, k) * L(j, k)",
+    "psd: the product lacks D")
+bug("claim-psd-column", 'RequireEqual(rest(i, k), L(i, k) * D[k], fmt::format("(A - L diag(D) L\')[{}][{}]", i, k));', "",
+    "psd: any L and D")
+bug("claim-cycle-dimension", 'if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked '
+    'in the plane"};', "", "cycle: of problems in space, too")
 bug("claim-psd-triangle", 'RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));', "",
     "psd: L of any form")
 bug("claim-not-psd-zero", "curvature >= 0", "curvature > 0", "not-psd: x'Ax = 0 will do")
@@ -332,10 +337,16 @@ bug("claim-not-definite", "curvature > 0", "curvature > 1", "not-definite: x'Ax 
 bug("claim-counterexample-solution", "RequireSolution(problem, witness);", "", "counterexample: any f",
     context="RequireSolution(problem, witness);\n  return CheckRuns(problem, witness);")
 bug("certificate-digest", "!digest.empty() && report.digest != digest", "false", "check --problem: any problem")
-bug("certificate-contacts", "contacts <= kMostContactsOfCertificate", "true", "any number of contacts")
+bug("certificate-rows", "rows <= kMostRowsOfCertificate", "true", "any number of rows", tests="^program: limits")
+bug("certificate-digits", "digits <= kMostDigitsOfCertificate", "true", "numbers of any length", tests="^program: limits")
 bug("certificate-version", '!certificate["version"].is_number_integer() || certificate["version"] != 1',
     'certificate["version"] != 1', "version 1.0 is read")
 bug("certificate-format", 'certificate["format"] != "stiction-certificate"', "false", "any format is read")
+
+bug = in_file("certify/witness.cpp", "^program: limits")
+bug("work-operations", "operations <= static_cast<double>(kMostOperations)", "true", "any number of operations")
+bug("work-bits", "bits_ <= most_", "true", "operations on numbers of any length")
+bug("work-one-bit", "bits_ <= most_", "bits_ < most_", "a bit less than the other checkers take")
 
 bug = in_file("certify/verify_solution.cpp", CHECKER + "|^certify: (verify|space|coulomb)|^solver: run")
 bug("planar-complementarity", 'if (product != 0) return Broken(contact, "fN aN = 0", product);', "", "(15) without fN aN = 0")
@@ -692,6 +703,10 @@ bug("any-file", "head != kMagic", "false", "a file that is no database is taken 
 bug("blocks-of-all-shards", "shard.Owns(unit) && blocks.contains(BlockOf(shard, unit))", "blocks.contains(BlockOf(shard, unit))",
     "a block of one shard has the units of others")
 bug("foreign-database", "tables.Integer(0) > 0 && tables.Integer(1) == 0", "false", "another database is taken over")
+bug("pages-unchecked", 'check.Text(0) != "ok"', "false", "pages that do not fit together are believed")
+bug("store-replaced", "RENAME_NOREPLACE", "0", "a store that came meanwhile is overwritten")
+bug("store-beside-link", "S_ISREG(status.st_mode) && status.st_nlink == 1", "true",
+    "what SQLite writes beside a store goes where a second name leads", tests="^program: links")
 bug("campaign-unsealed", "seal != stored", "false", "a campaign that was changed is believed",
     context="if (const std::string seal = CampaignSeal(values); seal != stored) {")
 
@@ -789,7 +804,21 @@ bug("mode-lost", "if (stat(target.c_str(), &old) == 0) fchmod(out_.number(), old
     "a file that is replaced loses its mode")
 bug("link-replaced", "Followed(file)", "file", "a link is replaced by a file", type="fs::path",
     context="const fs::path target = Followed(file);")
+bug("new-through-link", "O_CREAT | O_EXCL | O_NOFOLLOW", "O_CREAT", "a file is written through a link that was planted",
+    tests="^program: links|^corpus: whole")
 bug("input-for-output", "if (is_path) throw InputError(refused.what());", "", "a wrong path is a full disk")
+
+bug = in_file("corpus/whole_folder.cpp", "^program: links|^corpus: whole")
+bug("folder-of-others", "S_ISREG(StatusOf(folder / kList).st_mode)", "true", "a folder of somebody else is emptied")
+bug("folder-link", "O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC", "O_RDONLY | O_DIRECTORY | O_CLOEXEC",
+    "the folder that a link leads to is locked", equivalent="what is no folder itself is refused by its status, too")
+
+bug = in_file("corpus/store_lock.cpp", "^program: links|^corpus: store lock")
+bug("lock-link", "O_RDWR | O_CREAT | O_NOFOLLOW", "O_RDWR | O_CREAT", "a lock is written through a link")
+bug("lock-name", "status.st_nlink <= 1", "true", "a lock is written into a file with another name")
+
+bug = in_file("corpus/formats/fclib.cpp", "^corpus: formats")
+bug("fclib-bytes", "bytes_ <= most", "true", "a small file takes any memory")
 
 # ---- reports -------------------------------------------------------------------------
 

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a check may cost: certificates just below and just above each limit, in every checker.
+
+  limits_test.py STICTION SOURCES            the limits, and certificates far above them
+  limits_test.py STICTION SOURCES --dearest  what the dearest legal certificates cost, in seconds and megabytes
+"""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from math import isqrt
+from pathlib import Path
+
+sys.set_int_max_str_digits(0)
+MOST_DIGITS, MOST_ROWS = 10_000_000, 1000
+MOST_OPERATIONS, MOST_WORK = 2_000_000, 10**13
+SECONDS = 1.5  # of processor time, for a refusal before any work is done
+MEGABYTES = 400
+
+
+def certificate(claim, A, b=None, contacts=None, **witness):
+    """Of frictionless contacts, one a row, unless told otherwise."""
+    size = A["size"] if isinstance(A, dict) else len(A)
+    contacts = contacts or [{"kind": "frictionless"}] * size
+    problem = {"format": "stiction-problem", "version": 1, "dimension": 2, "contacts": contacts, "A": A,
+               "b": b or ["0"] * size}
+    return {"format": "stiction-certificate", "version": 1, "claim": claim, "problem": problem, "witness": witness}
+
+
+def diagonal(size, value="1"):
+    return {"size": size, "entries": [[i, i, value] for i in range(size)]}
+
+
+def unit(size, at=0, value="1"):
+    return [value if i == at else "0" for i in range(size)]
+
+
+# --- Far above -----------------------------------------------------------------------
+
+def long_numbers(size=10):
+    """Numbers of 9,001 digits, of six characters each."""
+    A = [["1e9000" if i != j else "2e9000" for j in range(size)] for i in range(size)]
+    return certificate("safe-by-condition", A, scaling=["1e-4500"] * size, least="1", most="20")
+
+
+def many_contacts():
+    return certificate("symmetric", {"size": 2000, "entries": []})
+
+
+def many_digits():
+    return certificate("symmetric", {"size": 1000, "entries": [[i, j, "1e9999"] for i in range(1000) for j in range(2)]})
+
+
+# --- At a limit: pairs of a true claim that is accepted, and one that is refused -------------------------------
+
+def rows():
+    for size in (MOST_ROWS, MOST_ROWS + 1):
+        yield certificate("symmetric", {"size": size, "entries": []})
+
+
+def digits():
+    """1e9999 has 10,000 digits, zeros have none."""
+    for rest in ("1e8999", "1e9000"):
+        entries = [[i, i, "1e9999"] for i in range(MOST_DIGITS // 10000 - 1)] + [[MOST_ROWS - 1, MOST_ROWS - 1, "1e999"]]
+        yield certificate("symmetric", {"size": MOST_ROWS, "entries": entries}, b=unit(MOST_ROWS, value=rest))
+
+
+def number_of(bits):
+    """A number that counts for so many: its own bits, and the one of its denominator."""
+    return str(2**(bits - 2))
+
+
+def products():
+    """x'Ax: the bits of the longest row, and twice those of x, which are 2."""
+    n = 150
+    most = isqrt(MOST_WORK // ((n**2 + 8 * n) // 8))
+    for bits in (most - 4, most - 3):
+        A = {"size": n, "entries": [[0, 0, "-" + number_of(bits)]]}
+        yield certificate("not-psd", A, x=unit(n, value="-1"), value="-" + number_of(bits))
+
+
+def eliminations():
+    """A diagonal matrix: each row counts for its number, and for the coefficients of friction, of which there are none: 2."""
+    n = 100
+    most = isqrt(MOST_WORK // ((n**3 + 10 * n**2) // 10))
+    for bits in (most - 2 * n, most - 2 * n + 1):
+        values = [number_of(bits // n + (i < bits % n)) for i in range(n)]
+        A = {"size": n, "entries": [[i, i, x] for i, x in enumerate(values)]}
+        yield certificate("psd", A, L=[unit(n, i) for i in range(n)], D=values)
+
+
+def operations():
+    n = 1
+    while (n + 1)**3 + 10 * (n + 1)**2 <= 10 * MOST_OPERATIONS + 9:
+        n += 1
+    for size in (n, n + 1):
+        yield certificate("psd", diagonal(size), L=[unit(size, i) for i in range(size)], D=["1"] * size)
+
+
+def steps():
+    """Runs of one static contact; both are false, and the first is refused for what it says."""
+    most = (240 * MOST_OPERATIONS + 239) // (2**3 + 240 * 2)  # times so many operations of a step
+    for count in (most - 1, most):
+        run = {"policies": ["paper"], "start": 0, "period": 1, "pivots": [{}] * count, "state": {}}
+        yield certificate("cycle", [["1", "0"], ["0", "1"]], contacts=[{"kind": "static", "mu": "1"}], runs=[run])
+
+
+# --- Dearest -------------------------------------------------------------------------
+
+def dense(n):
+    """Two eliminations of a dense matrix, of all the bits that they may have."""
+    choose = random.Random(n).getrandbits
+    bits = isqrt(MOST_WORK // (2 * (n**3 + 10 * n**2) // 10)) // (2 * n) - 20
+    A = [[0] * n for _ in range(n)]
+    for i in range(n):
+        for j in range(i):
+            A[i][j] = A[j][i] = choose(bits)
+        A[i][i] = n << bits | choose(bits)
+    return certificate("safe-by-condition", [list(map(str, row)) for row in A], scaling=["1"] * n, least="1",
+                       most=str(n << bits + 2))
+
+
+# --- The checkers ------------------------------------------------------------------
+
+def run(command, file):
+    """Exit code, what was said, processor seconds and megabytes."""
+    process = subprocess.Popen([*map(str, command), str(file)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    text = process.stdout.read().decode()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, text, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def main(stiction, sources, *options):
+    programs = {"stiction check": [stiction, "check"],
+                "check_certificate.py": [sys.executable, Path(sources) / "certify/check_certificate.py"],
+                "check_runs.py": [sys.executable, Path(sources) / "certify/check_runs.py"]}
+    failures, dearest = [], "--dearest" in options
+    if os.environ.get("STICTION_TESTS") == "short":  # the scripts are the same in every build
+        programs = {"stiction check": programs["stiction check"]}
+
+    def check(name, value, accepted, cheap=False, says=""):
+        file.write_text(json.dumps(value))
+        for program, command in programs.items():
+            if program == "check_runs.py" and value["claim"] != "cycle":
+                continue
+            code, text, seconds, megabytes = run(command, file)
+            if says and (says not in text) == accepted:
+                continue  # refused, and not for the limit
+            if dearest:
+                print(f"{name:14} {program:22} {text.split(':')[1].strip()[:9]:9} {seconds:8.2f} s {megabytes:7.0f} MB")
+            if (code == 0) != accepted or code not in (0, 1):
+                failures.append(f"{name}: {program}: exit {code}, expected {'0' if accepted else '1'}: {text[:200]}")
+            if cheap and (seconds > SECONDS or megabytes > MEGABYTES):
+                failures.append(f"{name}: {program}: {seconds:.1f} s, {megabytes:.0f} MB")
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "certificate.json"
+        for make in (long_numbers, many_contacts, many_digits):
+            check(make.__name__, make(), accepted=False, cheap=True)
+        for make in (rows, digits, products, eliminations, operations):
+            below, above = make()
+            check(make.__name__, below, accepted=True)
+            check(make.__name__, above, accepted=False)
+        below, above = steps()
+        check("steps", below, accepted=True, says=" operations")
+        check("steps", above, accepted=False)
+        for n in (10, 40, 100, 130) if dearest else (10,):
+            check(f"dense {n}", dense(n), accepted=True)
+    for failure in failures:
+        print("FAILED:", failure)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
