@@ -25,6 +25,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"
+#include "corpus/read_problem.h"
 #include "python/search.h"
 #include "python/signals.h"
 
