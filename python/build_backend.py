@@ -36,7 +36,7 @@ def _run(*command):
 def _built(settings):
     """The folder of a build that has the module for this interpreter."""
     if not (shutil.which("cmake") and shutil.which("ninja")):
-        sys.exit("stiction: found no cmake or no ninja, expected both; ./run python names all packages that are missing")
+        sys.exit("stiction: found no cmake or no ninja, expected both; ./run python names all that is missing")
     release = ROOT / "build/release"
     usual = release if (release / f"python/package/stiction/_stiction{SUFFIX}").exists() else (
         ROOT / f"build/python{SUFFIX.removesuffix('.so')}")

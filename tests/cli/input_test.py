@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What FILE may be: every form in every verb, what may be left out, and refusals that name all of it and the next step."""
+"""What FILE may be: every form in every verb, what may be left out, refusals that name all faults and the next step."""
 
 import json
 import re
@@ -64,6 +64,8 @@ class Forms(Case):
         self.succeeds("import", f"{store}:{signature}", "-o", written)
         self.assertEqual(json.loads(written.read_text())["A"], json.loads(minimized or problem)["A"])
         self.assertEqual(self.succeeds("replay", f"{store}:{signature}", "--json").json()["outcome"], "cycle")
+        self.assertEqual(self.succeeds("problem", store, signature).json()["A"], json.loads(minimized or problem)["A"])
+        self.refuses("problem", store, signature, 1, says="goes without INDEX")
         self.refuses("solve", store, says=["found a store", f"{store}:FINDING", "report"])
         self.refuses("solve", f"{store}:nosuch", says=["0 findings that begin with 'nosuch'", "such as"])
         if len(rows) > 1:
@@ -117,9 +119,9 @@ class Faults(Case):
         wrong = {"contacts": [{"kind": "static"}, {"kind": "sticky", "mu": 1}, {"kind": "bilateral", "mu": 1}],
                  "b": [0, 0, "x"], "name": 7, "c": 1, "d": 2, "dimension": 4, "origin": "here"}
         done = self.refuses("solve", self.file("wrong.json", wrong), says=[
-            "c, d: found unknown keys", "dimension: found 4", "contacts[0].mu: found nothing", "contacts[1].kind: found",
-            "contacts[2].mu: found 1, expected no mu", "A: found nothing", 'b[2]: found "x"', "name: found 7",
-            "origin: found"])
+            "c, d: found unknown keys", "dimension: found 4", "contacts[0].mu: found nothing",
+            "contacts[1].kind: found", "contacts[2].mu: found 1, expected no mu", "A: found nothing",
+            'b[2]: found "x"', "name: found 7", "origin: found"])
         self.assertEqual(len(done.err.splitlines()), 1)
 
     def test_many_faults_are_counted(self):
@@ -131,7 +133,7 @@ class Faults(Case):
         self.succeeds("certify", self.file("p.json", cli.SOLVED), "-o", certificate)
         for file, says in (
                 (self.file("inf.json", {**SHORT, "mu": "inf"}), "write a bilateral contact"),
-                (self.file("both.json", {**cli.SOLVED, "mu": 1}), "mu: found mu beside contacts, expected one of the two"),
+                (self.file("both.json", {**cli.SOLVED, "mu": 1}), "mu: found mu beside contacts, expected one"),
                 (self.file("empty.json", {}), "an array of contacts, or mu of static ones"),
                 (certificate, "stiction check verifies"),
                 (self.file("c.json", {"format": "stiction-campaign", "version": 1}), "stiction search"),

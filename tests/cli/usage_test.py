@@ -156,7 +156,7 @@ class Usage(cli.TestCase):
             (("search", "--mu", "-1", "--problems", "1", "--store", out), ["found '-1'", "p/q"]),
             (("search", "--shard", "2/2", "--problems", "1", "--store", out), ["found '2/2'", "0 <= i < N"]),
             (("search", problem, "--problems", "1", "--store", out), ['"stiction-problem"', '"stiction-campaign"']),
-            (("status", nothing), [nothing, "found no such store"]),
+            (("status", nothing), [nothing, "found no such store", "stiction search --store"]),
             (("status", text), [text, "no stiction store"]),
             (("slurm", "x.json", "--shards", "0", "--problems", "1", "-o", out), ["--shards: found '0'"]),
             (("problem", nothing, "0"), ["expected either STORE UNIT INDEX"]),
