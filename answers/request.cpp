@@ -129,7 +129,15 @@ CheckReport CheckText(const std::string& text, const std::string& source, const 
   if (text.size() > kMostBytesOfCertificate)
     throw InputError(source, "", fmt::format("{} bytes", text.size()),
                      fmt::format("a certificate of at most {}", kMostBytesOfCertificate));
-  return CheckCertificate(ParseJson(text, source), source, digest);
+  const Json json = ParseJson(text, source);
+  const Json format = json.is_object() ? json.value("format", Json("stiction-problem")) : Json();
+  const bool is_problem = format == "stiction-problem" && !json.contains("claim");
+  if (!is_problem) return CheckCertificate(json, source, digest);
+  CheckReport report;
+  report.reason = fmt::format(
+      "found a problem, expected a certificate; stiction certify {} -o certificate.json writes one of it",
+      source);
+  return report;
 }
 
 }  // namespace stiction

@@ -344,7 +344,7 @@ std::vector<AllowedValue> ClaimChoices() {
 
 void AddCertify(CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
-  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
   verb.Option("--claim", o.claim, "what to certify, or its negation if that holds").Choices(ClaimChoices());
   verb.Option("--law", o.law, "friction in space, of the claim existence; by default coulomb")

@@ -33,9 +33,14 @@ struct ImportOptions {
 };
 
 int Import(const ImportOptions& o) {
-  SparseProblem problem = ReadPublished(o.file, o.format);
-  if (o.symmetrize) Symmetrize(problem);
-  WriteText(o.output, Print(ToDense(problem, o.file)));
+  auto read = o.format.empty() ? ReadAnySize(o.file) : Sized(ReadPublished(o.file, o.format));
+  const auto* dense = std::get_if<ProblemFile>(&read);
+  SparseProblem problem = dense != nullptr ? ToSparse(*dense) : std::get<SparseProblem>(read);
+  if (o.symmetrize) {
+    Symmetrize(problem);
+    read = Sized(problem);
+  }
+  WriteText(o.output, std::visit([](const auto& file) { return Print(file); }, read));
   const Asymmetry asymmetry = LargestAsymmetry(problem);
   SayWhatWasDone(o.output, o.json,
                  fmt::format("{}: {} contacts, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
@@ -53,7 +58,7 @@ struct ExportOptions {
 };
 
 int Export(const ExportOptions& o) {
-  SparseProblem problem = ToSparse(ReadProblem(o.file));
+  SparseProblem problem = ReadSparseProblem(o.file);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
   std::string text = fmt::format("{}: {} numbers rounded", o.output, report.rounded);
@@ -69,12 +74,12 @@ int Export(const ExportOptions& o) {
 }  // namespace
 
 void AddImport(CommandLine& program) {
-  auto [verb, o] = program.Add("import", "Read a problem in the format of another program", Import);
-  verb.Positional("FILE", o.file, "Siconos .dat (LCP, FC2D, FC3D) or FCLIB HDF5 (local; global: condensed)")
+  auto [verb, o] = program.Add("import", "Write what is read as a whole stiction-problem file", Import);
+  verb.Positional("FILE", o.file, kFileHelp)
       .Required()
-      .Details(
-          "Files of other kinds (global .dat, rolling, relay, MLCP, ...) are refused by the name of their "
-          "kind");
+      .Details(std::string(kFileDetails) +
+               ". Siconos: LCP, FC2D, FC3D; FCLIB: local, and global ones condensed. Other kinds (global .dat, "
+               "rolling, relay, MLCP, ...) are refused by their name");
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());
@@ -84,7 +89,7 @@ void AddImport(CommandLine& program) {
 
 void AddExport(CommandLine& program) {
   auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
-  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format to write").Required().OneOf(FormatNames());
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")

@@ -170,9 +170,9 @@ int ListPolicies(const PoliciesVerb& o) {
 
 void AddMinimize(CommandLine& program) {
   auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
-  verb.Positional("FILE", o.file,
-                  "stiction-problem file. In space what intervals prove is kept, under one policy")
-      .Required();
+  verb.Positional("FILE", o.file, kFileHelp)
+      .Required()
+      .Details(std::string(kFileDetails) + ". In space what intervals prove is kept, under one policy");
   verb.Option("-o,--output", o.output, "problem to write; - is standard output").Required();
   verb.Option("--keep", o.keep, "outcome to keep, e.g. cycle; by default the outcome under the policy")
       .Details("With :* behind it under every policy of the planar grid")

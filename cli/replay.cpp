@@ -246,7 +246,7 @@ std::vector<AllowedValue> PathMethodChoices() {
 
 void AddReplay(CommandLine& program) {
   auto [verb, o] = program.Add("replay", "Follow a path method step by step, exactly where it can be", Replay);
-  verb.Positional("FILE", o.file, "stiction-problem file, or stiction-scene file of one problem").Required();
+  verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("--all-policies", o.all_policies,
             "the outcome under every policy of the planar grid, or of those that are built for space");

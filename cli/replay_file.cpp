@@ -1,45 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/replay_file.h"
 
-#include <fmt/format.h>
-
+#include "corpus/read_problem.h"
 #include "reports/pictures/problem_picture.h"
 #include "reports/pictures/rounded_scene.h"
 
 namespace stiction {
 namespace {
 
-template <class Kind>
-ReplayFile Assembled(const SceneFileIn<Kind>& scene, const std::string& source) {
-  const auto contacts = FindContacts(scene.scene);
-  const auto model = Assemble(scene.scene, contacts);
-  if (model.islands.size() != 1) {
-    throw InputError(
-        fmt::format("{}: found {} independent problems, expected one (stiction assemble writes each)", source,
-                    model.islands.size()));
-  }
-  ReplayFile replay;
-  replay.file.name = scene.scene.name;
-  replay.file.problem = model.Problem(0);
-  replay.picture = PictureOfProblem(RoundedScene(scene, source), contacts, model, model.islands[0]);
-  return replay;
-}
-
-ReplayFile AssembledFrom(const std::string& text, const std::string& source) {
-  return std::visit([&source](const auto& scene) { return Assembled(scene, source); },
-                    ParseAnyScene(text, source));
-}
-
 bool AreSame(const ExactProblem& left, const ExactProblem& right) {
   return ProblemToJson(left) == ProblemToJson(right);
+}
+
+// Of the scene, if this is its one problem.
+template <class Kind>
+Json PictureOf(const SceneFileIn<Kind>& scene, const ExactProblem& problem, const std::string& source) {
+  const auto contacts = FindContacts(scene.scene);
+  const auto model = Assemble(scene.scene, contacts);
+  if (model.islands.size() != 1 || !AreSame(model.Problem(0), problem)) return nullptr;
+  return PictureOfProblem(RoundedScene(scene, source), contacts, model, model.islands[0]);
 }
 
 // Of the scene that a problem brings along, unless the problem has changed since, or the scene is none.
 Json PictureBeside(const ProblemFile& file, const std::string& source) {
   if (!file.scene) return nullptr;
   try {
-    const ReplayFile assembled = AssembledFrom(JsonText(*file.scene), source + ": scene");
-    return AreSame(assembled.file.problem, file.problem) ? assembled.picture : nullptr;
+    const auto scene = ParseAnyScene(JsonText(*file.scene), source + ": scene");
+    return std::visit([&](const auto& each) { return PictureOf(each, file.problem, source); }, scene);
   } catch (const InputError&) {
     return nullptr;
   }
@@ -48,11 +35,8 @@ Json PictureBeside(const ProblemFile& file, const std::string& source) {
 }  // namespace
 
 ReplayFile ReadReplayFile(const std::string& file) {
-  const std::string text = ReadText(file);
-  const Json json = ParseJson(text, file);
-  if (json.is_object() && json.value("format", Json()) == "stiction-scene") return AssembledFrom(text, file);
   ReplayFile replay;
-  replay.file = ParseProblem(text, file);
+  replay.file = ReadProblem(file);
   replay.picture = PictureBeside(replay.file, file);
   return replay;
 }

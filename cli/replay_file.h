@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `replay` follows a method on: a problem, or a scene, whose problem is assembled.
+// What `replay` follows a method on: a problem (corpus/read_problem.h), and the picture of its scene.
 
 #ifndef STICTION_CLI_REPLAY_FILE_H_
 #define STICTION_CLI_REPLAY_FILE_H_
@@ -15,7 +15,6 @@ struct ReplayFile {
   Json picture;  // reports/pictures/problem_picture.h; null where there is no scene of this very problem
 };
 
-// Of a scene, the one problem of its forces at this instant; InputError if it has none, or several.
 ReplayFile ReadReplayFile(const std::string& file);
 
 }  // namespace stiction

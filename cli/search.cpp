@@ -268,7 +268,8 @@ int RunStatus(const StatusVerb& o) {
 
 struct ProblemVerb {
   std::string store, output = "-";
-  std::optional<std::int64_t> unit, index;
+  std::string unit;  // its number, or the signature of a finding
+  std::optional<std::int64_t> index;
   std::optional<int> exponential;  // contacts
   bool scaled = false;
   bool best = false, json = false;
@@ -280,6 +281,18 @@ ProblemFile ExponentialFile(int contacts, bool scaled) {
   file.problem = ExponentialFamily(contacts, scaled);
   file.origin = {{"family", "exponential"}, {"contacts", contacts}, {"scaled", scaled}};
   return file;
+}
+
+bool IsNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+std::int64_t UnitOf(const ProblemVerb& o) {
+  constexpr std::size_t kMostDigits = 15;
+  if (o.unit.size() > kMostDigits)
+    throw InputError(fmt::format("problem: UNIT: found '{}', expected an integer of at most {} digits", o.unit,
+                                 kMostDigits));
+  return std::stoll(o.unit);
 }
 
 ProblemFile StoredFile(const ProblemVerb& o) {
@@ -295,24 +308,34 @@ ProblemFile StoredFile(const ProblemVerb& o) {
     throw InputError(fmt::format(
         "{}: found an optimized search, expected --best: its units are not drawn at random", o.store));
   }
-  if (!store.Units().Contains(*o.unit))
-    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, *o.unit));
-  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), *o.unit));
+  const std::int64_t unit = UnitOf(o);
+  if (!store.Units().Contains(unit))
+    throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), unit));
   if (*o.index >= problems) {
-    throw InputError(fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, *o.unit,
-                                 problems - 1));
+    throw InputError(
+        fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, unit, problems - 1));
   }
-  return RegenerateFile(campaign, *o.unit, *o.index);
+  return RegenerateFile(campaign, unit, *o.index);
 }
 
 int RunProblem(const ProblemVerb& o) {
   const bool stored = !o.store.empty();
-  const bool complete = o.index.has_value() != o.best && (!o.best || !o.unit.has_value());
+  if (o.index && !IsNumber(o.unit))
+    throw InputError(fmt::format(
+        "problem: UNIT: found '{}', expected an integer; a signature in its place goes without INDEX", o.unit));
+  const bool is_finding = !o.unit.empty() && !IsNumber(o.unit) && !o.index && !o.best;
+  const bool complete =
+      is_finding || (o.index.has_value() != o.best && (o.best ? o.unit.empty() : IsNumber(o.unit)));
   if (stored == o.exponential.has_value() || (stored ? !complete || o.scaled : o.best || o.index.has_value())) {
     throw InputError(
-        "problem: expected either STORE UNIT INDEX, or STORE --best, or --exponential N and perhaps --scaled");
+        "problem: expected either STORE UNIT INDEX, or STORE SIGNATURE, or STORE --best, or --exponential N "
+        "and "
+        "perhaps --scaled");
   }
-  const ProblemFile file = stored ? StoredFile(o) : ExponentialFile(*o.exponential, o.scaled);
+  const ProblemFile file = is_finding ? ReadProblem(o.store + ":" + o.unit)
+                           : stored   ? StoredFile(o)
+                                      : ExponentialFile(*o.exponential, o.scaled);
   WriteText(o.output, Print(file));
   const Json done = {
       {"written", Json::array({o.output})}, {"contacts", file.problem.contacts.size()}, {"name", file.name}};
@@ -511,7 +534,7 @@ void AddProblem(CommandLine& program) {
       "With its scene where it has one. Or the worst case without friction, on which the published algorithm "
       "takes 2^n - 1 pivots.";
   verb.Positional("STORE", o.store, "store of a search");
-  verb.Positional("UNIT", o.unit, "number of the unit").AtLeast(0);
+  verb.Positional("UNIT", o.unit, "number of the unit; or the signature of a finding, without INDEX");
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
   verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);

@@ -139,17 +139,14 @@ Json FailedSemidefinite(const CurvatureBounds& bounds, std::size_t contacts) {
 }
 
 // What bounds decide of problems too large for exact elimination.
-void AddBoundedAssumptions(const ExactProblem& problem, Json& failed) {
-  ProblemFile file;
-  file.problem = problem;
-  const SparseProblem sparse = ToSparse(file);
-  const CurvatureBounds curvature = BoundCurvature(sparse);
+void AddBoundedAssumptions(const SparseProblem& problem, Json& failed) {
+  const CurvatureBounds curvature = BoundCurvature(problem);
   if (curvature.negative) {
     failed.push_back(FailedSemidefinite(curvature, problem.contacts.size()));
   } else if (!curvature.least || *curvature.least < 0) {
     failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
   }
-  if (!IsRegularModuloPrime(sparse)) {
+  if (problem.rows() > kMostDenseRows || !IsRegularModuloPrime(problem)) {
     failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
   }
 }
@@ -162,7 +159,9 @@ Json FailedAssumptions(const ExactProblem& problem) {
     failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
   }
   if (problem.rows() > kExactAssumptionRows) {
-    AddBoundedAssumptions(problem, failed);
+    ProblemFile file;
+    file.problem = problem;
+    AddBoundedAssumptions(ToSparse(file), failed);
     return failed;
   }
   const auto semidefinite = DecideSemidefinite(problem.A);
@@ -175,6 +174,15 @@ Json FailedAssumptions(const ExactProblem& problem) {
         {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
     AddFailedHypothesis(problem, failed);
   }
+  return failed;
+}
+
+Json FailedAssumptions(const SparseProblem& problem) {
+  Json failed = Json::array();
+  const Asymmetry largest = LargestAsymmetry(problem);
+  if (largest.difference != 0)
+    failed.push_back({{"assumption", "symmetric"}, {"i", largest.i}, {"j", largest.j}});
+  AddBoundedAssumptions(problem, failed);
   return failed;
 }
 

@@ -15,6 +15,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
 #include "corpus/progress_bar.h"
+#include "corpus/read_problem.h"
 #include "corpus/whole_folder.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
@@ -61,6 +62,13 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
 // contacts stand a number, and the verb that writes the vector.
 Json FailedAssumptions(const ExactProblem& problem);
+// Of a large one what bounds decide.
+Json FailedAssumptions(const SparseProblem& problem);
+
+// What FILE is, in help.
+inline constexpr const char* kFileHelp = "a problem, in any form that is read";
+inline constexpr const char* kFileDetails =
+    "stiction-problem, short or whole; scene of one problem; Siconos .dat; FCLIB .hdf5; STORE:FINDING";
 
 }  // namespace stiction
 

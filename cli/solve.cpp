@@ -13,6 +13,7 @@
 #include "answers/narrate_text.h"
 #include "answers/problem_text.h"
 #include "answers/request.h"
+#include "answers/solve_sparse.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
@@ -125,10 +126,13 @@ std::string FieldsText(const Json& object) {
 }
 
 // Names of the assumptions that fail; their witnesses are what `certify` writes.
-std::string AssumptionsText(const Json& assumptions, const std::string& file) {
+std::string AssumptionsText(const Json& assumptions, const std::string& file, int rows) {
   std::vector<std::string> names;
   for (const Json& failed : assumptions) names.push_back(failed["assumption"]);
   if (names.empty()) return "none of the paper's was found to fail (A symmetric, semidefinite, b in its range)";
+  if (rows > kMostDenseRows)
+    return fmt::format("of the paper's these fail, or are undecided: {}; the bounds: stiction survey {}",
+                       fmt::join(names, ", "), file);
   return fmt::format("of the paper's these fail: {}; the proof: stiction certify {} --claim {} -o -",
                      fmt::join(names, ", "), file, names[0]);
 }
@@ -144,7 +148,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
                       key == "ray" || key == "reason" || key == "unique_accelerations";
     if (told) continue;
-    const std::string text = key == "assumptions" ? AssumptionsText(value, o.file)
+    const std::string text = key == "assumptions" ? AssumptionsText(value, o.file, problem.rows())
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
                                                   : value.dump();
@@ -152,8 +156,43 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
   }
 }
 
+// What a sparse A does not go with.
+void RequireForSparse(const SolveVerb& o, const SparseProblem& problem) {
+  const auto refuse = [&](const std::string& option) {
+    throw InputError(o.file, "rows", std::to_string(problem.rows()),
+                     fmt::format("at most {} with {}, for which A is dense; without it A stays sparse",
+                                 kMostDenseRows, option));
+  };
+  const std::string_view method = problem.dimension == 2 ? "proximal" : "fast";
+  if (o.method != kAutomatic && o.method != method) refuse("--method " + o.method);
+  if (!o.arithmetic.empty() && o.arithmetic != "double") refuse("--arithmetic " + o.arithmetic);
+  if (o.policy != "paper") refuse("--policy " + o.policy);
+  if (!o.law.empty() && o.law != "coulomb") refuse("--law " + o.law);
+}
+
+// More rows than a dense matrix is made for.
+int SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
+  RequireForSparse(o, problem);
+  const StopAfter stop(o.seconds);
+  SolveOptions options = o.options;
+  options.limits.stop = stop.flag();
+  const Solution solution{SolveSparse(problem, options)};
+  Json result = SolutionToJson(solution, problem.dimension);
+  if (o.method == kAutomatic)
+    result["why"] = fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
+  result["assumptions"] = FailedAssumptions(problem);
+  if (o.json) {
+    std::cout << JsonText(result) << "\n";
+  } else {
+    PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
+  }
+  return ExitOf(solution.outcome());
+}
+
 int RunSolve(const SolveVerb& o) {
-  const ProblemFile file = ReadProblem(o.file);
+  const auto read = ReadAnySize(o.file);
+  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
+  const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
   const StopAfter stop(o.seconds);
   request.options.limits.stop = stop.flag();
@@ -184,7 +223,7 @@ void AddSolve(CommandLine& program) {
   verb.footer =
       "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "
       "no-solution is proved, and `certify` writes the proof; the others say how the method ended.";
-  verb.Positional("FILE", o.file, "stiction-problem file").Required();
+  verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("--method", o.method, "what solves it").Choices(MethodChoices());
   verb.Option("--arithmetic", o.arithmetic, "what it computes with")
       .OneOf({kArithmeticNames.begin(), kArithmeticNames.end()})

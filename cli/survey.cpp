@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "answers/answer_text.h"
+#include "answers/solve_sparse.h"
 #include "certify/bounds.h"
 #include "certify/certificate.h"
 #include "certify/exact.h"
@@ -26,7 +27,6 @@
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
 #include "corpus/stopwatch.h"
-#include "solver/numeric/proximal.h"
 #include "solver/problem/check.h"
 #include "solver/problem/errors.h"
 
@@ -170,18 +170,15 @@ bool IsDecided(const Json& runs) {
   });
 }
 
-// The proximal method, for which A stays sparse.
-Json RunSparse(const SparseProblem& problem) {
-  const SparseContactProblem<double> rounded = InDoubles(problem);
+// A stays sparse.
+Json RunSparse(const SparseProblem& problem, const Limits& limits) {
   const Stopwatch watch(CLOCK_MONOTONIC);
-  ProximalNewton<double> method;
-  const ProximalVerdict verdict = method.Run(rounded);
-  Json run = {{"method", "proximal"}, {"arithmetic", "double"}, {"outcome", Name(verdict.outcome)}};
+  const InexactAnswer answer = SolveSparse(problem, {.limits = limits});
+  Json run = {{"method", answer.method}, {"arithmetic", "double"}, {"outcome", Name(answer.outcome)}};
   run["seconds"] = watch.Seconds();
-  run["factorizations"] = verdict.factorizations;
-  if (!verdict.reason.empty()) run["reason"] = verdict.reason;
-  if (method.f().allFinite()) run["residual"] = VerifiedResidual(OverRationals(problem), method.f());
-  if (verdict.outcome == Outcome::kSolved && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
+  run["statistics"] = CountersToJson(answer.counters);
+  if (!answer.reason.empty()) run["reason"] = answer.reason;
+  if (answer.errors) run["residual"] = answer.residual();
   return run;
 }
 
@@ -339,7 +336,8 @@ Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
 Json Runs(const SparseProblem& problem, const std::string& source, const SurveyOptions& o) {
   const bool planar = problem.dimension == 2;
   Json runs = Json::array();
-  if (planar && problem.contacts.size() > kExactContacts) runs.push_back(RunSparse(problem));
+  if (planar ? problem.contacts.size() > kExactContacts : problem.rows() > o.rows)
+    runs.push_back(RunSparse(problem, o.limits));
   if (problem.rows() <= o.rows) {
     const ExactProblem dense = ToDense(problem, source).problem;
     for (Json& run : planar ? PlanarRuns(dense, o) : SpatialRuns(dense, o.limits))
@@ -376,11 +374,6 @@ Json Judge(SparseProblem problem, const std::string& source, const SurveyOptions
   symmetrized["runs"] = Runs(problem, source, o);
   entry["symmetrized"] = symmetrized;
   return entry;
-}
-
-SparseProblem ReadAny(const std::filesystem::path& file) {
-  const bool is_json = file == "-" ? ReadText(file).starts_with("{") : file.extension() == ".json";
-  return is_json ? ToSparse(ReadProblem(file)) : ReadPublished(file);
 }
 
 // Files as they are given; of a folder those that look like problems, by name.
@@ -420,7 +413,7 @@ int Survey(const SurveyOptions& o) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
     try {
-      Json entry = Judge(ReadAny(file), file.string(), o);
+      Json entry = Judge(ReadSparseProblem(file), file.string(), o);
       entry["file"] = file.string();
       bar.Clear();
       if (!std::exchange(headed, true)) PrintSurveyHead();
@@ -449,10 +442,10 @@ void AddSurvey(CommandLine& program) {
       "The error is the largest of any acceleration or force, by Coulomb's law, in units of what acts at its "
       "contact: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned doubles, "
       "evaluated over rationals on the matrix of the row. Witnesses of what fails: "
-      "`import` the file, then `certify --claim psd` or `--claim in-range`.";
-  verb.Positional("PATH", o.paths,
-                  "problems in any format that import reads, stiction-problem files, or folders")
-      .Required();
+      "`certify FILE --claim psd` or `--claim in-range`.";
+  verb.Positional("PATH", o.paths, "problems in any form that is read, or folders of files")
+      .Required()
+      .Details(kFileDetails);
   verb.Option("--rows", o.rows, "the most rows for methods that hold A as a dense matrix")
       .Range(0, kMostDenseRows);
   verb.Flag("--suspicions", o.suspicions, "in the plane: also the published algorithm over doubles")

@@ -209,10 +209,15 @@ void JsonPlace::RequireObject() const {
 
 void JsonPlace::AllowKeys(const std::vector<std::string>& keys) const {
   RequireObject();
+  std::vector<std::string> unknown;
   for (const auto& member : json_.items()) {
-    if (std::find(keys.begin(), keys.end(), member.key()) != keys.end()) continue;
-    Child(member.key(), member.value()).Refuse("an unknown key", fmt::format("only {}", fmt::join(keys, ", ")));
+    if (std::find(keys.begin(), keys.end(), member.key()) == keys.end())
+      unknown.push_back(MemberPath(path_, member.key()));
   }
+  if (unknown.empty()) return;
+  throw InputError(source_, fmt::format("{}", fmt::join(unknown, ", ")),
+                   unknown.size() == 1 ? "an unknown key" : "unknown keys",
+                   fmt::format("only {}", fmt::join(keys, ", ")));
 }
 
 JsonPlace JsonPlace::Required(const std::string& key, const std::string& expected) const {
@@ -255,6 +260,20 @@ std::int64_t JsonPlace::Integer(std::int64_t least, std::int64_t most, const std
   const std::int64_t value = json_.get<std::int64_t>();
   if (value < least || value > most) Refuse(expected);
   return value;
+}
+
+void Faults::Add(std::string message) {
+  const std::string prefix = source_ + ": ";
+  if (message.starts_with(prefix)) message.erase(0, prefix.size());
+  told_.push_back(std::move(message));
+}
+
+void Faults::Throw() const {
+  constexpr std::size_t kMost = 10;
+  if (told_.empty()) return;
+  const std::vector<std::string> first(told_.begin(), told_.begin() + std::min(kMost, told_.size()));
+  const std::string more = told_.size() > kMost ? fmt::format("; and {} more", told_.size() - kMost) : "";
+  throw InputError(fmt::format("{}: {}{}", source_, fmt::join(first, "; "), more));
 }
 
 }  // namespace stiction

@@ -61,6 +61,7 @@ class JsonPlace {
       : json_(json), source_(source), path_(std::move(path)) {}
 
   const Json& json() const { return json_; }
+  const std::string& source() const { return source_; }
 
   [[noreturn]] void Refuse(const std::string& found, const std::string& expected) const;
   // Found is the value itself.
@@ -68,6 +69,7 @@ class JsonPlace {
 
   // Objects.
   void RequireObject() const;
+  // All unknown keys are told at once.
   void AllowKeys(const std::vector<std::string>& keys) const;
   JsonPlace Required(const std::string& key, const std::string& expected) const;
   std::optional<JsonPlace> Optional(const std::string& key) const;
@@ -85,6 +87,33 @@ class JsonPlace {
   const Json& json_;
   const std::string& source_;
   std::string path_;
+};
+
+// What is wrong with the parts of a document, told at once.
+class Faults {
+ public:
+  // `source` must outlive it.
+  explicit Faults(const std::string& source) : source_(source) {}
+
+  // Reads a part; what it refuses is kept.
+  template <class Read>
+  void Try(const Read& read) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      Add(error.what());
+    }
+  }
+  bool empty() const { return told_.empty(); }
+  void Take(const Faults& others) { told_.insert(told_.end(), others.told_.begin(), others.told_.end()); }
+  // InputError, if there are any: at most ten of them, and how many more there are.
+  void Throw() const;
+
+ private:
+  void Add(std::string message);
+
+  const std::string& source_;
+  std::vector<std::string> told_;  // without the source
 };
 
 }  // namespace stiction

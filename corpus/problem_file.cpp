@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "corpus/exact_number.h"
+#include "corpus/formats/printable.h"
+#include "corpus/formats/sparse_problem.h"
 #include "solver/problem/check.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
@@ -28,7 +31,7 @@ constexpr int kVersion = 1;
 constexpr std::array<std::string_view, 4> kKindNames = {"bilateral", "frictionless", "static", "sliding"};
 
 const std::vector<std::string> kProblemKeys = {"format", "version", "dimension", "contacts", "A", "b"};
-const std::vector<std::string> kFileKeys = {"format", "version", "name",  "dimension", "contacts",
+const std::vector<std::string> kFileKeys = {"format", "version", "name",  "dimension", "contacts", "mu",
                                             "A",      "b",       "scene", "origin",    "expect"};
 
 bool HasSlip(const Contact<Rational>& contact) { return contact.kind == ContactKind::kSliding; }
@@ -37,80 +40,211 @@ bool IsUnit(const std::array<Rational, 2>& x) { return Rational(x[0] * x[0] + x[
 
 // ---- Reading ---------------------------------------------------------------------------------
 
-// Reads a problem value by value. Strict: numbers are strings only.
+// A problem as it was read: `entries` in place of problem.A where the file has entries.
+struct ReadResult {
+  ExactProblem problem;
+  std::optional<SparseMatrix> entries;
+};
+
+// Reads a problem value by value. Strict: numbers are strings only, and nothing has a default.
 class ProblemReader {
  public:
   explicit ProblemReader(bool strict) : strict_(strict) {}
 
-  ExactProblem Read(const JsonPlace& place) const;
+  // Adds what is wrong with the problem to `faults`; the result holds only where there is nothing.
+  ReadResult Read(const JsonPlace& place, Faults& faults) const;
 
  private:
+  void ReadHeader(const JsonPlace& place) const;
   Rational Number(const JsonPlace& place) const;
-  std::vector<Contact<Rational>> Contacts(const JsonPlace& place, int dimension) const;
-  Contact<Rational> OneContact(const JsonPlace& place, int dimension) const;
-  Rational Friction(const JsonPlace& contact, std::string_view kind) const;
+  std::vector<Contact<Rational>> Contacts(const JsonPlace& place, int dimension, Faults& faults) const;
+  std::vector<Contact<Rational>> StaticContacts(const JsonPlace& mu, int dimension, int rows,
+                                                Faults& faults) const;
+  Contact<Rational> OneContact(const JsonPlace& place, int dimension, Faults& faults) const;
+  Rational Friction(const JsonPlace& place) const;
   std::array<Rational, 2> Slip(const JsonPlace& place, int dimension) const;
-  Matrix ContactMatrix(const JsonPlace& place, int rows) const;
   Matrix DenseRows(const JsonPlace& place, int rows) const;
-  Matrix Entries(const JsonPlace& place, int rows) const;
+  SparseMatrix Entries(const JsonPlace& place, int rows) const;
   Vector Numbers(const JsonPlace& place, int rows) const;
 
   bool strict_;
 };
 
-// Format and version come before the keys: another version may have others.
-void ReadHeader(const JsonPlace& place, bool strict) {
-  const std::string format = '"' + std::string(kFormat) + '"';
-  const JsonPlace found = place.Required("format", format);
-  if (found.Text(format) != kFormat) found.Refuse(format);
-  const std::string version = std::to_string(kVersion);
-  place.Required("version", version).Integer(kVersion, kVersion, version);
-  place.AllowKeys(strict ? kProblemKeys : kFileKeys);
+constexpr const char* kMatrixExpected = R"(an array of rows, or {"size", "entries"})";
+
+// What another file of ours is for.
+std::string NextStepWith(const Json& format) {
+  if (format == "stiction-certificate") return " (stiction check verifies a certificate)";
+  if (format == "stiction-scene") return " (stiction assemble makes problems of a scene)";
+  if (format == "stiction-campaign") return " (stiction search runs a campaign)";
+  return "";
 }
 
-ExactProblem ProblemReader::Read(const JsonPlace& place) const {
-  ReadHeader(place, strict_);
-  ExactProblem problem;
-  problem.dimension = static_cast<int>(place.Required("dimension", "2 or 3").Integer(2, 3, "2 or 3"));
-  problem.contacts = Contacts(place.Required("contacts", "an array of contacts"), problem.dimension);
-  const int rows = RowCount(problem.contacts, problem.dimension);
-  problem.A = ContactMatrix(place.Required("A", R"(an array of rows, or {"size", "entries"})"), rows);
-  problem.b = Numbers(place.Required("b", "an array of numbers"), rows);
-  return problem;
+// A file of another format or version has other keys: it is refused by these alone.
+void ProblemReader::ReadHeader(const JsonPlace& place) const {
+  place.RequireObject();
+  const std::string format = '"' + std::string(kFormat) + '"', version = std::to_string(kVersion);
+  const auto found = place.Optional("format");
+  if (found && found->json() != kFormat) found->Refuse(format + NextStepWith(found->json()));
+  const auto number = place.Optional("version");
+  if (number) number->Integer(kVersion, kVersion, version);
+  if (!strict_) return;
+  place.Required("format", format);
+  place.Required("version", version);
+}
+
+// ---- Sizes, as far as a file tells them ----
+
+// Rows by the length of b, otherwise of a dense A; -1 where neither tells.
+int RowsTold(const JsonPlace& place) {
+  const auto b = place.Optional("b"), A = place.Optional("A");
+  if (b && b->json().is_array()) return static_cast<int>(b->json().size());
+  if (A && A->json().is_array()) return static_cast<int>(A->json().size());
+  return -1;
+}
+
+// How many contacts have friction, and how many have not; by `mu` alone -1 where it does not tell.
+struct ContactCounts {
+  int with_friction = -1, without = 0;
+
+  bool Fit(int rows, int dimension) const {
+    return with_friction < 0 ? rows % dimension == 0 : without + dimension * with_friction == rows;
+  }
+};
+
+ContactCounts CountsTold(const JsonPlace& place) {
+  ContactCounts counts;
+  const auto contacts = place.Optional("contacts"), mu = place.Optional("mu");
+  if (!contacts || !contacts->json().is_array()) {
+    if (mu && mu->json().is_array()) counts.with_friction = static_cast<int>(mu->json().size());
+    return counts;
+  }
+  counts.with_friction = 0;
+  for (const Json& contact : contacts->json()) {
+    const Json kind = contact.is_object() ? contact.value("kind", Json()) : Json();
+    const bool has_none = kind == "bilateral" || kind == "frictionless";
+    ++(has_none ? counts.without : counts.with_friction);
+  }
+  return counts;
+}
+
+// The dimension that the sizes tell. Without friction the problem is the same in both: 2.
+int DimensionTold(const JsonPlace& place) {
+  const JsonPlace nothing = place.Child("dimension", place.json());
+  const int rows = RowsTold(place);
+  const ContactCounts counts = CountsTold(place);
+  const bool has_contacts = place.Optional("contacts") || place.Optional("mu");
+  if (rows < 0 || !has_contacts) return 0;  // what is missing is told
+  const bool plane = counts.Fit(rows, 2), space = counts.Fit(rows, 3);
+  if (counts.with_friction == 0 || rows == 0 || (plane && !space)) return 2;
+  if (space && !plane) return 3;
+  nothing.Refuse("nothing", fmt::format("2 or 3: {} rows fit {}", rows, plane ? "both" : "neither"));
+}
+
+// Contacts, A and b are read as far as they can be, whatever is wrong with the others.
+ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
+  ReadHeader(place);
+  ReadResult result;
+  ExactProblem& problem = result.problem;
+  faults.Try([&] { place.AllowKeys(strict_ ? kProblemKeys : kFileKeys); });
+  problem.dimension = 0;
+  faults.Try([&] {
+    const auto given = place.Optional("dimension");
+    if (!given && !strict_) {
+      problem.dimension = DimensionTold(place);
+      return;
+    }
+    problem.dimension = static_cast<int>(place.Required("dimension", "2 or 3").Integer(2, 3, "2 or 3"));
+  });
+  const auto mu = place.Optional("mu");
+  Faults of_contacts(place.source());
+  of_contacts.Try([&] {
+    const auto contacts = place.Optional("contacts");
+    if (contacts && mu && !strict_)
+      mu->Refuse("mu beside contacts", "one of the two: each contact has its own mu");
+    if (!contacts && mu && !strict_) {
+      problem.contacts = StaticContacts(*mu, problem.dimension, RowsTold(place), of_contacts);
+    } else {
+      const char* expected = strict_ ? "an array of contacts" : "an array of contacts, or mu of static ones";
+      problem.contacts = Contacts(place.Required("contacts", expected), problem.dimension, of_contacts);
+    }
+  });
+  faults.Take(of_contacts);
+  const bool are_counted = of_contacts.empty() && problem.dimension != 0;
+  const int rows = are_counted ? RowCount(problem.contacts, problem.dimension) : RowsTold(place);
+  faults.Try([&] {
+    const JsonPlace A = place.Required("A", kMatrixExpected);
+    if (rows < 0) return;
+    if (A.json().is_object())
+      result.entries = Entries(A, rows);
+    else
+      problem.A = DenseRows(A, rows);
+  });
+  faults.Try([&] {
+    const JsonPlace b = place.Required("b", "an array of numbers");
+    if (rows >= 0) problem.b = Numbers(b, rows);
+  });
+  return result;
 }
 
 Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
 
-std::vector<Contact<Rational>> ProblemReader::Contacts(const JsonPlace& place, int dimension) const {
+std::vector<Contact<Rational>> ProblemReader::Contacts(const JsonPlace& place, int dimension,
+                                                       Faults& faults) const {
   const std::size_t count = place.Size("an array of contacts");
   std::vector<Contact<Rational>> contacts;
-  for (std::size_t i = 0; i < count; ++i) contacts.push_back(OneContact(place[i], dimension));
+  for (std::size_t i = 0; i < count; ++i)
+    faults.Try([&] { contacts.push_back(OneContact(place[i], dimension, faults)); });
   return contacts;
 }
 
-Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimension) const {
+// Of the short form: one mu for all, or one a contact.
+std::vector<Contact<Rational>> ProblemReader::StaticContacts(const JsonPlace& mu, int dimension, int rows,
+                                                             Faults& faults) const {
+  std::vector<Contact<Rational>> contacts;
+  const auto add = [&](const JsonPlace& place) {
+    contacts.push_back({.kind = ContactKind::kStatic, .mu = Friction(place), .slip = {}});
+  };
+  if (mu.json().is_array()) {
+    for (std::size_t i = 0; i < mu.json().size(); ++i) faults.Try([&] { add(mu[i]); });
+    return contacts;
+  }
+  add(mu);
+  if (rows >= 0 && dimension != 0) contacts.resize((rows + dimension - 1) / dimension, contacts[0]);
+  return contacts;
+}
+
+Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimension, Faults& faults) const {
   const std::string kinds = fmt::format("one of {}", fmt::join(kKindNames, ", "));
   const JsonPlace named = place.Required("kind", kinds);
   const std::string& name = named.Text(kinds);
   const auto kind = std::find(kKindNames.begin(), kKindNames.end(), name);
   if (kind == kKindNames.end()) named.Refuse(kinds);
-  place.AllowKeys({"kind", "mu", "slip"});
+  faults.Try([&] { place.AllowKeys({"kind", "mu", "slip"}); });
 
   Contact<Rational> contact;
   contact.kind = static_cast<ContactKind>(kind - kKindNames.begin());
-  const auto mu = place.Optional("mu");
-  if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");
-  const auto slip = place.Optional("slip");
-  if (slip && !HasSlip(contact)) slip->Refuse("no slip on a " + name + " contact");
-  if (contact.HasFrictionRows()) contact.mu = Friction(place, name);
-  if (HasSlip(contact)) {
-    contact.slip = Slip(place.Required("slip", "the direction of the sliding velocity"), dimension);
-  }
+  const auto mu = place.Optional("mu"), slip = place.Optional("slip");
+  faults.Try([&] {
+    if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");
+    if (!contact.HasFrictionRows()) return;
+    contact.mu = Friction(place.Required("mu", fmt::format("the mu of a {} contact, a number >= 0", name)));
+  });
+  faults.Try([&] {
+    if (slip && !HasSlip(contact)) slip->Refuse("no slip on a " + name + " contact");
+    if (!HasSlip(contact)) return;
+    const JsonPlace given = place.Required("slip", "the direction of the sliding velocity");
+    if (dimension != 0) contact.slip = Slip(given, dimension);
+  });
   return contact;
 }
 
-Rational ProblemReader::Friction(const JsonPlace& contact, std::string_view kind) const {
-  const JsonPlace place = contact.Required("mu", fmt::format("the mu of a {} contact, a number >= 0", kind));
+Rational ProblemReader::Friction(const JsonPlace& place) const {
+  const Json& json = place.json();
+  if (json == "inf" || json == "infinity" || json == "Infinity" || json == "+inf")
+    place.Refuse(
+        "a number >= 0: infinite friction is not built. Where the contact neither slips nor parts, write a "
+        "bilateral contact for each of its rows; where it may part, a mu above all |fF| / fN, such as 1e6");
   Rational mu = Number(place);
   if (mu < 0) place.Refuse("mu >= 0");
   return mu;
@@ -137,30 +271,27 @@ void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
   if (size != static_cast<std::size_t>(rows)) place.Refuse(fmt::format("{} {}", size, items), expected);
 }
 
-// A of more rows is refused before it is made.
+// A dense matrix of more rows is refused before it is made: 1 GiB of fractions.
 constexpr int kMostRows = 4096;
 
 void RequireMemory(const JsonPlace& place, int rows) {
   if (rows <= kMostRows) return;
   constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
   place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
-               fmt::format("at most {} rows, {:.3g} GiB", kMostRows, kEntry / kGiB * kMostRows * kMostRows));
-}
-
-Matrix ProblemReader::ContactMatrix(const JsonPlace& place, int rows) const {
-  RequireMemory(place, rows);
-  return place.json().is_object() ? Entries(place, rows) : DenseRows(place, rows);
+               fmt::format("at most {} rows, {:.3g} GiB", kMostRows, kEntry / kGiB * kMostRows * kMostRows) +
+                   R"(; stiction solve and survey take more, written as {"size", "entries"})");
 }
 
 Matrix ProblemReader::DenseRows(const JsonPlace& place, int rows) const {
-  if (!place.json().is_array()) place.Refuse(R"(an array of rows, or {"size", "entries"})");
+  RequireMemory(place, rows);
+  if (!place.json().is_array()) place.Refuse(kMatrixExpected);
   RequireLength(place, rows, "rows");
   Matrix A(rows, rows);
   for (int i = 0; i < rows; ++i) A.row(i) = Numbers(place[i], rows).transpose();
   return A;
 }
 
-Matrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
+SparseMatrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
   place.AllowKeys({"size", "entries"});
   const std::string size = fmt::format("{}, the rows of the contacts", rows);
   place.Required("size", size).Integer(rows, rows, size);
@@ -168,26 +299,22 @@ Matrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
   const std::size_t count = entries.Size("an array of entries [i, j, value]");
   const std::string index = fmt::format("a row number >= 0 and < {}", rows);
 
-  Matrix A(rows, rows);
+  SparseMatrix A;
   std::vector<std::array<int, 2>> listed;
-  std::vector<bool> is_listed(static_cast<std::size_t>(rows) * rows);
-  const auto flat = [rows](int i, int j) { return static_cast<std::size_t>(i) * rows + j; };
   for (std::size_t k = 0; k < count; ++k) {
     const JsonPlace entry = entries[k];
     if (entry.Size("an entry [i, j, value]") != 3) entry.Refuse("an entry [i, j, value]");
     const int i = static_cast<int>(entry[0].Integer(0, rows - 1, index));
     const int j = static_cast<int>(entry[1].Integer(0, rows - 1, index));
-    if (is_listed[flat(i, j)]) entry.Refuse("each entry once");
-    is_listed[flat(i, j)] = true;
+    if (!A.emplace(std::pair(i, j), Number(entry[2])).second) entry.Refuse("each entry once");
     listed.push_back({i, j});
-    A(i, j) = Number(entry[2]);
   }
   for (std::size_t k = 0; k < count; ++k) {
     const auto [i, j] = listed[k];
-    if (is_listed[flat(j, i)]) continue;
-    if (i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");
-    A(j, i) = A(i, j);
+    const bool is_new = A.emplace(std::pair(j, i), A.at({i, j})).second;
+    if (is_new && i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");
   }
+  std::erase_if(A, [](const auto& entry) { return entry.second == 0; });
   return A;
 }
 
@@ -196,6 +323,16 @@ Vector ProblemReader::Numbers(const JsonPlace& place, int rows) const {
   Vector values(rows);
   for (int i = 0; i < rows; ++i) values(i) = Number(place[i]);
   return values;
+}
+
+// A of entries becomes dense.
+ExactProblem Dense(ReadResult read, const JsonPlace& place) {
+  if (!read.entries) return std::move(read.problem);
+  const int rows = read.problem.rows();
+  RequireMemory(place.Child("A", place.json()), rows);
+  read.problem.A = Matrix::Constant(rows, rows, Rational(0));
+  for (auto& [at, value] : *read.entries) read.problem.A(at.first, at.second) = std::move(value);
+  return std::move(read.problem);
 }
 
 // One spelling per policy, so that two spellings of one are noticed.
@@ -246,7 +383,6 @@ void CheckProblem(const ExactProblem& problem) {
   for (const Contact<Rational>& contact : problem.contacts) CheckContact(contact, problem.dimension);
   const int rows = RowCount(problem.contacts, problem.dimension);
   STICTION_CHECK(problem.rows() == rows, "b does not have one row per row of the contacts");
-  STICTION_CHECK(problem.A.rows() == rows && problem.A.cols() == rows, "A does not fit the contacts");
 }
 
 Json ContactToJson(const Contact<Rational>& contact, int dimension) {
@@ -292,6 +428,46 @@ Json EntriesToJson(const Matrix& A) {
   return {{"size", A.rows()}, {"entries", std::move(entries)}};
 }
 
+// The same of any sparse matrix. An entry without its mirror stands beside a zero.
+Json EntriesToJson(const SparseMatrix& A, int rows) {
+  Json entries = Json::array();
+  const auto add = [&entries](int i, int j, const Rational& x) {
+    entries.push_back(Json::array({i, j, ToString(x)}));
+  };
+  for (const auto& [at, value] : A) {
+    const auto [i, j] = at;
+    const auto mirror = A.find({j, i});
+    if (mirror == A.end()) add(j, i, 0);
+    if (i >= j || mirror == A.end() || mirror->second != value) add(i, j, value);
+  }
+  return {{"size", rows}, {"entries", std::move(entries)}};
+}
+
+// All but A, which is given; that of the problem is not looked at.
+Json ProblemToJson(const ExactProblem& problem, Json A) {
+  CheckProblem(problem);
+  Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", problem.dimension}};
+  json["contacts"] = Json::array();
+  for (const auto& contact : problem.contacts)
+    json["contacts"].push_back(ContactToJson(contact, problem.dimension));
+  json["A"] = std::move(A);
+  json["b"] = NumbersToJson(problem.b);
+  return json;
+}
+
+// A file whose problem is given.
+Json FileToJson(const ProblemFile& file, const Json& problem) {
+  Json json;
+  for (const auto& member : problem.items()) {
+    if (member.key() == "dimension") json["name"] = file.name;
+    json[member.key()] = member.value();
+  }
+  if (file.scene) json["scene"] = *file.scene;
+  if (file.origin) json["origin"] = *file.origin;
+  if (!file.expect.empty()) json["expect"] = file.expect;
+  return json;
+}
+
 // `{"key": value, "key": value}`, spaced for people.
 std::string ObjectOnOneLine(const Json& object) {
   std::vector<std::string> members;
@@ -324,6 +500,16 @@ std::string PrintedValue(const std::string& key, const Json& value) {
   return JsonText(value);
 }
 
+std::string PrintFile(const Json& json) {
+  std::string text = "{";
+  for (const auto& member : json.items()) {
+    const bool same_line = member.key() == "version" || member.key() == "dimension";
+    text += text == "{" ? "\n  " : same_line ? ", " : ",\n  ";
+    text += JsonText(member.key()) + ": " + PrintedValue(member.key(), member.value());
+  }
+  return text + "\n}\n";
+}
+
 // The exact value of a JSON number or string; empty where it has none.
 std::optional<Rational> ExactValue(const Json& json) {
   if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
@@ -350,65 +536,71 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
                R"(, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))");
 }
 
-ProblemFile ParseProblem(std::string_view text, const std::string& source) {
+std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
+                                                      int most_dense_rows) {
   const Json json = ParseJson(text, source);
   const JsonPlace place(json, source, "");
+  Faults faults(source);
+  ReadResult read = ProblemReader(false).Read(place, faults);
   ProblemFile file;
-  file.problem = ProblemReader(false).Read(place);
-  file.name = place.Required("name", "a string").Text("a string");
+  file.name = Printable(std::filesystem::path(source).stem().string());
+  faults.Try([&] {
+    if (const auto name = place.Optional("name")) file.name = name->Text("a string");
+  });
   if (const auto scene = place.Optional("scene")) file.scene = scene->json();
-  if (const auto origin = place.Optional("origin")) {
+  faults.Try([&] {
+    const auto origin = place.Optional("origin");
+    if (!origin) return;
     origin->RequireObject();
     file.origin = origin->json();
-  }
-  if (const auto expect = place.Optional("expect")) file.expect = ReadExpect(*expect);
+  });
+  faults.Try([&] {
+    if (const auto expect = place.Optional("expect")) file.expect = ReadExpect(*expect);
+  });
+  faults.Throw();
+  ExactProblem& problem = read.problem;
+  if (read.entries && problem.rows() > most_dense_rows)
+    return SparseProblem{file.name,
+                         problem.dimension,
+                         std::move(problem.contacts),
+                         *std::move(read.entries),
+                         std::move(problem.b),
+                         file.origin.value_or(Json::object())};
+  file.problem = Dense(std::move(read), place);
   return file;
 }
 
-ProblemFile ReadProblem(const std::filesystem::path& file) {
-  return ParseProblem(ReadText(file), file.string());
+ProblemFile ParseProblem(std::string_view text, const std::string& source) {
+  return std::get<ProblemFile>(ParseAnySize(text, source, INT_MAX));
 }
 
 ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path,
                              bool strict) {
-  return ProblemReader(strict).Read(JsonPlace(json, source, path));
+  const JsonPlace place(json, source, path);
+  Faults faults(source);
+  ReadResult read = ProblemReader(strict).Read(place, faults);
+  faults.Throw();
+  return Dense(std::move(read), place);
 }
 
 Json ProblemToJson(const ExactProblem& problem) {
-  CheckProblem(problem);
-  Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", problem.dimension}};
-  json["contacts"] = Json::array();
-  for (const auto& contact : problem.contacts)
-    json["contacts"].push_back(ContactToJson(contact, problem.dimension));
-  json["A"] = IsBestSparse(problem.A) ? EntriesToJson(problem.A) : RowsToJson(problem.A);
-  json["b"] = NumbersToJson(problem.b);
-  return json;
+  const int rows = problem.rows();
+  STICTION_CHECK(problem.A.rows() == rows && problem.A.cols() == rows, "A does not fit the contacts");
+  return ProblemToJson(problem, IsBestSparse(problem.A) ? EntriesToJson(problem.A) : RowsToJson(problem.A));
 }
 
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
-Json ToJson(const ProblemFile& file) {
-  const Json problem = ProblemToJson(file.problem);
-  Json json;
-  for (const auto& member : problem.items()) {
-    if (member.key() == "dimension") json["name"] = file.name;
-    json[member.key()] = member.value();
-  }
-  if (file.scene) json["scene"] = *file.scene;
-  if (file.origin) json["origin"] = *file.origin;
-  if (!file.expect.empty()) json["expect"] = file.expect;
-  return json;
-}
+Json ToJson(const ProblemFile& file) { return FileToJson(file, ProblemToJson(file.problem)); }
 
-std::string Print(const ProblemFile& file) {
-  const Json json = ToJson(file);  // named: items() would not keep it alive
-  std::string text = "{";
-  for (const auto& member : json.items()) {
-    const bool same_line = member.key() == "version" || member.key() == "dimension";
-    text += text == "{" ? "\n  " : same_line ? ", " : ",\n  ";
-    text += JsonText(member.key()) + ": " + PrintedValue(member.key(), member.value());
-  }
-  return text + "\n}\n";
+std::string Print(const ProblemFile& file) { return PrintFile(ToJson(file)); }
+
+std::string Print(const SparseProblem& problem) {
+  ProblemFile file;
+  file.name = problem.name;
+  if (!problem.origin.empty()) file.origin = problem.origin;
+  const ExactProblem all_but_A = {problem.dimension, problem.contacts, {}, problem.b};
+  return PrintFile(FileToJson(file, ProblemToJson(all_but_A, EntriesToJson(problem.A, problem.rows()))));
 }
 
 }  // namespace stiction

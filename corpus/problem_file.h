@@ -3,7 +3,8 @@
 //
 // Numbers: a string is exact ("-3/4", "2.5e-3"), a JSON number is taken at its IEEE double value; an
 // integer literal that is no exact double is refused. Nothing is guessed or repaired: a wrong file is an
-// InputError with file, JSON path, what was found and what was expected.
+// InputError with file and, of every key that is missing or wrong, JSON path, what was found and what was
+// expected. formats/problems.md has what may be left out, and the short form.
 //
 // A may be {"size": n, "entries": [[i, j, "v"], ...]}, zero-based, each entry once; what is not listed is
 // zero. An entry (i, j) below the diagonal stands for (j, i) too, unless (j, i) is listed as well: then each
@@ -14,7 +15,6 @@
 #ifndef STICTION_CORPUS_PROBLEM_FILE_H_
 #define STICTION_CORPUS_PROBLEM_FILE_H_
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,8 +41,8 @@ struct ProblemFile {
 };
 
 // `source` names the text in errors. No policy may stand twice in `expect`, however it is written.
+// Without a name it has that of the source, without its ending.
 ProblemFile ParseProblem(std::string_view text, const std::string& source);
-ProblemFile ReadProblem(const std::filesystem::path& file);
 
 // Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
 // InternalError. Every number of the problem is an exact string. A is in rows, or, where it is symmetric with

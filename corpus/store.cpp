@@ -202,7 +202,10 @@ CampaignIdentity Store::IdentityIn(const fs::path& file) { return OpenUnchecked(
 Store Store::OpenUnchecked(const fs::path& file) {
   RequireFile(file);
   if (!fs::exists(file))
-    throw InputError(fmt::format("{}: found no such store, expected one that a search wrote", file.string()));
+    throw InputError(
+        fmt::format("{0}: found no such store, expected one that a search wrote; stiction search --store {0} "
+                    "makes it",
+                    file.string()));
   RequireDatabase(file);
   if (!HasLocks(file)) return ReadAlone(file);
   try {

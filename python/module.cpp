@@ -25,6 +25,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"
+#include "corpus/read_problem.h"
 #include "python/search.h"
 #include "python/signals.h"
 
@@ -300,6 +301,7 @@ std::vector<std::vector<std::string>> ExactA(const PythonProblem& problem) {
 }  // namespace
 
 PYBIND11_MODULE(_stiction, module) {
+  module.attr("__version__") = STICTION_VERSION;
   module.doc() = "The library of stiction; use the package stiction, which types it.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -316,6 +318,7 @@ PYBIND11_MODULE(_stiction, module) {
                               const std::string& source) { return PythonProblem(ParseProblem(text, source)); })
       .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
       .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, Print(p.file)); })
+      .def("text", [](const PythonProblem& p) { return Print(p.file); })
       .def("digest", [](const PythonProblem& p) { return ProblemDigest(p.file.problem); })
       .def_property_readonly("name", [](const PythonProblem& p) { return p.file.name; })
       .def_property_readonly("dimension", [](const PythonProblem& p) { return p.file.problem.dimension; })

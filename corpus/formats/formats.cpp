@@ -123,9 +123,18 @@ const std::vector<PublishedFormat>& PublishedFormats() {
 }
 
 SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format) {
-  const std::string source = file.string();
   if (!format.empty()) FormatNamed(format);
-  std::string text = ReadText(file);
+  return ParsePublished(ReadText(file), file, format);
+}
+
+bool LooksPublished(std::string_view text) {
+  const std::size_t at = text.find_first_not_of(" \t\r\n");
+  return text.starts_with(kHdf5Signature) ||
+         (at != text.npos && std::string_view("+-.0123456789").find(text[at]) != text.npos);
+}
+
+SparseProblem ParsePublished(std::string text, const std::filesystem::path& file, const std::string& format) {
+  const std::string source = file.string();
   SparseProblem problem;
   if (format == "fclib" || (format.empty() && text.starts_with(kHdf5Signature))) {
     problem = ParseFclib(std::move(text), source);

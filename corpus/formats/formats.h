@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corpus/formats/sparse_problem.h"
@@ -23,6 +24,11 @@ const std::vector<PublishedFormat>& PublishedFormats();
 // Reads a file in one of the formats; `format` is a name of the table, or empty: then the content decides. The
 // name of the problem is that of the file. InputError: what cannot be read, with its place.
 SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format = "");
+// The same of the text of that file.
+SparseProblem ParsePublished(std::string text, const std::filesystem::path& file,
+                             const std::string& format = "");
+// Whether a text begins as one of them: HDF5, or numbers.
+bool LooksPublished(std::string_view text);
 
 struct ExportReport {
   int rounded = 0;          // numbers that are no doubles, written as the nearest ones

@@ -89,7 +89,7 @@ SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> k
     const std::string other = OtherSiconosKind(text);
     if (!other.empty()) throw InputError(source, "line 1", other, kReadKinds);
     throw InputError(source, "line 1", "neither of them",
-                     std::string(kReadKinds) + "; --format says what it should be");
+                     std::string(kReadKinds) + "; stiction import --format says what it should be");
   }
   try {
     return ParseAs(*kind, text, source);

@@ -45,7 +45,8 @@ ProblemFile ToDense(const SparseProblem& problem, const std::string& source) {
   const int rows = problem.rows();
   if (rows > kMostDenseRows) {
     throw InputError(source, "rows", std::to_string(rows),
-                     fmt::format("at most {}, since a problem's matrix is dense", kMostDenseRows));
+                     fmt::format("at most {} for a dense matrix; stiction solve and stiction survey take more",
+                                 kMostDenseRows));
   }
   ProblemFile file;
   file.name = problem.name;

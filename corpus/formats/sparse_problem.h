@@ -9,11 +9,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "solver/numeric/proximal.h"
+#include "solver/problem/sparse_problem.h"
 
 namespace stiction {
 
@@ -33,6 +35,13 @@ struct SparseProblem {
 
 // Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
 inline constexpr int kMostDenseRows = 4000;
+
+// A problem file; sparse if A is in entries, of more than `most_dense_rows` rows.
+std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
+                                                      int most_dense_rows = kMostDenseRows);
+
+// The text of a problem file, A in entries.
+std::string Print(const SparseProblem& problem);
 
 SparseProblem ToSparse(const ProblemFile& file);
 // InputError, naming `source`, above kMostDenseRows.

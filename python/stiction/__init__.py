@@ -6,13 +6,22 @@ f, a, A, b; beside each stands what is exact, as fractions.Fraction: exact_f, ex
 place to write that is none among it, is a ValueError with the program's one line; what is of another type a TypeError;
 a file that cannot be opened, and a full disk, an OSError.
 """
-from . import _stiction
+from pathlib import Path as _Path
+
+try:
+    from . import _stiction
+except ImportError as error:
+    if list(_Path(__file__).parent.glob("_stiction*.so")):
+        raise  # it is there, and cannot be loaded: by another interpreter, or without a library
+    raise ImportError(f"stiction: found no compiled module in {_Path(__file__).parent}, expected a build: "
+                      "'./run python' makes one and starts Python, 'pip install .' installs one") from None
 from ._campaigns import Best, Finding, Store, search
 from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve
 from ._problem import Problem, load
+from ._stiction import __version__
 
 __all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Store", "certify", "check",
-           "ends", "load", "replay", "search", "solve"]
+           "ends", "load", "replay", "search", "solve"]  # and __version__
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
-from ._given import Path, exact_text, integer, listed, path_text, real
+from ._given import Path, exact_text, integer, listed, path_text, real, shortened
 from ._methods import Certificate
 from ._problem import Problem, parsed
 
@@ -24,7 +24,7 @@ _YES_OR_NO_OF_FINDINGS = frozenset(("safe", "minimized_safe"))
 Table = dict[str, NDArray[Any]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Finding:
     """A group of problems that a campaign met `count` times, and the first of them, which stands for all.
 
@@ -54,6 +54,9 @@ class Finding:
     policies: dict[str, int]
     facts: dict[str, Any]  # all that the store says of it besides
 
+    def __repr__(self) -> str:
+        return f"<stiction.Finding {shortened(self.signature)!r}, {self.contacts} contacts, met {self.count} times>"
+
 
 def _certificate(text: str) -> Certificate | None:
     return Certificate(json.loads(text)["claim"], text) if text else None
@@ -80,7 +83,7 @@ def _column(table: str, name: str, cells: Sequence[str]) -> NDArray[Any]:
     return masked if any(empty) else numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Best:
     """The worst problem for the algorithm that a search with an objective found, confirmed by exact arithmetic.
 
@@ -91,6 +94,9 @@ class Best:
     generator: str
     contacts: int
     problem: Problem
+
+    def __repr__(self) -> str:
+        return f"<stiction.Best {self.value} of {self.generator}, {self.contacts} contacts>"
 
 
 class Store:
@@ -104,7 +110,14 @@ class Store:
         with open(file, "rb"):  # OSError where it cannot be opened
             pass
         self._store = _stiction.Store(file)
+        self._file = os.path.abspath(file)
         self._tables: dict[str, Table] = {}
+
+    def __repr__(self) -> str:
+        return f"<stiction.Store {self._file!r}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:  # for pickle and copy: the file is read again
+        return Store, (self._file,)
 
     @property
     def campaign(self) -> dict[str, Any]:

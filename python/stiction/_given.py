@@ -58,6 +58,12 @@ def doubles(array: NDArray[Any]) -> Vector | None:
     return array.astype(np.float64, copy=False) if fits else None
 
 
+def shortened(text: str, most: int = 60) -> str:
+    """For one line of many."""
+    line = " ".join(text.split())
+    return line if len(line) <= most else line[:most] + "..."
+
+
 def require_text(**words: Any) -> None:
     for name, word in words.items():
         if not isinstance(word, str):

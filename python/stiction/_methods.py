@@ -12,7 +12,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from . import _stiction
-from ._given import Number, Vector, integer, real, require_text
+from ._given import Number, Vector, integer, real, require_text, shortened
 from ._problem import Problem, compiled
 
 
@@ -41,6 +41,9 @@ class _Forces:
     """Forces and accelerations of what is told as JSON."""
 
     json: dict[str, Any]
+
+    def __getstate__(self) -> dict[str, Any]:  # arrays are made again
+        return {name: value for name, value in self.__dict__.items() if name not in ("f", "a")}
 
     def _of(self, name: str) -> list[Any]:
         return self.json.get(name) or []
@@ -91,7 +94,7 @@ class _Forces:
         return self._bounds("a")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Answer(_Forces):
     """What a method says of a problem, with forces and accelerations where it ended; without any they are empty."""
 
@@ -102,8 +105,12 @@ class Answer(_Forces):
     statistics: dict[str, int]
     json: dict[str, Any]  # all that `stiction solve --json` says of the answer itself
 
+    def __repr__(self) -> str:
+        why = f": {shortened(self.reason)}" if self.reason else ""
+        return f"<stiction.Answer {self.outcome!r} by {self.method}, {self.arithmetic}, {len(self._of('f'))} rows{why}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Pivot(_Forces):
     """A step of a run, and the forces and accelerations after it."""
 
@@ -111,8 +118,11 @@ class Pivot(_Forces):
     step: Number | None
     json: dict[str, Any]  # all that `stiction replay --json --step` says of it, the sets too
 
+    def __repr__(self) -> str:
+        return f"<stiction.Pivot of drive {self.drive}, step {shortened(str(self.step))}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Replay:
     """A run: of a loop, the state after `start` drives stands again `period` drives later."""
 
@@ -122,13 +132,20 @@ class Replay:
     pivots: list[Pivot]
     json: dict[str, Any]
 
+    def __repr__(self) -> str:
+        loop = f", start {self.start}, period {self.period}" if self.period else ""
+        return f"<stiction.Replay {self.outcome!r}{loop}, {len(self.pivots)} pivots>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Certificate:
     """A claim with an exact witness; `text` is the certificate file."""
 
     kind: str
     text: str
+
+    def __repr__(self) -> str:
+        return f"<stiction.Certificate {self.kind!r}, {len(self.text)} characters>"
 
     def to_json(self) -> dict[str, Any]:
         """The certificate as dictionaries and lists."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
-from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text, unmasked
+from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text, shortened, unmasked
 
 
 def _texts(A: NDArray[Any]) -> list[list[str]]:
@@ -110,16 +110,32 @@ class Problem:
         """Of all that is exact in it, as certificates name it."""
         return self._problem.digest()
 
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{self.kinds.count(kind)} {kind}" for kind in dict.fromkeys(self.kinds)) or "none"
+        return (f"<stiction.Problem {shortened(self.name)!r}, {'in the plane' if self.dimension == 2 else 'in space'}, "
+                f"contacts: {counts}, {len(self.b)} rows>")
+
+    def __eq__(self, other: object) -> bool:
+        """The same numbers and contacts exactly; names may differ."""
+        return self.digest == other.digest if isinstance(other, Problem) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __reduce__(self) -> tuple[Any, ...]:  # for pickle and copy: the text of its file
+        return parsed, (self._problem.text(), "a pickled problem")
+
     def save(self, path: Path) -> None:
         """Writes a problem file, whole or not at all."""
         self._problem.save(path_text(path))
 
 
 def load(path: Path) -> Problem:
-    """The problem of a problem file."""
+    """The problem of a file, in any form that `stiction solve` takes, but standard input."""
     file = path_text(path)
-    with open(file, "rb"):  # OSError where it cannot be opened
-        pass
+    if ":" not in file:  # STORE:FINDING
+        with open(file, "rb"):  # OSError where it cannot be opened
+            pass
     problem = Problem.__new__(Problem)
     problem._problem = _stiction.Problem.read(file)
     return problem

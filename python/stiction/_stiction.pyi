@@ -5,6 +5,8 @@ from typing import Any, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import NDArray
 
+__version__: str
+
 # Kind, mu, and the direction of sliding.
 _Contact = tuple[str, str, Sequence[str]]
 
@@ -18,6 +20,7 @@ class Problem:
     @staticmethod
     def read(file: str) -> Problem: ...
     def save(self, file: str) -> None: ...
+    def text(self) -> str: ...
     def digest(self) -> str: ...
     @property
     def name(self) -> str: ...

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "certify/verify_solution.h"
+#include "corpus/read_problem.h"
 #include "solver/published/published.h"
 #include "tests/support.h"
 

@@ -11,6 +11,7 @@
 #include "certify/verify_solution.h"
 #include "corpus/problem_file.h"
 #include "corpus/rational.h"
+#include "corpus/read_problem.h"
 
 namespace stiction {
 namespace {

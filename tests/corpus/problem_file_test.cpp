@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/read_problem.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -220,32 +221,95 @@ TEST_CASE("problem file: scene, origin and expect are kept") {
   CHECK(SameFile(ParseProblem(Print(file), "printed"), file));
 }
 
+TEST_CASE("problem file: what is left out has its default") {
+  std::string text = kReference;
+  for (const std::string piece : {R"("format": "stiction-problem", "version": 1,)", R"(, "dimension": 2)"})
+    text.erase(text.find(piece), piece.size());
+  CHECK(SameFile(ParseProblem(text, "p.json"), ParseProblem(kReference, "p.json")));
+  const std::string name = R"("name": "two-contact-cycle",)";
+  text = kReference;
+  text.erase(text.find(name), name.size());
+  CHECK(ParseProblem(text, "folder/my problem.json").name == "my problem");
+}
+
+TEST_CASE("problem file: A, b and mu alone are static contacts") {
+  const auto read = [](const std::string& text) { return ParseProblem(text, "p.json").problem; };
+  const ExactProblem one = read(R"({"A": [[2, 0], [0, 3]], "b": [-1, 1], "mu": "1/2"})");
+  CHECK(one.dimension == 2);
+  REQUIRE(one.contacts.size() == 1);
+  CHECK(one.contacts[0].kind == ContactKind::kStatic);
+  CHECK(one.contacts[0].mu == Rational(1, 2));
+  const ExactProblem space = read(R"({"A": {"size": 6, "entries": []}, "b": [0,0,0,0,0,0], "mu": [1, 0]})");
+  CHECK(space.dimension == 3);
+  REQUIRE(space.contacts.size() == 2);
+  CHECK(space.contacts[1].mu == 0);
+  CheckRefusals({
+      {R"({"A": {"size": 6, "entries": []}, "b": [0,0,0,0,0,0], "mu": 1})",
+       "dimension: found nothing, expected 2 or 3: 6 rows fit both"},
+      {R"({"A": [[1]], "b": [0], "mu": 1})", "dimension: found nothing, expected 2 or 3: 1 rows fit neither"},
+      {WithMembers(R"("mu": 1)"),
+       "mu: found mu beside contacts, expected one of the two: each contact has its own mu"},
+  });
+}
+
+TEST_CASE("problem file: a large A of entries is read as sparse, and printed so") {
+  const auto parse = [](const std::string& entries) {
+    return ParseAnySize(
+        R"({"A": {"size": 4, "entries": [)" + entries + R"(]}, "b": [1, 2, 3, 4], "mu": [1, 2]})", "p.json", 3);
+  };
+  const auto read = parse(R"([0, 0, 1], [2, 0, "1/2"], [3, 1, 5], [1, 3, 0], [1, 2, 7], [2, 1, 0], [3, 3, 0])");
+  REQUIRE(std::holds_alternative<SparseProblem>(read));
+  const auto& sparse = std::get<SparseProblem>(read);
+  const SparseMatrix expected = {
+      {{0, 0}, 1}, {{0, 2}, Rational(1, 2)}, {{1, 2}, 7}, {{2, 0}, Rational(1, 2)}, {{3, 1}, 5}};
+  CHECK(sparse.A == expected);
+  CHECK(sparse.contacts[1].mu == 2);
+  const auto again = ParseAnySize(Print(sparse), "printed", 3);
+  CHECK(std::get<SparseProblem>(again).A == expected);
+  CHECK(SameProblem(ParseProblem(Print(sparse), "printed").problem, ToDense(sparse, "p.json").problem));
+}
+
 // ---- Refusals --------------------------------------------------------------------------------
 
 TEST_CASE("problem file: a wrong format, version or dimension is refused") {
   CheckRefusals({
       {"[]", "$: found [], expected an object"},
       {"null", "$: found null, expected an object"},
-      {"{}", R"(format: found nothing, expected "stiction-problem")"},
+      {"{}",
+       R"(contacts: found nothing, expected an array of contacts, or mu of static ones; A: found nothing, )"
+       R"(expected an array of rows, or {"size", "entries"}; b: found nothing, expected an array of numbers)"},
       {Edited("stiction-problem", "stiction-certificate"),
-       R"(format: found "stiction-certificate", expected "stiction-problem")"},
+       R"(format: found "stiction-certificate", expected "stiction-problem" (stiction check verifies a certificate))"},
       {Edited(R"("version": 1)", R"("version": 2)"), "version: found 2, expected 1"},
       {Edited(R"("version": 1)", R"("version": 1.0)"), "version: found 1.0, expected 1"},
       {Edited(R"("version": 1)", R"("version": "1")"), R"(version: found "1", expected 1)"},
       {Edited(R"("version": 1)", R"("version": 18446744073709551615)"),
        "version: found 18446744073709551615, expected 1"},
-      {Edited(R"("version": 1,)", ""), "version: found nothing, expected 1"},
       {Edited(R"("dimension": 2)", R"("dimension": 1)"), "dimension: found 1, expected 2 or 3"},
       {Edited(R"("dimension": 2)", R"("dimension": 4)"), "dimension: found 4, expected 2 or 3"},
       {Edited(R"("dimension": 2)", R"("dimension": true)"), "dimension: found true, expected 2 or 3"},
-      {Edited(R"(, "dimension": 2)", ""), "dimension: found nothing, expected 2 or 3"},
-      {Edited(R"("name": "two-contact-cycle", )", ""), "name: found nothing, expected a string"},
       {Edited(R"("two-contact-cycle")", "7"), "name: found 7, expected a string"},
   });
 }
 
+TEST_CASE("problem file: all that is missing or wrong is told at once") {
+  CheckRefusals({
+      {R"({"contacts": [{"kind": "static"}, {"kind": "sticky"}], "name": 1, "c": 1, "d": 2})",
+       "c, d: found unknown keys, expected only format, version, name, dimension, contacts, mu, A, b, scene, "
+       "origin, expect; contacts[0].mu: found nothing, expected the mu of a static contact, a number >= 0; "
+       "contacts[1].kind: found \"sticky\", expected one of bilateral, frictionless, static, sliding; "
+       "A: found nothing, expected an array of rows, or {\"size\", \"entries\"}; "
+       "b: found nothing, expected an array of numbers; name: found 1, expected a string"},
+  });
+}
+
+TEST_CASE("problem file: an infinite mu is refused with what to write instead") {
+  CHECK_THAT(Refusal(OneContact(R"("kind": "static", "mu": "inf")")),
+             Catch::Contains("infinite friction is not built") && Catch::Contains("bilateral"));
+}
+
 TEST_CASE("problem file: an unknown key is refused wherever it stands") {
-  const std::string keys = "only format, version, name, dimension, contacts, A, b, scene, origin, expect";
+  const std::string keys = "only format, version, name, dimension, contacts, mu, A, b, scene, origin, expect";
   CheckRefusals({
       {WithMembers(R"("c": 1)"), "c: found an unknown key, expected " + keys},
       {WithMembers(R"("a b": 1)"), R"(["a b"]: found an unknown key, expected )" + keys},
@@ -349,7 +413,9 @@ TEST_CASE("problem file: a wrong shape is refused") {
       {Edited(R"(["2","-1","-2","2"])", "{}"),
        "b: found {}, expected an array of 4 numbers, one per row of the contacts"},
       {Edited(R"("dimension": 2)", R"("dimension": 3)"),
-       "A: found 4 rows, expected 6 rows, one per row of the contacts"},
+       "A: found 4 rows, expected 6 rows, one per row of the contacts; b: found 4 numbers, expected 6 numbers, "
+       "one "
+       "per row of the contacts"},
       {WithA("7"), R"(A: found 7, expected an array of rows, or {"size", "entries"})"},
       {Edited(R"(,
   "b": ["2","-1","-2","2"])",
@@ -510,7 +576,8 @@ TEST_CASE("problem file: a file that cannot be read is refused with its name") {
 }
 
 TEST_CASE("problem file: a file is read from disk, and errors name it") {
-  const auto file = std::filesystem::temp_directory_path() / ("stiction-problem-" + std::to_string(getpid()));
+  const auto file =
+      std::filesystem::temp_directory_path() / ("stiction-problem-" + std::to_string(getpid()) + ".json");
   const auto write = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
   write(kReference);
   CHECK(SameFile(ReadProblem(file), ParseProblem(kReference, "p.json")));

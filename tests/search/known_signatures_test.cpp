@@ -14,6 +14,7 @@
 
 #include "certify/exact.h"
 #include "corpus/problem_file.h"
+#include "corpus/read_problem.h"
 #include "search/signature.h"
 
 namespace stiction {

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""pip_test.py PROGRAM SOURCES: pip installs the package without a network; an unbuilt tree says what to run."""
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+BUILD, SOURCES = Path(sys.argv[1]).parent, Path(sys.argv[2])
+README = (SOURCES / "README.md").read_text()
+CLEAN = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+
+
+class Pip(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("ensurepip") and importlib.util.find_spec("venv"),
+                         "SKIPPED: python3-venv is not installed")
+    def test_it_is_installed_into_a_virtual_environment_and_works_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", folder], check=True,
+                           stdout=subprocess.DEVNULL)
+            python = Path(folder) / "bin/python"
+            done = subprocess.run([python, "-m", "pip", "install", "--no-index", "--no-build-isolation",
+                                   "--disable-pip-version-check", "--config-settings", f"build={BUILD}", SOURCES],
+                                  env=CLEAN, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            asked = ("import stiction; p = stiction.load('corpus/cycle-every-policy-mu-1.json'); "
+                     "print(stiction.__file__, stiction.replay(p).outcome, stiction.solve(p).outcome)")
+            told = subprocess.run([python, "-c", asked], cwd=SOURCES, env=CLEAN, check=True, capture_output=True,
+                                  text=True).stdout.split()
+            self.assertTrue(told[0].startswith(folder), told)
+            self.assertEqual(told[1:], ["cycle", "solved"])
+
+    def test_an_unbuilt_tree_says_what_to_run(self):
+        done = subprocess.run([sys.executable, "-c", "import stiction"], cwd=SOURCES / "python", env=CLEAN,
+                              capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        last = done.stderr.splitlines()[-1]
+        self.assertRegex(last, r"^ImportError: stiction: found no compiled module .*\./run python.*pip install")
+
+    def test_the_lines_of_the_readme_work_as_they_stand(self):
+        block = README[README.index("    ./run python\n"):].split("\n\n")[0].splitlines()[1:]
+        session = "\n".join(line.strip() for line in block)
+        import doctest
+        test = doctest.DocTestParser().get_doctest(session + "\n", {}, "README.md", "README.md", 0)
+        os.chdir(SOURCES)
+        runner = doctest.DocTestRunner(verbose=False)
+        runner.run(test)
+        self.assertEqual((runner.failures, runner.tries), (0, len(test.examples)))
+        self.assertGreaterEqual(len(test.examples), 3)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
