@@ -34,12 +34,24 @@ std::string Rounded(double value, int digits) {
   return Grouped(std::stoll(text.substr(0, point))) + text.substr(point);
 }
 
+// Units of the last digit are powers of ten, by which small ones are multiplied: those are exact.
+template <class Round>
+double RoundedTo(double x, int digits, Round round) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const int last = static_cast<int>(std::floor(std::log10(x))) + 1 - digits;
+  const double unit = std::pow(10.0, std::abs(last));
+  const double units = last >= 0 ? x / unit : x * unit;
+  const double nearest = std::round(units);
+  const double whole = std::abs(units - nearest) <= 1e-12 * units ? nearest : round(units);
+  return last >= 0 ? whole * unit : whole / unit;
+}
+
 std::string WithInterval(double value, Interval interval, double scale, const char* unit) {
   const double shown = scale * value;
   const Interval ends = {scale * interval.low, scale * interval.high};
   const int digits = DigitsToTell(shown, ends, kFewDigits);
-  return fmt::format("{}{} [{}, {}]", Rounded(shown, digits), unit, Rounded(ends.low, digits),
-                     Rounded(ends.high, digits));
+  return fmt::format("{}{} [{}, {}]", Rounded(shown, digits), unit, Rounded(RoundedDown(ends.low, digits), digits),
+                     Rounded(RoundedUp(ends.high, digits), digits));
 }
 
 // Quantiles of the gamma distribution by the expansion of E. A. Cornish and R. A. Fisher (1937): its next term
@@ -75,6 +87,9 @@ int DigitsToTell(double value, Interval interval, int at_least) {
   while (digits < kMost && (alike(interval.low, digits) || alike(interval.high, digits))) ++digits;
   return digits;
 }
+
+double RoundedDown(double x, int digits) { return RoundedTo(x, digits, [](double y) { return std::floor(y); }); }
+double RoundedUp(double x, int digits) { return RoundedTo(x, digits, [](double y) { return std::ceil(y); }); }
 
 std::string RateText(std::int64_t count, std::int64_t total) {
   if (total == 0) return "";

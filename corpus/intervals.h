@@ -27,7 +27,12 @@ Interval ShareInterval(std::int64_t count, std::int64_t of);
 // 124.254 [124.036, 124.473] four.
 int DigitsToTell(double value, Interval interval, int at_least);
 
-// "0.8 [0.218, 2.05]": so many in a million, and the interval, in three digits or as many as tell
+// x in so many digits, toward 0 or away from it: ends of an interval outward. Requires x >= 0; a number that
+// has no more digits stays.
+double RoundedDown(double x, int digits);
+double RoundedUp(double x, int digits);
+
+// "0.8 [0.218, 2.05]": so many in a million, and the interval, outward, in three digits or as many as tell
 // its ends from the value; "" where total is 0.
 std::string RateText(std::int64_t count, std::int64_t total);
 // "1.52 % [0.187, 5.38]", "100 % [99.99996, 100]"; "" where total is 0.

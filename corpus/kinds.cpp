@@ -7,6 +7,8 @@
 
 namespace stiction {
 
+bool IsOfDoubles(std::string_view kind) { return kind == "wrong-answer" || kind == "disagreement"; }
+
 bool IsLoopKind(std::string_view kind) {
   return kind == kSafeCycle || kind == Name(Outcome::kCycle) || kind == Name(Outcome::kStall);
 }

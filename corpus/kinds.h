@@ -26,6 +26,9 @@ inline constexpr int Gravity(std::string_view kind) {
 }
 inline constexpr bool IsGrave(std::string_view kind) { return Gravity(kind) < 2; }
 
+// A failure of doubles, and none of the algorithm: wrong-answer, disagreement.
+bool IsOfDoubles(std::string_view kind);
+
 // A loop of the published algorithm: cycle, stall, safe-cycle.
 bool IsLoopKind(std::string_view kind);
 

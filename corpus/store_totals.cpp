@@ -15,20 +15,6 @@
 namespace stiction {
 namespace {
 
-void AddTally(StoreTotals& totals, const Tally& tally) {
-  totals.runs += tally.problems;
-  for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
-    for (int exact = 0; exact < kOutcomeCount; ++exact) {
-      totals.suspicions += tally.verdicts[inexact][exact];
-      const bool undecided = exact == static_cast<int>(Outcome::kUndecided);
-      if (exact == inexact && !undecided) totals.confirmed += tally.verdicts[inexact][exact];
-    }
-  }
-  totals.audited += tally.audited;
-  totals.misjudged += tally.misjudged;
-  totals.wrong += tally.wrong;
-}
-
 // Counters of the same name are added.
 template <class Tally>
 void AddCounters(Tally& sum, const std::map<int, Tally>& tallies) {
@@ -41,33 +27,24 @@ void AddCounters(Tally& sum, const std::map<int, Tally>& tallies) {
 }
 
 void AddRecord(StoreTotals& totals) {
-  std::map<std::pair<std::string, int>, std::int64_t> problems;  // the same problems run under each policy
-  for (const auto& [key, tally] : totals.record.tallies) {
-    AddTally(totals, tally);
-    problems[{key.generator, key.contacts}] = tally.problems;
-  }
-  for (const auto& [key, count] : problems) totals.problems += count;
+  totals.counts = CountAll(totals.record);
+  totals.problems = ProblemsOf(totals.record);
   AddCounters(totals.existence, totals.record.existence);
   AddCounters(totals.agreement, totals.record.agreement);
   AddCounters(totals.loops, totals.record.loops);
-  for (const auto& [signature, count] : totals.record.signatures) {
-    totals.findings[LabelOf(signature)] += count;
-    ++totals.groups[LabelOf(signature)];
-  }
+  for (const auto& [signature, count] : totals.record.signatures) ++totals.groups[LabelOf(signature)];
 }
 
 void AddFinding(StoreTotals& totals, Finding finding) {
   ++(finding.done ? totals.finished : totals.pending);
   if (IsGrave(finding.kind)) totals.grave.push_back(finding);
   if (!finding.done || finding.minimized.empty()) return;
-  totals.whole_grid += MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind);
+  if (IsLoopKind(finding.kind)) {
+    const Json& grid = MinimizedFacts(finding).at("grid");
+    totals.finished_loops += !grid.empty();
+    totals.whole_grid += grid.size() == 1;
+  }
   totals.simplest.push_back(std::move(finding));
-}
-
-std::int64_t SumOfLoops(const StoreTotals::CountsByLabel& counts) {
-  std::int64_t sum = 0;
-  for (const auto& [label, count] : counts) sum += IsLoopKind(KindOf(label + "-")) ? count : 0;
-  return sum;
 }
 
 }  // namespace
@@ -89,8 +66,11 @@ bool LabelsByGravity::operator()(const std::string& left, const std::string& rig
   return rank(left) < rank(right);
 }
 
-std::int64_t StoreTotals::LoopsMet() const { return SumOfLoops(findings); }
-std::int64_t StoreTotals::LoopGroups() const { return SumOfLoops(groups); }
+std::int64_t StoreTotals::LoopGroups() const {
+  std::int64_t sum = 0;
+  for (const auto& [label, count] : groups) sum += IsLoopKind(KindOf(label + "-")) ? count : 0;
+  return sum;
+}
 
 Json MinimizedFacts(const Finding& finding) {
   const std::string source = "facts of " + finding.signature;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/counts.h"
 #include "corpus/store.h"
 
 namespace stiction {
@@ -28,24 +29,17 @@ struct StoreTotals {
   Record record;  // of all units
   Work work;
   std::int64_t units = 0, problems = 0;
-  std::int64_t runs = 0;        // each problem under every policy
-  std::int64_t suspicions = 0;  // runs repeated exactly since doubles did not solve them well
-  std::int64_t confirmed = 0;   // of these, with the same outcome
-  std::int64_t audited = 0;     // runs repeated exactly without a suspicion
-  std::int64_t misjudged = 0;   // of these, with another outcome
-  std::int64_t wrong = 0;       // called solved with forces that are none
-  CountsByLabel findings;       // runs
-  CountsByLabel groups;         // signatures
+  Counts counts;         // of all runs: each problem under every policy
+  CountsByLabel groups;  // signatures, by label
   ExistenceTally existence;
   AgreementTally agreement;
   LoopTally loops;             // by_zero_steps stays empty
   std::vector<Finding> grave;  // representatives
   std::int64_t finished = 0, pending = 0;
-  std::int64_t whole_grid = 0;    // minimized loops under every policy
+  std::int64_t finished_loops = 0, whole_grid = 0;  // minimized loops, and of these those under every policy
   std::vector<Finding> simplest;  // finished and minimized: the gravest, loops, the shortest problem first
 
-  // Runs and groups whose kind is a loop.
-  std::int64_t LoopsMet() const;
+  // Groups whose kind is a loop.
   std::int64_t LoopGroups() const;
 };
 

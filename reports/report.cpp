@@ -17,6 +17,7 @@
 #include "reports/papers/latex.h"
 #include "reports/pictures/finding_picture.h"
 #include "reports/report_files.h"
+#include "reports/tables/csv.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/since.h"
 
@@ -115,6 +116,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
     folder.Write(discovery.files.picture, picture);
   }
   for (const auto& [name, text] : TablesOf(content.total, content.discoveries)) folder.Write(name, text);
+  whole.Write("work.csv", WorkCsv(content.work));  // not among the sums: equal searches differ in it alone
   folder.Write("citation.bib", Citation(store));
   folder.Write("campaign.json", CampaignFile(content.identity));
   if (content.since) folder.Write("since.csv", SinceCsv(*content.since, content.discoveries));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
@@ -23,15 +24,26 @@ Json TimeToJson(const ProcessorTime& time) {
 
 Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
 
-// Per label: findings in a million runs.
-Json RatesToJson(const StoreTotals& d) {
+// Runs that fail in exact arithmetic, by outcome, and where doubles fail. Both counts of a rate are of `counts`.
+std::map<std::string, std::int64_t> FailuresOf(const Counts& counts) {
+  std::map<std::string, std::int64_t> failures;
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    const auto outcome = static_cast<Outcome>(i);
+    if (outcome != Outcome::kSolved && counts.exact[i] > 0) failures[std::string(Name(outcome))] = counts.exact[i];
+  }
+  if (counts.doubles_differ > 0) failures["doubles-differ"] = counts.doubles_differ;
+  if (counts.wrong > 0) failures["wrong-answer"] = counts.wrong;
+  return failures;
+}
+
+// In a million runs.
+Json RatesToJson(const Counts& counts) {
   Json rates = Json::object();
-  if (d.runs == 0) return rates;
-  for (const auto& [label, count] : d.findings) {
-    const double scale = 1e6 / static_cast<double>(d.runs);
+  for (const auto& [name, count] : FailuresOf(counts)) {
+    const double scale = 1e6 / static_cast<double>(counts.runs);
     const Interval expected = CountInterval(count);
-    rates[label] = {{"per_million", scale * static_cast<double>(count)},
-                    {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
+    rates[name] = {{"per_million", scale * static_cast<double>(count)},
+                   {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
   }
   return rates;
 }
@@ -131,6 +143,7 @@ Json SummaryToJson(const Store& store) {
   const Campaign campaign = CampaignOf(store.identity(), "summary");
   if (!campaign.objective.empty()) return OptimizedToJson(store, campaign);
   const StoreTotals totals = TotalsOf(store);
+  const Counts& counts = totals.counts;
   Json simplest = Json::array();
   for (const Finding& finding : totals.simplest) {
     simplest.push_back(
@@ -146,20 +159,21 @@ Json SummaryToJson(const Store& store) {
                   {"processor_seconds", TimeToJson(totals.work.time)},
                   {"units", totals.units},
                   {"problems", totals.problems},
-                  {"runs", totals.runs},
-                  {"findings", totals.findings},
+                  {"runs", counts.runs},
+                  {"failures", FailuresOf(counts)},
                   {"groups", totals.groups},
-                  {"rates", RatesToJson(totals)},
-                  {"rates_are_lower_bounds", totals.audited + totals.suspicions < totals.runs},
+                  {"rates", RatesToJson(counts)},
+                  {"rates_are_lower_bounds", counts.audited + counts.suspicious < counts.runs},
                   {"finished", totals.finished},
                   {"pending", totals.pending},
+                  {"finished_loops", totals.finished_loops},
                   {"whole_grid", totals.whole_grid},
-                  {"suspicions", totals.suspicions},
-                  {"confirmed", totals.confirmed},
-                  {"audited", totals.audited},
-                  {"misjudged", totals.misjudged},
-                  {"misjudged_share", IntervalToJson(ShareInterval(totals.misjudged, totals.audited))},
-                  {"wrong", totals.wrong},
+                  {"suspicions", counts.suspicious},
+                  {"confirmed", counts.confirmed},
+                  {"audited", counts.audited},
+                  {"misjudged", counts.misjudged},
+                  {"misjudged_share", IntervalToJson(ShareInterval(counts.misjudged, counts.audited))},
+                  {"wrong", counts.wrong},
                   {"existence_checked", totals.existence.problems},
                   {"existence_solved", totals.existence.solved},
                   {"compared", totals.agreement.compared},
@@ -197,7 +211,7 @@ std::string OptimizedText(const Store& store, const std::string& file) {
     text +=
         fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);
   const Kept kept = KeptOf(store);
-  text += fmt::format("  loops of {} kinds kept, {} of them certified and minimized\n",
+  text += fmt::format("  loops of {} groups kept, {} of them certified and minimized\n",
                       kept.finished + kept.pending, kept.finished);
   if (kept.pending > 0) text += fmt::format("  what is to go is finished by: {}\n", FinishCommand(file));
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())

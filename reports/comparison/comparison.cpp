@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
@@ -25,18 +26,13 @@ namespace {
 
 // ---- What is compared ----
 
-std::int64_t At(const Tally::Outcomes& outcomes, Outcome outcome) {
-  return outcomes[static_cast<int>(outcome)];
+// Of a tally or a stratum.
+template <class Runs>
+Counts CountsOf(const Runs& runs) {
+  Counts counts;
+  counts.Add(runs);
+  return counts;
 }
-
-// Exact outcomes of the runs that were suspicious.
-std::int64_t Confirmed(const Tally& tally, Outcome outcome) {
-  std::int64_t count = 0;
-  for (const Tally::Outcomes& exact : tally.verdicts) count += At(exact, outcome);
-  return count;
-}
-
-std::int64_t Loops(const Tally& t) { return Confirmed(t, Outcome::kCycle) + Confirmed(t, Outcome::kStall); }
 
 struct Measure {
   const char* name;
@@ -46,15 +42,15 @@ struct Measure {
 
 constexpr Measure kMeasures[] = {{"loops", "runs that loop, confirmed exactly",
                                   [](const Tally& t) {
-                                    return Trials{Loops(t), t.problems};
+                                    return Trials{CountsOf(t).Loops(), t.problems};
                                   }},
                                  {"singular", "runs without a direction of the forces, confirmed exactly",
                                   [](const Tally& t) {
-                                    return Trials{Confirmed(t, Outcome::kSingular), t.problems};
+                                    return Trials{CountsOf(t).Of(Outcome::kSingular), t.problems};
                                   }},
                                  {"rays", "runs with a step without end, confirmed exactly",
                                   [](const Tally& t) {
-                                    return Trials{Confirmed(t, Outcome::kRay), t.problems};
+                                    return Trials{CountsOf(t).Of(Outcome::kRay), t.problems};
                                   }},
                                  {"zero-steps", "runs with a step of length zero",
                                   [](const Tally& t) {
@@ -81,7 +77,7 @@ struct StratumMeasure {
 constexpr StratumMeasure kStratumMeasures[] = {
     {"loops", "runs that loop, confirmed exactly",
      [](const Stratum& s) {
-       return Trials{At(s.exact, Outcome::kCycle) + At(s.exact, Outcome::kStall), s.problems};
+       return Trials{CountsOf(s).Loops(), s.problems};
      }},
     {"misjudged", "audited runs that ended otherwise in exact arithmetic", [](const Stratum& s) {
        return Trials{s.misjudged, s.audited};

@@ -3,17 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "corpus/counts.h"
 #include "corpus/intervals.h"
-#include "corpus/rational.h"
 #include "reports/page/page.h"
 #include "reports/tables/csv.h"
+#include "reports/tables/friction_order.h"
 
 namespace stiction {
 namespace {
@@ -34,7 +35,9 @@ std::string CellText(const Json& cell) {
 // In six digits, or as many as tell the ends from the value.
 void AddWithInterval(Json& row, double value, Interval interval) {
   const int digits = DigitsToTell(value, interval, 6);
-  for (const double x : {value, interval.low, interval.high}) row.push_back(RoundedTo(digits, x));
+  row.push_back(RoundedTo(digits, value));
+  row.push_back(RoundedTo(digits, RoundedDown(interval.low, digits)));
+  row.push_back(RoundedTo(digits, RoundedUp(interval.high, digits)));
 }
 
 void AddRate(Json& row, std::int64_t count, std::int64_t runs) {
@@ -49,66 +52,43 @@ void AddShare(Json& row, std::int64_t count, std::int64_t of) {
 
 // ---- Exact rates ----
 
-constexpr std::array kDrawnFailures = {Outcome::kCycle, Outcome::kSingular, Outcome::kRay};
-
-// In the order of numbers, what is none last: "1/10", "1/2", "mixed".
-struct ByValue {
-  bool operator()(const std::string& left, const std::string& right) const {
-    const auto a = ParseRational(left), b = ParseRational(right);
-    if (!a || !b) return a && !b ? true : !a && b ? false : left < right;
-    return *a < *b;
-  }
-};
-
-struct RateCount {
-  std::int64_t runs = 0;
-  std::array<std::int64_t, kDrawnFailures.size()> failures = {};
-
-  void Add(std::int64_t more_runs, const Tally::Outcomes& exact) {
-    runs += more_runs;
-    for (std::size_t i = 0; i < failures.size(); ++i) failures[i] += exact[static_cast<int>(kDrawnFailures[i])];
-  }
-};
-
-Tally::Outcomes ExactOutcomes(const Tally& tally) {
-  Tally::Outcomes sum = {};
-  for (const Tally::Outcomes& exact : tally.verdicts) {
-    for (int i = 0; i < kOutcomeCount; ++i) sum[i] += exact[i];
-  }
-  return sum;
-}
-
 using RateKey = std::tuple<std::string, std::string, int>;  // generator, policy, contacts
-using RateCounts = std::map<RateKey, std::map<std::string, RateCount, ByValue>>;
+using RateCounts = std::map<RateKey, std::map<std::string, Counts, ByFriction>>;
 
 void AddRates(FigureTable& figure, const char* by, const RateCounts& counts) {
   for (const auto& [key, values] : counts) {
+    const auto& [generator, policy, contacts] = key;
     for (const auto& [value, count] : values) {
-      for (std::size_t i = 0; i < kDrawnFailures.size(); ++i) {
-        if (count.runs == 0) continue;
-        const auto& [generator, policy, contacts] = key;
-        Json row = {by,         generator,        policy, contacts, value, Name(kDrawnFailures[i]),
-                    count.runs, count.failures[i]};
-        AddRate(row, count.failures[i], count.runs);
+      if (count.runs == 0) continue;
+      for (const auto& [name, failures] : {std::pair("loop", count.Loops()),
+                                           {"singular", count.Of(Outcome::kSingular)},
+                                           {"ray", count.Of(Outcome::kRay)}}) {
+        Json row = {by, generator, policy, contacts, value, name, count.runs, failures};
+        AddRate(row, failures, count.runs);
         figure.rows.push_back(std::move(row));
       }
     }
   }
 }
 
+RateKey RateKeyOf(const TallyKey& key) { return {key.generator, key.policy, key.contacts}; }
+
 FigureTable RatesFigure(const Record& total) {
   FigureTable figure{
       "rates",
       {"by", "generator", "policy", "contacts", "value", "outcome", "runs", "count", "rate", "low", "high"}};
   RateCounts by_contacts, by_friction, by_rank;
-  for (const auto& [key, tally] : total.tallies) {
-    const RateKey row{key.generator, key.policy, key.contacts};
-    by_contacts[row][std::to_string(key.contacts)].Add(tally.problems, ExactOutcomes(tally));
-    for (const auto& [stratum_key, stratum] : tally.strata) {
-      by_friction[row][stratum_key.friction].Add(stratum.problems, stratum.exact);
-      by_rank[row][std::to_string(stratum_key.rank)].Add(stratum.problems, stratum.exact);
-    }
-  }
+  for (const auto& [key, counts] : CountBy(total, &RateKeyOf))
+    by_contacts[key][std::to_string(std::get<int>(key))] = counts;
+  const auto friction = [](const TallyKey& key, const StratumKey& stratum) {
+    return std::pair(RateKeyOf(key), stratum.friction);
+  };
+  for (const auto& [key, counts] : CountStrataBy(total, friction)) by_friction[key.first][key.second] = counts;
+  const auto rank = [](const TallyKey& key, const StratumKey& stratum) {
+    return std::pair(RateKeyOf(key), stratum.rank);
+  };
+  for (const auto& [key, counts] : CountStrataBy(total, rank))
+    by_rank[key.first][std::to_string(key.second)] = counts;
   AddRates(figure, "contacts", by_contacts);
   AddRates(figure, "friction", by_friction);
   AddRates(figure, "rank", by_rank);
@@ -118,17 +98,14 @@ FigureTable RatesFigure(const Record& total) {
 // ---- Doubles ----
 
 FigureTable DoublesFigure(const Record& total) {
-  std::map<std::tuple<std::string, int, int>, std::int64_t> counts;
-  for (const auto& [key, tally] : total.tallies) {
-    for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
-      for (int exact = 0; exact < kOutcomeCount; ++exact)
-        counts[{key.policy, inexact, exact}] += tally.verdicts[inexact][exact];
-    }
-  }
   FigureTable figure{"doubles", {"policy", "in_doubles", "exact", "runs"}};
-  for (const auto& [key, runs] : counts) {
-    const auto& [policy, inexact, exact] = key;
-    if (runs > 0) figure.rows.push_back({policy, kOutcomeNames[inexact], kOutcomeNames[exact], runs});
+  for (const auto& [policy, tally] : MergeBy(total, [](const TallyKey& key) { return key.policy; })) {
+    for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
+      for (int exact = 0; exact < kOutcomeCount; ++exact) {
+        const std::int64_t runs = tally.verdicts[inexact][exact];
+        if (runs > 0) figure.rows.push_back({policy, kOutcomeNames[inexact], kOutcomeNames[exact], runs});
+      }
+    }
   }
   return figure;
 }
@@ -143,12 +120,10 @@ void AddShareRow(FigureTable& figure, Json row, std::int64_t count, std::int64_t
 }
 
 FigureTable TrustFigure(const Record& total) {
-  std::map<std::string, Tally> by_generator;
-  for (const auto& [key, tally] : total.tallies) by_generator[key.generator].Merge(tally);
   FigureTable figure{"trust", {"generator", "what", "count", "of", "share", "low", "high"}};
-  for (const auto& [generator, tally] : by_generator) {
-    AddShareRow(figure, {generator, "audited runs, misjudged"}, tally.misjudged, tally.audited);
-    AddShareRow(figure, {generator, "runs with a wrong answer"}, tally.wrong, tally.problems);
+  for (const auto& [generator, counts] : CountBy(total, [](const TallyKey& key) { return key.generator; })) {
+    AddShareRow(figure, {generator, "audited runs, misjudged"}, counts.misjudged, counts.audited);
+    AddShareRow(figure, {generator, "runs with a wrong answer"}, counts.wrong, counts.runs);
   }
   return figure;
 }
@@ -156,10 +131,9 @@ FigureTable TrustFigure(const Record& total) {
 // ---- Steps ----
 
 FigureTable StepsFigure(const Record& total) {
-  std::map<std::pair<std::string, int>, Tally> merged;
-  for (const auto& [key, tally] : total.tallies) merged[{key.policy, key.contacts}].Merge(tally);
+  const auto by = [](const TallyKey& key) { return std::pair(key.policy, key.contacts); };
   FigureTable figure{"steps", {"policy", "contacts", "steps", "or_more", "runs"}};
-  for (const auto& [key, tally] : merged) {
+  for (const auto& [key, tally] : MergeBy(total, by)) {
     for (int steps = 0; steps < Tally::kBins; ++steps) {
       if (tally.steps[steps] == 0) continue;
       figure.rows.push_back(
@@ -179,11 +153,9 @@ FigureTable LoopStepsFigure(const Record& total) {
 }
 
 FigureTable PivotingFigure(const Record& total) {
-  std::map<std::tuple<std::string, std::string, int>, Tally> merged;
-  for (const auto& [key, tally] : total.tallies) merged[{key.generator, key.policy, key.contacts}].Merge(tally);
   FigureTable figure{"pivoting",
                      {"generator", "policy", "contacts", "what", "count", "of", "share", "low", "high"}};
-  for (const auto& [key, tally] : merged) {
+  for (const auto& [key, tally] : MergeBy(total, &RateKeyOf)) {
     const auto& [generator, policy, contacts] = key;
     AddShareRow(figure, {generator, policy, contacts, "a step of length zero"}, tally.with_zero_steps,
                 tally.problems);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/counts.h"
 #include "corpus/kinds.h"
 #include "reports/page/page.h"
 
@@ -19,10 +20,9 @@ namespace {
 
 // Discoveries of one kind, counted.
 struct KindCounts {
-  std::int64_t met = 0, groups = 0, finished = 0, pending = 0, counted = 0, found_grid = 0, minimized_grid = 0;
+  std::int64_t groups = 0, finished = 0, pending = 0, counted = 0, found_grid = 0, minimized_grid = 0;
 
   void Add(const Discovery& discovery) {
-    met += discovery.met;
     ++groups;
     finished += discovery.Finished();
     pending += discovery.representative != nullptr && !discovery.Finished();
@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, KindCounts>> CountByKind(const std::vector<Di
   return sorted;
 }
 
-KindCounts CountAll(const std::vector<Discovery>& discoveries) {
+KindCounts CountGroups(const std::vector<Discovery>& discoveries) {
   KindCounts all;
   for (const Discovery& discovery : discoveries) all.Add(discovery);
   return all;
@@ -52,17 +52,17 @@ KindCounts CountAll(const std::vector<Discovery>& discoveries) {
 std::vector<HtmlCell> KindRow(const std::string& kind, const KindCounts& c) {
   std::vector<HtmlCell> cells = {{Text(kind)}};
   for (const std::int64_t count :
-       {c.met, c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
+       {c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
     cells.push_back({Text(Grouped(count)), count == 0 ? "zero" : ""});
   }
   return cells;
 }
 
-Html KindTable(const std::vector<Discovery>& discoveries) {
+Html KindTable(const std::string& caption, const std::vector<Discovery>& discoveries) {
+  if (discoveries.empty()) return {};
   Table table(
-      "Findings by kind",
+      caption,
       {{"kind", "", false},
-       {"runs", "runs in which it was met"},
        {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
        {"finished", "representatives certified and minimized"},
        {"pending", "representatives that are not finished yet"},
@@ -70,7 +70,7 @@ Html KindTable(const std::vector<Discovery>& discoveries) {
        {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
        {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
   for (const auto& [kind, counts] : CountByKind(discoveries)) table.AddRow(KindRow(kind, counts));
-  table.AddRow(KindRow("all", CountAll(discoveries)), 1, "total");
+  table.AddRow(KindRow("all", CountGroups(discoveries)), 1, "total");
   return table.Done();
 }
 
@@ -80,8 +80,7 @@ Html KindNote() {
       "reversing tangents and units; what is found under another policy than <code>paper</code> is a group "
       "of its own. The representative of a group is the first problem that shows it; finished means "
       "certified and minimized. Groups beyond the few new ones kept per unit are only counted, and "
-      "represented when another unit meets them. Runs that an audit alone found, since doubles suspected "
-      "nothing, count here, and not in the rates. Whole grid: a loop under every policy of the planar grid, "
+      "represented when another unit meets them. Whole grid: a loop under every policy of the planar grid, "
       "all readings of the published text that stiction distinguishes there.</p>\n");
 }
 
@@ -91,14 +90,15 @@ Html Tile(std::int64_t value, const std::string& meaning, const char* style = ""
 }
 
 Html Tiles(const ReportContent& content) {
-  const KindCounts all = CountAll(content.discoveries);
+  const KindCounts all = CountGroups(content.discoveries);
   const std::int64_t problems = ProblemsOf(content.total);
-  const std::int64_t runs = RunsOf(content.total);
+  const Counts counts = CountAll(content.total);
   const bool random = content.Objective().empty();
   Html tiles = random ? Tile(problems, "problems run") : Html();
-  if (random && runs != problems) tiles += Tile(runs, "runs, each problem under every policy");
-  tiles += Tile(all.met, "runs with a finding");
-  tiles += Tile(all.groups, "groups of findings (signatures)", "loop");
+  if (random && counts.runs != problems) tiles += Tile(counts.runs, "runs, each problem under every policy");
+  if (random) tiles += Tile(counts.Loops(), "runs that loop, exactly", "loop");
+  if (random) tiles += Tile(counts.doubles_differ, "runs in which doubles differ from exact arithmetic");
+  tiles += Tile(all.groups, "groups of findings (signatures)");
   const auto grave = std::count_if(content.discoveries.begin(), content.discoveries.end(),
                                    [](const Discovery& discovery) { return IsGrave(discovery.kind); });
   tiles +=
@@ -142,8 +142,12 @@ Html FoundSection(const ReportContent& content) {
     found +=
         Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
   } else {
-    found += Featured(content.discoveries) + Html("<h3>By kind</h3>\n") + KindTable(content.discoveries) +
-             KindNote();
+    std::vector<Discovery> algorithm = content.discoveries, doubles = content.discoveries;
+    std::erase_if(algorithm, [](const Discovery& discovery) { return IsOfDoubles(discovery.kind); });
+    std::erase_if(doubles, [](const Discovery& discovery) { return !IsOfDoubles(discovery.kind); });
+    found += Featured(content.discoveries) + Html("<h3>Groups of findings</h3>\n") +
+             KindTable("Of the algorithm, in exact arithmetic", algorithm) +
+             KindTable("Of doubles: where they differ from exact arithmetic", doubles) + KindNote();
   }
   return Section("found", "What was found", found);
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/counts.h"
 #include "corpus/intervals.h"
 #include "reports/page/page.h"
 #include "reports/tables/friction_order.h"
@@ -20,33 +21,18 @@
 namespace stiction {
 namespace {
 
-constexpr std::array kFailures = {Outcome::kCycle, Outcome::kSingular, Outcome::kRay};
-
-// Runs of one generator, size and policy whose failures exact arithmetic confirmed.
-struct ExactFailures {
-  std::int64_t runs = 0, suspicions = 0, audited = 0, misjudged = 0;
-  std::array<std::int64_t, kFailures.size()> failures = {};
-
-  void Add(const Tally& tally) {
-    runs += tally.problems;
-    audited += tally.audited;
-    misjudged += tally.misjudged;
-    for (const Tally::Outcomes& exact : tally.verdicts) {
-      for (const std::int64_t count : exact) suspicions += count;
-      for (std::size_t i = 0; i < failures.size(); ++i) failures[i] += exact[static_cast<int>(kFailures[i])];
-    }
-  }
-};
+constexpr std::array kFailures = {Outcome::kSingular, Outcome::kRay};  // besides loops
 
 HtmlCell CountWithInterval(std::int64_t count, std::string interval) {
   return {Text(Grouped(count)) + Tag("small")(interval), count == 0 ? "zero" : ""};
 }
 
-void AddFailures(Table& table, std::vector<HtmlCell> cells, const ExactFailures& f, const char* style = "") {
+void AddFailures(Table& table, std::vector<HtmlCell> cells, const Counts& f, const char* style = "") {
   const int names = static_cast<int>(cells.size());
   cells.push_back({Text(Grouped(f.runs))});
-  for (const std::int64_t count : f.failures)
-    cells.push_back(CountWithInterval(count, RateText(count, f.runs)));
+  cells.push_back(CountWithInterval(f.Loops(), RateText(f.Loops(), f.runs)));
+  for (const Outcome outcome : kFailures)
+    cells.push_back(CountWithInterval(f.Of(outcome), RateText(f.Of(outcome), f.runs)));
   cells.push_back({Text(Grouped(f.audited))});
   cells.push_back(CountWithInterval(f.misjudged, ShareText(f.misjudged, f.audited)));
   table.AddRow(cells, names, style);
@@ -54,9 +40,9 @@ void AddFailures(Table& table, std::vector<HtmlCell> cells, const ExactFailures&
 
 std::vector<Column> FrequencyColumns() {
   std::vector<Column> columns = {{"generator", "", false}, {"contacts"}, {"policy", "", false}, {"runs"}};
-  for (const Outcome outcome : kFailures)
-    columns.push_back(
-        {std::string(Name(outcome)), "in exact arithmetic; below: in a million runs, with the interval"});
+  const std::string hint = "in exact arithmetic; below: in a million runs, with the interval";
+  columns.push_back({"loops", "a state stands again (cycle or stall) " + hint});
+  for (const Outcome outcome : kFailures) columns.push_back({std::string(Name(outcome)), hint});
   columns.push_back({"audited", "run again exactly without a suspicion, as a sample"});
   columns.push_back({"misjudged", "audited with another exact outcome; below: their share, with the interval"});
   return columns;
@@ -65,32 +51,25 @@ std::vector<Column> FrequencyColumns() {
 Html FrequencyTable(const Record& total) {
   Table table("Failures confirmed exactly, with intervals, per generator, number of contacts and policy",
               FrequencyColumns());
-  for (const auto& [key, tally] : total.tallies) {
-    ExactFailures failures;
-    failures.Add(tally);
-    AddFailures(table, {{Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(key.policy)}}, failures);
-  }
+  for (const auto& [key, counts] : CountBy(total, [](const TallyKey& key) { return key; }))
+    AddFailures(table, {{Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(key.policy)}}, counts);
   return table.Done();
 }
-
-struct LoopCount {
-  std::int64_t runs = 0, loops = 0;
-};
 
 // Generators, contacts and policies down, what `column_of` makes of a stratum across: loops that exact
 // arithmetic confirmed.
 template <class Order, class ColumnOf>
 Html StrataTable(const Record& total, const std::string& caption, ColumnOf column_of) {
   using Label = std::decay_t<decltype(column_of(StratumKey{}))>;
-  std::map<std::tuple<std::string, int, std::string>, std::map<Label, LoopCount, Order>> rows;
+  std::map<std::tuple<std::string, int, std::string>, std::map<Label, Counts, Order>> rows;
   std::set<Label, Order> labels;
-  for (const auto& [key, tally] : total.tallies) {
-    for (const auto& [stratum_key, stratum] : tally.strata) {
-      LoopCount& count = rows[{key.generator, key.contacts, key.policy}][column_of(stratum_key)];
-      count.runs += stratum.problems;
-      count.loops += stratum.exact[static_cast<int>(Outcome::kCycle)];
-      labels.insert(column_of(stratum_key));
-    }
+  const auto by = [&](const TallyKey& key, const StratumKey& stratum) {
+    return std::tuple(key.generator, key.contacts, key.policy, column_of(stratum));
+  };
+  for (const auto& [key, counts] : CountStrataBy(total, by)) {
+    const auto& [generator, contacts, policy, label] = key;
+    rows[{generator, contacts, policy}][label] = counts;
+    labels.insert(label);
   }
   std::vector<Column> columns = {{"generator", "", false}, {"contacts"}, {"policy", "", false}};
   for (const Label& label : labels) columns.push_back({fmt::format("{}", label)});
@@ -104,7 +83,7 @@ Html StrataTable(const Record& total, const std::string& caption, ColumnOf colum
         cells.push_back({Text("–")});
       } else {
         cells.push_back(
-            CountWithInterval(found->second.loops, RateText(found->second.loops, found->second.runs)));
+            CountWithInterval(found->second.Loops(), RateText(found->second.Loops(), found->second.runs)));
       }
     }
     table.AddRow(cells, 3);
@@ -114,15 +93,14 @@ Html StrataTable(const Record& total, const std::string& caption, ColumnOf colum
 
 // What the rates are worth.
 Html RateBounds(const Record& total) {
-  ExactFailures all;
-  for (const auto& [key, tally] : total.tallies) all.Add(tally);
-  if (all.runs == all.audited + all.suspicions)
+  const Counts all = CountAll(total);
+  if (all.runs == all.audited + all.suspicious)
     return Text(" Every run was repeated exactly: none is missing but those that were misjudged.");
   return Text(
       fmt::format(" These rates are lower bounds: loops that doubles take for solutions are not among them. Of "
                   "{} runs without a "
                   "suspicion {} were audited.",
-                  Grouped(all.runs - all.suspicions), Grouped(all.audited)));
+                  Grouped(all.runs - all.suspicious), Grouped(all.audited)));
 }
 
 }  // namespace
@@ -147,13 +125,13 @@ Html FrequenciesSection(const Record& total) {
                       "Failures confirmed exactly in a million runs, by generator and the rank that A has at "
                       "most; colours: numbers of contacts. Only where some were seen.") +
           FrequencyTable(total) +
-          Html("<h3>By friction</h3>\n<p>Cycles confirmed exactly, where all contacts have the same "
+          Html("<h3>By friction</h3>\n<p>Loops confirmed exactly, where all contacts have the same "
                "coefficient, or different ones (mixed); below, in a million runs:</p>\n") +
-          StrataTable<ByFriction>(total, "Cycles by friction coefficient",
+          StrataTable<ByFriction>(total, "Loops by friction coefficient",
                                   [](const StratumKey& key) { return key.friction; }) +
           Html("<h3>By rank</h3>\n<p>The same by the rank that A has at most by construction: that of "
                "its factor J. By chance it is lower.</p>\n") +
-          StrataTable<std::less<>>(total, "Cycles by rank", [](const StratumKey& key) { return key.rank; }));
+          StrataTable<std::less<>>(total, "Loops by rank", [](const StratumKey& key) { return key.rank; }));
 }
 
 }  // namespace stiction

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "corpus/counts.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "reports/html/template.h"
@@ -189,39 +190,8 @@ std::string ReportContent::Objective() const {
   return definition.is_object() ? definition.value("objective", "") : "";
 }
 
-// Every policy runs the same problems.
-std::int64_t ProblemsOf(const Record& total) {
-  std::map<std::pair<std::string, int>, std::int64_t> problems;
-  for (const auto& [key, tally] : total.tallies) {
-    std::int64_t& most = problems[{key.generator, key.contacts}];
-    most = std::max(most, tally.problems);
-  }
-  std::int64_t sum = 0;
-  for (const auto& [key, count] : problems) sum += count;
-  return sum;
-}
-
-std::int64_t RunsOf(const Record& total) {
-  std::int64_t runs = 0;
-  for (const auto& [key, tally] : total.tallies) runs += tally.problems;
-  return runs;
-}
-
 Html Section(const std::string& id, const std::string& title, const Html& content) {
   return Tag("section", {{"id", id}})(Html("\n") + Tag("h2")(title) + Html("\n") + content) + Html("\n");
-}
-
-// Of another run of the same campaign all of this may be different.
-Html TimeTable(const ProcessorTime& time) {
-  if (time.Total() == 0) return {};
-  Table table("Processor time", {{"spent on", "", false}, {"seconds", ""}, {"share", ""}});
-  ForEachPart(time, [&](const char* name, const char* meaning, std::int64_t value) {
-    const double share = 100 * static_cast<double>(value) / static_cast<double>(time.Total());
-    table.AddRow({{Text(fmt::format("{}: {}", name, meaning))},
-                  {Text(fmt::format("{:.1f}", static_cast<double>(value) * 1e-6))},
-                  {Text(fmt::format("{:.1f} %", share))}});
-  });
-  return table.Done();
 }
 
 // An optimized search tallies none.
@@ -244,9 +214,6 @@ Html AgainSection(const ReportContent& content) {
   list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
   list.Add("version of the algorithm", std::to_string(content.identity.algorithm));
   for (const std::string& build : content.work.builds) list.Add("searched by", build);
-  for (const std::string& machine : content.work.machines) list.Add("on", machine);
-  if (content.units > 0 && content.work.machines.empty())
-    list.Add("on", "machines that the store does not name");
   list.Add("problems", Grouped(AskedProblems(content)));
   list.Add("units", Grouped(content.units));
   list.Add("complete blocks",
@@ -260,9 +227,9 @@ Html AgainSection(const ReportContent& content) {
           : Html();
   return Section("again", "Reproducing it",
                  commands + list.Done() +
-                     Html("<p class=\"note\">Nothing here depends on the machines but the processor time, "
-                          "which other runs of the same campaign need not repeat.</p>\n") +
-                     TimeTable(content.work.time));
+                     Html("<p class=\"note\">Machines and processor times, which another run of the same "
+                          "campaign need not repeat, stand in <a href=\"work.csv\"><code>work.csv</code></a> "
+                          "alone.</p>\n"));
 }
 
 std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {

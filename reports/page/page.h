@@ -43,14 +43,10 @@ struct ReportContent {
 
 // `figures`: those of the content.
 std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures);
-// Problems of all generators and sizes, whatever the number of policies that ran them; and all runs.
-std::int64_t ProblemsOf(const Record& total);
-std::int64_t RunsOf(const Record& total);
 
 // ---- Sections of the page, in its order ----
 
 Html FoundSection(const ReportContent& content);
-Html TimeTable(const ProcessorTime& time);
 Html OutcomesSection(const Record& total);
 Html FrequenciesSection(const Record& total);
 Html DoublesSection(const Record& total);

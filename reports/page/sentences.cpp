@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "corpus/counts.h"
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "reports/page/page.h"
@@ -14,37 +15,18 @@
 namespace stiction {
 namespace {
 
-// What the sentences are about.
-struct Sums {
-  std::int64_t runs = 0, suspicions = 0, refuted = 0, wrong = 0, audited = 0, misjudged = 0;
-  Tally::Outcomes exact = {};
+// What was run.
+struct Asking {
   std::set<int> contacts;
   std::set<std::string> generators;
-};
 
-Sums SumsOfTotal(const Record& total) {
-  Sums sums;
-  for (const auto& [key, tally] : total.tallies) {
-    sums.runs += tally.problems;
-    sums.wrong += tally.wrong;
-    sums.audited += tally.audited;
-    sums.misjudged += tally.misjudged;
-    sums.contacts.insert(key.contacts);
-    sums.generators.insert(key.generator);
-    for (const Tally::Outcomes& row : tally.verdicts) {
-      for (int i = 0; i < kOutcomeCount; ++i) {
-        sums.exact[i] += row[i];
-        sums.suspicions += row[i];
-      }
+  explicit Asking(const Record& total) {
+    for (const auto& [key, counts] : CountBy(total, [](const TallyKey& key) { return key; })) {
+      contacts.insert(key.contacts);
+      generators.insert(key.generator);
     }
   }
-  sums.refuted = sums.exact[static_cast<int>(Outcome::kSolved)];
-  return sums;
-}
-
-std::int64_t LoopsOf(const Sums& sums) {
-  return sums.exact[static_cast<int>(Outcome::kCycle)] + sums.exact[static_cast<int>(Outcome::kStall)];
-}
+};
 
 Html Sentence(const std::string& lead, const std::string& rest) {
   return Tag("li")(Tag("strong")(lead) + Html(" ") + Text(rest)) + Html("\n");
@@ -56,19 +38,20 @@ std::string Spread(const std::set<int>& contacts) {
              : fmt::format("{} to {} contacts", *contacts.begin(), *contacts.rbegin());
 }
 
-Html Asked(const ReportContent& content, const Sums& sums) {
-  if (sums.contacts.empty()) return Html();
+Html Asked(const ReportContent& content, const Counts& counts) {
+  const Asking asking(content.total);
+  if (asking.contacts.empty()) return Html();
   return Tag("p", {{"class", "asked"}})(fmt::format(
              "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run "
-             "under {} of its text: {}.",
-             Grouped(ProblemsOf(content.total)), Spread(sums.contacts),
-             Counted(static_cast<std::int64_t>(sums.generators.size()), "generator"),
-             ReadingsText(content.total), Counted(sums.runs, "run"))) +
+             "under {}: {}.",
+             Grouped(ProblemsOf(content.total)), Spread(asking.contacts),
+             Counted(static_cast<std::int64_t>(asking.generators.size()), "generator"),
+             PoliciesText(content.total), Counted(counts.runs, "run"))) +
          Html("\n");
 }
 
-Html LoopSentence(const Sums& sums) {
-  const std::int64_t loops = LoopsOf(sums);
+Html LoopSentence(const Counts& sums) {
+  const std::int64_t loops = sums.Loops();
   const std::string rate = RateText(loops, sums.runs);
   if (loops == 0)
     return Sentence(
@@ -95,16 +78,15 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   }
   if (finished == 0) return Html();
   return Sentence(
-      found + minimized > 0 ? "Not a matter of one reading." : "The reading matters.",
-      fmt::format("Of {} loops of different kinds that were certified and minimized, {} as minimized, "
-                  "and {} as they were found, loop under every reading of the text that stiction "
+      found + minimized > 0 ? "Not a matter of one policy." : "The policy matters.",
+      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, "
+                  "and {} as they were found, loop under every policy that stiction "
                   "distinguishes; the smallest has {}.",
                   Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
 }
 
-Html OtherFailures(const Sums& sums) {
-  const std::int64_t singular = sums.exact[static_cast<int>(Outcome::kSingular)],
-                     rays = sums.exact[static_cast<int>(Outcome::kRay)];
+Html OtherFailures(const Counts& sums) {
+  const std::int64_t singular = sums.Of(Outcome::kSingular), rays = sums.Of(Outcome::kRay);
   if (singular + rays == 0) return Html();
   const auto part = [&sums](std::int64_t count, const char* what) {
     return fmt::format("{} {} ({} in a million)", Counted(count, "run"), what, RateText(count, sums.runs));
@@ -145,11 +127,14 @@ Html AgreementSentence(const Record& total) {
                   Grouped(disagreements), Grouped(compared)));
 }
 
-Html LyingSentence(const Sums& sums) {
-  if (sums.suspicions == 0) return Html();
+Html LyingSentence(const Counts& sums) {
+  if (sums.suspicious == 0) return Html();
+  const std::int64_t refuted = sums.Of(Outcome::kSolved);
   std::string text =
       fmt::format("Of {} suspicious runs in doubles {} are solved in exact arithmetic ({}). ",
-                  Grouped(sums.suspicions), Grouped(sums.refuted), ShareText(sums.refuted, sums.suspicions));
+                  Grouped(sums.suspicious), Grouped(refuted), ShareText(refuted, sums.suspicious));
+  text += fmt::format("In {} ({} in a million) doubles end otherwise than exact arithmetic. ",
+                      Counted(sums.doubles_differ, "run"), RateText(sums.doubles_differ, sums.runs));
   text += fmt::format("{} called solved what is no solution ({} in a million).", Counted(sums.wrong, "run"),
                       RateText(sums.wrong, sums.runs));
   if (sums.audited > 0)
@@ -162,7 +147,7 @@ Html LyingSentence(const Sums& sums) {
 }  // namespace
 
 Html FoundSentences(const ReportContent& content) {
-  const Sums sums = SumsOfTotal(content.total);
+  const Counts sums = CountAll(content.total);
   if (sums.runs == 0) return Html();
   return Asked(content, sums) +
          Tag("ul", {{"class", "answers"}})(Html("\n") + LoopSentence(sums) + GridSentence(content.discoveries) +

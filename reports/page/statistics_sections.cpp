@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "corpus/counts.h"
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "reports/page/page.h"
@@ -53,24 +54,12 @@ HtmlCell CountAndRate(std::int64_t count, std::int64_t total, bool heat) {
   return {Text(Grouped(count)) + Tag("small")(RateText(count, total)), heat ? Heat(count, total) : ""};
 }
 
-// Tallies merged by what `key` makes of their keys, in its order.
-template <class Key>
-auto MergedBy(const Record& total, Key key) {
-  std::map<decltype(key(TallyKey{})), Tally> merged;
-  for (const auto& [tally_key, tally] : total.tallies) merged[key(tally_key)].Merge(tally);
-  return merged;
-}
-
 using GeneratorAndContacts = std::pair<std::string, int>;
 GeneratorAndContacts ByGeneratorAndContacts(const TallyKey& key) { return {key.generator, key.contacts}; }
 
 std::string ByGenerator(const TallyKey& key) { return key.generator; }
 
-Tally AllOf(const Record& total) {
-  Tally all;
-  for (const auto& [key, tally] : total.tallies) all.Merge(tally);
-  return all;
-}
+Tally AllOf(const Record& total) { return MergeBy(total, [](const TallyKey&) { return 0; })[0]; }
 
 // Method and arithmetic are named only where they are not the published algorithm in doubles.
 std::string PolicyText(const TallyKey& key) {
@@ -98,7 +87,7 @@ class Groups {
 
 // Generators down, contacts across: how often a run is not solved.
 Html UnsolvedMap(const Record& total) {
-  const auto merged = MergedBy(total, ByGeneratorAndContacts);
+  const auto merged = MergeBy(total, &ByGeneratorAndContacts);
   std::set<std::string> generators;
   std::set<int> contacts;
   for (const auto& [key, tally] : merged) {
@@ -143,7 +132,7 @@ Html OutcomeTable(const Record& total) {
     columns.push_back({std::string(kOutcomeNames[i]), std::string(kMeaning[i])});
   Table table("Outcomes per generator, number of contacts and policy", columns);
   Groups groups;
-  for (const auto& [key, tally] : total.tallies) {
+  for (const auto& [key, tally] : MergeBy(total, [](const TallyKey& key) { return key; })) {
     const std::vector<HtmlCell> names = {
         {Text(key.generator)}, {Text(Grouped(key.contacts))}, {Text(PolicyText(key))}};
     table.AddRow(Joined(names, OutcomeCells(tally)), 3, groups.Style(key.generator));
@@ -218,7 +207,7 @@ Html TrustTable(const Record& total) {
        {"audited", "run again exactly without a suspicion, as a sample"},
        {"misjudged", "audited with another exact outcome"},
        {"wrong answers", "called solved with an error above the bound of the gate; below: per million"}});
-  for (const auto& [generator, tally] : MergedBy(total, ByGenerator)) {
+  for (const auto& [generator, tally] : MergeBy(total, &ByGenerator)) {
     table.AddRow(Joined({{Text(generator)}}, TrustCells(tally)));
   }
   table.AddRow(Joined({{Text("all")}}, TrustCells(AllOf(total))), 1, "total");
@@ -249,7 +238,7 @@ Html PivotTable(const Record& total) {
   });
   Table table("Work per problem: mean, and maximum below", columns);
   Groups groups;
-  for (const auto& [key, tally] : MergedBy(total, ByGeneratorAndContacts)) {
+  for (const auto& [key, tally] : MergeBy(total, &ByGeneratorAndContacts)) {
     const std::vector<HtmlCell> keys = {{Text(key.first)}, {Text(Grouped(key.second))}};
     table.AddRow(Joined(keys, PivotCells(tally)), 2, groups.Style(key.first));
   }

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "reports/html/html.h"
@@ -36,58 +38,33 @@ std::string LatexTable(const std::string& caption, const std::string& label, con
 std::string Rate(std::int64_t count, std::int64_t runs) { return LatexText(RateText(count, runs)); }
 std::string Share(std::int64_t count, std::int64_t of) { return LatexText(ShareText(count, of)); }
 
-std::int64_t LoopsOf(const Tally& tally) {
-  std::int64_t loops = 0;
-  for (const Tally::Outcomes& exact : tally.verdicts) {
-    for (const Outcome outcome : {Outcome::kCycle, Outcome::kStall}) loops += exact[static_cast<int>(outcome)];
-  }
-  return loops;
-}
-
 std::string LoopsTable(const Record& record) {
   std::vector<LatexRow> rows;
-  for (const auto& [key, tally] : record.tallies) {
-    const std::int64_t loops = LoopsOf(tally);
+  for (const auto& [key, counts] : CountBy(record, [](const TallyKey& key) { return key; })) {
     rows.push_back({LatexText(key.generator), LatexText(key.policy), LatexText(key.arithmetic),
-                    Grouped(key.contacts), Grouped(tally.problems), Grouped(loops),
-                    Rate(loops, tally.problems)});
+                    Grouped(key.contacts), Grouped(counts.runs), Grouped(counts.Loops()),
+                    Rate(counts.Loops(), counts.runs)});
   }
   return LatexTable(
       "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
       "intervals at "
       "95\\,\\% (Garwood). They are lower bounds where runs were not all repeated exactly.",
       "tab:stiction-loops",
-      {"generator", "reading", "arithmetic", "contacts", "runs", "loops", "in a million {[95\\,\\%]}"}, 3,
+      {"generator", "policy", "arithmetic", "contacts", "runs", "loops", "in a million {[95\\,\\%]}"}, 3,
       rows);
 }
 
 // By policy and contacts, over all generators.
-struct RunsOfSize {
-  std::int64_t runs = 0, steps = 0, zero_steps = 0, give_ups = 0, loops = 0;
-  std::array<std::int64_t, Tally::kBins> bins = {};
-
-  void Add(const Tally& tally) {
-    runs += tally.problems;
-    steps += tally.sums.steps;
-    zero_steps += tally.with_zero_steps;
-    give_ups += tally.with_give_ups;
-    loops += LoopsOf(tally);
-    for (int i = 0; i < Tally::kBins; ++i) bins[i] += tally.steps[i];
-  }
-};
-
-std::map<std::pair<std::string, int>, RunsOfSize> BySize(const Record& record) {
-  std::map<std::pair<std::string, int>, RunsOfSize> sizes;
-  for (const auto& [key, tally] : record.tallies) sizes[{key.policy, key.contacts}].Add(tally);
-  return sizes;
-}
+std::pair<std::string, int> BySize(const TallyKey& key) { return {key.policy, key.contacts}; }
 
 std::string ContactsTable(const Record& record) {
   std::vector<LatexRow> rows;
-  for (const auto& [key, size] : BySize(record)) {
-    rows.push_back({LatexText(key.first), Grouped(key.second), Grouped(size.runs), Mean(size.steps, size.runs),
-                    Share(size.zero_steps, size.runs), Share(size.give_ups, size.runs),
-                    Rate(size.loops, size.runs)});
+  for (const auto& [key, size] : MergeBy(record, &BySize)) {
+    Counts counts;
+    counts.Add(size);
+    rows.push_back({LatexText(key.first), Grouped(key.second), Grouped(counts.runs),
+                    Mean(size.sums.steps, counts.runs), Share(size.with_zero_steps, counts.runs),
+                    Share(size.with_give_ups, counts.runs), Rate(counts.Loops(), counts.runs)});
   }
   return LatexTable(
       "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length "
@@ -96,7 +73,7 @@ std::string ContactsTable(const Record& record) {
       "confirmed "
       "exactly, in a million runs (Garwood).",
       "tab:stiction-contacts",
-      {"reading", "contacts", "runs", "steps", "with zero steps", "with give-ups", "loops"}, 1, rows);
+      {"policy", "contacts", "runs", "steps", "with zero steps", "with give-ups", "loops"}, 1, rows);
 }
 
 std::string MethodsTable(const Record& record) {
@@ -127,11 +104,10 @@ struct LoopCurves {
   std::map<std::string, std::map<int, std::pair<std::int64_t, std::int64_t>>> curves;  // loops, runs
 
   explicit LoopCurves(const Record& record) {
-    for (const auto& [key, tally] : record.tallies) {
-      if (key.policy != "paper") continue;
-      auto& [loops, runs] = curves[key.generator][key.contacts];
-      loops += LoopsOf(tally);
-      runs += tally.problems;
+    const auto by = [](const TallyKey& key) { return std::tuple(key.policy, key.generator, key.contacts); };
+    for (const auto& [key, counts] : CountBy(record, by)) {
+      const auto& [policy, generator, contacts] = key;
+      if (policy == "paper") curves[generator][contacts] = {counts.Loops(), counts.runs};
     }
     std::erase_if(curves, [](const auto& curve) {
       return std::all_of(curve.second.begin(), curve.second.end(),
@@ -194,7 +170,7 @@ std::string LoopFigure(const LoopCurves& figure) {
 
 // Rows by steps; for each number of contacts the share of its runs.
 std::string StepData(const Record& record) {
-  const auto sizes = BySize(record);
+  const auto sizes = MergeBy(record, &BySize);
   std::string text = "steps";
   for (const auto& [key, size] : sizes) {
     if (key.first == "paper") text += fmt::format(" c{}", key.second);
@@ -205,9 +181,9 @@ std::string StepData(const Record& record) {
     for (const auto& [key, size] : sizes) {
       if (key.first != "paper") continue;
       text +=
-          size.runs == 0
+          size.problems == 0
               ? " nan"
-              : fmt::format(" {:.9g}", static_cast<double>(size.bins[steps]) / static_cast<double>(size.runs));
+              : fmt::format(" {:.9g}", static_cast<double>(size.steps[steps]) / static_cast<double>(size.problems));
     }
     text += "\n";
   }
@@ -220,7 +196,7 @@ std::string StepFigure(const Record& record) {
                              "runs}}, legend pos=outer north east, "
                              "no markers, const plot",
                              Tally::kBins - 1));
-  for (const auto& [key, size] : BySize(record)) {
+  for (const auto& [key, size] : MergeBy(record, &BySize)) {
     if (key.first != "paper") continue;
     text += fmt::format(
         "\\addplot table[x=steps, y=c{0}] {{\\stictiondata/steps.dat}};\n\\addlegendentry{{{0} {1}}}\n",

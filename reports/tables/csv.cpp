@@ -238,6 +238,16 @@ std::string StrataCsv(const Record& record) {
   return csv.text();
 }
 
+std::string WorkCsv(const Work& work) {
+  Csv csv;
+  csv.Add("what").Add("meaning").Add("value").EndRow();
+  for (const std::string& machine : work.machines) csv.Add("machine").Add("").Add(machine).EndRow();
+  ForEachPart(work.time, [&csv](const char* name, const char* meaning, std::int64_t value) {
+    csv.Add(name).Add(meaning).Add(fmt::format("{:.6f}", static_cast<double>(value) * 1e-6)).EndRow();
+  });
+  return csv.text();
+}
+
 std::string LoopsCsv(const Record& record) {
   Csv csv;
   csv.Add("contacts");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corpus/statistics.h"
+#include "corpus/work.h"
 #include "reports/tables/discovery.h"
 
 namespace stiction {
@@ -48,6 +49,8 @@ std::string AgreementCsv(const Record& record);
 // One row per number of contacts and count that occurred: problems with so many mode words that have solutions
 // (`counted` = words), or regular problems with so many solutions (solutions).
 std::string SolutionsCsv(const Record& record);
+// What another run of the same campaign need not repeat: machines, and processor seconds by what they went into.
+std::string WorkCsv(const Work& work);
 // One row per signature, in the order of signature.
 std::string FindingsCsv(const std::vector<Discovery>& discoveries);
 // A row per finding that Ipopt was asked about. Apart, since its answers depend on the machine's libraries.

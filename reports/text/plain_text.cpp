@@ -99,14 +99,14 @@ std::string PlainValue(const Json& json) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string ReadingsText(const Record& record) {
+std::string PoliciesText(const Record& record) {
   constexpr std::size_t kMostNamed = 3;
-  std::set<std::string> readings;
-  for (const auto& [key, tally] : record.tallies) readings.insert(key.policy);
-  if (readings.empty()) return "";
-  if (readings.size() == 1) return "the reading " + *readings.begin();
-  const std::string all = fmt::format("{} readings", readings.size());
-  return readings.size() <= kMostNamed ? fmt::format("{} ({})", all, fmt::join(readings, ", ")) : all;
+  std::set<std::string> policies;
+  for (const auto& [key, tally] : record.tallies) policies.insert(key.policy);
+  if (policies.empty()) return "";
+  if (policies.size() == 1) return "the policy " + *policies.begin();
+  const std::string all = fmt::format("{} policies", policies.size());
+  return policies.size() <= kMostNamed ? fmt::format("{} ({})", all, fmt::join(policies, ", ")) : all;
 }
 
 std::string ShellWord(const std::string& word) {

@@ -39,9 +39,9 @@ class TextTable {
 // A value of a definition: texts without quotes, elements of arrays behind ", ".
 std::string PlainValue(const Json& json);
 
-// The policies of the runs: "the reading paper", "2 readings (paper, ties=contacts)", "1536 readings"; empty:
+// The policies of the runs: "the policy paper", "2 policies (paper, ties=contacts)", "1536 policies"; empty:
 // no runs.
-std::string ReadingsText(const Record& record);
+std::string PoliciesText(const Record& record);
 
 // A word as a shell reads it back.
 std::string ShellWord(const std::string& word);

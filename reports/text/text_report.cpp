@@ -65,8 +65,8 @@ std::string Command(const std::string& text) { return "    " + text + "\n"; }
 std::string HeadLine(const StoreTotals& t, const Store& store, const std::string& file) {
   std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
                                  Counted(t.units, "unit"), store.identity().seed);
-  if (t.runs != t.problems)
-    text += fmt::format("; {} runs, each problem under every reading asked for", Grouped(t.runs));
+  if (t.counts.runs != t.problems)
+    text += fmt::format("; {} runs, each problem under every policy asked for", Grouped(t.counts.runs));
   return Paragraph(text, 0);
 }
 
@@ -78,20 +78,23 @@ std::string GraveLines(const StoreTotals& t) {
 }
 
 std::string LoopsText(const StoreTotals& t) {
-  const std::int64_t met = t.LoopsMet();
-  if (t.runs == 0) return "";
-  if (met == 0) {
+  const std::int64_t loops = t.counts.Loops(), runs = t.counts.runs;
+  if (runs == 0) return "";
+  if (loops == 0) {
     return Paragraph(fmt::format("No run of the published algorithm, under {}, was found to loop: {}.",
-                                 ReadingsText(t.record), RateSentence(0, t.runs)));
+                                 PoliciesText(t.record), RateSentence(0, runs)));
   }
   std::string text =
       Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
                             "run stands again, in exact "
                             "arithmetic or, in space, by intervals: so it never ends.",
-                            ReadingsText(t.record), Counted(met, "run"), RateSentence(met, t.runs)));
-  text +=
-      Paragraph(fmt::format("They are of {}; {} under every reading that stiction distinguishes, as minimized.",
-                            Counted(t.LoopGroups(), "kind"), Verb(t.whole_grid, "loops", "loop")));
+                            PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
+  const std::string grid =
+      t.finished_loops == 0
+          ? "none is minimized yet, which tells how many loop under every policy"
+          : fmt::format("of {} finished, {} under every policy that stiction distinguishes, as minimized",
+                        Grouped(t.finished_loops), Verb(t.whole_grid, "loops", "loop"));
+  text += Paragraph(fmt::format("Found in {}; {}.", Counted(t.LoopGroups(), "group"), grid));
   if (t.loops.loops > 0) {
     text +=
         Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",
@@ -101,11 +104,27 @@ std::string LoopsText(const StoreTotals& t) {
   return text;
 }
 
-std::string KindsTable(const StoreTotals& t) {
-  TextTable table({"what", "kind", "runs", "kinds", "in a million [95 %]"}, 2);
-  for (const auto& [label, count] : t.findings)
-    table.AddRow({InWords(label), label, Grouped(count), Grouped(t.groups.at(label)), RateText(count, t.runs)});
-  return t.findings.empty() ? Paragraph("No findings.") : table.Done();
+// How the algorithm fails, in exact arithmetic.
+std::string FailuresTable(const StoreTotals& t) {
+  TextTable table({"in exact arithmetic", "outcome", "runs", "in a million [95 %]"}, 2);
+  int rows = 0;
+  for (int i = 0; i < kOutcomeCount; ++i) {
+    const auto outcome = static_cast<Outcome>(i);
+    const std::int64_t count = t.counts.exact[i];
+    if (outcome == Outcome::kSolved || count == 0) continue;
+    const std::string name(Name(outcome));
+    table.AddRow({InWords(name), name, Grouped(count), RateText(count, t.counts.runs)});
+    ++rows;
+  }
+  return rows == 0 ? Paragraph("No run fails in exact arithmetic.") : table.Done();
+}
+
+// Groups of findings, by kind.
+std::string GroupsText(const StoreTotals& t) {
+  std::vector<std::string> parts;
+  for (const auto& [label, count] : t.groups) parts.push_back(fmt::format("{} of {}", Grouped(count), label));
+  return parts.empty() ? Paragraph("No findings.")
+                       : Paragraph(fmt::format("Groups of findings: {}.", fmt::join(parts, ", ")));
 }
 
 std::string ExistenceText(const StoreTotals& t) {
@@ -136,32 +155,37 @@ std::string ExistenceText(const StoreTotals& t) {
 }
 
 std::string DoublesText(const StoreTotals& t) {
-  return Paragraph(
-      fmt::format("Doubles: {} of {} confirmed exactly; {} of {} misjudged; {} wrong, though called solved.",
-                  Grouped(t.confirmed), Counted(t.suspicions, "suspicion"), Grouped(t.misjudged),
-                  Counted(t.audited, "audited run"), Counted(t.wrong, "answer")));
+  const Counts& c = t.counts;
+  if (c.runs == 0) return "";
+  return Paragraph(fmt::format(
+      "Of doubles, and not of the algorithm: in {} they differ from exact arithmetic ({} in a million), in {} "
+      "they call solved what is not ({} in a million). Of {} they were right in {}; of {}, {} misjudged.",
+      Counted(c.doubles_differ, "run"), RateText(c.doubles_differ, c.runs), Counted(c.wrong, "run"),
+      RateText(c.wrong, c.runs), Counted(c.suspicious, "suspicion"), Grouped(c.confirmed),
+      Counted(c.audited, "audited run"), Verb(c.misjudged, "was", "were")));
 }
 
 // What the rates are worth: how much was audited, and what came of it.
 std::string WorthText(const StoreTotals& t) {
-  if (t.runs == 0) return "";
+  const Counts& c = t.counts;
+  if (c.runs == 0) return "";
   const std::string misjudged =
-      t.audited == 0 ? "" : fmt::format(", of these {} misjudged", ShareText(t.misjudged, t.audited));
+      c.audited == 0 ? "" : fmt::format(", of these {} misjudged", ShareText(c.misjudged, c.audited));
   std::string text = "In brackets: exact intervals at 95 %. ";
-  if (t.audited + t.suspicions == t.runs) {
+  if (c.audited + c.suspicious == c.runs) {
     text += fmt::format("Every run was repeated exactly{}.", misjudged);
   } else {
     text += fmt::format(
         "Rates are lower bounds: loops that doubles take for solutions are not counted. Of {} without "
         "a suspicion {} were audited{}.",
-        Counted(t.runs - t.suspicions, "run"), Grouped(t.audited), misjudged);
+        Counted(c.runs - c.suspicious, "run"), Grouped(c.audited), misjudged);
   }
   return Paragraph(text);
 }
 
 std::string FinishText(const StoreTotals& t, const std::string& file) {
   std::string text = Paragraph(
-      fmt::format("Representatives, one of each kind as far as kept: {} certified and minimized, {} to go.",
+      fmt::format("Representatives, one of each group as far as kept: {} certified and minimized, {} to go.",
                   Grouped(t.finished), Grouped(t.pending)));
   if (t.pending > 0) text += Paragraph("What is to go is finished by:") + Command(FinishCommand(file));
   return text;
@@ -182,7 +206,7 @@ std::string FindingText(const Finding& finding) {
   std::string grid;
   for (const auto& [outcome, count] : facts.at("grid").items())
     grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", count.dump(), outcome);
-  return text + (grid.empty() ? "; in space, over intervals" : "; readings: " + grid);
+  return text + (grid.empty() ? "; in space, over intervals" : "; policies: " + grid);
 }
 
 std::string SimplestText(const StoreTotals& t) {
@@ -197,21 +221,10 @@ std::string SimplestText(const StoreTotals& t) {
 
 // ---- The page's own sections ----
 
-struct ExactCounts {
-  std::int64_t runs = 0, loops = 0, singular = 0, rays = 0;
-
-  void Add(std::int64_t more_runs, const Tally::Outcomes& exact) {
-    runs += more_runs;
-    const auto of = [&exact](Outcome outcome) { return exact[static_cast<int>(outcome)]; };
-    loops += of(Outcome::kCycle) + of(Outcome::kStall);
-    singular += of(Outcome::kSingular);
-    rays += of(Outcome::kRay);
-  }
-};
-
-std::vector<std::string> Cells(std::vector<std::string> names, const ExactCounts& c) {
-  names.insert(names.end(), {Grouped(c.runs), Grouped(c.loops), RateText(c.loops, c.runs), Grouped(c.singular),
-                             Grouped(c.rays)});
+std::vector<std::string> Cells(std::vector<std::string> names, const Counts& c) {
+  names.insert(names.end(),
+               {Grouped(c.runs), Grouped(c.Loops()), RateText(c.Loops(), c.runs),
+                Grouped(c.Of(Outcome::kSingular)), Grouped(c.Of(Outcome::kRay))});
   return names;
 }
 
@@ -221,32 +234,32 @@ std::vector<std::string> CountHeader(std::vector<std::string> names) {
 }
 
 std::string GeneratorTables(const Record& record) {
-  std::map<std::string, std::map<std::pair<std::string, int>, ExactCounts>> policies;
-  for (const auto& [key, tally] : record.tallies) {
-    ExactCounts& counts = policies[key.policy][{key.generator, key.contacts}];
-    counts.Add(tally.problems, {});
-    for (const Tally::Outcomes& exact : tally.verdicts) counts.Add(0, exact);
+  std::map<std::string, std::map<std::pair<std::string, int>, Counts>> policies;
+  const auto by = [](const TallyKey& key) { return std::tuple(key.policy, key.generator, key.contacts); };
+  for (const auto& [key, counts] : CountBy(record, by)) {
+    const auto& [policy, generator, contacts] = key;
+    policies[policy][{generator, contacts}] = counts;
   }
   std::string text;
   for (const auto& [policy, rows] : policies) {
     TextTable table(CountHeader({"generator", "contacts"}), 1);
     for (const auto& [key, counts] : rows) table.AddRow(Cells({key.first, Grouped(key.second)}, counts));
-    text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
+    text += Paragraph(fmt::format("Policy {}:", policy)) + table.Done();
   }
   return text;
 }
 
 std::string FrictionTables(const Record& record) {
-  std::map<std::string, std::map<std::string, ExactCounts, ByFriction>> policies;
-  for (const auto& [key, tally] : record.tallies) {
-    for (const auto& [stratum_key, stratum] : tally.strata)
-      policies[key.policy][stratum_key.friction].Add(stratum.problems, stratum.exact);
-  }
+  std::map<std::string, std::map<std::string, Counts, ByFriction>> policies;
+  const auto by = [](const TallyKey& key, const StratumKey& stratum) {
+    return std::pair(key.policy, stratum.friction);
+  };
+  for (const auto& [key, counts] : CountStrataBy(record, by)) policies[key.first][key.second] = counts;
   std::string text;
   for (const auto& [policy, rows] : policies) {
     TextTable table(CountHeader({"mu"}), 1);
     for (const auto& [mu, counts] : rows) table.AddRow(Cells({mu}, counts));
-    text += Paragraph(fmt::format("Reading {}, all generators together:", policy)) + table.Done();
+    text += Paragraph(fmt::format("Policy {}, all generators together:", policy)) + table.Done();
   }
   return text;
 }
@@ -302,9 +315,9 @@ std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
   }
   if (loops == 0) return "";
   const auto all = static_cast<std::int64_t>(unknown.size());
-  std::string text = "\n" + Heading("New kinds of loops");
+  std::string text = "\n" + Heading("New groups of loops");
   text += Paragraph(
-      fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "kind"), Verb(all, "is", "are")));
+      fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "group"), Verb(all, "is", "are")));
   std::stable_sort(unknown.begin(), unknown.end(),
                    [](const auto& left, const auto& right) { return left.second > right.second; });
   TextTable table({"signature", "runs"}, 1);
@@ -320,6 +333,7 @@ std::string WithoutFlags(const std::string& build) {
   return first == build.npos ? build : build.substr(0, build.find(',', first + 1));
 }
 
+// But for machines and processor times, which `status` tells: equal searches give equal reports.
 std::string SearchedText(const Store& store, const StoreTotals& t) {
   const CampaignIdentity& identity = store.identity();
   std::string text = "\n" + Heading("What was searched");
@@ -332,15 +346,14 @@ std::string SearchedText(const Store& store, const StoreTotals& t) {
     text += Paragraph(identity.definition);
   }
   const Json policies = Json::parse(identity.policies, nullptr, false);
-  text += Paragraph("readings: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
+  text += Paragraph("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
   text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
   for (const std::string& build : t.work.builds) text += Paragraph("build: " + WithoutFlags(build));
-  for (const std::string& machine : t.work.machines) text += Paragraph("machine: " + machine);
-  return text + Paragraph(TimeText(t.work.time));
+  return text;
 }
 
 std::string Findings(const StoreTotals& t) {
-  return LoopsText(t) + KindsTable(t) + ExistenceText(t) + DoublesText(t) + WorthText(t);
+  return LoopsText(t) + FailuresTable(t) + GroupsText(t) + ExistenceText(t) + DoublesText(t) + WorthText(t);
 }
 
 }  // namespace
@@ -358,7 +371,7 @@ std::string TextReport(const Store& store, const std::string& file, const KnownC
   const StoreTotals t = TotalsOf(store);
   std::string text = HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
                      FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as);
-  if (t.runs > 0) {
+  if (t.counts.runs > 0) {
     text += "\n" + Heading("How often it fails, in exact arithmetic") + GeneratorTables(t.record) + "\n" +
             Heading("The same by friction coefficient") +
             Paragraph(

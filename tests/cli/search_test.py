@@ -216,7 +216,9 @@ class Search(cli.TestCase):
         self.assertEqual((summary["seed"], summary["pending"]), (4, 0))
         tallies, signatures = cli.total(self.reference)
         self.assertEqual(summary["problems"], sum(tally["problems"] for tally in tallies.values()))
-        self.assertEqual(sum(summary["findings"].values()), sum(signatures.values()))
+        verdicts = [t["verdicts"] for t in tallies.values()]
+        loops = sum(row[of] for matrix in verdicts for row in matrix for of in (1, 2) if len(row) > of)
+        self.assertEqual(sum(summary["failures"].get(name, 0) for name in ("cycle", "stall")), loops)
         self.assertEqual(sum(summary["groups"].values()), len(signatures))
         self.assertEqual(summary["suspicions"], sum(sum(map(sum, t["verdicts"])) for t in tallies.values()))
         self.assertEqual(self.succeeds("status", self.reference, "--json").json(), summary)

@@ -17,7 +17,7 @@ class Place {
 
   // At first the reference reading, or a loop, where there is one.
   addChoice(name, values) {
-    this.chosen[name] = values.find(value => value === 'paper' || value === 'cycle') ?? values[0];
+    this.chosen[name] = values.find(value => value === 'paper' || value === 'loop') ?? values[0];
     if (values.length < 2) return;
     const select = element('select', {}, ...values.map(value => element('option', {}, value)));
     select.value = this.chosen[name];

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/counts.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace stiction {
+
+void Counts::Add(const Tally& tally) {
+  runs += tally.problems;
+  for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
+    for (int outcome = 0; outcome < kOutcomeCount; ++outcome) {
+      const std::int64_t count = tally.verdicts[inexact][outcome];
+      exact[outcome] += count;
+      suspicious += count;
+      if (outcome == static_cast<int>(Outcome::kUndecided)) continue;
+      (inexact == outcome ? confirmed : doubles_differ) += count;
+    }
+  }
+  wrong += tally.wrong;
+  audited += tally.audited;
+  misjudged += tally.misjudged;
+}
+
+void Counts::Add(const Stratum& stratum) {
+  runs += stratum.problems;
+  for (int outcome = 0; outcome < kOutcomeCount; ++outcome) {
+    exact[outcome] += stratum.exact[outcome];
+    suspicious += stratum.exact[outcome];
+  }
+  audited += stratum.audited;
+  misjudged += stratum.misjudged;
+}
+
+Counts CountAll(const Record& record) {
+  Counts all;
+  for (const auto& [key, tally] : record.tallies) all.Add(tally);
+  return all;
+}
+
+std::int64_t ProblemsOf(const Record& record) {
+  std::map<std::pair<std::string, int>, std::int64_t> problems;
+  for (const auto& [key, tally] : record.tallies) {
+    std::int64_t& most = problems[{key.generator, key.contacts}];
+    most = std::max(most, tally.problems);
+  }
+  std::int64_t sum = 0;
+  for (const auto& [key, count] : problems) sum += count;
+  return sum;
+}
+
+}  // namespace stiction
