@@ -243,7 +243,8 @@ def content(store):
 
 
 def tables(report):
-    return {path.name: path.read_bytes() for path in Path(report).glob("*.csv")}
+    """All but of work.csv, which says how long the processors took."""
+    return {path.name: path.read_bytes() for path in Path(report).glob("*.csv") if path.name != "work.csv"}
 
 
 def write_arrays(program, folder):
