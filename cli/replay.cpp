@@ -23,8 +23,8 @@
 #include "cli/words.h"
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "corpus/rounded.h"
-#include "reports/text/plain_text.h"
 #include "reports/viewer.h"
 
 namespace stiction {
@@ -138,10 +138,8 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     std::string told = ToldForPeople(o, file, solution, narration);
     if (proved) told += OverIntervalsText(*proved) + "\n";
     if (!expected.empty() && expected != Name(solution.outcome())) told += "expected: " + expected + "\n";
-    fmt::print(std::cout, "{}", told);
-    if (o.step)
-      fmt::print(std::cout, "\nThe words (numbers in brackets are sections of the paper):\n{}",
-                 GlossaryOf(told));
+    Tell("{}", told);
+    if (o.step) Tell("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
   }
   return ExitOf(solution.outcome(), expected);
 }
@@ -183,7 +181,7 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
   for (const Policy& policy : grid) {
     const std::string name = PolicyName(policy), outcome = outcomes[name]["outcome"].get<std::string>();
     by_outcome[outcome].push_back(policy);
-    if (o.list) fmt::print(std::cout, "{:10} {}\n", outcome, name);
+    if (o.list) Tell("{:10}  {}\n", outcome, name);
   }
   for (const auto& [outcome, some] : by_outcome) {
     std::vector<std::string> common;
@@ -191,11 +189,11 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
       if (const std::string text = InCommon(row, some, grid); !text.empty()) common.push_back(text);
     }
     const bool all = some.size() == grid.size();
-    fmt::print(std::cout, "{}: {} policies{}{}\n", outcome,
-               all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
-               common.empty() ? "" : ", all with ", fmt::join(common, ", "));
+    Tell("{}: {} policies{}{}\n", outcome,
+         all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
+         common.empty() ? "" : ", all with ", fmt::join(common, ", "));
   }
-  if (!o.list && by_outcome.size() > 1) fmt::print(std::cout, "(--list: a line for every policy)\n");
+  if (!o.list && by_outcome.size() > 1) Tell("(--list: a line for every policy)\n");
 }
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
@@ -221,8 +219,7 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   } else {
     PrintOutcomes(o, grid, outcomes);
     if (!unexpected.empty())
-      fmt::print(std::cout, "{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
-                 unexpected.size());
+      Tell("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected", unexpected.size());
   }
   return unexpected.empty() ? kExitDone : kExitNotSo;
 }
@@ -253,8 +250,8 @@ void AddReplay(CommandLine& program) {
   verb.Flag("--list", o.list, "a line for every policy, before the summary").Needs("--all-policies");
   verb.Option("--record", o.record, "write the problem with what happened as its `expect`")
       .Needs("--all-policies");
-  verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
-  verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
+  verb.Option("-m,--method", o.method, "what to follow").Choices(PathMethodChoices());
+  verb.Option("-a,--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
       .OneOf({kPathArithmetics.begin(), kPathArithmetics.end()});
   verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
@@ -263,7 +260,7 @@ void AddReplay(CommandLine& program) {
             "long fractions in full, which are rounded otherwise, in text for people");
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
 }
 
