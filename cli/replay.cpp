@@ -25,6 +25,7 @@
 #include "corpus/json_text.h"
 #include "corpus/plain_text.h"
 #include "corpus/rounded.h"
+#include "reports/pictures/moving_picture.h"
 #include "reports/viewer.h"
 
 namespace stiction {
@@ -39,7 +40,7 @@ struct ReplayOptions : Wanted {
   bool json = false;
   bool list = false;       // with all_policies: every policy
   bool fractions = false;  // for people, in full
-  std::string record, html;
+  std::string record, html, svg;
 
   PathOptions path() const { return {method, policy, options.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
@@ -120,6 +121,35 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
                                {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
+// Of a loop its period, for ever; of another run all of it.
+void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
+  constexpr std::size_t kMostStills = 200;
+  constexpr double kSeconds = 1.1;
+  if (replay.picture.is_null())
+    throw InputError(o.file, "--svg", "a problem without its scene",
+                     "a scene; --html makes a page of any problem");
+  const FollowedRun run = Followed(o.path(), replay.file, solution);
+  const bool loops = run.replay["outcome"] == "cycle";
+  const std::int64_t start = loops ? run.replay["start"].get<std::int64_t>() : 0;
+  std::vector<Still> stills;
+  for (std::size_t k = 0; k < run.replay["pivots"].size(); ++k) {
+    const Json &pivot = run.replay["pivots"][k], &told = run.narration.told[k];
+    if (told["group"].get<std::int64_t>() <= start) continue;
+    Still& still = stills.emplace_back();
+    for (const Json& f : pivot["f"])
+      still.forces.push_back(f.is_string() ? ToDouble(*ParseRational(f.get<std::string>())) : f.get<double>());
+    still.caption = fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", told["group"].dump(),
+                                told["label"].get<std::string>(), told["event"].get<std::string>());
+  }
+  if (stills.empty() || stills.size() > kMostStills)
+    throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
+                     fmt::format("1 to {}; --html makes a page of more", kMostStills));
+  const std::string title =
+      loops ? fmt::format("{}: these {} drives, again and again", replay.file.name, run.replay["period"].dump())
+            : fmt::format("{}: {}", replay.file.name, run.end);
+  WriteText(o.svg, MovingPicture(replay.picture, title, stills, kSeconds));
+}
+
 int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const ProblemFile& file = replay.file;
   const SolveRequest request = PathRequestOf(o, file.problem, o.file);
@@ -128,7 +158,8 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(file.problem, request, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
-  if (o.html == "-") return ExitOf(solution.outcome(), expected);
+  if (!o.svg.empty()) WriteMovingPicture(o, replay, solution);
+  if (o.html == "-" || o.svg == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
     Json json = ReplayToJson(o.path(), file, solution, std::move(narration), o.step);
     if (proved) json["over_intervals"] = EndToJson(*proved);
@@ -228,6 +259,7 @@ int Replay(const ReplayOptions& o) {
   const ReplayFile replay = ReadReplayFile(o.file);
   if (!o.all_policies) return ReplayOne(o, replay);
   if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
+  if (!o.svg.empty()) throw InputError("--svg: found --all-policies, expected one policy");
   return ReplayAll(o, replay.file);
 }
 
@@ -260,6 +292,7 @@ void AddReplay(CommandLine& program) {
             "long fractions in full, which are rounded otherwise, in text for people");
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
+  verb.Option("--svg", o.svg, "write a picture that moves, of a scene: the forces of a loop, again and again");
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
 }
