@@ -251,7 +251,7 @@ def certificates(program):
             replayed += replays_as_certified(program, certificate, problem)
             whole_grid += sum(len(run["policies"]) for run in certificate["witness"]["runs"]) == grid
     rows = [("problems, of two contacts", count(summary["problems"])),
-            ("loops, and groups of them", f"{summary['findings']['cycle']}, {summary['groups']['cycle']}"),
+            ("loops, and groups of them", f"{summary['failures']['cycle']}, {summary['groups']['cycle']}"),
             ("certificates", len(files)),
             ("accepted by `check`, by `check_certificate.py`", f"{ours}, {theirs}"),
             ("minimized loops that replay to their certified period", replayed),
