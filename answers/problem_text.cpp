@@ -3,26 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "answers/narrate_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
-
-std::string AlignedTable(const Cells& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows) {
-    for (std::size_t j = 0; j < row.size(); ++j) widths[j] = std::max(widths[j], row[j].size());
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    text += fmt::format("  {:{}}", row[0], widths[0]);
-    for (std::size_t j = 1; j < row.size(); ++j) text += fmt::format("  {:>{}}", row[j], widths[j]);
-    text += "\n";
-  }
-  return text;
-}
 
 namespace {
 
@@ -46,15 +33,17 @@ std::string ProblemText(const ExactProblem& problem, FractionText fractions) {
   if (rows == 0) return "The problem has no contact.\n";
   if (rows > kMostRows) return fmt::format("The problem a = A f + b has {} rows: see its file.\n", rows);
   const VariableTexts names(problem);
-  Cells cells = {{"a = A f + b"}};
-  for (int j = 0; j < rows; ++j) cells[0].push_back("f_" + names.Component(j));
-  cells[0].emplace_back("b");
+  std::vector<std::string> head = {"a = A f + b"};
+  for (int j = 0; j < rows; ++j) head.push_back("f_" + names.Component(j));
+  head.emplace_back("b");
+  TextTable table(std::move(head), 1);
   for (int i = 0; i < rows; ++i) {
-    auto& row = cells.emplace_back(std::vector<std::string>{"  a_" + names.Component(i)});
+    std::vector<std::string> row = {"  a_" + names.Component(i)};
     for (int j = 0; j < rows; ++j) row.push_back(Text(problem.A(i, j), fractions));
     row.push_back(Text(problem.b[i], fractions));
+    table.AddRow(std::move(row));
   }
-  return "The problem:\n" + AlignedTable(cells) + FrictionText(problem, fractions) + "\n";
+  return "The problem:\n" + table.Done() + FrictionText(problem, fractions) + "\n";
 }
 
 }  // namespace stiction

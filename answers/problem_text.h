@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A problem for people: what stands before a replay; tables of its variables.
+// A problem for people: what stands before a replay.
 
 #ifndef STICTION_ANSWERS_PROBLEM_TEXT_H_
 #define STICTION_ANSWERS_PROBLEM_TEXT_H_
 
 #include <string>
-#include <vector>
 
 #include "answers/outcome_text.h"
 #include "corpus/problem_file.h"
 
 namespace stiction {
-
-using Cells = std::vector<std::vector<std::string>>;
-
-// Columns as wide as their widest cell, the first to the left, the others to the right. Requires a row.
-std::string AlignedTable(const Cells& rows);
 
 // A and b as a table with the names of the variables, and mu of every contact. Of more than 24 rows only how
 // many there are.

@@ -51,10 +51,10 @@ BenchOptions BenchWords::Options() const {
 void AddBenchWords(Verb& verb, BenchWords& words) {
   BenchOptions& o = words.options;
   verb.Option("--suite", o.suite, "what is measured").Choices(SuiteChoices());
-  verb.Option("--contacts", o.contacts, "numbers of contacts; by default the suite's own")
+  verb.Option("-c,--contacts", o.contacts, "numbers of contacts; by default the suite's own")
       .Range(1, kMostOfAnySuite)
       .Details(MostContacts());
-  verb.Option("--problems", o.problems, "how many; by default the suite's own")
+  verb.Option("-n,--problems", o.problems, "how many; by default the suite's own")
       .AtLeast(1)
       .Details(kProblemsOfSuites);
   verb.Option("--repeat", o.repeat, "search, linear-algebra, scenes: counted runs")
@@ -62,18 +62,18 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
       .Details("peers, random, structure: 0.06 seconds each for a row and size");
   verb.Option("--seed", words.seed, "of the problems")
       .Range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max()));
-  verb.Option("--generator", words.generator, "search, sliding, patches, linear-algebra: this one alone")
+  verb.Option("-g,--generator", words.generator, "search, sliding, patches, linear-algebra: this one alone")
       .OneOf(GeneratorNames())
       .Details("methods: instead of the positive definite family");
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
   verb.Option("--families", o.families, "structure, extremes, silent, gate: these alone");
   verb.Option("--csv", o.csv, "trade, extremes: a file for the lines, with intervals");
-  verb.Option("--threads", o.threads,
+  verb.Option("-t,--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")
       .Range(1, 1024);
   verb.Flag("--exact", o.exact, "smallest: every run over rationals, which makes the search exhaustive");
   verb.Option("--entries", o.entries, "smallest: the largest integer of A and b").Range(1, 9);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -85,7 +85,7 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
                            {"programs", modes.programs}})
               << "\n";
   } else {
-    fmt::print(std::cout, "{}", SolutionsText(modes));
+    Tell("{}", SolutionsText(modes));
   }
   return complete ? kExitDone : kExitUndecided;
 }
@@ -191,7 +191,7 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   if (!o.output.empty() && decided)
     WriteText(o.output, JsonText(has_words ? SafetyCertificate(file.problem) : *by_condition, 1) + "\n");
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << (o.json ? JsonText(result) + "\n" : SafetyText(result, has_words));
+  out << (o.json ? JsonText(result) + "\n" : Folded(SafetyText(result, has_words)));
   return decided ? kExitDone : kExitUndecided;
 }
 
@@ -216,10 +216,9 @@ Json RadiusToJson(const std::optional<Rational>& radius) { return radius ? Json(
 void ShowRadiusOf(const std::string& policy, const std::optional<Rational>& radius, std::string_view what,
                   std::string_view measure) {
   if (radius)
-    fmt::print(std::cout, "{}: loops for all {} within {} of these, proved ({})\n", policy, what,
-               ToString(*radius), measure);
+    Tell("{}: loops for all {} within {} of these, proved ({})\n", policy, what, ToString(*radius), measure);
   else
-    fmt::print(std::cout, "{}: no loop of {} that is proved\n", policy, what);
+    Tell("{}: no loop of {} that is proved\n", policy, what);
 }
 
 int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
@@ -321,7 +320,7 @@ int RunCheck(const CheckOptions& o) {
     try {
       const CheckReport report = CheckText(ReadText(file), file, digest);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
-      if (!o.json) fmt::print(std::cout, "{}: {}\n", file, ReportText(report));
+      if (!o.json) Tell("{}: {}\n", file, ReportText(report));
       reports.push_back(ReportToJson(file, report));
     } catch (const InputError& error) {
       exit = kExitBadInput;
@@ -358,7 +357,7 @@ void AddCertify(CommandLine& program) {
           "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
           "the scene is built of may be off at once. Exit 3 unless each is proved. Writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }
 
@@ -366,7 +365,7 @@ void AddCheck(CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
   verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstring>
+#include <iostream>
+#include <string_view>
 
 #include "cli/help.h"
 #include "corpus/exit_code.h"
@@ -14,6 +17,9 @@
 
 namespace stiction {
 namespace {
+
+// "--json" of "-j,--json".
+std::string LongName(const OptionRow& row) { return row.name.substr(row.name.find(',') + 1); }  // npos + 1 is 0
 
 void AddRow(CLI::App& app, const OptionRow& row) {
   if (row.kind == RowKind::kFlag) {
@@ -25,7 +31,7 @@ void AddRow(CLI::App& app, const OptionRow& row) {
   }
   CLI::Option* option = app.add_option(row.name, [&row](const CLI::results_t& words) {
     const std::string error = Take(row, words);
-    if (!error.empty()) throw CLI::ValidationError(row.name, error);
+    if (!error.empty()) throw CLI::ValidationError(LongName(row), error);
     return true;
   });
   option->required(row.required);
@@ -53,8 +59,7 @@ std::string Suggestion(const std::string& word, const std::vector<std::string>& 
 std::vector<std::string> OptionNames(const Verb& verb) {
   std::vector<std::string> names = {"--help"};
   for (const OptionRow& row : verb.rows) {
-    const std::size_t comma = row.name.find(',');
-    if (row.kind != RowKind::kPositional) names.push_back(row.name.substr(comma + 1));  // npos + 1 is 0
+    if (row.kind != RowKind::kPositional) names.push_back(LongName(row));
   }
   return names;
 }
@@ -65,16 +70,20 @@ void RefuseUnknownVerb(const CommandLine& program, const std::string& word) {
     if (verb.name == word) return;
     names.push_back(verb.name);
   }
-  names.insert(names.end(), {"--help", "--version"});
-  throw InputError(fmt::format("found '{}', expected a verb{}", word, Suggestion(word, names)));
+  names.insert(names.end(), {"help", "--help", "--version"});
+  const std::string suggestion = Suggestion(word, names);
+  throw InputError(fmt::format("found '{}', expected a verb{}", word,
+                               suggestion.empty() ? "; stiction help lists them" : suggestion));
 }
 
 void RefuseUnknownWord(const Verb& verb, const std::string& word) {
   if (!word.starts_with("-") || word == "-")
     throw InputError(fmt::format("{}: found '{}', expected nothing more", verb.name, word));
   const std::string name = word.substr(0, word.find('='));
-  throw InputError(fmt::format("{}: found {}, which is none of its options{}", verb.name, name,
-                               Suggestion(name, OptionNames(verb))));
+  const std::string suggestion = Suggestion(name, OptionNames(verb));
+  throw InputError(
+      fmt::format("{}: found {}, which is none of its options{}", verb.name, name,
+                  suggestion.empty() ? fmt::format("; stiction help {} lists them", verb.name) : suggestion));
 }
 
 // One line, in the words of all other errors.
@@ -82,7 +91,8 @@ InputError Refused(const CommandLine& program, const CLI::ParseError& error, con
   constexpr const char* kOverride = " was given a disallowed flag override";  // a flag with a value
   std::string text = error.what();
   if (const auto* missing = dynamic_cast<const CLI::RequiredError*>(&error); missing != nullptr) {
-    text = fmt::format("found no {}, expected it", text.substr(0, text.find(' ')));
+    text = fmt::format("found no {}, expected it; stiction help {} says what it is",
+                       text.substr(0, text.find(' ')), verb);
   } else if (text.ends_with(kOverride)) {
     text = "--" + text.substr(0, text.size() - std::strlen(kOverride)) +
            ": found a value behind it, expected none";
@@ -103,13 +113,21 @@ InputError Refused(const CommandLine& program, const CLI::ParseError& error, con
 
 }  // namespace
 
+int CommandLine::Help(const std::string& verb) const {
+  if (!verb.empty()) RefuseUnknownVerb(*this, verb);
+  const auto named = [&verb](const Verb& each) { return each.name == verb; };
+  const auto found = std::find_if(verbs.begin(), verbs.end(), named);
+  std::cout << (found == verbs.end() ? HelpOf(*this) : HelpOf(*found));
+  return kExitDone;
+}
+
 int CommandLine::Run(int argc, char** argv) const {
+  if (argc < 2 || std::string_view(argv[1]) == "help") return Help(argc < 3 ? "" : argv[2]);
   CLI::App app;
   app.formatter_fn([this](const CLI::App*, std::string, CLI::AppFormatMode) { return HelpOf(*this); });
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   for (const Verb& verb : verbs) AddVerb(app, verb);
-  if (argc < 2) throw InputError("expected a verb; --help lists them");
   const std::string word = argv[1];
   if (word != "-h" && word != "--help" && word != "--version") RefuseUnknownVerb(*this, word);
   try {

@@ -29,6 +29,7 @@ class CommandLine {
   Added<Options> Add(std::string name, std::string help, int (*run)(const Options&)) {
     auto options = std::make_shared<Options>();
     Verb& verb = verbs.emplace_back(std::move(name), std::move(help));
+    verb.group = group;
     verb.run = [options, run] { return run(*options); };
     return {verb, *options};
   }
@@ -37,9 +38,14 @@ class CommandLine {
   int Run(int argc, char** argv) const;
 
   std::string purpose;  // one line
+  std::string group;    // of the verbs that are added next
   std::string version;
   std::string footer;
   std::deque<Verb> verbs;  // a reference to a verb stays good
+
+ private:
+  // Of the program, or of a verb.
+  int Help(const std::string& verb) const;
 };
 
 }  // namespace stiction

@@ -84,7 +84,7 @@ void AddImport(CommandLine& program) {
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 void AddExport(CommandLine& program) {
@@ -95,7 +95,7 @@ void AddExport(CommandLine& program) {
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -7,20 +7,23 @@
 #include <limits>
 #include <sstream>
 
+#include "corpus/plain_text.h"
+
 namespace stiction {
 namespace {
 
-constexpr std::size_t kWidth = 80;   // of a line
-constexpr std::size_t kColumn = 28;  // where explanations begin
+constexpr std::size_t kMostWidth = 80;  // of a line
+constexpr std::size_t kColumn = 28;     // where explanations begin
 
-// Words of the text in lines of at most kWidth, the first of which begins at column `at`, the others at
+// Words of the text in lines that fit the terminal, the first of which begins at column `at`, the others at
 // `indent`.
 std::string Wrapped(const std::string& text, std::size_t at, std::size_t indent) {
+  const std::size_t width = std::min(kMostWidth, TextWidth());
   std::string lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const bool first = lines.empty();
-    if (!first && at + 1 + word.size() > kWidth) {
+    if (!first && at + 1 + word.size() > width) {
       lines += "\n" + std::string(indent, ' ');
       at = indent;
     } else if (!first) {
@@ -149,9 +152,14 @@ std::string HelpEntry(const std::string& term, const std::string& meaning) {
 }
 
 std::string HelpOf(const CommandLine& program) {
-  std::string text = Paragraphs(program.purpose) + "\nUsage: stiction VERB [OPTIONS] ...\n\nVerbs:\n";
-  for (const Verb& verb : program.verbs) text += HelpEntry(verb.name, verb.purpose);
-  text += "\nOptions:\n" + HelpEntry("-h, --help", "this text; behind a verb, its options");
+  std::string text = Paragraphs(program.purpose) + "\nUsage: stiction VERB [OPTIONS] ...\n", group;
+  for (const Verb& verb : program.verbs) {
+    if (verb.group != group) text += "\n" + verb.group + ":\n";
+    group = verb.group;
+    text += HelpEntry(verb.name, verb.purpose);
+  }
+  text += "\nOptions:\n" +
+          HelpEntry("-h, --help", "this text; `stiction help VERB`, or behind a verb: its options");
   text += HelpEntry("--version", "version, commit, compiler and flags");
   return text + "\n" + Paragraphs(program.footer);
 }

@@ -237,7 +237,7 @@ void AddManual(CommandLine& program) {
       .Choices({{"man", "a page for man, with all verbs and words"},
                 {"man-bench", "a page for man, of the program stiction-bench"},
                 {"bash", "completion for bash"}});
-  verb.Flag("--json", o.json, "all verbs with their options, as a program reads them");
+  verb.Flag("-j,--json", o.json, "all verbs with their options, as a program reads them");
 }
 
 }  // namespace stiction

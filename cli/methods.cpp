@@ -9,6 +9,7 @@
 #include "cli/verbs.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -24,26 +25,21 @@ std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
   return plane ? "plane" : space ? "space" : "-";
 }
 
-std::string Row(const std::vector<std::string>& cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
-}
-
-// In Markdown, as it stands in solver/README.md.
 std::string Table() {
   std::vector<std::string> head = {"method"};
   for (const Arithmetic arithmetic : kShown) head.emplace_back(Name(arithmetic));
-  std::string text = Row(head) + Row(std::vector<std::string>(head.size(), "---"));
-  int refused = 0;
+  TextTable table(std::move(head), 1);
+  std::size_t refused = 0;
   for (const MethodFacts& facts : AllMethods()) {
-    std::vector<std::string> cells = {fmt::format("`{}`", facts.name)};
+    std::vector<std::string> cells = {std::string(facts.name)};
     for (const Arithmetic arithmetic : kShown) {
       cells.push_back(WhereBuilt(facts, arithmetic));
       for (const int dimension : {2, 3}) refused += !facts.IsBuilt(dimension, arithmetic);
     }
-    text += Row(cells);
+    table.AddRow(std::move(cells));
   }
-  const auto all = 2 * kShown.size() * AllMethods().size();
-  return text + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
+  const std::size_t all = 2 * kShown.size() * AllMethods().size();
+  return table.Done() + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
 }
 
 std::string Facts() {
@@ -74,7 +70,7 @@ struct MethodsOptions {
 };
 
 int List(const MethodsOptions& o) {
-  std::cout << (o.json ? JsonText(TableInJson()) + "\n" : Table() + Facts());
+  std::cout << (o.json ? JsonText(TableInJson()) + "\n" : Table() + Folded(Facts()));
   return kExitDone;
 }
 
@@ -82,7 +78,7 @@ int List(const MethodsOptions& o) {
 
 void AddMethods(CommandLine& program) {
   auto [verb, o] = program.Add("methods", "The methods, what their ends prove, and where they are built", List);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -62,9 +62,9 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
   simple.expect = {{options.policies.size() > 1 ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
   WriteText(o.output, Print(simple));
   (o.output == "-" ? std::cerr : std::cout)
-      << fmt::format("{}: {} contacts, {} choices; was {}, {}. Tried {}, took {}.\n", Name(options.keep),
-                     minimized.candidate.contacts, minimized.candidate.choices.size(), candidate.contacts,
-                     candidate.choices.size(), minimized.tried, minimized.accepted);
+      << Folded(fmt::format("{}: {} contacts, {} choices; was {}, {}. Tried {}, took {}.\n", Name(options.keep),
+                            minimized.candidate.contacts, minimized.candidate.choices.size(),
+                            candidate.contacts, candidate.choices.size(), minimized.tried, minimized.accepted));
   return kExitDone;
 }
 
@@ -151,17 +151,15 @@ int ListPolicies(const PoliciesVerb& o) {
                     {"planar", row.planar},
                     {"values", values}});
     if (o.json) continue;
-    fmt::print(std::cout, "{}: {}{}\n    {}\n", row.name, row.question,
-               row.planar ? "" : " (not in the planar grid)", row.reads);
-    for (const PolicyValue& value : row.values)
-      fmt::print(std::cout, "    {:14} {}\n", value.name, value.meaning);
+    Tell("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
+         row.reads);
+    for (const PolicyValue& value : row.values) Tell("    {:14}  {}\n", value.name, value.meaning);
   }
   if (o.json) {
     std::cout << JsonText(rows) << "\n";
   } else {
-    fmt::print(std::cout,
-               "The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
-               PlanarGrid().size());
+    Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+         PlanarGrid().size());
   }
   return kExitDone;
 }
@@ -182,13 +180,13 @@ void AddMinimize(CommandLine& program) {
   verb.Flag("--as-scene", o.as_scene,
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }
 
 void AddPolicies(CommandLine& program) {
   auto [verb, o] = program.Add("policies", "List the readings of the published text", ListPolicies);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

@@ -86,14 +86,13 @@ int RunRecords(const RecordsVerb& o) {
     if (o.check) row["fault"] = fault.empty() ? Json() : Json(fault);
     rows.push_back(std::move(row));
     if (o.json) continue;
-    fmt::print(std::cout, "{:28} {:>14}  {}, {}; random: {} of {}{}\n    {}\n", record.frontier,
-               Shown(record.value), record.objective->sign > 0 ? "to be high" : "to be low", record.status,
-               record.random_value ? Shown(*record.random_value) : "nothing",
-               Grouped(record.random_evaluations),
-               !o.check        ? ""
-               : fault.empty() ? "; holds"
-                               : "; DOES NOT HOLD: " + fault,
-               record.what);
+    Tell("{}: {}, {}, {}; random: {} of {}{}\n    {}\n", record.frontier, Shown(record.value),
+         record.objective->sign > 0 ? "to be high" : "to be low", record.status,
+         record.random_value ? Shown(*record.random_value) : "nothing", Grouped(record.random_evaluations),
+         !o.check        ? ""
+         : fault.empty() ? "; holds"
+                         : "; DOES NOT HOLD: " + fault,
+         record.what);
   }
   if (o.json) std::cout << JsonText(rows) << "\n";
   return faults == 0 ? kExitDone : kExitNotSo;
@@ -151,7 +150,7 @@ void AddRecords(CommandLine& program) {
   verb.Option("--random", o.random, "the best of random problems at equal cost; without it nothing was found");
   verb.Option("--random-evaluations", o.random_evaluations, "how many of them").AtLeast(0);
   verb.Option("--random-command", o.random_command, "what drew them");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }
 

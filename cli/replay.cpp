@@ -23,8 +23,9 @@
 #include "cli/words.h"
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "corpus/rounded.h"
-#include "reports/text/plain_text.h"
+#include "reports/pictures/moving_picture.h"
 #include "reports/viewer.h"
 
 namespace stiction {
@@ -39,7 +40,7 @@ struct ReplayOptions : Wanted {
   bool json = false;
   bool list = false;       // with all_policies: every policy
   bool fractions = false;  // for people, in full
-  std::string record, html;
+  std::string record, html, svg;
 
   PathOptions path() const { return {method, policy, options.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
@@ -120,6 +121,35 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
                                {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
+// Of a loop its period, for ever; of another run all of it.
+void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
+  constexpr std::size_t kMostStills = 200;
+  constexpr double kSeconds = 1.1;
+  if (replay.picture.is_null())
+    throw InputError(o.file, "--svg", "a problem without its scene",
+                     "a scene; --html makes a page of any problem");
+  const FollowedRun run = Followed(o.path(), replay.file, solution);
+  const bool loops = run.replay["outcome"] == "cycle";
+  const std::int64_t start = loops ? run.replay["start"].get<std::int64_t>() : 0;
+  std::vector<Still> stills;
+  for (std::size_t k = 0; k < run.replay["pivots"].size(); ++k) {
+    const Json &pivot = run.replay["pivots"][k], &told = run.narration.told[k];
+    if (told["group"].get<std::int64_t>() <= start) continue;
+    Still& still = stills.emplace_back();
+    for (const Json& f : pivot["f"])
+      still.forces.push_back(f.is_string() ? ToDouble(*ParseRational(f.get<std::string>())) : f.get<double>());
+    still.caption = fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", told["group"].dump(),
+                                told["label"].get<std::string>(), told["event"].get<std::string>());
+  }
+  if (stills.empty() || stills.size() > kMostStills)
+    throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
+                     fmt::format("1 to {}; --html makes a page of more", kMostStills));
+  const std::string title =
+      loops ? fmt::format("{}: these {} drives, again and again", replay.file.name, run.replay["period"].dump())
+            : fmt::format("{}: {}", replay.file.name, run.end);
+  WriteText(o.svg, MovingPicture(replay.picture, title, stills, kSeconds));
+}
+
 int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const ProblemFile& file = replay.file;
   const SolveRequest request = PathRequestOf(o, file.problem, o.file);
@@ -128,7 +158,8 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(file.problem, request, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
-  if (o.html == "-") return ExitOf(solution.outcome(), expected);
+  if (!o.svg.empty()) WriteMovingPicture(o, replay, solution);
+  if (o.html == "-" || o.svg == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
     Json json = ReplayToJson(o.path(), file, solution, std::move(narration), o.step);
     if (proved) json["over_intervals"] = EndToJson(*proved);
@@ -138,10 +169,8 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     std::string told = ToldForPeople(o, file, solution, narration);
     if (proved) told += OverIntervalsText(*proved) + "\n";
     if (!expected.empty() && expected != Name(solution.outcome())) told += "expected: " + expected + "\n";
-    fmt::print(std::cout, "{}", told);
-    if (o.step)
-      fmt::print(std::cout, "\nThe words (numbers in brackets are sections of the paper):\n{}",
-                 GlossaryOf(told));
+    Tell("{}", told);
+    if (o.step) Tell("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
   }
   return ExitOf(solution.outcome(), expected);
 }
@@ -183,7 +212,7 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
   for (const Policy& policy : grid) {
     const std::string name = PolicyName(policy), outcome = outcomes[name]["outcome"].get<std::string>();
     by_outcome[outcome].push_back(policy);
-    if (o.list) fmt::print(std::cout, "{:10} {}\n", outcome, name);
+    if (o.list) Tell("{:10}  {}\n", outcome, name);
   }
   for (const auto& [outcome, some] : by_outcome) {
     std::vector<std::string> common;
@@ -191,11 +220,11 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
       if (const std::string text = InCommon(row, some, grid); !text.empty()) common.push_back(text);
     }
     const bool all = some.size() == grid.size();
-    fmt::print(std::cout, "{}: {} policies{}{}\n", outcome,
-               all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
-               common.empty() ? "" : ", all with ", fmt::join(common, ", "));
+    Tell("{}: {} policies{}{}\n", outcome,
+         all ? fmt::format("all {}", grid.size()) : fmt::format("{} of {}", some.size(), grid.size()),
+         common.empty() ? "" : ", all with ", fmt::join(common, ", "));
   }
-  if (!o.list && by_outcome.size() > 1) fmt::print(std::cout, "(--list: a line for every policy)\n");
+  if (!o.list && by_outcome.size() > 1) Tell("(--list: a line for every policy)\n");
 }
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
@@ -221,8 +250,7 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   } else {
     PrintOutcomes(o, grid, outcomes);
     if (!unexpected.empty())
-      fmt::print(std::cout, "{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected",
-                 unexpected.size());
+      Tell("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected", unexpected.size());
   }
   return unexpected.empty() ? kExitDone : kExitNotSo;
 }
@@ -231,6 +259,7 @@ int Replay(const ReplayOptions& o) {
   const ReplayFile replay = ReadReplayFile(o.file);
   if (!o.all_policies) return ReplayOne(o, replay);
   if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
+  if (!o.svg.empty()) throw InputError("--svg: found --all-policies, expected one policy");
   return ReplayAll(o, replay.file);
 }
 
@@ -253,8 +282,8 @@ void AddReplay(CommandLine& program) {
   verb.Flag("--list", o.list, "a line for every policy, before the summary").Needs("--all-policies");
   verb.Option("--record", o.record, "write the problem with what happened as its `expect`")
       .Needs("--all-policies");
-  verb.Option("--method", o.method, "what to follow").Choices(PathMethodChoices());
-  verb.Option("--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
+  verb.Option("-m,--method", o.method, "what to follow").Choices(PathMethodChoices());
+  verb.Option("-a,--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
       .OneOf({kPathArithmetics.begin(), kPathArithmetics.end()});
   verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
@@ -263,7 +292,8 @@ void AddReplay(CommandLine& program) {
             "long fractions in full, which are rounded otherwise, in text for people");
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Option("--svg", o.svg, "write a picture that moves, of a scene: the forces of a loop, again and again");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
 }
 

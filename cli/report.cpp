@@ -170,7 +170,7 @@ void AddReport(CommandLine& program) {
   verb.Option("--files", o.files,
               "findings that have files of their own; tables and page have all; by default all")
       .AtLeast(0);
-  verb.Flag("--json", o.json,
+  verb.Flag("-j,--json", o.json,
             "machine output: what was written, with two stores the comparison, with --text the summary");
   AddReplace(verb, o.replace);
 }

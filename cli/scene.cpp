@@ -446,7 +446,7 @@ void AddAssemble(CommandLine& program) {
   verb.Option("--given", o.given, "stiction-scene to write: this one with its contacts given, not found");
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 void AddSimulate(CommandLine& program) {
@@ -467,20 +467,20 @@ void AddSimulate(CommandLine& program) {
   verb.Option("--frames", o.frames_a_second,
               "pictures a second of simulated time; all are kept in memory until the end")
       .Range(1, 100000);
-  verb.Option("--threads", o.threads,
+  verb.Option("-t,--threads", o.threads,
               "for independent islands; results do not depend on it; by default one per core")
       .Range(1, 1024);
-  verb.Option("--problems", o.problems, "folder for every problem met, as stiction-problem files");
+  verb.Option("-n,--problems", o.problems, "folder for every problem met, as stiction-problem files");
   verb.Flag("--full", o.full, "leave out nothing that the scene does not require");
   verb.Flag("--no-svg", o.svg, "no frames/*.svg");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 void AddDraw(CommandLine& program) {
   auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

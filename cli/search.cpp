@@ -37,11 +37,12 @@ namespace stiction {
 namespace {
 
 constexpr double kDefaultMinutes = 1;
+constexpr const char* kUsualStore = "stiction.store";
 constexpr double kLook = 2;  // seconds between looks at a store that is watched
 
 struct SearchVerb {
   std::string campaign;
-  std::string store = "stiction.store";
+  std::string store;  // empty: the usual one
   std::vector<std::string> generators, mu, policies;
   std::vector<int> contacts;
   std::optional<std::uint64_t> seed;
@@ -167,8 +168,26 @@ SearchOptions OptionsOf(const SearchVerb& o) {
   return options;
 }
 
-int RunSearchVerb(const SearchVerb& o) {
+// The usual store, unless it is of another search: then the first of NAME-2, NAME-3, ... that is not.
+std::string StoreFor(const CampaignIdentity& identity) {
+  const auto fits = [&identity](const std::string& file) {
+    return !std::filesystem::exists(std::filesystem::symlink_status(file)) ||
+           Store::IdentityIn(file) == identity;
+  };
+  std::string file = kUsualStore;
+  for (int i = 2; !fits(file); ++i)
+    file = fmt::format("{}-{}.store", std::filesystem::path(kUsualStore).stem().string(), i);
+  if (file != kUsualStore)
+    fmt::print(std::cerr, "{} holds another search ({}): this one is in {}\n", kUsualStore,
+               Difference(Store::IdentityIn(kUsualStore), identity), file);
+  return file;
+}
+
+int RunSearchVerb(const SearchVerb& asked) {
+  SearchVerb o = asked;
+  if (o.store.empty() && o.finish) o.store = kUsualStore;
   const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
+  if (o.store.empty()) o.store = StoreFor(IdentityOf(campaign));
   SearchOptions options = OptionsOf(o);
   options.started = [&] {
     fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
@@ -453,13 +472,13 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   std::vector<std::string> names;
   for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
   verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
-  verb.Option("--generator", o.generators, "only these generators").OneOf(names);
-  verb.Option("--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
+  verb.Option("-g,--generator", o.generators, "only these generators").OneOf(names);
+  verb.Option("-c,--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
   verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
-  verb.Option("--policy", o.policies, "readings to run, as 'stiction policies' lists them; by default paper")
+  verb.Option("-p,--policy", o.policies, "readings to run, as 'stiction policies' lists them; by default paper")
       .Details("'*' is the planar grid")
       .Check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
-  verb.Option("--arithmetic", o.arithmetic, "what every problem is decided with")
+  verb.Option("-a,--arithmetic", o.arithmetic, "what every problem is decided with")
       .Choices({{"double", "rounded numbers; what they do not solve is decided again, filtered"},
                 {"filtered", "certified signs at once, rationals where nothing less tells them"},
                 {"exact", "rationals"}});
@@ -483,12 +502,14 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
 void AddSearch(CommandLine& program) {
   auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
   AddCampaignOptions(verb, o);
-  verb.Option("--store", o.store, "SQLite file; a search goes on where its store stopped");
-  verb.Option("--minutes", o.minutes, "wall clock, everything counted; by default 1 without --problems")
+  verb.Option("-s,--store", o.store,
+              "SQLite file; by default stiction.store, or stiction-2.store, ... if that is of another search")
+      .Details("A search goes on where its store stopped");
+  verb.Option("-m,--minutes", o.minutes, "wall clock, everything counted; by default 1 without --problems")
       .Check(MinutesError);
-  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
+  verb.Option("-n,--problems", o.problems, "size of the whole campaign, rounded up to whole units").AtLeast(1);
   verb.Option("--shard", o.shard, "i/N: only the units u with u mod N = i; with --finish, only their findings");
-  verb.Option("--threads", o.threads, "by default one per core").Range(1, 1024);
+  verb.Option("-t,--threads", o.threads, "by default one per core").Range(1, 1024);
   verb.Option("--finishing", o.finishing, "most processor time for finishing findings")
       .Unit("%")
       .Range(0, 100)
@@ -505,7 +526,7 @@ void AddSearch(CommandLine& program) {
           "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
           "fails, "
           "or takes a minute, is reported");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
@@ -516,7 +537,7 @@ void AddStatus(CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 void AddMerge(CommandLine& program) {
@@ -524,7 +545,7 @@ void AddMerge(CommandLine& program) {
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 void AddProblem(CommandLine& program) {
@@ -538,7 +559,7 @@ void AddProblem(CommandLine& program) {
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
   verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");
 }

@@ -84,7 +84,7 @@ std::string PolicyError(const std::string& text, Grid grid) {
 
 void AddPolicyOption(Verb& verb, std::string& policy, Grid grid) {
   const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
-  verb.Option("--policy", policy,
+  verb.Option("-p,--policy", policy,
               fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
       .Check([grid](const std::string& text) { return PolicyError(text, grid); });
 }
@@ -123,7 +123,7 @@ const std::atomic<bool>& Interruption() {
 
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {
   std::ostream& out = output == "-" ? std::cerr : std::cout;
-  out << (json ? JsonText(object) + "\n" : text);
+  out << (json ? JsonText(object) + "\n" : Folded(text));
 }
 
 namespace {

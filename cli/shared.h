@@ -4,15 +4,20 @@
 #ifndef STICTION_CLI_SHARED_H_
 #define STICTION_CLI_SHARED_H_
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <filesystem>
+#include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answers/outcome_text.h"
 #include "cli/verb.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
+#include "corpus/plain_text.h"
 #include "corpus/problem_file.h"
 #include "corpus/progress_bar.h"
 #include "corpus/read_problem.h"
@@ -53,6 +58,12 @@ Json StatisticsToJson(const S& statistics) {
   Json json = Json::object();
   ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
   return json;
+}
+
+// Text for people on standard output, in lines that fit the terminal.
+template <class... Args>
+void Tell(fmt::format_string<Args...> text, Args&&... args) {
+  std::cout << Folded(fmt::format(text, std::forward<Args>(args)...));
 }
 
 // What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard

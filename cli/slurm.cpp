@@ -288,13 +288,13 @@ void AddSlurm(CommandLine& program) {
       "program.";
   verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file").Required();
   verb.Option("--shards", o.shards, "tasks; each should take minutes").Required().Range(1, 100000);
-  verb.Option("--problems", o.problems, "size of the whole campaign, rounded up to whole units")
+  verb.Option("-n,--problems", o.problems, "size of the whole campaign, rounded up to whole units")
       .Required()
       .AtLeast(1);
   verb.Option("-o,--output", o.folder, "folder to write, which every node sees").Required();
   verb.Option("--cpus", o.cpus, "cores of a task").Range(1, 1024);
   verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddReplace(verb, o.replace);
 }
 

@@ -4,10 +4,13 @@
 #include "certify/solve.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "answers/answer_text.h"
 #include "answers/narrate_text.h"
@@ -17,6 +20,7 @@
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
+#include "corpus/input_error.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
 
@@ -24,7 +28,8 @@ namespace stiction {
 namespace {
 
 struct SolveVerb : Wanted {
-  std::string file;
+  std::vector<std::string> files;
+  std::string file;  // of them the one that is solved
   double seconds = 0;
   bool fractions = false;  // for people, in full
   bool json = false;
@@ -102,13 +107,15 @@ std::string VariablesTable(const ExactProblem& problem, const Json& result, Frac
   }
   if (columns.empty()) return "";
   const VariableTexts names(problem);
-  Cells rows = {{""}};
-  rows[0].insert(rows[0].end(), columns.begin(), columns.end());
+  std::vector<std::string> head = {""};
+  head.insert(head.end(), columns.begin(), columns.end());
+  TextTable table(std::move(head), 1);
   for (int i = 0; i < problem.rows(); ++i) {
-    auto& row = rows.emplace_back(std::vector<std::string>{names.Component(i)});
+    std::vector<std::string> row = {names.Component(i)};
     for (const std::string& column : columns) row.push_back(NumberText(result[column][i], fractions));
+    table.AddRow(std::move(row));
   }
-  return AlignedTable(rows);
+  return table.Done();
 }
 
 std::string WithBlanks(std::string name) {
@@ -140,10 +147,10 @@ std::string AssumptionsText(const Json& assumptions, const std::string& file, in
 void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solution& solution,
                     const Json& result) {
   const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
-  fmt::print(std::cout, "{}\n{}", OutcomeSentence(result, solution),
-             VariablesTable(problem, result, fractions));
+  Tell("{}\n", OutcomeSentence(result, solution));
+  std::cout << VariablesTable(problem, result, fractions);
   if (result.contains("unique_accelerations"))
-    fmt::print(std::cout, "another solution with other accelerations is known; this is the one at rest\n");
+    Tell("another solution with other accelerations is known; this is the one at rest\n");
   for (const auto& [key, value] : result.items()) {
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
                       key == "ray" || key == "reason" || key == "unique_accelerations";
@@ -152,7 +159,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
                                                   : value.dump();
-    fmt::print(std::cout, "{:15} {}\n", WithBlanks(key), text);
+    Tell("{:15}  {}\n", WithBlanks(key), text);
   }
 }
 
@@ -170,8 +177,14 @@ void RequireForSparse(const SolveVerb& o, const SparseProblem& problem) {
   if (!o.law.empty() && o.law != "coulomb") refuse("--law " + o.law);
 }
 
+// What was asked of one file, and how it ended.
+struct Answered {
+  Json result;
+  int exit;
+};
+
 // More rows than a dense matrix is made for.
-int SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
+Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
   RequireForSparse(o, problem);
   const StopAfter stop(o.seconds);
   SolveOptions options = o.options;
@@ -181,15 +194,11 @@ int SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
   if (o.method == kAutomatic)
     result["why"] = fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
   result["assumptions"] = FailedAssumptions(problem);
-  if (o.json) {
-    std::cout << JsonText(result) << "\n";
-  } else {
-    PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
-  }
-  return ExitOf(solution.outcome());
+  if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
+  return {result, ExitOf(solution.outcome())};
 }
 
-int RunSolve(const SolveVerb& o) {
+Answered SolveOne(const SolveVerb& o) {
   const auto read = ReadAnySize(o.file);
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
   const auto& file = std::get<ProblemFile>(read);
@@ -201,12 +210,41 @@ int RunSolve(const SolveVerb& o) {
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
   result["assumptions"] = FailedAssumptions(file.problem);
-  if (o.json) {
-    std::cout << JsonText(result) << "\n";
-  } else {
-    PrintForPeople(o, file.problem, solution, result);
+  if (!o.json) PrintForPeople(o, file.problem, solution, result);
+  return {result, ExitOf(solution.outcome())};
+}
+
+// Of many files each answer has the name of its file, and one that is refused does not keep the others from
+// being solved. Exit: 2 if one was refused, else 1 if one is not solved, else 3 if one is undecided.
+int SolveMany(SolveVerb o) {
+  constexpr std::array kWorst = {kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};
+  const auto severity = [&](int exit) { return std::find(kWorst.begin(), kWorst.end(), exit); };
+  Json results = Json::array();
+  int exit = kExitDone;
+  for (const std::string& file : o.files) {
+    o.file = file;
+    if (!o.json) Tell("{}{}:\n", results.empty() ? "" : "\n", file);
+    try {
+      Answered answered = SolveOne(o);
+      results.push_back({{"file", file}, {"answer", std::move(answered.result)}});
+      if (severity(answered.exit) < severity(exit)) exit = answered.exit;
+    } catch (const InputError& error) {
+      std::cerr << "stiction: " << error.what() << "\n";
+      results.push_back({{"file", file}, {"error", error.what()}});
+      exit = kExitBadInput;
+    }
   }
-  return ExitOf(solution.outcome());
+  if (o.json) std::cout << JsonText(results) << "\n";
+  return exit;
+}
+
+int RunSolve(const SolveVerb& asked) {
+  SolveVerb o = asked;
+  if (o.files.size() > 1) return SolveMany(std::move(o));
+  o.file = o.files.front();
+  const Answered answered = SolveOne(o);
+  if (o.json) std::cout << JsonText(answered.result) << "\n";
+  return answered.exit;
 }
 
 std::vector<AllowedValue> MethodChoices() {
@@ -219,13 +257,13 @@ std::vector<AllowedValue> MethodChoices() {
 }  // namespace
 
 void AddSolve(CommandLine& program) {
-  auto [verb, o] = program.Add("solve", "Solve one problem", RunSolve);
+  auto [verb, o] = program.Add("solve", "Solve problems", RunSolve);
   verb.footer =
       "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "
       "no-solution is proved, and `certify` writes the proof; the others say how the method ended.";
-  verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
-  verb.Option("--method", o.method, "what solves it").Choices(MethodChoices());
-  verb.Option("--arithmetic", o.arithmetic, "what it computes with")
+  verb.Positional("FILE", o.files, kFileHelp).Required().Details(kFileDetails);
+  verb.Option("-m,--method", o.method, "what solves it").Choices(MethodChoices());
+  verb.Option("-a,--arithmetic", o.arithmetic, "what it computes with")
       .OneOf({kArithmeticNames.begin(), kArithmeticNames.end()})
       .Details(
           "By default exact where the method is built so, double for method fast and for large problems. "
@@ -246,7 +284,7 @@ void AddSolve(CommandLine& program) {
       .Range(0, 1e9);
   verb.Flag("--fractions", o.fractions,
             "long fractions in full, which are rounded otherwise, in text for people");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
   AddTolerances(verb, o.options.tolerances);
 }

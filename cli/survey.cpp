@@ -402,7 +402,6 @@ std::vector<std::filesystem::path> FilesOf(const std::vector<std::string>& paths
 int Survey(const SurveyOptions& o) {
   int exit = kExitDone;
   Json entries = Json::array();
-  bool headed = o.json;
   ProgressBar bar;
   const std::vector<std::filesystem::path> files = FilesOf(o.paths);
   if (files.empty())
@@ -416,7 +415,6 @@ int Survey(const SurveyOptions& o) {
       Json entry = Judge(ReadSparseProblem(file), file.string(), o);
       entry["file"] = file.string();
       bar.Clear();
-      if (!std::exchange(headed, true)) PrintSurveyHead();
       if (!o.json) PrintSurveyed(entry);
       std::fflush(stdout);
       entries.push_back(std::move(entry));
@@ -441,7 +439,8 @@ void AddSurvey(CommandLine& program) {
   verb.footer =
       "The error is the largest of any acceleration or force, by Coulomb's law, in units of what acts at its "
       "contact: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned doubles, "
-      "evaluated over rationals on the matrix of the row. Witnesses of what fails: "
+      "evaluated over rationals on the matrix of the problem. A - A' and the distance of b from the range of A "
+      "are relative; `rough` is an estimate of the latter, the others are bounds. Witnesses of what fails: "
       "`certify FILE --claim psd` or `--claim in-range`.";
   verb.Positional("PATH", o.paths, "problems in any form that is read, or folders of files")
       .Required()
@@ -450,7 +449,7 @@ void AddSurvey(CommandLine& program) {
       .Range(0, kMostDenseRows);
   verb.Flag("--suspicions", o.suspicions, "in the plane: also the published algorithm over doubles")
       .Details("Over rationals only what no run over doubles solves with a residual of at most 1e-6");
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
 }
 

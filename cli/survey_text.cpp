@@ -2,7 +2,6 @@
 #include "cli/survey_text.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/shared.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -37,43 +37,31 @@ std::string RoughText(const Json& facts) {
   return Short(facts["range"]["rough distance"].get<double>());
 }
 
-constexpr const char* kRow = "{:42} {:>7} {:>7}  {:18} {:8} {:>7}  {:16} {:>8} {:>8}  {}\n";
-
-void PrintRow(const std::string& file, const std::string& contacts, const std::string& asymmetry,
-              const Json& facts, const Json& run) {
-  std::string method = run["method"].get<std::string>();
-  if (run.contains("arithmetic")) method += ", " + run["arithmetic"].get<std::string>();
-  std::string outcome = run["outcome"].get<std::string>();
-  if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
-  const bool first = !facts.is_null();
-  fmt::print(kRow, file, contacts, asymmetry, first ? CurvatureText(facts["curvature"]) : "",
-             first ? RangeText(facts["range"]) : "", first ? RoughText(facts) : "", method,
-             run.contains("residual") ? Short(run["residual"].get<double>()) : "",
-             run.contains("seconds") ? fmt::format("{:.3f}", run["seconds"].get<double>()) : "", outcome);
-}
-
-// The facts once, then a line for every run.
-void PrintRuns(const std::string& file, const std::string& contacts, const std::string& asymmetry,
-               const Json& facts) {
-  bool first = true;
+// The facts in a line, then a table of the runs.
+void PrintRuns(const std::string& head, const std::string& asymmetry, const Json& facts) {
+  const std::string rough = RoughText(facts);
+  Tell("{}\n  A - A' {}; A psd: {}; b in range: {}{}\n", head, asymmetry, CurvatureText(facts["curvature"]),
+       RangeText(facts["range"]), rough.empty() ? "" : "; rough " + rough);
+  TextTable table({"method", "outcome", "error", "seconds"}, 2);
   for (const Json& run : facts["runs"]) {
-    first ? PrintRow(file, contacts, asymmetry, facts, run) : PrintRow("", "", "", nullptr, run);
-    first = false;
+    std::string method = run["method"].get<std::string>();
+    if (run.contains("arithmetic")) method += ", " + run["arithmetic"].get<std::string>();
+    std::string outcome = run["outcome"].get<std::string>();
+    if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
+    table.AddRow({method, outcome, run.contains("residual") ? Short(run["residual"].get<double>()) : "",
+                  run.contains("seconds") ? fmt::format("{:.3f}", run["seconds"].get<double>()) : ""});
   }
+  std::cout << table.Done();
 }
 
 }  // namespace
 
-void PrintSurveyHead() {
-  fmt::print(kRow, "problem", "contacts", "A - A'", "A psd", "b in", "rough", "method", "error", "seconds",
-             "outcome");
-}
-
 void PrintSurveyed(const Json& entry) {
-  PrintRuns(std::filesystem::path(entry["file"].get<std::string>()).filename().string(),
-            fmt::format("{} {}D", entry["contacts"].get<int>(), entry["dimension"].get<int>()),
+  const std::string name = std::filesystem::path(entry["file"].get<std::string>()).filename().string();
+  PrintRuns(fmt::format("{}: {} contacts{}", name, entry["contacts"].get<int>(),
+                        entry["dimension"] == 3 ? " in space" : ""),
             Short(entry["asymmetry"]["relative"].get<double>()), entry);
-  if (entry.contains("symmetrized")) PrintRuns("  (A + A')/2", "", "0", entry["symmetrized"]);
+  if (entry.contains("symmetrized")) PrintRuns("with (A + A')/2 in place of A:", "0", entry["symmetrized"]);
 }
 
 namespace {
@@ -135,11 +123,11 @@ std::string MeetingText(const Json& entries) {
 }  // namespace
 
 void PrintSurveySentences(const Json& entry) {
-  fmt::print(std::cout, "\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
+  Tell("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
   if (!entry.contains("symmetrized")) return;
   const Json& symmetrized = entry["symmetrized"];
-  fmt::print(std::cout, "With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n",
-             AssumptionsText(symmetrized), RunsText(symmetrized));
+  Tell("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n", AssumptionsText(symmetrized),
+       RunsText(symmetrized));
 }
 
 void PrintSurveyCounts(const Json& entries, bool suspicions) {
@@ -151,12 +139,12 @@ void PrintSurveyCounts(const Json& entries, bool suspicions) {
       ++counts[method][run["outcome"].get<std::string>()];
     }
   }
-  fmt::print(std::cout, "\n{}Each method, and how it ended{}:\n", MeetingText(entries),
-             suspicions ? "; exact: those that doubles leave open" : "");
+  Tell("\n{}Each method, and how it ended{}:\n", MeetingText(entries),
+       suspicions ? "; exact: those that doubles leave open" : "");
   for (const auto& [method, outcomes] : counts) {
     std::vector<std::string> parts;
     for (const auto& [outcome, count] : outcomes) parts.push_back(fmt::format("{} {}", outcome, count));
-    fmt::print(std::cout, "{:24} {}\n", method, fmt::join(parts, ", "));
+    Tell("{:24}  {}\n", method, fmt::join(parts, ", "));
   }
 }
 

@@ -10,7 +10,6 @@ namespace stiction {
 
 inline constexpr double kMostRounding = 1e-2;  // A - A' up to this part of A may be rounding, and is mended
 
-void PrintSurveyHead();
 // The facts once, then a line for every run; the same of (A + A')/2, if that was judged.
 void PrintSurveyed(const Json& entry);
 // Of one problem: what it meets, and what became of it.

@@ -103,6 +103,7 @@ class Verb {
 
   std::string name;
   std::string purpose;                       // one line
+  std::string group;                         // in the list of verbs
   std::string footer;                        // behind the rows of the help
   std::vector<std::string>* rest = nullptr;  // takes all words as they are, --help too
   std::deque<OptionRow> rows;                // a reference to a row stays good

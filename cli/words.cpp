@@ -134,7 +134,7 @@ std::string GlossaryOf(std::string_view text) {
 
 void AddWords(CommandLine& program) {
   auto [verb, o] = program.Add("words", "What the words of answers and replays mean", List);
-  verb.Flag("--json", o.json, "machine output");
+  verb.Flag("-j,--json", o.json, "machine output");
 }
 
 }  // namespace stiction

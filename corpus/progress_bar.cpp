@@ -6,15 +6,21 @@
 
 #include <algorithm>
 
+#include "corpus/plain_text.h"
+
 namespace stiction {
 
 ProgressBar::ProgressBar(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
 
 void ProgressBar::Show(double fraction, const std::string& text) {
-  constexpr int kWidth = 20;
+  constexpr std::size_t kWidth = 20;
   if (!terminal_) return Log(fraction, text);
-  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
-  fmt::print(out_, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
+  const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * kWidth);
+  std::string line =
+      fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), text);
+  const std::size_t most = TextWidth(fileno(out_)) - 1;  // behind the last column some terminals begin a line
+  if (line.size() > most) line.resize(most);
+  fmt::print(out_, "\r\033[K{}", line);
   std::fflush(out_);
 }
 

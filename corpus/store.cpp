@@ -169,9 +169,7 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
     return;
   }
   throw InputError(
-      fmt::format("{}: holds another campaign: {}. Go on with the same options and, of another version, with a "
-                  "build of it, or "
-                  "start a new store with --store NEW_FILE",
+      fmt::format("{}: holds another search: {}; search with the same options, or with --store NEW_FILE",
                   file.string(), Difference(*stored, identity)));
 }
 

@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/campaign_identity.h"
 #include "corpus/statistics.h"
 #include "corpus/work.h"
 
@@ -39,16 +40,6 @@ namespace stiction {
 
 class Statement;
 struct StoreTable;
-
-// Two stores belong together if all of this is equal. Shards and builds are no part of it.
-struct CampaignIdentity {
-  std::string definition;  // canonical JSON: generators, sizes, palette, unit size, ...
-  std::uint64_t seed = 0;
-  std::string policies;  // JSON list of canonical names
-  int algorithm = 1;     // version of what a search computes (search/algorithm_version.h)
-
-  bool operator==(const CampaignIdentity&) const = default;
-};
 
 struct Shard {
   int index = 0;

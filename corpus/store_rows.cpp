@@ -269,17 +269,4 @@ std::int64_t FirstUnit(const Shard& shard, std::int64_t block) {
   return block * Store::kUnitsPerBlock * shard.count + shard.index;
 }
 
-std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted) {
-  const auto differ = [](const char* what, const std::string& there, const std::string& here) {
-    return fmt::format("its {} is {}, this campaign's is {}", what, there, here);
-  };
-  if (stored.seed != wanted.seed)
-    return differ("seed", std::to_string(stored.seed), std::to_string(wanted.seed));
-  if (stored.algorithm != wanted.algorithm)
-    return differ("version of the algorithm", std::to_string(stored.algorithm),
-                  std::to_string(wanted.algorithm));
-  if (stored.policies != wanted.policies) return differ("set of policies", stored.policies, wanted.policies);
-  return differ("definition", stored.definition, wanted.definition);
-}
-
 }  // namespace stiction

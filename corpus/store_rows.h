@@ -116,9 +116,6 @@ std::int64_t FirstUnit(const Shard& shard, std::int64_t block);
 inline constexpr const char* kUnitsOfBlock =
     "WITH RECURSIVE of_block(unit) AS (SELECT ? UNION ALL SELECT unit + ? FROM of_block LIMIT ?)";
 
-// "its seed is 7, this campaign's is 8"; of campaigns that differ.
-std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted);
-
 // Throws what the last call on a database says: it cannot be written, or it is damaged or none.
 [[noreturn]] void RefuseDatabase(sqlite3* db);
 

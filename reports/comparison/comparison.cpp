@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "corpus/counts.h"
@@ -15,11 +16,11 @@
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "reports/comparison/comparison_page.h"
 #include "reports/report_files.h"
 #include "reports/tables/csv.h"
 #include "reports/tables/friction_order.h"
-#include "reports/text/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -154,40 +155,18 @@ void AddTests(Comparison& comparison) {
 
 // ---- What differs by design ----
 
-// A definition key by key; of one that is no object the whole.
-std::map<std::string, std::string> PartsOf(const std::string& definition) {
-  const Json json = Json::parse(definition, nullptr, false);
-  if (!json.is_object()) return {{"definition", definition}};
-  std::map<std::string, std::string> parts;
-  for (const auto& [key, value] : json.items()) parts[key] = PlainValue(value);
-  return parts;
-}
-
 std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignIdentity& b) {
+  constexpr std::string_view kVersion = "version of the algorithm";
   std::vector<std::string> lines;
-  const auto add = [&lines](const std::string& what, const std::string& left, const std::string& right) {
-    if (left != right)
-      lines.push_back(
-          fmt::format("{}: A: {}; B: {}", what, left.empty() ? "none" : left, right.empty() ? "none" : right));
-  };
   if (a.algorithm != b.algorithm) {
-    lines.push_back(
-        fmt::format("version of the algorithm: {} in A, {} in B. What differs below can be that of the two "
-                    "programs",
-                    a.algorithm, b.algorithm));
+    lines.push_back(fmt::format("{}: {} in A, {} in B. What differs below can be that of the two programs",
+                                kVersion, a.algorithm, b.algorithm));
   }
-  auto parts_a = PartsOf(a.definition), parts_b = PartsOf(b.definition);
-  std::set<std::string> keys;
-  for (const auto* parts : {&parts_a, &parts_b}) {
-    for (const auto& [key, value] : *parts) keys.insert(key);
+  for (const auto& [part, of_a, of_b] : DifferencesOf(a, b)) {
+    if (part != kVersion)
+      lines.push_back(
+          fmt::format("{}: A: {}; B: {}", part, of_a.empty() ? "none" : of_a, of_b.empty() ? "none" : of_b));
   }
-  for (const std::string& key : keys) add(key, parts_a[key], parts_b[key]);
-  const auto policies = [](const CampaignIdentity& identity) {
-    const Json json = Json::parse(identity.policies, nullptr, false);
-    return json.is_array() ? PlainValue(json) : identity.policies;
-  };
-  add("readings", policies(a), policies(b));
-  add("seed", std::to_string(a.seed), std::to_string(b.seed));
   if (a.seed == b.seed)
     lines.push_back(
         fmt::format("seed: {} in both. The tests take problems for independent draws, which those of one "

@@ -14,7 +14,7 @@
 #include "reports/html/template.h"
 #include "reports/page/page.h"
 #include "reports/tables/csv.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {

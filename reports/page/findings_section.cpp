@@ -11,7 +11,7 @@
 #include "reports/page/findings_data.h"
 #include "reports/page/page.h"
 #include "reports/pictures/finding_picture.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {

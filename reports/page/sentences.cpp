@@ -10,7 +10,7 @@
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "reports/page/page.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {

@@ -18,7 +18,7 @@
 #include "reports/html/html.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/friction_order.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {

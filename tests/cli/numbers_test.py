@@ -17,7 +17,7 @@ import cli
 
 # With loops, wrong answers, and runs that doubles misjudge: numbers that are all different.
 CAMPAIGN = ("--seed", 5, "--generator", "scenes", "near-degenerate", "integers", "--contacts", 2, 3, "--mu", "1", "2",
-            "--policy", "paper", "ties=contacts", "--audit-every", 50, "--problems", 60000, "--finishing", 400)
+            "--policy", "paper", "ties=contacts", "--audit-every", 50, "--problems", 60000, "--finishing", 20)
 SOLVED, CYCLE, STALL, UNDECIDED = 0, 1, 2, 6
 
 

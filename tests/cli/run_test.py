@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `./run` says on a machine that has nothing yet: the package manager and the build are stood in for."""
+"""./run, in a folder where a program is built and another build is at work: nothing that needs no build waits for it.
 
+run_test.py PATH_TO_STICTION
+"""
+
+import fcntl
 import os
 import shutil
 import subprocess
@@ -8,48 +12,60 @@ import unittest
 
 import cli
 
-APT = """#!/bin/bash
-[[ $1 == install ]] || exit 0
-for percent in 0 30.5 100; do echo "dlstatus:1:$percent:Retrieving file" >&3; done
-echo "Unpacking g++"
-for percent in 0 10 19.9 20 55 100; do echo "pmstatus:g++:$percent:Installing g++ (amd64)" >&3; done
-exit $APT_STATUS
-"""
-NINJA = """#!/bin/bash
-[[ $1 == -C ]] && printf '#!/bin/bash\necho "$@"\n' >"$2/stiction" && chmod +x "$2/stiction"
-"""
+# Says what it was called with.
+PROGRAM = '#!/bin/sh\necho "called: $*"\n'
 
 
-@unittest.skipUnless(os.geteuid() == 0, "SKIPPED: packages are installed by root")
-class FirstRun(cli.TestCase):
-    def run_search(self, apt_status=0):
-        bin_folder = self.folder / "bin"
-        bin_folder.mkdir()
-        for name, text in {"apt-get": APT, "ninja": NINJA, "cmake": "#!/bin/bash\n", "dpkg-query": "#!/bin/bash\n"}.items():
-            (bin_folder / name).write_text(text)
-            (bin_folder / name).chmod(0o755)
+@unittest.skipIf(cli.SHORT, "the script is the same for every build")
+class WhileAnotherBuilds(cli.TestCase):
+    def setUp(self):
+        super().setUp()
         shutil.copy(cli.ROOT / "run", self.folder / "run")
-        environment = {**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}", "APT_STATUS": str(apt_status)}
-        done = subprocess.run([self.folder / "run", "search", "--minutes", "1"], env=environment, text=True,
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=60)
-        self.assertPlain(cli.Run(done.returncode, done.stdout, done.stderr))
-        return done
+        self.build = self.folder / "build/release"
+        self.build.mkdir(parents=True)
+        # No package is asked for: a Debian without them is another test's.
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool in ("dirname", "readlink", "mkdir", "flock", "cat", "sleep"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        self.environment = {**os.environ, "PATH": str(tools)}
+        holder = os.open(self.build, os.O_RDONLY)
+        self.addCleanup(os.close, holder)
+        fcntl.flock(holder, fcntl.LOCK_EX)
 
-    def test_every_stage_is_announced_and_the_installation_says_how_far_it_is(self):
-        done = self.run_search()
-        self.assertEqual((done.returncode, done.stdout), (0, "search --minutes 1\n"), done.stderr)
-        says = [line.removeprefix("run: ") for line in done.stderr.splitlines()]
-        self.assertRegex(says[0], r"^installing g\+\+ cmake .*minutes")
-        self.assertEqual(says[1:8], ["downloading: 0 %", "downloading: 30 %", "downloading: 100 %", "installing: 0 %",
-                                     "installing: 20 %", "installing: 55 %", "installing: 100 %"])
-        self.assertRegex(says[8], "^configuring build/release$")
-        self.assertRegex(says[9], "^building in build/release: minutes")
-        self.assertNotIn("Unpacking", done.stderr)
+    def make(self, *names):
+        for name in names:
+            (self.build / name).write_text(PROGRAM)
+            (self.build / name).chmod(0o755)
 
-    def test_an_installation_that_fails_shows_what_the_package_manager_said(self):
-        done = self.run_search(apt_status=100)
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("Unpacking g++", done.stderr)
+    def called(self, *words, seconds=20):
+        return subprocess.run([shutil.which("bash"), self.folder / "run", *words], env=self.environment, text=True,
+                              capture_output=True, timeout=seconds)
+
+    def test_help_and_a_program_that_is_there_do_not_wait(self):
+        self.make("stiction", "stiction-ipopt")
+        for words, said in ((["help"], "called: help"), (["--help"], "called: help"), ([], "called: help"),
+                            (["help", "solve"], "called: help solve"), (["solve", "--help"], "called: help solve"),
+                            (["solve", "-h"], "called: help solve"), (["solve", "x.json"], "called: solve x.json")):
+            with self.subTest(words=words):
+                done = self.called(*words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(said, done.stdout)
+        self.assertIn("another build is at work", self.called("solve", "x.json").stderr)
+
+    def test_help_of_what_is_not_built(self):
+        done = self.called("help")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("./run test", done.stdout)
+        done = self.called("help", "solve")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nothing is built yet; ./run solve --help", done.stderr)
+
+    def test_a_program_that_is_not_there_is_waited_for(self):
+        self.make("stiction")  # but not stiction-ipopt
+        with self.assertRaises(subprocess.TimeoutExpired) as waited:
+            self.called("solve", "x.json", seconds=2)
+        self.assertIn(b"waiting for another build", waited.exception.stderr)
 
 
 if __name__ == "__main__":

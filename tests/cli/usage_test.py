@@ -100,7 +100,7 @@ class Usage(cli.TestCase):
         folder.mkdir()
         nothing, text, empty = self.folder / "none", self.file("text.json", "hello"), self.file("empty.json", "")
         uses = [
-            ((), ["expected a verb"]),
+            (("help", "slove"), ["'slove'", "solve?"]),
             (("solv", problem), ["'solv'", "solve?"]),
             (("--nonsense",), ["'--nonsense'", "expected a verb"]),
             (("solve",), ["solve: found no FILE", "expected it"]),
@@ -112,7 +112,7 @@ class Usage(cli.TestCase):
             (("survey",), ["survey: found no PATH"]),
             (("solve", problem, "--nonsense"), ["--nonsense", "none of its options"]),
             (("solve", problem, "--polcy", "paper"), ["--polcy", "--policy?"]),
-            (("solve", problem, problem), ["expected nothing more"]),
+            (("replay", problem, problem), ["expected nothing more"]),
             (("policies", "x"), ["'x'", "expected nothing more"]),
             (("solve", nothing), [nothing, "No such file", "expected a file"]),
             (("solve", self.folder), ["a directory", "expected a file"]),
@@ -165,8 +165,8 @@ class Usage(cli.TestCase):
             (("manual", "--format", "html"), ["'html'", "man, man-bench, bash"]),
             (("--vesion",), ["'--vesion'", "did you mean --version?"]),
             (("solve", ""), ["''", "No such file", "expected a file"]),
-            (("solve", problem, "-"), ["'-'", "expected nothing more"]),
-            (("solve", "--", problem, problem), ["expected nothing more"]),
+            (("replay", problem, "-"), ["'-'", "expected nothing more"]),
+            (("replay", "--", problem, problem), ["expected nothing more"]),
             (("solve", problem, "--json=maybe"), ["--json: found a value", "expected none"]),
             (("solve", problem, "--json=1"), ["--json: found a value", "expected none"]),
             (("solve", problem, "--method="), ["--method: found nothing behind it"]),

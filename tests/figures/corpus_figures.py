@@ -163,8 +163,13 @@ def wrong_in_doubles(program):
 
 
 def methods_built(program):
-    """The table of methods, as the program prints it."""
-    return "\n\n".join(program.text("methods").split("\n\n")[:2])
+    """Where each method is built."""
+    methods = program.json("methods")
+    names = ("float", "double", "long-double", "quad", "interval", "filtered", "exact")
+    rows = [[f"`{m['name']}`", *(", ".join(where for where in ("plane", "space") if name in m[where]) or "-"
+                                for name in names)] for m in methods]
+    refused = 2 * len(names) * len(methods) - sum(len(m["plane"]) + len(m["space"]) for m in methods)
+    return table(["method", *names], rows) + f"\n\n{refused} of {2 * len(names) * len(methods)} combinations are refused."
 
 
 def safe_by_condition(program):
@@ -246,7 +251,7 @@ def certificates(program):
             replayed += replays_as_certified(program, certificate, problem)
             whole_grid += sum(len(run["policies"]) for run in certificate["witness"]["runs"]) == grid
     rows = [("problems, of two contacts", count(summary["problems"])),
-            ("loops, and groups of them", f"{summary['findings']['cycle']}, {summary['groups']['cycle']}"),
+            ("loops, and groups of them", f"{summary['failures']['cycle']}, {summary['groups']['cycle']}"),
             ("certificates", len(files)),
             ("accepted by `check`, by `check_certificate.py`", f"{ours}, {theirs}"),
             ("minimized loops that replay to their certified period", replayed),

@@ -139,7 +139,7 @@ class Intervals(unittest.TestCase):
             program = Program(PROGRAM, folder)
             summary = program.json("search", "--generator", "bodies", "--contacts", 2, "--problems", 20000,
                                    "--store", Path(folder) / "s")
-            cycles, runs = summary["findings"]["cycle"], summary["runs"]
+            cycles, runs = summary["failures"]["cycle"], summary["runs"]
             rate = summary["rates"]["cycle"]["interval"]
             for mine, end in zip(intervals.garwood(cycles), ("low", "high")):
                 self.assertAlmostEqual(rate[end], 1e6 * mine / runs, 6)

@@ -35,7 +35,8 @@ SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers_search.cpp", "bench/
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
 
 FIGURES = [
-    Figure("headline-loop", "README.md", "cheap", corpus.headline_loop),
+    Figure("first-search", "README.md", "minutes", search.first_search, SEARCH),
+    Figure("headline-loop", "certify/results.md", "cheap", corpus.headline_loop),
     Figure("readings", "solver/published/readings.md", "cheap", corpus.readings),
     Figure("certificates", "cli/tour.md", "cheap", corpus.certificates),
     Figure("records", "search/adversary/frontiers.md", "cheap", corpus.records),

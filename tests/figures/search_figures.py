@@ -21,7 +21,7 @@ class Cell:
 
     def __init__(self, program, *options, problems, seeds=SEEDS):
         self.sums = collections.Counter()
-        self.findings = collections.Counter()
+        self.failures = collections.Counter()
         for seed in seeds:
             self.add(program, options, problems // len(seeds), seed)
 
@@ -29,14 +29,24 @@ class Cell:
         with tempfile.TemporaryDirectory(dir=program.folder) as folder:
             summary = program.json("search", *options, "--problems", problems, "--seed", seed, "--store", f"{folder}/s",
                                    shown=False)
-        self.findings.update(summary["findings"])
+        self.failures.update(summary["failures"])
         self.sums.update({key: value for key, value in summary.items() if isinstance(value, int)})
 
     def __getitem__(self, key):
         return self.sums[key]
 
     def loops(self):
-        return sum(number for label, number in self.findings.items() if label.split("-")[-1] == "cycle")
+        return self.failures["cycle"] + self.failures["stall"]
+
+
+def first_search(program):
+    """How the first minute of a search ends: what it says first, and last."""
+    text = program.text("search", "--store", program.folder / "stiction.store", shown=False)
+    program.show("./run search")
+    lines = text.splitlines()
+    simplest = lines.index("Simplest, proved and minimized:")
+    shown = [*lines[:4], "  ...", *lines[simplest:simplest + 4], "  ...", *lines[-3:]]
+    return "\n".join("    " + line.replace(f"{program.folder}/", "") for line in shown)
 
 
 def together(function, cells):
@@ -78,7 +88,7 @@ def scenes_by_mu(program):
 
     cells, rows = together(cell_of, kinds), []
     for (contacts, mu), cell in zip(kinds, cells):
-        of, loops, singular = cell["runs"], cell.loops(), cell.findings["singular"]
+        of, loops, singular = cell["runs"], cell.loops(), cell.failures["singular"]
         rows.append((contacts, mu, count(of), loops, rate(loops, of), singular, rate(singular, of)))
     program.show("./run search --generator scenes --contacts CONTACTS --mu MU --problems N --seed SEED --store S")
     head = ["contacts", "mu", "problems", "loops", "in a million", "no direction", "in a million"]
@@ -119,15 +129,19 @@ def report_rows(program, store, name):
         return list(csv.DictReader(file))
 
 
+def found_loops(program, store, kinds=("cycle", "stall", "safe-cycle")):
+    """Of a store, with those that audits found."""
+    return sum(int(row["count"]) for row in report_rows(program, store, "findings.csv") if row["kind"] in kinds)
+
+
 def audited_loops(program, generator, contacts, problems):
     """All problems run exactly: loops, and of these those that doubles ended otherwise without being suspected."""
     with tempfile.TemporaryDirectory(dir=program.folder) as folder:
         summary = program.json("search", "--generator", generator, "--contacts", contacts, "--audit-every", 1,
                                "--enumerate-every", 1_000_000, "--problems", problems, "--store", f"{folder}/s",
                                shown=False)
-        verdicts = report_rows(program, f"{folder}/s", "verdicts.csv")
-    loops = sum(number for label, number in summary["findings"].items() if label.split("-")[-1] == "cycle")
-    seen = sum(int(row["count"]) for row in verdicts if row["exact_outcome"] == "cycle")
+        loops = found_loops(program, f"{folder}/s")
+    seen = summary["failures"].get("cycle", 0) + summary["failures"].get("stall", 0)
     return summary["runs"], loops, loops - seen
 
 
@@ -184,7 +198,7 @@ def ten_billion(program):
 
 def per_million(kind):
     def cell(summary):
-        number = sum(found for label, found in summary["findings"].items() if label == kind)
+        number = summary["failures"].get(kind, 0)
         return f"{count(number)}: {rate(number, summary['runs'])} in a million"
     return cell
 
@@ -218,12 +232,12 @@ def safe_loops(program):
                            "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended",
                            "--problems", program.size(13_000_000), "--store", store)
     decided, safe = summary["safety_decided"], summary["safe"]
-    findings = collections.Counter(summary["findings"])
+    loops, grave = found_loops(program, store), found_loops(program, store, ("safe-cycle",))
     low_high = share(safe, decided)
     return table(["a search for a loop in a safe problem", ""],
                  [("problems, each under both policies", count(summary["problems"])),
-                  ("loops, confirmed exactly", count(findings["cycle"] + findings["safe-cycle"])),
-                  ("of these in safe problems", count(findings["safe-cycle"])),
+                  ("loops, confirmed exactly", count(loops)),
+                  ("of these in safe problems", count(grave)),
                   ("audited runs, and those of safe problems", f"{count(decided)}, {count(safe)}: {low_high}")])
 
 

@@ -883,7 +883,7 @@ bug = in_file("reports/html/html.cpp", "^reports: ")
 bug("markup-in-text", 'out += "&lt;";', "out += '<';", "text of a store can be markup")
 bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or begin a comment")
 
-bug = in_file("reports/text/plain_text.cpp", "^reports: ")
+bug = in_file("corpus/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
 

@@ -12,7 +12,7 @@
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
 #include "corpus/rational.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 #include "tests/scratch.h"
 
 namespace stiction {

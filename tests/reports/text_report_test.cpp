@@ -10,7 +10,7 @@
 
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"
 

@@ -4,8 +4,8 @@
 # bare_debian.sh --packages FOLDER DIR: the same with what `cpack` left in FOLDER, instead of a clone.
 #
 # Makes a minimal Debian 12 in DIR (new or empty), clones the committed state of this repository into it, and
-# runs the two commands of the README there as root, or each COMMAND given instead, e.g.
-# './run test --matrix'. Of packages: installs them, searches, reports, checks, replays, builds a project with the
+# runs there as root, at 80 columns, all commands of the README in their order, its Python lines too (a night is cut
+# to a minute); or each COMMAND given instead, e.g. './run test --matrix'. Of packages: installs them, searches, reports, checks, replays, builds a project with the
 # library, runs the headline from Python, and removes them. Prints every command's exit code and time; exits 0 only if all did.
 #
 # Needs root, debootstrap, git and network; about 2 GB in DIR, and some minutes besides the commands' own
@@ -58,7 +58,7 @@ inside() {
   for variable in http_proxy https_proxy no_proxy; do
     [[ -z ${!variable-} ]] || proxies+=("$variable=${!variable}")
   done
-  env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root CI=true "${proxies[@]}" \
+  env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root CI=true COLUMNS=80 "${proxies[@]}" \
     chroot "$chroot" "${@:2}" </dev/null
 }
 
@@ -84,8 +84,21 @@ readonly package_jobs=(
   'apt-get remove -qq -y stiction libstiction-dev >/dev/null && ! command -v stiction && ! ls /usr/share/stiction'
 )
 
+# The commands of README.md: indented lines that begin with ./run or python3. The lines of its session in Python are
+# what `./run python` reads.
+readme_commands() {
+  sed -nE -e 's/--minutes 480/--minutes 1/' -e '/^    \.\/run python$/d' \
+    -e 's/^    ((\.\/run|python3) [^#]*[^# ]) *(#.*)?$/\1/p' "$1"
+  printf "printf '%%s\\\\n' %q | ./run python\n" "$(sed -n 's/^    >>> //p' "$1")"
+}
+
+# Fails where a line of a text is wider than 80 columns and has a blank at which it could be broken.
+fits_the_terminal() {
+  awk '{ print } length > 80 && substr($0, 1, 80) ~ /[^ ] [^ ]/ { wide = 1 } END { exit wide }'
+}
+
 main() {
-  local chroot mirror command start status worst=0 report=() packages=
+  local chroot mirror command start status worst=0 report=() packages= commands
   if [[ ${1-} == --packages ]]; then
     packages=$2
     shift 2
@@ -99,7 +112,10 @@ main() {
   if [[ -n $packages ]]; then
     (($#)) || set -- "${package_jobs[@]}"
   else
-    (($#)) || set -- './run search' './run test'
+    if ((!$#)); then
+      mapfile -t commands < <(readme_commands "$(dirname -- "$0")/../../README.md")
+      set -- "${commands[@]}"
+    fi
   fi
   mirror=${MIRROR:-$(mirror_of_this_machine)}
   [[ -n $mirror ]] || die "apt knows no source of $suite here; set MIRROR"
@@ -117,7 +133,11 @@ main() {
   for command in "$@"; do
     echo "bare_debian: $command"
     start=$SECONDS status=0
-    inside "$chroot" bash -c "cd /root/stiction && $command" || status=$?
+    if [[ $command == "./run test"* || -n $packages ]]; then # ctest and apt have lines of their own width
+      inside "$chroot" bash -c "cd /root/stiction && $command" || status=$?
+    else
+      inside "$chroot" bash -c "cd /root/stiction && $command" | fits_the_terminal || status=$?
+    fi
     report+=("exit $status after $((SECONDS - start)) s: $command")
     ((status == 0)) || worst=1
   done

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text for a terminal: paragraphs and tables of at most 100 columns.
+// Text for people: paragraphs and tables that fit the terminal.
 
-#ifndef STICTION_REPORTS_TEXT_PLAIN_TEXT_H_
-#define STICTION_REPORTS_TEXT_PLAIN_TEXT_H_
+#ifndef STICTION_CORPUS_PLAIN_TEXT_H_
+#define STICTION_CORPUS_PLAIN_TEXT_H_
+
+#include <unistd.h>
 
 #include <string>
 #include <string_view>
@@ -13,17 +15,24 @@
 
 namespace stiction {
 
-inline constexpr std::size_t kTextWidth = 100;
+// Columns of what the descriptor leads to: the variable COLUMNS; without it those of the terminal; 80 where
+// there is none, as in a pipe. From 40 to 200.
+std::size_t TextWidth(int descriptor = STDOUT_FILENO);
 
-// Words on lines of at most kTextWidth columns; a longer word stands on a line of its own, and
+// Words on lines of at most TextWidth(), or 100, columns; a longer word stands on a line of its own, and
 // what stands in brackets is one word. Each line begins with `indent` spaces and ends with a line feed.
 // Characters that would steer a terminal become '?'.
 std::string Paragraph(std::string_view text, std::size_t indent = 2);
 
+// Lines as they are, but for those that are wider than `width`: these go on below, where their last column
+// begins (behind two blanks) if that is in their left half.
+std::string Folded(std::string_view lines, std::size_t width = TextWidth());
+
 // A title and the line below it.
 std::string Heading(std::string_view title);
 
-// A table: the first `names` columns to the left, the others to the right.
+// A table: the first `names` columns to the left, the others to the right. What does not fit beside the names
+// stands below, in another table with the same names.
 class TextTable {
  public:
   TextTable(std::vector<std::string> header, std::size_t names);
@@ -32,6 +41,8 @@ class TextTable {
   std::string Done() const;
 
  private:
+  std::string Part(std::size_t first, std::size_t last, const std::vector<std::size_t>& widths) const;
+
   std::size_t names_;
   std::vector<std::vector<std::string>> rows_;  // the header first
 };
@@ -48,4 +59,4 @@ std::string ShellWord(const std::string& word);
 
 }  // namespace stiction
 
-#endif  // STICTION_REPORTS_TEXT_PLAIN_TEXT_H_
+#endif  // STICTION_CORPUS_PLAIN_TEXT_H_

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/text/plain_text.h"
+#include "corpus/plain_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/ioctl.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <set>
 
 #include "solver/problem/check.h"
@@ -13,6 +17,7 @@ namespace stiction {
 namespace {
 
 constexpr std::size_t kIndent = 2, kGap = 2;  // of tables
+constexpr std::size_t kWidestParagraph = 100;
 
 std::string Harmless(std::string_view text) {
   std::string harmless(text);
@@ -43,7 +48,17 @@ std::size_t EndOfWord(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+std::size_t TextWidth(int descriptor) {
+  constexpr std::size_t kLeast = 40, kMost = 200, kOfPipes = 80;
+  std::size_t columns = 0;
+  if (const char* const given = std::getenv("COLUMNS"); given != nullptr)
+    std::from_chars(given, given + std::strlen(given), columns);
+  if (winsize size{}; columns == 0 && ioctl(descriptor, TIOCGWINSZ, &size) == 0) columns = size.ws_col;
+  return columns == 0 ? kOfPipes : std::clamp(columns, kLeast, kMost);
+}
+
 std::string Paragraph(std::string_view text, std::size_t indent) {
+  const std::size_t width = std::min(TextWidth(), kWidestParagraph);
   std::string lines, line;
   const auto end_line = [&] {
     if (!line.empty()) lines += std::string(indent, ' ') + line + "\n";
@@ -53,7 +68,7 @@ std::string Paragraph(std::string_view text, std::size_t indent) {
   for (std::size_t at = all.find_first_not_of(' '); at < all.size(); at = all.find_first_not_of(' ', at)) {
     const std::size_t end = EndOfWord(all, at);
     const std::string word = all.substr(at, end - at);
-    if (indent + Columns(line) + 1 + Columns(word) > kTextWidth) end_line();
+    if (indent + Columns(line) + 1 + Columns(word) > width) end_line();
     line += (line.empty() ? "" : " ") + word;
     at = end;
   }
@@ -61,9 +76,52 @@ std::string Paragraph(std::string_view text, std::size_t indent) {
   return lines;
 }
 
+namespace {
+
+// Where a line that is folded goes on.
+std::size_t HangingIndent(std::string_view line, std::size_t width) {
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  for (std::size_t at = std::min(width / 2, line.size() - 1); at > begin + 2; --at) {
+    if (line[at] != ' ' && line[at - 1] == ' ' && line[at - 2] == ' ') return at;
+  }
+  return begin + 2;
+}
+
+std::string FoldedLine(std::string_view line, std::size_t width) {
+  const std::size_t indent = HangingIndent(line, width);
+  std::string lines, part;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
+    const std::size_t end = EndOfWord(line, word);
+    const std::string_view more = line.substr(at, end - at);  // with the blanks before it
+    if (Columns(part) + Columns(more) > width && part.find_first_not_of(' ') != part.npos) {
+      lines += part + "\n";
+      part = std::string(indent, ' ') + std::string(line.substr(word, end - word));
+    } else {
+      part += more;
+    }
+    at = end;
+  }
+  return lines + part;
+}
+
+}  // namespace
+
+std::string Folded(std::string_view lines, std::size_t width) {
+  std::string folded;
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    const std::string_view line = lines.substr(0, end);
+    folded += Columns(line) <= width ? std::string(line) : FoldedLine(line, width);
+    if (end < lines.size()) folded += "\n";
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return folded;
+}
+
 std::string Heading(std::string_view title) {
   const std::string shown = Harmless(title);
-  return shown + "\n" + std::string(Columns(shown), '-') + "\n";
+  return Folded(shown) + "\n" + std::string(std::min(Columns(shown), TextWidth()), '-') + "\n";
 }
 
 TextTable::TextTable(std::vector<std::string> header, std::size_t names)
@@ -81,12 +139,30 @@ std::string TextTable::Done() const {
   for (const auto& row : rows_) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], Columns(row[i]));
   }
+  const std::size_t width = TextWidth();
+  std::size_t names = kIndent;
+  for (std::size_t i = 0; i < names_; ++i) names += widths[i] + kGap;
+  std::string text;
+  for (std::size_t first = names_; first < widths.size() || text.empty();) {
+    std::size_t last = first, columns = names;
+    while (last < widths.size() && (last == first || columns + widths[last] <= width))
+      columns += widths[last++] + kGap;
+    text += (text.empty() ? "" : "\n") + Part(first, last, widths);
+    first = last;
+  }
+  return text;
+}
+
+// The names, and the columns from `first` to before `last`.
+std::string TextTable::Part(std::size_t first, std::size_t last, const std::vector<std::size_t>& widths) const {
   std::string text;
   for (const auto& row : rows_) {
     std::string line(kIndent, ' ');
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += std::string(i == 0 ? 0 : kGap, ' ') + Padded(row[i], widths[i], i < names_);
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    for (std::size_t i = 0; i < last; ++i) {
+      if (names_ <= i && i < first) continue;
+      line += std::string(line.size() == kIndent ? 0 : kGap, ' ') + Padded(row[i], widths[i], i < names_);
+    }
+    text += Folded(line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
   }
   return text;
 }
