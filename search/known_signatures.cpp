@@ -17,7 +17,7 @@ constexpr std::array<KnownSignature, 17> kKnown = {{
     {"cycle-2c-4d-14s-350cd3f1c5aed0a7", "two-contact-cycle-every-policy-14-steps"},
     {"cycle-2c-5d-13s-64e5a8995472f145", "two-contact-cycle-found-in-a-body-scene"},
     {"cycle-2c-5d-13s-994636d6770d0838", "two-contact-cycle-13-steps"},
-    {"cycle-2c-5d-14s-21b4719a551a063b", "cycle-every-policy-mu-1-sparse"},
+    {"cycle-2c-5d-14s-21b4719a551a063b", "cycle-every-policy-sparse"},
     {"cycle-2c-5d-14s-5f9735605f2f0725", "cycle-every-policy-mu-1"},
     {"cycle-2c-5d-14s-5f9735605f2f0725", "two-contact-cycle-every-policy-period-5"},
     {"cycle-2c-5d-14s-b25341001876a8e6", "cycle-of-a-block-in-a-valley"},

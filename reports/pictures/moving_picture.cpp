@@ -14,7 +14,7 @@
 namespace stiction {
 namespace {
 
-using Arrow = std::array<double, 2>;  // pixels, y down
+using Pixels2 = std::array<double, 2>;  // y down
 
 constexpr double kLine = 34;  // height of a line of text
 constexpr const char* kRed = "#d00000";
@@ -22,11 +22,11 @@ constexpr const char* kRed = "#d00000";
 std::string Pixels(double x) { return fmt::format("{:.1f}", x); }
 
 // N of each contact: its rows' ways times their forces.
-std::vector<Arrow> ArrowsOf(const Json& picture, const std::vector<double>& forces) {
-  std::vector<Arrow> arrows;
+std::vector<Pixels2> ArrowsOf(const Json& picture, const std::vector<double>& forces) {
+  std::vector<Pixels2> arrows;
   std::size_t row = 0;
   for (const Json& contact : picture["contacts"]) {
-    Arrow arrow = {};
+    Pixels2 arrow = {};
     for (const Json& way : contact["rows"]) {
       for (int i = 0; i < 2; ++i) arrow[i] += forces[row] * way[i].get<double>();
       ++row;
@@ -36,13 +36,13 @@ std::vector<Arrow> ArrowsOf(const Json& picture, const std::vector<double>& forc
   return arrows;
 }
 
-double Length(const Arrow& arrow) { return std::hypot(arrow[0], arrow[1]); }
+double Length(const Pixels2& arrow) { return std::hypot(arrow[0], arrow[1]); }
 
 Html TextAt(double x, double y, const std::string& text, const char* anchor = "start") {
   return Tag("text", {{"x", Pixels(x)}, {"y", Pixels(y)}, {"text-anchor", anchor}})(text);
 }
 
-Html ArrowAt(const Json& at, const Arrow& arrow, double newton) {
+Html ArrowAt(const Json& at, const Pixels2& arrow, double newton) {
   const double x = at[0], y = at[1];
   return Tag("line", {{"x1", Pixels(x)},
                       {"y1", Pixels(y)},
@@ -70,13 +70,13 @@ Html SeenAt(std::size_t k, std::size_t count, double seconds) {
 }
 
 // Dots on a circle, a still each: the loop itself.
-Arrow OnCircle(std::size_t k, std::size_t count) {
+Pixels2 OnCircle(std::size_t k, std::size_t count) {
   constexpr double kRadius = 44, kRight = 60, kDown = 60;
   const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
   return {kPageWidth - kRight + kRadius * std::sin(angle), kDown - kRadius * std::cos(angle)};
 }
 
-Html CircleAt(const Arrow& at, const char* fill, const char* radius) {
+Html CircleAt(const Pixels2& at, const char* fill, const char* radius) {
   return Tag("circle", {{"cx", Pixels(at[0])}, {"cy", Pixels(at[1])}, {"r", radius}, {"fill", fill}})("");
 }
 
@@ -91,7 +91,7 @@ std::string MovingPicture(const Json& picture, const std::string& title, const s
   }();
   double largest = 0;
   for (const Still& still : stills) {
-    for (const Arrow& arrow : ArrowsOf(picture, still.forces)) largest = std::max(largest, Length(arrow));
+    for (const Pixels2& arrow : ArrowsOf(picture, still.forces)) largest = std::max(largest, Length(arrow));
   }
   const double newton = largest > 0 ? height / 4 / largest : 0;
   Html body;
@@ -103,14 +103,14 @@ std::string MovingPicture(const Json& picture, const std::string& title, const s
                          {"orient", "auto"}})(Tag("path", {{"d", "M0,0 L5,2.5 L0,5 z"}, {"fill", kRed}})(""));
   int number = 0;
   for (const Json& contact : picture["contacts"]) {
-    const Arrow at = {contact["at"][0], contact["at"][1]};
+    const Pixels2 at = {contact["at"][0], contact["at"][1]};
     body += CircleAt(at, "#30c030", "6") + TextAt(at[0] - 12, at[1] + 30, std::to_string(++number), "end");
   }
   for (std::size_t k = 0; k < stills.size(); ++k) body += CircleAt(OnCircle(k, stills.size()), "#c8c8c8", "5");
   body += TextAt(12, height + kLine - 8, title);
   for (std::size_t k = 0; k < stills.size(); ++k) {
     Html shown = SeenAt(k, stills.size(), seconds);
-    const std::vector<Arrow> arrows = ArrowsOf(picture, stills[k].forces);
+    const std::vector<Pixels2> arrows = ArrowsOf(picture, stills[k].forces);
     for (std::size_t i = 0; i < arrows.size(); ++i) {
       if (Length(arrows[i]) > 0) shown += ArrowAt(picture["contacts"][i]["at"], arrows[i], newton);
     }

@@ -2,6 +2,7 @@
 """stiction search --objective, problem --best, minimize --as-scene, records: from a seed to a record that holds."""
 
 import json
+import shutil
 import subprocess
 import sys
 import unittest
@@ -134,6 +135,17 @@ class Records(cli.TestCase):
                 done = subprocess.run([sys.executable, cli.ROOT / "certify/check_certificate.py", certificate,
                                        "--problem", problem], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_no_record_is_beaten_by_others_side_by_side(self):
+        folder = self.folder / "records"
+        shutil.copytree(cli.ROOT / self.FOLDER, folder)
+        done = subprocess.run([sys.executable, cli.ROOT / "tests/setup/close_records.py", cli.program, folder],
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        (folder / "descents-6-contacts.json").write_bytes((folder / "descents-5-contacts.json").read_bytes())
+        done = subprocess.run([sys.executable, cli.ROOT / "tests/setup/close_records.py", cli.program, folder],
+                              capture_output=True, text=True, timeout=300)
+        self.assertIn("10 -> 16: descents-3-contacts and descents-3-contacts", done.stdout)
 
     def test_a_record_is_made_and_a_false_one_caught(self):
         problem = self.file("p.json", cli.REFERENCE)
