@@ -77,7 +77,7 @@ const std::array kRows = {
     ClaimRow{{"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
              RequireNothing,
              Alone<HypothesisCertificate>},
-    ClaimRow{{"safe", "A is safe for the published algorithm"}, RequireSafetyIsSaid, Alone<SafetyCertificate>},
+    ClaimRow{{"safe", "A is safe: ties apart, the published algorithm under apex=suspended ends"}, RequireSafetyIsSaid, Alone<SafetyCertificate>},
     ClaimRow{{"safe-by-condition", "its condition number alone shows that it is"},
              RequireSafetyIsSaid,
              Alone<ByCondition>},

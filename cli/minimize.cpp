@@ -185,7 +185,7 @@ void AddMinimize(CommandLine& program) {
 }
 
 void AddPolicies(CommandLine& program) {
-  auto [verb, o] = program.Add("policies", "List the readings of the published text", ListPolicies);
+  auto [verb, o] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
   verb.Flag("-j,--json", o.json, "machine output");
 }
 

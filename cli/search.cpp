@@ -131,7 +131,7 @@ int ExitOf(const Store& store, const std::string& file) {
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
   fmt::print(std::cerr,
-             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles\n",
+             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, which ties alone can make\n",
              file, grave);
   return kExitGrave;
 }
@@ -475,7 +475,7 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
   verb.Option("-g,--generator", o.generators, "only these generators").OneOf(names);
   verb.Option("-c,--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
   verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
-  verb.Option("-p,--policy", o.policies, "readings to run, as 'stiction policies' lists them; by default paper")
+  verb.Option("-p,--policy", o.policies, "policies to run, as 'stiction policies' lists them; by default paper")
       .Details("'*' is the planar grid")
       .Check([](const std::string& text) { return PolicyError(text, Grid::kAllowed); });
   verb.Option("-a,--arithmetic", o.arithmetic, "what every problem is decided with")

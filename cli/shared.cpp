@@ -85,7 +85,7 @@ std::string PolicyError(const std::string& text, Grid grid) {
 void AddPolicyOption(Verb& verb, std::string& policy, Grid grid) {
   const char* all = grid == Grid::kAllowed ? ", or '*' for the whole planar grid" : "";
   verb.Option("-p,--policy", policy,
-              fmt::format("reading of the published text, as 'stiction policies' lists them{}", all))
+              fmt::format("policy, a reading of the published text, as 'stiction policies' lists them{}", all))
       .Check([grid](const std::string& text) { return PolicyError(text, grid); });
 }
 

@@ -70,7 +70,7 @@ constexpr std::array kWords = {
          "one reading of the published text: a value for each of its open choices; `paper` is the reference",
          "solver/published/readings.md"},
     Word{"finding", "a run that is no solution, or a disagreement between methods, arithmetics or checks", ""},
-    Word{"grave", "of a finding: methods that are proved disagree, or a problem loops that cannot", ""},
+    Word{"grave", "of a finding: methods that are proved disagree, or a problem loops that is safe, which ties alone can make", ""},
     Word{"certificate", "a claim with an exact witness, which a short independent program accepts",
          "certify/README.md"},
 };

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "solver/problem/check.h"
 
@@ -48,13 +49,23 @@ std::size_t EndOfWord(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+namespace {
+
+thread_local std::size_t fixed_width = 0;  // 0: the terminal's
+
+}  // namespace
+
+FixedTextWidth::FixedTextWidth(std::size_t width) : before_(std::exchange(fixed_width, width)) {}
+FixedTextWidth::~FixedTextWidth() { fixed_width = before_; }
+
 std::size_t TextWidth(int descriptor) {
-  constexpr std::size_t kLeast = 40, kMost = 200, kOfPipes = 80;
+  if (fixed_width != 0) return fixed_width;
+  constexpr std::size_t kLeast = 40, kMost = 200;
   std::size_t columns = 0;
   if (const char* const given = std::getenv("COLUMNS"); given != nullptr)
     std::from_chars(given, given + std::strlen(given), columns);
   if (winsize size{}; columns == 0 && ioctl(descriptor, TIOCGWINSZ, &size) == 0) columns = size.ws_col;
-  return columns == 0 ? kOfPipes : std::clamp(columns, kLeast, kMost);
+  return columns == 0 ? kUsualTextWidth : std::clamp(columns, kLeast, kMost);
 }
 
 std::string Paragraph(std::string_view text, std::size_t indent) {

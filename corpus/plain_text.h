@@ -15,9 +15,23 @@
 
 namespace stiction {
 
-// Columns of what the descriptor leads to: the variable COLUMNS; without it those of the terminal; 80 where
-// there is none, as in a pipe. From 40 to 200.
+inline constexpr std::size_t kUsualTextWidth = 80;  // of pipes and files
+
+// Columns of what the descriptor leads to: the variable COLUMNS; without it those of the terminal;
+// kUsualTextWidth where there is none. From 40 to 200.
 std::size_t TextWidth(int descriptor = STDOUT_FILENO);
+
+// As long as it lives TextWidth() is this in its thread: for files, which are as wide everywhere.
+class FixedTextWidth {
+ public:
+  explicit FixedTextWidth(std::size_t width);
+  ~FixedTextWidth();
+  FixedTextWidth(const FixedTextWidth&) = delete;
+  FixedTextWidth& operator=(const FixedTextWidth&) = delete;
+
+ private:
+  std::size_t before_;
+};
 
 // Words on lines of at most TextWidth(), or 100, columns; a longer word stands on a line of its own, and
 // what stands in brackets is one word. Each line begins with `indent` spaces and ends with a line feed.

@@ -183,7 +183,7 @@ double RateOf(const Trials& t) { return static_cast<double>(t.count) / static_ca
 
 std::string NameOf(const TallyKey& key) {
   std::string name = fmt::format("{}, {} contacts", key.generator, key.contacts);
-  if (key.policy != "paper") name += ", reading " + key.policy;
+  if (key.policy != "paper") name += ", policy " + key.policy;
   if (key.method != "baraff") name += ", method " + key.method;
   if (key.arithmetic != "double") name += ", arithmetic " + key.arithmetic;
   return name;
@@ -260,7 +260,7 @@ std::string TablesByPolicy(const Rows& rows, const std::vector<std::string>& hea
   for (const auto& row : rows) add(tables.try_emplace(row.key.policy, header, 1).first->second, row);
   std::string text;
   for (const auto& [policy, table] : tables)
-    text += Paragraph(fmt::format("Reading {}:", policy)) + table.Done();
+    text += Paragraph(fmt::format("Policy {}:", policy)) + table.Done();
   return text;
 }
 
@@ -358,7 +358,7 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
   }
   if (comparison.rates.empty()) {
     throw InputError(
-        fmt::format("{} and {}: found no generator, number of contacts, reading and arithmetic that both "
+        fmt::format("{} and {}: found no generator, number of contacts, policy and arithmetic that both "
                     "have run, expected one to compare",
                     file_a, file_b));
   }
@@ -451,6 +451,7 @@ std::filesystem::path WriteComparison(const Comparison& comparison, const std::s
                                       Occupied occupied) {
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
+  const FixedTextWidth of_the_file(kUsualTextWidth);
   folder.Write("comparison.txt", ComparisonText(comparison, file_a, file_b));
   folder.Write("index.html", ComparisonPage(comparison, file_a, file_b));
   folder.Write("comparison.csv", ComparisonCsv(comparison));

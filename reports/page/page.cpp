@@ -34,6 +34,8 @@ std::string CampaignLabel(const std::string& key) {
       {"mu", "friction palette"},
       {"unit_problems", "problems of a unit"},
       {"audit_every", "audited: one problem in"},
+      {"complete_every", "given to complete driving, of the suspicions: one in"},
+      {"gravity_only", "bodies under gravity alone"},
       {"lemke_every", "by Lemke’s method too, of the suspicions: one in"},
       {"enumerate_every", "all modes tried, of exact runs of few contacts: one in"},
       {"representatives_per_unit", "new representatives per unit, at most"},

@@ -30,7 +30,7 @@ constexpr std::size_t kLongestWord = 9;  // of its numbers
 // What a label means, for someone who has not read the paper.
 std::string InWords(const std::string& label) {
   static const std::map<std::string, std::string> words = {
-      {"safe-cycle", "loop for ever though proved safe"},
+      {"safe-cycle", "loop for ever though safe, which ties alone can make"},
       {"disagreement-of-methods", "methods that prove contradict each other"},
       {"cycle", "loop for ever"},
       {"stall", "loop inside one drive"},

@@ -37,7 +37,7 @@ class TextReport(cli.TestCase):
         self.assertGreater(len(common), 10)
         loops = sum(count for signature, count in cli.total(self.high)[1].items() if signature.startswith("cycle-"))
         self.assertGreater(loops, 1)
-        said = f"  The published algorithm, under the reading paper, loops for ever in {loops} runs: "
+        said = f"  The published algorithm, under the policy paper, loops for ever in {loops} runs: "
         self.assertTrue(any(line.startswith(said) for line in common))
         self.assertLess(text.index("loops for ever"), text.index("Complete driving never failed"))
 

@@ -258,7 +258,7 @@ TEST_CASE("comparison: no line is longer than 100 columns") {
   std::istringstream lines(ComparisonText(c, "a", "b"));
   for (std::string line; std::getline(lines, line);) {
     INFO(line);
-    CHECK(line.size() <= kTextWidth);
+    CHECK(line.size() <= kUsualTextWidth);
   }
 }
 

@@ -1179,7 +1179,7 @@ TEST_CASE("report: sentences say what was found, with its intervals") {
   content.total.agreement[4].disagreements = 1;
   const std::string text = FoundSentences(content).markup();
   for (const char* part :
-       {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the reading paper of its "
+       {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the policy paper of its "
         "text",
         "It does not always end.", "3 of 4,000,000 runs repeat a state, in exact arithmetic or",
         "0.75 [0.155, 2.19] in a million runs", "solved 30 of 30 problems", "The methods disagree.",

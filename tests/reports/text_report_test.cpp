@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store as text: the most important first, every number a sum over its records, at most 100 columns.
+// A store as text: the most important first, every number a sum over its records, as wide as a pipe.
 
 #include "reports/text/text_report.h"
 
@@ -87,7 +87,7 @@ TEST_CASE("text: what is grave is named before anything was found") {
   const Store store = StoreOf(scratch / "s.store", true);
   for (const std::string& text : {SummaryText(store, "the.store"), TextReport(store, "the.store", KnownNone)}) {
     CHECK(LinesOf(text).at(1) == "  GRAVE: safe-cycle: safe-cycle-2c-4d-10s-00");
-    CHECK(text.find("loop for ever though proved safe") < text.find("loop for ever  "));
+    CHECK_THAT(Flowing(text), Contains("1 of safe-cycle"));
   }
 }
 
@@ -98,18 +98,19 @@ TEST_CASE("text: every number is a sum over the units") {
        {Flowing(SummaryText(store, "the.store")), Flowing(TextReport(store, "the.store", KnownNone))}) {
     CHECK_THAT(text, Contains("the.store: 60 problems in 2 units, seed 7; 120 runs"));
     CHECK_THAT(text,
-               Contains("The published algorithm, under 2 readings (paper, ties=contacts), loops for ever"));
-    CHECK_THAT(text, Contains("loops for ever in 6 runs: " + RateText(6, 120) + " in a million"));
-    CHECK_THAT(text, Contains("of 2 kinds; 0 loop under every reading that stiction distinguishes"));
+               Contains("The published algorithm, under 2 policies (paper, ties=contacts), loops for ever"));
+    CHECK_THAT(text, Contains("loops for ever in 4 runs: " + RateText(4, 120) + " in a million"));
+    CHECK_THAT(text, Contains("Found in 2 groups; of 1 finished, 0 loop under every policy that stiction distinguishes"));
     CHECK_THAT(text, Contains("of 92 loops 6 have none in the period, and 4 have nothing else there"));
-    CHECK_THAT(text, Contains("loop for ever cycle 6 2 " + RateText(6, 120)));
-    CHECK_THAT(text, Contains("a step without end ray 80 1 " + RateText(80, 120)));
+    CHECK_THAT(text, Contains("loop for ever cycle 4 " + RateText(4, 120)));
+    CHECK_THAT(text, Contains("a step without end ray 2 " + RateText(2, 120)));
     CHECK_THAT(text, Contains("FAILED on 2: of 26 problems given to complete driving 24 solved"));
     CHECK_THAT(text, Contains("on 34 problems (all contact modes tried of 38): 46 disagreements"));
     CHECK_THAT(text, Contains("62 of 58 audited problems; 74 gave up something"));
-    CHECK_THAT(
-        text,
-        Contains("6 of 8 suspicions confirmed exactly; 10 of 14 audited runs misjudged; 22 answers wrong"));
+    CHECK_THAT(text, Contains("Groups of findings: 2 of cycle, 1 of ray."));
+    CHECK_THAT(text, Contains("in 2 runs they differ from exact arithmetic (" + RateText(2, 120)));
+    CHECK_THAT(text, Contains("in 22 runs they call solved what is not (" + RateText(22, 120)));
+    CHECK_THAT(text, Contains("Of 8 suspicions they were right in 6; of 14 audited runs, 10 were misjudged."));
     CHECK_THAT(text,
                Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
     CHECK_THAT(text, Contains("2 certified and minimized, 1 to go"));
@@ -122,11 +123,11 @@ TEST_CASE("text: the page has exact rates by policy, generator and contacts, and
   const std::string text = Flowing(TextReport(StoreOf(scratch / "s.store"), "the.store", KnownNone));
   CHECK_THAT(
       text,
-      Contains("Reading paper: generator contacts runs loops in a million [95 %] singular rays psd 2 60 4 " +
+      Contains("Policy paper: generator contacts runs loops in a million [95 %] singular rays psd 2 60 4 " +
                RateText(4, 60) + " 0 2 "));
   CHECK_THAT(
       text,
-      Contains("Reading ties=contacts: generator contacts runs loops in a million [95 %] singular rays psd 2 "
+      Contains("Policy ties=contacts: generator contacts runs loops in a million [95 %] singular rays psd 2 "
                "60 0 " +
                RateText(0, 60) + " 0 0 "));
   CHECK_THAT(text, Contains("1/2 60 4 " + RateText(4, 60) + " 0 0 "));
@@ -137,7 +138,7 @@ TEST_CASE("text: the simplest loop stands in numbers, with commands that replay 
   const std::string text = TextReport(StoreOf(scratch / "s.store"), "a store's", KnownNone);
   CHECK_THAT(text, Contains("The simplest loop: cycle-2c-4d-10s-00"));
   CHECK_THAT(Flowing(text),
-             Contains("the state after 3 drives stands again 1 drive later; readings: 36 cycle, 1500 solved"));
+             Contains("the state after 3 drives stands again 1 drive later; policies: 36 cycle, 1500 solved"));
   CHECK_THAT(Flowing(text), Contains("19 -3/23 -1 -3/23 1 29 mu = 5/17"));
   CHECK_THAT(text, Contains("    stiction report 'a store'\\''s' -o report\n"));
   CHECK_THAT(text, Contains("    stiction replay report/findings/cycle-2c-4d-10s-00.json --step\n"));
@@ -147,10 +148,10 @@ TEST_CASE("text: the simplest loop stands in numbers, with commands that replay 
 TEST_CASE("text: loops that the corpus has are told from new ones") {
   const Scratch scratch;
   const Store store = StoreOf(scratch / "s.store");
-  CHECK_THAT(TextReport(store, "s", KnownNone), Contains("Of 2 kinds 2 are shown by no case of the corpus"));
+  CHECK_THAT(TextReport(store, "s", KnownNone), Contains("Of 2 groups 2 are shown by no case of the corpus"));
   const std::string text = TextReport(store, "s", KnownTenSteps);
-  CHECK_THAT(text, Contains("Of 2 kinds 1 is shown by no case of the corpus"));
-  const std::string unknown = text.substr(text.find("New kinds of loops"));
+  CHECK_THAT(text, Contains("Of 2 groups 1 is shown by no case of the corpus"));
+  const std::string unknown = text.substr(text.find("New groups of loops"));
   CHECK_THAT(unknown, Contains("cycle-2c-4d-12s-00"));
   CHECK_THAT(unknown, !Contains("cycle-2c-4d-10s-00"));
 }
@@ -164,11 +165,11 @@ TEST_CASE("text: a store without loops says how rare they can be, one of nothing
   record.tallies[{"psd", 2, "paper"}].problems = 1000;
   store.AddUnit({}, 0, record, {});
   CHECK_THAT(Flowing(TextReport(store, "s", KnownNone)),
-             Contains("No run of the published algorithm, under the reading paper, was found to loop: " +
+             Contains("No run of the published algorithm, under the policy paper, was found to loop: " +
                       RateText(0, 1000) + " in a million"));
 }
 
-TEST_CASE("text: no line is longer than 100 columns, and nothing steers a terminal") {
+TEST_CASE("text: no line is wider than a pipe, and nothing steers a terminal") {
   const Scratch scratch;
   Store store(scratch / "s.store", kTextIdentity);
   Record record = TwoPolicies();
@@ -178,18 +179,33 @@ TEST_CASE("text: no line is longer than 100 columns, and nothing steers a termin
   for (const std::string& text : {SummaryText(store, "s"), TextReport(store, "s", KnownNone)}) {
     CHECK(text.find('\x1b') == std::string::npos);
     CHECK(text.find('\r') == std::string::npos);
-    for (const std::string& line : LinesOf(text)) CHECK(line.size() <= kTextWidth);
+    for (const std::string& line : LinesOf(text)) CHECK(line.size() <= kUsualTextWidth);
   }
 }
 
 TEST_CASE("text: paragraphs break between words alone, intervals stay whole") {
-  const std::string filled(kTextWidth - 4, 'x');
+  const std::string filled(kUsualTextWidth - 4, 'x');
   CHECK(Paragraph(filled + " [1, 2] end") == "  " + filled + "\n  [1, 2] end\n");
   CHECK(Paragraph("a  b", 0) == "a b\n");
   CHECK(Paragraph("") == "");
-  const std::string endless(kTextWidth + 10, 'y');
+  const std::string endless(kUsualTextWidth + 10, 'y');
   CHECK(Paragraph("a " + endless + " b") == "  a\n  " + endless + "\n  b\n");
   CHECK(Paragraph("open [1, 2") == "  open [1, 2\n");
+}
+
+TEST_CASE("text: what does not fit the terminal goes on below") {
+  const FixedTextWidth narrow(24);
+  TextTable table({"name", "first", "second", "third"}, 1);
+  table.AddRow({"abc", "1,000", "2", "3"});
+  CHECK(table.Done() == "  name  first  second\n  abc   1,000       2\n\n  name  third\n  abc       3\n");
+  TextTable numbers({"first", "second", "third", "fourth"}, 0);
+  numbers.AddRow({"1", "2", "3", "4"});
+  CHECK(numbers.Done() == "  first  second  third\n      1       2      3\n\n  fourth\n       4\n");
+  CHECK(Folded("one two three four five six\nshort") == "one two three four five\n  six\nshort");
+  CHECK(Folded("key   a value that is long") == "key   a value that is\n      long");
+  CHECK(Folded("    x   y\n") == "    x   y\n");
+  CHECK(Folded(std::string(30, 'x')) == std::string(30, 'x'));
+  CHECK(Paragraph("one two three four five six", 0) == "one two three four five\nsix\n");
 }
 
 TEST_CASE("text: a table has its names to the left and its numbers to the right") {
