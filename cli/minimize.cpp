@@ -128,9 +128,9 @@ int RunMinimize(const MinimizeVerb& o) {
                      {"accepted", minimized.accepted}})
         << "\n";
   } else {
-    out << fmt::format("{}: {} contacts, {} nonzeros, {} bits; was {}, {}, {}. Tried {}, took {}.\n", keep,
-                       after.contacts, after.nonzeros, after.bits, before.contacts, before.nonzeros,
-                       before.bits, minimized.candidates, minimized.accepted);
+    out << Folded(fmt::format("{}: {} contacts, {} nonzeros, {} bits; was {}, {}, {}. Tried {}, took {}.\n",
+                              keep, after.contacts, after.nonzeros, after.bits, before.contacts,
+                              before.nonzeros, before.bits, minimized.candidates, minimized.accepted));
   }
   return kExitDone;
 }

@@ -169,8 +169,9 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
     return;
   }
   throw InputError(
-      fmt::format("{}: holds another search: {}; search with the same options, or with --store NEW_FILE",
-                  file.string(), Difference(*stored, identity)));
+      fmt::format("{}: holds another search: {}; search with {}, or with --store NEW_FILE", file.string(),
+                  Difference(*stored, identity),
+                  stored->algorithm == identity.algorithm ? "the same options" : "a build of that version"));
 }
 
 // In a folder of its own first: a store is never half made, and no file that came meanwhile is overwritten.

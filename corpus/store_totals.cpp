@@ -40,7 +40,8 @@ void AddFinding(StoreTotals& totals, Finding finding) {
   if (IsGrave(finding.kind)) totals.grave.push_back(finding);
   if (!finding.done || finding.minimized.empty()) return;
   if (IsLoopKind(finding.kind)) {
-    const Json& grid = MinimizedFacts(finding).at("grid");
+    const Json facts = MinimizedFacts(finding);
+    const Json& grid = facts.at("grid");
     totals.finished_loops += !grid.empty();
     totals.whole_grid += grid.size() == 1;
   }

@@ -12,13 +12,13 @@
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
+#include "corpus/plain_text.h"
 #include "corpus/problem_file.h"
 #include "corpus/program_name.h"
 #include "corpus/store_totals.h"
 #include "reports/html/html.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/friction_order.h"
-#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -222,9 +222,8 @@ std::string SimplestText(const StoreTotals& t) {
 // ---- The page's own sections ----
 
 std::vector<std::string> Cells(std::vector<std::string> names, const Counts& c) {
-  names.insert(names.end(),
-               {Grouped(c.runs), Grouped(c.Loops()), RateText(c.Loops(), c.runs),
-                Grouped(c.Of(Outcome::kSingular)), Grouped(c.Of(Outcome::kRay))});
+  names.insert(names.end(), {Grouped(c.runs), Grouped(c.Loops()), RateText(c.Loops(), c.runs),
+                             Grouped(c.Of(Outcome::kSingular)), Grouped(c.Of(Outcome::kRay))});
   return names;
 }
 
@@ -362,7 +361,9 @@ std::string SummaryText(const Store& store, const std::string& file) {
   const StoreTotals t = TotalsOf(store);
   return HeadLine(t, store, file) + GraveLines(t) + Findings(t) + FinishText(t, file) +
          Paragraph(TimeText(t.work.time)) + SimplestText(t) +
-         "More, as text, and all, as a page with files to replay and check; the same search again goes on:\n" +
+         Paragraph(
+             "More, as text, and all, as a page with files to replay and check; the same search again goes on:",
+             0) +
          Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
          Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
 }
