@@ -4,6 +4,7 @@
 import json
 import re
 from fractions import Fraction
+from xml.etree import ElementTree
 
 import cli
 
@@ -135,6 +136,41 @@ class ForPeople(cli.TestCase):
         for words in (("certify", corpus / "two-contact-cycle.json", "--safe"),
                       ("check", corpus / "certificates" / "counterexample.json")):
             self.assertNotRegex(self.succeeds(*words).out, r'["{}]')
+
+
+class Moving(cli.TestCase):
+    SCENE = cli.ROOT / "corpus/scenes/block-in-a-valley.json"
+
+    def test_the_picture_of_the_readme_is_made_by_a_command(self):
+        out = self.folder / "loop.svg"
+        self.succeeds("replay", self.SCENE, "--svg", out, code=1)
+        self.assertEqual(out.read_text(), self.SCENE.with_name("block-in-a-valley-loop.svg").read_text())
+
+    def test_each_step_of_the_period_is_seen_and_no_two_at_once(self):
+        out = self.folder / "loop.svg"
+        self.succeeds("replay", self.SCENE, "--svg", out, code=1)
+        replay = cli.run("replay", self.SCENE, "--step", "--json").json()
+        period = [pivot for pivot in replay["pivots"] if pivot["drive"] > replay["start"]]
+        svg = "{http://www.w3.org/2000/svg}"
+        seen, arrows = [], []
+        for group in ElementTree.parse(out).iter(f"{svg}g"):
+            for animate in group.findall(f"{svg}animate"):
+                times = [float(time) for time in animate.get("keyTimes").split(";")] + [1]
+                values = animate.get("values").split(";")
+                at = values.index("visible")
+                seen.append((times[at], times[at + 1]))
+                arrows.append(len(group.findall(f"{svg}line")))
+        self.assertEqual(len(seen), len(period))
+        for (_, end), (begin, _) in zip(seen, seen[1:] + [(1, 1)]):
+            self.assertAlmostEqual(end, begin, 4)
+        contacts = [{i // 2 for i, f in enumerate(pivot["f"]) if f != "0"} for pivot in period]
+        self.assertEqual(arrows, [len(touched) for touched in contacts])
+
+    def test_what_has_no_picture_is_refused(self):
+        out = self.folder / "loop.svg"
+        self.refuses("replay", self.file("p.json", cli.REFERENCE), "--svg", out, says=["--svg", "a scene", "--html"])
+        self.refuses("replay", self.SCENE, "--all-policies", "--svg", out, says=["--svg", "one policy"])
+        self.assertFalse(out.exists())
 
 
 class Space(cli.TestCase):
