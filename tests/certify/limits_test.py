@@ -18,7 +18,7 @@ from pathlib import Path
 sys.set_int_max_str_digits(0)
 MOST_DIGITS, MOST_ROWS = 10_000_000, 1000
 MOST_OPERATIONS, MOST_WORK = 2_000_000, 10**13
-SECONDS = 1.5  # of processor time, for a refusal before any work is done
+SECONDS = 8  # of processor time, for a refusal before any work is done; the work would take minutes
 MEGABYTES = 400
 
 

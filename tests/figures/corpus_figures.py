@@ -4,6 +4,7 @@
 import collections
 import decimal
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -257,6 +258,18 @@ def certificates(program):
             ("minimized loops that replay to their certified period", replayed),
             ("of these endless under every policy", whole_grid)]
     return table(["a search of fixed size", ""], rows)
+
+
+def dearest(program):
+    """What the dearest certificates cost that the checkers take."""
+    lines = program.script("tests/certify/limits_test.py", ".", "--dearest").splitlines()
+    rows = []
+    for line in lines:
+        found = re.fullmatch(r"(.+?)  +(stiction check|check_\w+\.py) +ACCEPTED +([\d.]+) s +(\d+) MB", line)
+        if found:
+            name, checker, seconds, megabytes = found.groups()
+            rows.append((name.strip(), f"`{checker}`", three(float(seconds)), megabytes))
+    return table(["at its limit", "checker", "processor time, s", "memory, MB"], rows)
 
 
 def shown(value):

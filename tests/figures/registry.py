@@ -59,6 +59,8 @@ FIGURES = [
            ("algorithm", "bench/scenes.cpp")),
     Figure("tolerance", "corpus/scenes/README.md", "minutes", scene.tolerance, ("algorithm", "tests/setup/tolerance.py")),
     Figure("safe-by-condition", "certify/condition_number.md", "cheap", corpus.safe_by_condition),
+    Figure("dearest", "certify/README.md", "minutes", corpus.dearest, ("certify/check_certificate.cpp", "certify/witness.cpp",
+           "certify/check_certificate.py", "certify/certificate_reader.py", "tests/certify/limits_test.py")),
     Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
            ("algorithm", "bench/linear_algebra.cpp")),
     Figure("scenes-by-mu", "search/README.md", "long", search.scenes_by_mu, SEARCH),

@@ -676,15 +676,20 @@ bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here",
 
 # ---- corpus --------------------------------------------------------------------------
 
+bug = in_file("corpus/counts.cpp", "^search: summary|^reports: ")
+bug("all-confirmed", "(inexact == outcome ? confirmed : doubles_differ) += count;", "confirmed += count;",
+    "every suspicion is confirmed")
+bug("undecided-differs", "if (outcome == static_cast<int>(Outcome::kUndecided)) continue;", "",
+    "what is undecided counts as a difference of doubles")
+bug("misjudged-not-summed", "misjudged += tally.misjudged;", "", "misjudged runs are not told")
+bug("problems-per-policy", "most = std::max(most, tally.problems);", "most += tally.problems;",
+    "problems count once for every policy")
+bug = in_file("corpus/counts.h", "^reports: ")
+bug("stalls-are-no-loops", "Of(Outcome::kCycle) + Of(Outcome::kStall)", "Of(Outcome::kCycle)", "stalls are no loops")
 bug = in_file("corpus/store_totals.cpp", "^search: summary|^reports: text")
-bug("all-confirmed", "if (exact == inexact && !undecided) totals.confirmed += tally.verdicts[inexact][exact];",
-    "totals.confirmed += tally.verdicts[inexact][exact];", "every suspicion is confirmed")
 bug("grave-not-named", "if (IsGrave(finding.kind)) totals.grave.push_back(finding);", "", "grave findings are not named")
-bug("problems-per-policy", "problems[{key.generator, key.contacts}] = tally.problems;",
-    "problems[{key.generator, key.contacts}] += tally.problems;", "problems count once for every policy")
-bug("grid-of-any-size", 'MinimizedFacts(finding).at("grid").size() == 1 && IsLoopKind(finding.kind)',
-    "IsLoopKind(finding.kind)", "every loop is one of the whole grid")
-bug("misjudged-not-summed", "totals.misjudged += tally.misjudged;", "", "misjudged runs are not told")
+bug("grid-of-any-size", "totals.whole_grid += grid.size() == 1;", "totals.whole_grid += 1;",
+    "every loop is one of the whole grid")
 
 bug = in_file("corpus/intervals.cpp", "^intervals: ")
 bug("ends-vanish", "alike(interval.low, digits) || alike(interval.high, digits)", "false",
@@ -742,12 +747,14 @@ bug("for-ever", "std::max(left, kAfterLastUnit - finishing)", "kNoBound", "after
 bug("share-without-try", "left >= 0 ? left + one_try : 0", "left", "a finding longer than the share is never finished")
 
 bug = in_file("corpus/problem_file.cpp", "^corpus: (problem|formats)")
-bug("entry-twice", 'if (is_listed[flat(i, j)]) entry.Refuse("each entry once");', "", "an entry may stand twice")
-bug("entry-above", 'if (i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");', "",
+bug("entry-twice", 'if (!A.emplace(std::pair(i, j), Number(entry[2])).second) entry.Refuse("each entry once");',
+    "A.emplace(std::pair(i, j), Number(entry[2]));", "an entry may stand twice")
+bug("entry-above", 'if (is_new && i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");', "",
     "entries above the diagonal are mirrored")
 bug("negative-mu", 'if (mu < 0) place.Refuse("mu >= 0");', "", "friction may be negative")
 bug("slip-not-unit", "if (!IsUnit(slip)) place.Refuse(expected);", "", "slip need not be a unit vector")
-bug("not-mirrored", "A(j, i) = A(i, j);", "", "entries below the diagonal have no mirror")
+bug("not-mirrored", "A.emplace(std::pair(j, i), A.at({i, j})).second", "false",
+    "entries below the diagonal have no mirror")
 bug("strict-numbers", "if (!strict || json.is_string()) x = ExactValue(json);", "x = ExactValue(json);",
     "certificates may have JSON numbers")
 bug("misplaced-mu", 'if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");', "",
@@ -848,9 +855,6 @@ bug = in_file("reports/report_files.cpp", "^reports: ")
 bug("certificate-of-the-original", "own.empty() ? finding.certificate : own", "finding.certificate",
     "the minimized problem has the certificate of another")
 
-bug = in_file("reports/page/page.cpp", "^reports: ")
-bug("page-problems-per-policy", "most = std::max(most, tally.problems);", "most += tally.problems;",
-    "problems count once for every policy")
 bug = in_file("reports/page/found_section.cpp", "^reports: ")
 bug("counted-is-pending", "pending += discovery.representative != nullptr && !discovery.Finished();",
     "pending += !discovery.Finished();", "groups that are only counted are pending")
@@ -888,8 +892,6 @@ bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", 
     "a policy can end its shell word")
 
 bug = in_file("reports/page/figures.cpp", "^reports: ")
-bug("rates-of-doubles", "for (int i = 0; i < kOutcomeCount; ++i) sum[i] += exact[i];",
-    "for (int i = 0; i < kOutcomeCount; ++i) sum[i] = exact[i];", "rates count the last row of verdicts alone")
 bug("interval-of-the-runs", "CountInterval(count)", "CountInterval(runs)",
     "the interval of a rate is that of another count")
 bug("empty-bins-drawn", "if (tally.steps[steps] == 0) continue;", "", "bars of no height are drawn")
@@ -911,9 +913,6 @@ bug("one-file-more", "static_cast<std::int64_t>(kept.size()) < most", "static_ca
     "one finding more has files")
 
 bug = in_file("reports/page/sentences.cpp", "^reports: ")
-bug("wrong-loops", "sums.exact[static_cast<int>(Outcome::kCycle)] + sums.exact[static_cast<int>(Outcome::kStall)]",
-    "sums.suspicions",
-    "every suspicion is told as a loop")
 bug("all-solved", 'all.solved == all.problems', "true", "problems that were not solved are not told",
     context='all.solved == all.problems ? "Solutions')
 
@@ -921,8 +920,6 @@ bug = in_file("reports/html/template.cpp", "^reports: ")
 bug("mark-twice", "page.find(mark, at + 1) == page.npos", "true", "a mark that stands twice is filled once")
 
 bug = in_file("reports/text/text_report.cpp", "^reports: text")
-bug("stalls-are-no-loops", "loops += of(Outcome::kCycle) + of(Outcome::kStall);", "loops += of(Outcome::kRay);",
-    "rates of loops count something else")
 bug("known-is-new", "known_as(signature).empty()", "true", "loops of the corpus are new ones")
 bug("grave-at-the-end", "HeadLine(t, store, file) + GraveLines(t) + Findings(t)",
     "HeadLine(t, store, file) + Findings(t) + GraveLines(t)", "grave findings are not named first")
@@ -998,7 +995,7 @@ bug = in_file("cli/search.cpp", "^program: (search|slurm)")
 bug("merge-leaves-the-last", "k < o.stores.size()", "k + 1 < o.stores.size()", "the last store is not taken in")
 
 bug = in_file("cli/replay_file.cpp", VIEWER)
-bug("scene-of-another", "AreSame(assembled.file.problem, file.problem)", "true",
+bug("scene-of-another", "!AreSame(model.Problem(0), problem)", "false",
     "forces are drawn in a scene that is of another problem")
 
 # ---- What the program and Python ask by names --------------------------------------
