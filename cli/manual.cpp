@@ -197,7 +197,7 @@ std::string BashCompletion(const CommandLine& program) {
 _stiction() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options= values=
   COMPREPLY=()
-  if ((COMP_CWORD == 1)); then
+  if ((COMP_CWORD == 1)) || [[ $verb == help && $COMP_CWORD == 2 ]]; then
     mapfile -t COMPREPLY < <(compgen -W {} -- "$word")
     return
   fi
@@ -217,7 +217,7 @@ _stiction() {{
 }}
 complete -o filenames -F _stiction stiction
 )",
-                     Quoted(Words(verbs) + " --help --version"), values, options);
+                     Quoted(Words(verbs) + " help --help --version"), values, options);
 }
 
 Json TablesInJson(const CommandLine& program) {

@@ -27,7 +27,7 @@ std::string CurvatureText(const Json& curvature) {
 }
 
 std::string RangeText(const Json& range) {
-  if (range["in-range"] == true) return range["regular"] == true ? "all" : "yes";
+  if (range["in-range"] == true) return range["regular"] == true ? "yes, as all are" : "yes";
   return (range["in-range"] == false ? "no: " : "<= ") + Short(range["distance"].get<double>());
 }
 

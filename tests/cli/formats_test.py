@@ -207,7 +207,7 @@ class Formats(cli.TestCase):
         self.assertIn("line 1", bad["error"])
         self.assertIs(good["meets assumptions"], True)
         text = cli.run("survey", self.folder / "b.dat")
-        self.assertEqual((text.code, len(text.out.splitlines())), (0, 7))
+        self.assertEqual((text.code, len(text.out.splitlines())), (0, 9))
 
     def test_survey_of_more_than_fifty_contacts_gives_bounds_that_hold(self):
         size = 60
