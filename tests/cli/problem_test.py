@@ -320,7 +320,7 @@ class Replay(cli.TestCase):
             line = next(line for line in text.splitlines() if line.startswith(f"{outcome}: "))
             self.assertIn("all 1536 policies" if count == 1536 else f"{count} of 1536 policies", line)
         listed = self.succeeds("replay", file, "--all-policies", "--list", code=1).out
-        self.assertIn("cycle      paper\n", listed)
+        self.assertRegex(listed, r"(?m)^cycle +paper$")
         self.assertEqual(len(listed.splitlines()), 1536 + len(text.splitlines()) - ("--list" in text))
 
         # What the summary says of switches holds for each policy that it counts.

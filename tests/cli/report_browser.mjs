@@ -68,7 +68,7 @@ test('every figure is drawn, has a name, and its numbers beside it', async () =>
 test('what is drawn are the numbers of the tables', async () => {
   await opened('small', async page => {
     const rates = csv('small', 'figures/rates.csv')
-                      .filter(row => row.policy === 'paper' && row.outcome === 'cycle' && row.count !== '0');
+                      .filter(row => row.policy === 'paper' && row.outcome === 'loop' && row.count !== '0');
     for (const by of ['contacts', 'friction', 'rank']) {
       const drawn = await titles(page, `rates.${by}`), rows = rates.filter(row => row.by === by);
       assert.equal(drawn.length, rows.length, by);

@@ -96,9 +96,9 @@ class Page(cli.TestCase):
         seen = 0
         for (generator, contacts, policy, _method, _arithmetic), tally in tallies.items():
             exact, n = exact_outcomes(tally), str(contacts)
-            for outcome in ("cycle", "singular", "ray"):
+            for outcome, parts in {"loop": ("cycle", "stall"), "singular": ("singular",), "ray": ("ray",)}.items():
                 row = rates["contacts", generator, policy, n, n, outcome]
-                counts = exact[OUTCOMES.index(outcome)], tally["problems"]
+                counts = sum(exact[OUTCOMES.index(part)] for part in parts), tally["problems"]
                 self.assertEqual((int(row["count"]), int(row["runs"])), counts)
                 low, rate, high = (float(row[name]) for name in ("low", "rate", "high"))
                 self.assertAlmostEqual(rate, 1e6 * counts[0] / counts[1], delta=1e-5 * rate)
@@ -145,6 +145,15 @@ class Page(cli.TestCase):
                 pictures += 1
                 self.assertIn("<svg", (self.report / picture).read_text())
         self.assertGreater(pictures, 0)
+
+    def test_every_key_of_a_campaign_has_a_name_in_words(self):
+        store, report = self.folder / "g.store", self.folder / "g"
+        self.succeeds("search", "--store", store, "--generator", "scenes", "--gravity-only", "--contacts", 2, "--problems", 200)
+        self.succeeds("report", store, "-o", report)
+        for page in (self.page, (report / "index.html").read_text()):
+            names = re.findall(r"<dt>(.*?)</dt>", page)
+            self.assertIn("friction palette", names)
+            self.assertEqual([name for name in names if "_" in name], [])
 
     def test_the_records_stand_in_the_page(self):
         rows = tables(self.report / "frontiers.csv")

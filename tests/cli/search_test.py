@@ -159,12 +159,14 @@ class Search(cli.TestCase):
 
     def test_another_campaign_on_the_same_store_is_refused(self):
         store = self.copy("a.store")
-        for arguments, says in [(("--seed", 5), "seed"), (("--mu", 1), "definition"), (("--contacts", 2), "definition"),
-                                (("--generator", "psd"), "definition"), (("--policy", "ties=contacts"), "policies")]:
+        for arguments, says in [(("--seed", 5), "seed 4, not 5"), (("--mu", 1), "mu 1/4, 1/2, 1, 2, 5, not 1"),
+                                (("--contacts", 2), "contacts 2, 3, not 2"),
+                                (("--generator", "psd"), "generators small, duplicates, not psd"),
+                                (("--policy", "ties=contacts"), "policies paper, not ties=contacts")]:
             with self.subTest(arguments=arguments):
                 done = self.search(store, *arguments)
                 self.assertEqual((done.code, done.out), (2, ""))
-                for text in (str(store), f"its {says}" if says != "policies" else "its set of policies", "--store"):
+                for text in (str(store), f"holds another search: {says};", "--store"):
                     self.assertIn(text, done.err)
                 self.assertSameContent(store, self.reference)
 
