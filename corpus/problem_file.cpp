@@ -271,14 +271,12 @@ void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
   if (size != static_cast<std::size_t>(rows)) place.Refuse(fmt::format("{} {}", size, items), expected);
 }
 
-// A dense matrix of more rows is refused before it is made: 1 GiB of fractions.
-constexpr int kMostRows = 4096;
-
+// A dense matrix of more rows is refused before it is made.
 void RequireMemory(const JsonPlace& place, int rows) {
-  if (rows <= kMostRows) return;
+  if (rows <= kMostDenseRows) return;
   constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
   place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
-               fmt::format("at most {} rows, {:.3g} GiB", kMostRows, kEntry / kGiB * kMostRows * kMostRows) +
+               fmt::format("at most {} rows", kMostDenseRows) +
                    R"(; stiction solve and survey take more, written as {"size", "entries"})");
 }
 

@@ -89,7 +89,7 @@ class Damage(cli.TestCase):
                 ("generator", "'psd'", ["generator: found 'psd'"]),
                 ("policy", "'ties=contacts'", ["policy: found 'ties=contacts'"]),
                 ("exact_outcome", "'won'", ["exact_outcome: found 'won'"]),
-                ("problem", "'{}'", ["problem: format"]),
+                ("problem", "'{}'", ["problem: contacts"]),
                 ("problem", "minimized", ["found"]),
                 ("certificate", "'[1'", ["certificate: line 1"]),
                 ("certificate", "minimized_certificate", ["certificate: found the certificate of sha256"]),
@@ -163,7 +163,7 @@ class Damage(cli.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         listed = {line.split("  ", 1)[1] for line in (out / "SHA256SUMS").read_text().splitlines()}
         present = {str(path.relative_to(out)) for path in out.rglob("*") if path.is_file()}
-        self.assertEqual(present - listed, {"SHA256SUMS", ".stiction-files"})
+        self.assertEqual(present - listed, {"SHA256SUMS", ".stiction-files", "work.csv"})
         self.assertLessEqual(listed, present)
 
 
