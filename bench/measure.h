@@ -29,10 +29,10 @@ struct Measure {
   bool Solved() const { return outcome == Outcome::kSolved && !wrong; }
 };
 
-// Order statistics without interpolation: the values of rank n/4, n/2, 3n/4, rounded down, from zero.
+// Order statistics without interpolation: the values of rank n/4, n/2, 3n/4 and 9n/10, rounded down, from zero.
 // Requires a value.
 struct Quartiles {
-  double low = 0, median = 0, high = 0;
+  double low = 0, median = 0, high = 0, ninety = 0;
 };
 Quartiles QuartilesOf(std::vector<double> values);
 

@@ -198,6 +198,7 @@ Json CellJson(const PeerRow& row, const PeerCell& cell) {
   json["setting"] = cell.setting;
   json["ratio"] = cell.ratio.median;
   json["ratios"] = QuartilesJson(cell.ratio);
+  json["ratio_90"] = cell.ratio.ninety;
   json["seconds"] = QuartilesJson(cell.seconds);
   json["processor_seconds"] = QuartilesJson(cell.processor);
   json["clocks"] = ToJson(cell.spent);

@@ -44,7 +44,7 @@ void PrintRow(const PeerRow& row, const PeerCell& cell) {
     fmt::print("  {:26} {}\n", name, cell.installed ? "-" : "not inst.");
     return;
   }
-  const std::string spread = fmt::format("({:.2f} - {:.2f})", cell.ratio.low, cell.ratio.high);
+  const std::string spread = fmt::format("({:.2f} - {:.2f}, {:.2f})", cell.ratio.low, cell.ratio.high, cell.ratio.ninety);
   fmt::print("  {:26} {:>9.2f} {:>22} {:>11}  {}\n", name, cell.ratio.median, spread,
              TimeText(cell.processor.median), AnswersText(row, cell.answers));
 }
@@ -54,7 +54,7 @@ void PrintBlock(const StructuredFamily& family, const Json& size, const std::vec
   fmt::print("\n{}: {} contacts, {} rows of rank {}, {} problems\n", family.title,
              size["contacts"].get<std::int64_t>(), size["rows"].get<std::int64_t>(),
              size["rank"].get<std::int64_t>(), size["problems"].get<std::int64_t>());
-  fmt::print("  {:26} {:>9} {:>22} {:>11}  {:>8} {:>8} {}\n", "", "time / LU", "quartiles", "processor",
+  fmt::print("  {:26} {:>9} {:>22} {:>11}  {:>8} {:>8} {}\n", "", "time / LU", "quartiles, 90 %", "processor",
              "residual", "worst", "solved");
   for (std::size_t i = 0; i < rows.size(); ++i) PrintRow(rows[i], cells[i]);
   for (const char* ours : {"fast", "auto"}) {

@@ -294,18 +294,19 @@ Problem WallProblem(int courses, int bricks, int decades, Choices& choices) {
 }
 
 std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& scenes) {
+  constexpr int kProblems = 100;  // of a family of buildings, at most
   const Building plain, heavy = {2, true, 4}, smooth = {2, false, 4}, space = {3, true, 0},
                         heavy_space = {3, true, 4};
   const Building very_heavy = {2, true, 8};
   const auto scene = [&](const char* name, int dimension, bool friction) {
     return SceneFamily(scenes, name, dimension, friction);
   };
-  return {Stack(10, 60, plain),
-          Stack(10, 60, heavy),
-          Stack(30, 20, heavy),
-          Wall(6, 5, 20, plain),
-          Wall(6, 5, 20, heavy),
-          Channel(20, 40, very_heavy),
+  return {Stack(10, kProblems, plain),
+          Stack(10, kProblems, heavy),
+          Stack(30, kProblems, heavy),
+          Wall(6, 5, kProblems, plain),
+          Wall(6, 5, kProblems, heavy),
+          Channel(20, kProblems, very_heavy),
           NearlyDependentFamily(8),
           GeneratedFamily(GeneratorId::kScenes, 8),
           GeneratedFamily(GeneratorId::kNearDegenerate, 8),
@@ -314,13 +315,13 @@ std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& sc
           scene("card-house", 2, true),
           scene("arch-stands", 2, true),
           scene("large/brick-wall", 2, true),
-          Stack(10, 60, smooth),
-          Stack(30, 20, smooth),
-          Wall(6, 5, 20, smooth),
+          Stack(10, kProblems, smooth),
+          Stack(30, kProblems, smooth),
+          Wall(6, 5, kProblems, smooth),
           scene("two-towers", 2, false),
-          Stack(5, 40, space),
-          Stack(10, 20, heavy_space),
-          Wall(4, 3, 20, heavy_space),
+          Stack(5, kProblems, space),
+          Stack(10, kProblems, heavy_space),
+          Wall(4, 3, kProblems, heavy_space),
           scene("space/stack", 3, true),
           scene("large/brick-wall-in-space", 3, true)};
 }

@@ -309,7 +309,7 @@ class Peers(cli.TestCase):
                     if "share" not in cell:
                         continue
                     low, median, high = cell["ratios"]
-                    self.assertTrue(0 < low <= median <= high)
+                    self.assertTrue(0 < low <= median <= high <= cell["ratio_90"])
                     self.assertGreater(cell["processor_seconds"][1], 0)
                     self.assertAlmostEqual(cell["share"], 1 - cell["wrong"] / cell["tried"])
                     self.assertLessEqual(cell["silent"], cell["wrong"])

@@ -105,11 +105,12 @@ TEST_CASE("bench: quartiles and averages by hand") {
   CHECK(q.low == 3);
   CHECK(q.median == 5);
   CHECK(q.high == 8);
+  CHECK(q.ninety == 9);
   const Spread spread = SpreadOf({7, 1, 3, 5, 9, 2, 8, 4});
   CHECK((spread.least == 1 && spread.median == 5 && spread.most == 9));
   CHECK(SpreadOf({}).most == 0);
   const Quartiles one = QuartilesOf({4});
-  CHECK((one.low == 4 && one.median == 4 && one.high == 4));
+  CHECK((one.low == 4 && one.median == 4 && one.high == 4 && one.ninety == 4));
   CHECK(AverageOf({1, 2, 6}).mean == 3);
   CHECK(AverageOf({1, 2, 6}).most == 6);
   CHECK(AverageOf({}).mean == 0);
