@@ -90,17 +90,17 @@ TEST_CASE(
 
 TEST_CASE("intervals: texts") {
   CHECK(RateText(0, 1000000) == "0 [0, 3.69]");
-  CHECK(RateText(4, 5000000) == "0.8 [0.218, 2.05]");
-  CHECK(RateText(3, 2000) == "1,500 [309, 4,380]");
+  CHECK(RateText(4, 5000000) == "0.8 [0.217, 2.05]");
+  CHECK(RateText(3, 2000) == "1,500 [309, 4,390]");
   CHECK(RateText(1, 0).empty());
-  CHECK(ShareText(2, 13) == "15.4 % [1.92, 45.4]");
+  CHECK(ShareText(2, 13) == "15.4 % [1.92, 45.5]");
   CHECK(ShareText(0, 0).empty());
 }
 
 TEST_CASE("intervals: texts have as many digits as tell the ends from the value") {
-  CHECK(RateText(1242522, 10000000000) == "124.3 [124.0, 124.5]");
+  CHECK(RateText(1242522, 10000000000) == "124.3 [124, 124.5]");
   CHECK(RateText(378629, 10000000000) == "37.9 [37.7, 38]");  // three do
-  CHECK(RateText(12000000, 30000000) == "400,000 [399,800, 400,200]");
+  CHECK(RateText(12000000, 30000000) == "400,000 [399,700, 400,300]");
   CHECK(RateText(25000001, 10000000000) == "2,500 [2,499, 2,501]");
   CHECK(ShareText(10000000, 10000000) == "100 % [99.99996, 100]");
   CHECK(ShareText(0, 10000000) == "0 % [0, 3.69e-05]");

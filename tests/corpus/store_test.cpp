@@ -153,24 +153,26 @@ TEST_CASE("store: another campaign is refused, with the difference and the way t
     Add(store, 0);
   }
   const std::string before = Content(file);
-  const auto refused = [&file](const CampaignIdentity& other, const std::string& there,
-                               const std::string& here) {
+  const auto refused = [&file](const CampaignIdentity& other, const std::string& what,
+                               const std::string& next) {
     CHECK_THROWS_AS(Store(file, other), InputError);
-    CHECK_THROWS_WITH(Store(file, other), Contains(file.string()) && Contains(there) && Contains(here) &&
+    CHECK_THROWS_WITH(Store(file, other), Contains(file.string()) && Contains(what) && Contains(next) &&
                                               Contains("--store NEW_FILE"));
   };
   CampaignIdentity other = Identity();
   other.seed = 8;
-  refused(other, "seed is 7", "is 8");
+  refused(other, "seed 7, not 8", "the same options");
   other = Identity();
   other.algorithm = 4;
-  refused(other, "version of the algorithm is 3", "is 4");
+  refused(other, "version of the algorithm 3, not 4", "a build of that version");
   other = Identity();
   other.policies = R"(["ties=contacts"])";
-  refused(other, R"(policies is ["paper"])", R"(is ["ties=contacts"])");
+  refused(other, "policies paper, not ties=contacts", "the same options");
   other = Identity();
   other.definition = R"({"contacts":[2,4]})";
-  refused(other, R"(definition is {"contacts":[2,3]})", R"(is {"contacts":[2,4]})");
+  refused(other, "contacts 2, 3, not 2, 4", "the same options");
+  other.seed = 8;
+  refused(other, "contacts 2, 3, not 2, 4; seed 7, not 8;", "the same options");
   CHECK((Content(file) == before));
 
   Store again(file, Identity());
@@ -475,7 +477,7 @@ TEST_CASE("merge: stores of different campaigns are refused") {
   Store store(scratch / "a", Identity());
   const auto merge = [&] { store.MergeFrom(Store::OpenToRead(scratch / "other")); };
   CHECK_THROWS_AS(merge(), InputError);
-  CHECK_THROWS_WITH(merge(), Contains("seed is 8") && Contains("is 7"));
+  CHECK_THROWS_WITH(merge(), Contains("seed 8, not 7"));
 }
 
 TEST_CASE("merge: the smaller representative stays, and of two copies the finished one") {

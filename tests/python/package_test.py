@@ -142,7 +142,7 @@ J = draw.integers(-9, 10, (300, 300)).astype(float)
 problem = stiction.Problem(J @ J.T, draw.integers(-9, 10, 300).astype(float), 0.5)
 """
 
-    WRITING = {"help", "json", "fractions", "output", "html", "list", "record", "step"}
+    WRITING = {"help", "json", "fractions", "output", "html", "list", "record", "step", "svg"}
     ELSEWHERE = {"all_policies", "all", "safe", "robust"}  # which is `ends`, or what the program alone has
 
     def test_those_of_the_program_can_all_be_chosen(self):
@@ -158,7 +158,7 @@ problem = stiction.Problem(J @ J.T, draw.integers(-9, 10, 300).astype(float), 0.
             text = subprocess.run([PROGRAM, verb, "--help"], stdout=subprocess.PIPE, text=True).stdout
             for name, ours in inspect.signature(getattr(stiction, verb)).parameters.items():
                 if isinstance(ours.default, str) and ours.default:
-                    option = re.search(rf"^ +--{name} TEXT.*?\(default\s+(\S+?)\)", text, re.M | re.S)
+                    option = re.search(rf"^ +(?:-[a-z], )?--{name} TEXT.*?\(default\s+(\S+?)\)", text, re.M | re.S)
                     self.assertEqual(ours.default, option[1], (verb, name))
                     compared.add((verb, name))
         self.assertLessEqual({("solve", "method"), ("replay", "method"), ("certify", "claim")}, compared)
