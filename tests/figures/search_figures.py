@@ -43,10 +43,14 @@ def first_search(program):
     """How the first minute of a search ends: what it says first, and last."""
     text = program.text("search", "--store", program.folder / "stiction.store", shown=False)
     program.show("./run search")
-    lines = text.splitlines()
+    text = text.replace(f"{program.folder}/", "")
+    head, rest = text.split("\n  The published algorithm", 1)
+    lines = rest.splitlines()
+    said = next(i for i, line in enumerate(lines) if line.endswith("never ends."))
     simplest = lines.index("Simplest, proved and minimized:")
-    shown = [*lines[:4], "  ...", *lines[simplest:simplest + 4], "  ...", *lines[-3:]]
-    return "\n".join("    " + line.replace(f"{program.folder}/", "") for line in shown)
+    shown = [" ".join(head.split()), "  The published algorithm" + lines[0], *lines[1:said + 1], "  ...",
+             *lines[simplest:simplest + 4], "  ...", *lines[-4:]]
+    return "\n".join("    " + line for line in shown)
 
 
 def together(function, cells):
