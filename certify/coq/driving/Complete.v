@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Complete driving ends: for nondegenerate b over any ordered field; for every b in range(A) by one symbolic perturbation. *)
+(* Proves that complete driving ends at a solution for b without ties, over any ordered field; and that b(eps) has no ties and
+   b(eps).v > 0, so that it ends on b(eps) for every b with (H). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive.

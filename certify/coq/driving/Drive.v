@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Complete driving in the plane (complete_driving.md, 1-3): pieces, facets, folds, descents. n contacts; mu i > 0 static, mu i = 0
-   frictionless (its second row is not looked at). f = (normal forces, friction forces), a = A f + b. *)
+(* Proves of complete driving (Statement.v), for b without ties: every end of a piece has one partner along the piece and one on
+   the next piece, but for the first end and for solutions; so no piece comes twice, and the run ends at a solution. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Parity Plane.
 From Stiction.driving Require Import Statement Path Piece Local.

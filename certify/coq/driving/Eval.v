@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Evaluation of rational functions at large numbers: what holds of vectors and matrices over R (copositivity, the condition on
-   rays) holds over R(X). *)
+(* Proves that what holds of vectors and matrices over R holds over R(X): signs of rational functions are those of their values
+   at large numbers. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity.
 From Stiction.driving Require Import Rational.

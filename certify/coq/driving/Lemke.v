@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Lemke's method for w = M z + q with a covering vector d > 0, as a function; over any ordered field, nondegenerate.
+(* Proves that Lemke's method, as a function, ends, and where: for w = M z + q with a covering vector d > 0; over any ordered
+   field, nondegenerate.
    Columns: number 0 is z0 (column -d), number j+1 is w_j or, if `s j`, z_j. A basis: a set s and a column l that is
    left out (zero); the edge of s: all n + 1 columns of s. *)
 From mathcomp Require Import all_ssreflect all_algebra.

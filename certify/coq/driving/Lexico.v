@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Degenerate q: Lemke's method over R(X) for q + (e, e^2, ...), e = 1/X infinitesimal. The basis in which it ends is one of a
-   solution for q itself. d may be over R(X) for some R: graded. *)
+(* Proves that Lemke's method ends in a solution where q has ties: over R(X), for q + (e, e^2, ...), e = 1/X infinitesimal. The
+   basis in which it ends is one of a solution for q itself. d may be over R(X) for some R: graded. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity.
 From Stiction.driving Require Import Rational Statement Path Lemke Eval.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* The cells of one contact of the plane: finished (B, S, +, -, and 0 for mu = 0), driven (its normal; its friction on side + or -),
-   later; as two equations and up to three inequalities. *)
+(* Proves, of the cells of one contact (Statement.v), what their facets are, that equations are counted right, and that along a
+   ray in a cell no force works against an acceleration. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

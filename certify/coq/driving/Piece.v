@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* A piece of a path: a line (m unknowns, m equations of which one is 0 = 0) within finitely many half spaces. If no two of the
-   boundaries meet in it and it contains no ray, it has exactly two ends; the ratio test finds the other. *)
+(* Proves that a piece has exactly two ends, and that the ratio test finds the other: a line (m unknowns, m equations of which one
+   is 0 = 0) within finitely many half spaces, no two of whose boundaries meet in it, and which contains no ray. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Static friction in the plane by Lemke's method: any positive covering vector (over R(W), so also one graded by an infinite W),
-   any A symmetric positive semidefinite, any b in its range. *)
+(* Proves that Lemke's method solves static friction in the plane with any positive covering vector (over R(W), so also one
+   graded by an infinite W), for any A symmetric positive semidefinite and any b in its range. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Rational Statement.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.

@@ -214,6 +214,14 @@ Definition no_piece_comes_twice := forall (R : realFieldType) n (A : 'M[R]_(n + 
   first (MF A) (beps b) = Some x0 -> forall i j x y,
   entry (MF A) (beps b) (muF mu) x0 i = Some x -> entry (MF A) (beps b) (muF mu) x0 j = Some y -> x.1 = y.1 -> i = j.
 
+(* The same for b without ties, under the hypotheses of either theorem that follows. *)
+Definition no_piece_comes_twice_without_ties :=
+  forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R) x0, (forall i, 0 <= mu i) ->
+  nondegenerate A b mu -> (forall x, x != 0 -> 0 < dotp x (A *m x)) \/
+    [/\ A^T = A, forall x, 0 <= dotp x (A *m x) & forall v, in_cones mu v -> v != 0 -> A *m v = 0 -> 0 < dotp v b] ->
+  first A b = Some x0 -> forall i j x y,
+  entry A b mu x0 i = Some x -> entry A b mu x0 j = Some y -> x.1 = y.1 -> i = j.
+
 (* b without ties. A positive definite, symmetric or not. *)
 Definition complete_driving_solves_definite :=
   forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R), (forall i, 0 <= mu i) ->
@@ -229,3 +237,7 @@ Definition complete_driving_solves_semidefinite :=
 Definition plane_has_a_solution_under_H :=
   forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R),
   A^T = A -> (forall x, 0 <= dotp x (A *m x)) -> (forall i, 0 <= mu i) -> H_holds A b mu -> exists g, solution A b mu g.
+
+(* (H) holds for b in range(A) + K*. *)
+Definition range_has_H := forall (R : realFieldType) n (A : 'M[R]_(n + n)) (c k : 'cV[R]_(n + n)) (mu : 'I_n -> R),
+  A^T = A -> (forall v, in_cones mu v -> 0 <= dotp v k) -> H_holds A (A *m c + k) mu.

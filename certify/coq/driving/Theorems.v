@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves the statements of Statement.v: complete driving ends at a solution. What is new here: the values at the end of the
-   perturbed path solve the problem itself. *)
+(* Proves the statements of Statement.v. The last step to them is here: the values at the end of the run on b(eps) solve the
+   problem itself. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive Complete.
@@ -194,3 +194,19 @@ Proof. by move=> R n A b mu; exact: Complete.complete_driving_definite. Qed.
 
 Theorem complete_driving_semidefinite : complete_driving_solves_semidefinite.
 Proof. by move=> R n A b mu; exact: Complete.complete_driving_semidefinite. Qed.
+
+Theorem no_piece_twice_without_ties : no_piece_comes_twice_without_ties.
+Proof.
+move=> R n A b mu x0 mu0 nd hyp f0.
+have cone v : in_cones mu v -> v != 0 -> dotp v (A *m v) <= 0 -> A^T *m v = 0 /\ 0 < dotp v b.
+  move=> vK vn le; case: hyp => [pd|[sym psd pos]]; first by move: le; rewrite leNgt pd.
+  have Av : A *m v = 0 by apply: (psd_kernel sym psd); apply/eqP; rewrite eq_le le psd.
+  by rewrite sym; split=> //; exact: pos.
+exact: (Drive.no_piece_twice mu0 nd cone f0).
+Qed.
+
+Theorem range_plus_dual_has_H : range_has_H.
+Proof.
+move=> R n A c k mu sym dual v vK Av.
+by rewrite dotpD -{1}sym dotp_adj Av dotpC dotp0 add0r dual.
+Qed.

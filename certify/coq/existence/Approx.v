@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 7: directions with rational coordinates, so many that Coulomb's law holds up to a factor 1 - 2/(m+1). *)
+(* Proves that Coulomb's law has solutions up to a factor 1 - 2/M: the directions are the points (i/M, j/M) of the disc, M = m + 1. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon.

@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 10: Coulomb's law has a solution (hypothesis H); and one constant bounds some solution for all b in range(A), all mu <= M. *)
+(* Proves that Coulomb's law has a solution under (H), and that one constant bounds some solution for all b in range(A) and all
+   mu <= M. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
 From mathcomp Require Import ring.

@@ -1,6 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 1 of "every static problem of the plane has a solution", over any ordered field: no analysis, no paths.
-   An edge (n rows, n + 1 columns) of a nondegenerate system has two vertices, or a ray. *)
+(* Proves, over any ordered field, that an edge (n rows, n + 1 columns) of a nondegenerate system has two vertices, or a ray. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 5: the same theorem on LCPs whose rows are named by a finite type, and whose matrix is M x y = E x . A E y + S x y,
-   A symmetric positive semidefinite, S with z' S z' + z' S z >= 0: the form of every polygonal law of friction. *)
+(* Proves that complementarity problems have solutions whose rows are named by a finite type and whose matrix is
+   M x y = E x . A E y + S x y, A positive semidefinite, S with z' S z' + z' S z >= 0: the form of every polygonal law. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.

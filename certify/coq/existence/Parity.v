@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 2: parity. A nondegenerate LCP w = M z + q whose matrix is copositive, and whose q meets no ray, has a
-   solution: count vertices of edges twice. No path is followed. *)
+(* Proves that a nondegenerate linear complementarity problem w = M z + q, whose matrix is copositive and whose q meets no ray,
+   has a solution: vertices of edges are counted twice. No path is followed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

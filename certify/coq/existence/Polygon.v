@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 6: friction in space with a polygon in place of the circle: one contact = one normal row and two tangential rows;
-   directions d_k in the unit disc; a solution of the polygonal law exists, whatever the directions. *)
+(* Proves that friction in space with finitely many directions d_k in place of the circle has a solution: forces of the polygon
+   (any directions); and a weaker law in the disc (directions in it), from which Approx.v goes on. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite.

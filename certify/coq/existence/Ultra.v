@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Part 8: limits along a free ultrafilter on nat: every bounded sequence of reals has one, so no subsequences. *)
+(* Proves that every bounded sequence of reals has a limit along a free ultrafilter on the natural numbers; so no subsequences. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
 From Stiction.existence Require Import Polygon.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* corpus/endless/without-repetition.json, policy resume=round: the run never ends, and no state stands twice.
-   (search/adversary/frontiers.md, 5.)
+(* Proves that on corpus/endless/without-repetition.json under resume=round the run never ends and no state stands twice
+   (search/adversary/frontiers.md, 5).
 
    f(t) is the line through the forces after 5 drives (t = 0) and after 13 (t = 1). For all t in (0, limit) eight
    drives lead from f(t) to f(1 + alpha t), with the same sets: Coq runs them once, over rational functions of t. *)

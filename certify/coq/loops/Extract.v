@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* The Coq function as an OCaml program, with no realizer: numbers, lists and nat are those of Coq. *)
+(* Writes the Coq function as an OCaml program, with no realizer: numbers, lists and nat are those of Coq. Proves nothing. *)
 From Coq Require Import QArith List.
 From Stiction.loops Require Import Statement.
 From Coq Require Extraction.

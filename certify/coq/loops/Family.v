@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* search/adversary/frontiers.md, 4, at mu = 1: two contacts, positive definite matrices A(eta) whose condition number
-   tends to K(1) = 3 + 2 sqrt(2), below which there are no folds; the algorithm loops on all of them. *)
+(* Proves that the reading `paper` loops on a family of two contacts (search/adversary/frontiers.md, 4, at mu = 1): positive definite
+   matrices A(eta) whose condition number tends to K(1) = 3 + 2 sqrt(2), below which there are no folds. *)
 From Coq Require Import QArith ZArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement Loop Laws Symbolic.
 Import ListNotations.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* The family of Family.v loops under every policy. *)
+(* Proves that the family of Family.v loops under every policy. *)
 From Coq Require Import QArith List Bool.
 From Stiction.loops Require Import Statement Loop Laws Symbolic Family FamilyA FamilyB.
 Import ListNotations.

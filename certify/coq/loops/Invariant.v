@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Along every run over Q: a = A f + b. So the state is the sets, the forces, and what the policy remembers. *)
+(* Proves that along every run over Q a = A f + b. So the state is the sets, the forces, and what the policy remembers. *)
 From Coq Require Import QArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement Loop Laws.
 Import ListNotations.

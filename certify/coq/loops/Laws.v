@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Checks by computation, each proved sound: symmetric, positive definite, well formed; and the algorithm's own test of the
-   conditions is the law of Statement.v. *)
+(* Proves that checks by computation are right: symmetric, positive definite, well formed; and that the algorithm's own test of
+   the conditions is the law of Statement.v. *)
 From Coq Require Import QArith Qabs ZArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement Loop.
 Import ListNotations.

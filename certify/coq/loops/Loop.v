@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* A state that stands again is a proof that the run never ends: a check of a start and a period by computation, proved sound.
-   The list of policies has all of them, none twice. *)
+(* Proves that a state that stands again makes a run endless, that a check of a start and a period by computation is right, and
+   that the list of policies has all of them, none twice. *)
 From Coq Require Import QArith List Bool Arith Lia NArith.
 From Stiction.loops Require Import Statement.
 Import ListNotations.
@@ -247,6 +247,8 @@ Proof.
   apply (NoDup_map_inv number). replace (map number all_policies) with (seq 0 1536) by (vm_compute; reflexivity).
   apply seq_NoDup.
 Qed.
+Theorem all_policies_counted : policies_counted.
+Proof. split; [exact all_policies_length | exact all_policies_distinct]. Qed.
 
 (* ---- A table: a start and a period for each of a list of policies ------------------------------------------------- *)
 

@@ -461,6 +461,7 @@ Definition loops_under_every_policy n (p : problem rationals) :=
 Definition headline_loops := loops_under_every_policy 4 headline.
 
 Definition policies_complete := forall pol, In pol all_policies.
+Definition policies_counted := length all_policies = 1536%nat /\ NoDup all_policies.
 
 (* The run never ends, and no state stands twice. *)
 Definition endless_run_without_repetition :=

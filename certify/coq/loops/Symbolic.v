@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Runs of the algorithm on numbers that depend on a parameter t, for all t of an interval at once.
+(* Proves that runs on numbers that depend on a parameter t can be made for all t of an interval at once.
 
-   Algorithm.v is about any `field`; so the plugin paramcoq derives (`next_R`, a lemma that Coq checks) that runs over
-   two fields that are related step by step are related. One field is Q, the other (`functions hi t`) is that of
+   Statement.v has the algorithm over any `field`; so the plugin paramcoq derives (`next_R`, a lemma that Coq checks) that
+   runs over two fields that are related step by step are related. One field is Q, the other (`functions hi t`) is that of
    rational functions of t, whose signs are decided for all t in (0, hi). *)
 From Coq Require Import QArith ZArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement.

@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Tests of the definitions: what ends, ends; what the README says of another problem, the Coq function says, too. *)
+(* Tests of Statement.v: what ends, ends; what readings.md says of another problem, the Coq function says, too; wrong starts and
+   periods are refused. *)
 From Coq Require Import QArith ZArith List Bool Arith.
 From Stiction.loops Require Import Statement Loop Laws.
 Import ListNotations.
@@ -31,7 +32,7 @@ Proof. reflexivity. Qed.
 Example two_solved_where : forallb (fun pol => match file pol, drop pol with filed_at_scan, drop_variable => true | _, _ => false end)
   solving = true.
 Proof. vm_compute. reflexivity. Qed.
-Example two_paper : loops two paper (3, 4)%nat = true.      (* spec.md, part 4: "the state after 3 drives recurs after 4 more" *)
+Example two_paper : loops two paper (3, 4)%nat = true.      (* the state after 3 drives stands again after 4 more *)
 Proof. vm_compute. reflexivity. Qed.
 Example two_rest : length (filter (fun pol => repeats two pol 25 [] (start two)) all_policies) = 1320%nat.
 Proof. vm_compute. reflexivity. Qed.
