@@ -51,7 +51,7 @@ THEOREMS = [
      "One C bounds the forces of some solution for all b in range(A) and all mu <= M: sum fN <= C sum abs(b)."),
     ("existence.Theorems.coulomb_solution_exists_nonsymmetric", "existence.Statement.coulomb_without_symmetry",
      CLASSICAL,
-     "A positive semidefinite, not symmetric: a solution exists if b.v >= 0 for all solutions v with b = 0."),
+     "A positive semidefinite, not symmetric: a solution exists if b.v >= 0 for all solutions v for b = 0."),
     ("existence.Theorems.coulomb_solution_exists_definite", "existence.Statement.coulomb_definite", CLASSICAL,
      "A positive definite, not symmetric: a solution exists for every b."),
     ("existence.Theorems.polygon_solution_exists", "existence.Statement.polygons_have_a_solution", {},
@@ -176,13 +176,17 @@ def scan(sources):
         path = sources / name
         if not path.exists():
             found.append(f"{name}: is missing")
-        elif digests.get(name) != hashlib.sha256(path.read_bytes()).hexdigest():
+            continue
+        for need in imports(without_comments(path.read_text())):
+            if f"{need}.v" not in TRUSTED:
+                found.append(f"{name}: must be read to be trusted, and imports {need}.v, which is not")
+        if digests.get(name) != hashlib.sha256(path.read_bytes()).hexdigest():
             found.append(f"{name}: has changed since it was read; read it, then call prove.py --accept")
     return found
 
 
 def imports(text):
-    return [f"{m[1]}/{name}" for m in re.finditer(r"From Stiction\.(\w+) Require (?:Import|Export) ([\w ]+)\.", text)
+    return [f"{m[1]}/{name}" for m in re.finditer(r"From Stiction\.(\w+) Require (?:Import |Export )?([\w\s]+?)\s*\.", text)
             for name in m[2].split()]
 
 
@@ -322,9 +326,10 @@ def tell(answers):
             print("\n" * bool(before) + f"{FOLDERS[folder]} (certify/coq/{folder}):")
         before = folder
         print(textwrap.fill(words, 110, initial_indent="  ", subsequent_indent="  "))
-        axioms = ("the classical ones: " + ", ".join(axiom for key, axiom in CLASSICAL.items() if key in assumed)
-                  if assumed else "none")
+        axioms = "the three classical ones" if assumed == set(CLASSICAL) else ", ".join(sorted(assumed)) or "none"
         print(f"    {file}.v, {name}; axioms: {axioms}")
+    if any(assumed for _, _, assumed in answers):
+        print(f"\nThe three classical axioms are those of mathcomp-analysis: {', '.join(CLASSICAL.values())}.")
     print()
 
 
@@ -377,10 +382,14 @@ def compare(build, repository, policies):
     if result.returncode:
         raise Failed(f"the extracted function does not compile:\n{result.stdout}")
     problems = sorted((repository / "corpus").glob("*.json"))
+    print("The Coq function beside certify/check_runs.py, step by step:", flush=True)
     command = [sys.executable, str(build.sources / "loops" / "compare.py"), str(folder / "run"),
                "--policies", str(policies), *map(str, problems)]
     if subprocess.run(command).returncode:
         raise Failed("the Coq function and certify/check_runs.py differ")
+    flawed = [*command[:3], "--policies", "40", "--flaw", str(repository / "corpus/two-contact-cycle.json")]
+    if subprocess.run(flawed, stdout=subprocess.DEVNULL).returncode != 1:
+        raise Failed("compare.py does not notice a wrong check_runs.py")
 
 
 def headline_is_current(sources, repository):
@@ -431,12 +440,12 @@ def main():
         self_test(version)
         build.compile(roots)
         answers = check(build, theorems)
+        tell(answers)
         if o.compare:
             compare(build, repository, o.policies)
     except Failed as error:
         print(f"prove: failed: {error}", file=sys.stderr)
         return 1
-    tell(answers)
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"prove: all {len(theorems)} theorems are proved; {used.ru_utime + used.ru_stime:.0f} s of processor time")
     return 0

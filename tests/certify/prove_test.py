@@ -86,6 +86,11 @@ class Scan(unittest.TestCase):
         (self.copy / "loops/New.v").write_text("Definition n := 0.\n")
         self.refused("loops/Statement.v: is missing", "loops/New.v:1: has no head")
 
+    def test_what_is_trusted_imports_only_what_is_trusted(self):
+        path = self.copy / "existence/Law.v"
+        path.write_text(path.read_text() + "From Stiction.existence Require Import Edge.\n")
+        self.refused("existence/Law.v: must be read to be trusted, and imports existence/Edge.v")
+
     def test_without_digests_nothing_is_trusted(self):
         (self.copy / "digests.json").unlink()
         self.refused("existence/Law.v: has changed", "loops/Statement.v: has changed")

@@ -2,7 +2,6 @@
 (* The field R(X) of rational functions over an ordered field R, ordered with X infinitely large: x < y where the leading
    coefficients of y - x have a positive product. It proves that this is an ordered field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory FracField.
 Local Open Scope ring_scope.

@@ -4,18 +4,21 @@
 
     make.py CERTIFICATE [-o FILE.v]
 
-Static contacts only. Then `coqc -R build/coq Stiction FILE.v` checks it, after `./run prove`. Nothing in the certificate is trusted: Coq runs the algorithm itself, multiplies L D L',
-and tests the forces. The certificate's pivots are not used, only its policies, starts and periods.
+Static contacts only. After `./run prove`, `coqc -w none -R build/coq Stiction FILE.v` checks it. Nothing in the
+certificate is trusted: Coq runs the algorithm itself, multiplies L D L', and tests the forces. The certificate's
+pivots are not used, only its policies, starts and periods.
 """
 import argparse
 import itertools
 import json
 import sys
+from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 
 SWITCHES = {  # in the order of Algorithm.policy and Loop.all_policies: the value in a certificate, and in Coq
-    "scan": {"lowest": "lowest", "normals-first": "normals_first", "most-violated": "most_violated", "highest": "highest"},
+    "scan": {"lowest": "lowest", "normals-first": "normals_first", "most-violated": "most_violated",
+             "highest": "highest"},
     "resume": {"restart": "restart", "round": "round"},
     "admit": {"lazy": "lazy", "eager": "eager"},
     "file": {"no": "unfiled", "yes": "filed_at_scan"},
@@ -57,7 +60,7 @@ def dense(A):
 def coq(certificate, source):
     assert certificate["claim"] == "counterexample", certificate["claim"]
     problem, witness = certificate["problem"], certificate["witness"]
-    assert problem["dimension"] == 2 and all(c["kind"] == "static" for c in problem["contacts"]), "static contacts of the plane only"
+    assert problem["dimension"] == 2 and all(c["kind"] == "static" for c in problem["contacts"]), "static, in the plane"
     A, n = dense(problem["A"]), len(problem["b"])
     table = {values(policy): (run["start"], run["period"]) for run in witness["runs"] for policy in run["policies"]}
     grid = list(itertools.product(*SWITCHES.values()))
@@ -72,7 +75,7 @@ def coq(certificate, source):
   (exists g, solution the_problem g) /\\
   ({every} forall k, exists x, drives the_problem pol k = Going x /\\ ~ solution the_problem (f (point_of x)))."""
     opened = "unfold loops_under_every_policy. " if whole else ""
-    counts = sorted({(s, p): list(table.values()).count((s, p)) for s, p in table.values()}.items(), key=lambda x: (-x[1], x[0]))
+    counts = sorted(Counter(table.values()).items(), key=lambda x: (-x[1], x[0]))
     lines = ["(* SPDX-License-Identifier: Apache-2.0 *)",
              f"(* Written by make.py from {source}. It proves that the published algorithm never ends on",
              "   the_problem under the policies listed, nor ever stands at a solution, though A is definite and there is one. *)",
