@@ -3,6 +3,7 @@
 
 Takes the path of the program, and that of the sources, as the other scripts do."""
 
+import re
 import sys
 import tempfile
 import unittest
@@ -160,6 +161,21 @@ class Figures(unittest.TestCase):
 
     def test_no_block_is_refused_and_no_measured_number_stands_outside(self):
         self.assertEqual(list(figures.refusals(PROGRAM, FIGURES)), [])
+
+
+class Pages(unittest.TestCase):
+    def test_every_link_leads_somewhere(self):
+        for name in DOCUMENTS:
+            page = figures.ROOT / name
+            text = re.sub(r"```.*?```", "", page.read_text(), flags=re.S)
+            for target in re.findall(r"\]\(([^)\s#]+)[^)\s]*\)", text):
+                if not target.startswith("http"):
+                    self.assertTrue((page.parent / target).exists(), f"{name}: {target}")
+
+    def test_the_readme_is_short(self):
+        text = (figures.ROOT / "README.md").read_text()
+        self.assertLess(len(text.split()), 700)
+        self.assertIn("](corpus/scenes/block-in-a-valley-loop.svg)", text)
 
 
 if __name__ == "__main__":
