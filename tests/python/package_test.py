@@ -3,6 +3,7 @@
 import ast
 import inspect
 import json
+import random
 import re
 import signal
 import subprocess
@@ -289,6 +290,25 @@ class Documented(unittest.TestCase):
     def test_the_types_of_the_module_name_all_that_it_has(self):
         stub = ast.parse((SOURCES / "python/stiction/_stiction.pyi").read_text())
         self.assertEqual(members(stub), compiled(stiction._stiction))
+
+
+class Redundant(unittest.TestCase):
+    def test_fast_solves_bilateral_rows_that_depend_on_others(self):
+        """b in the range of A, held contacts among others: there is a solution, and no method calls it singular."""
+        draw, tried = random.Random(3), 0
+        for dimension, friction_rows in ((2, 2), (3, 3)):
+            for _ in range(400):
+                kinds = [draw.choice(["bilateral", "static", "frictionless"]) for _ in range(draw.randint(1, 3))]
+                rows = sum(friction_rows if kind == "static" else 1 for kind in kinds)
+                J = [[draw.randint(-2, 2) for _ in range(draw.randint(1, rows + 1))]]
+                J += [[draw.randint(-2, 2) for _ in J[0]] for _ in range(rows - 1)]
+                c = [draw.randint(-3, 3) for _ in J[0]]
+                A = [[sum(x * y for x, y in zip(left, right)) for right in J] for left in J]
+                b = [sum(x * y for x, y in zip(row, c)) for row in J]
+                problem = stiction.Problem(A, b, [int(kind == "static") for kind in kinds], kinds, dimension=dimension)
+                self.assertEqual(stiction.solve(problem, "fast").outcome, "solved", (kinds, A, b))
+                tried += "bilateral" in kinds
+        self.assertGreater(tried, 300)
 
 
 if __name__ == "__main__":
