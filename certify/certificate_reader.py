@@ -15,7 +15,9 @@ import hashlib
 import json
 import os
 import re
+import shutil
 import sys
+import textwrap
 from collections import namedtuple
 from fractions import Fraction
 from math import isinf, isqrt, lcm
@@ -362,6 +364,14 @@ def check(certificate, claims, expected=None):
     return f"{claim} ({facts(problem, witness)}), problem {found}"
 
 
+def tell(text):
+    """In lines that fit the terminal; in one where nothing says how wide it is."""
+    if os.environ.get("COLUMNS") or sys.stdout.isatty():
+        text = textwrap.fill(text, shutil.get_terminal_size().columns, subsequent_indent="  ", break_long_words=False,
+                             break_on_hyphens=False)
+    print(text)
+
+
 def check_file(path, claims, expected):
     """Prints the verdict on one file; returns its exit status."""
     try:
@@ -370,10 +380,10 @@ def check_file(path, claims, expected):
         print(f"{path}: unreadable: {error}", file=sys.stderr)
         return 2
     try:
-        print(f"{path}: accepted: {check(certificate, claims, expected)}")
+        tell(f"{path}: accepted: {check(certificate, claims, expected)}")
         return 0
     except Rejected as reason:
-        print(f"{path}: REJECTED: {reason}")
+        tell(f"{path}: REJECTED: {reason}")
         return 1
 
 
