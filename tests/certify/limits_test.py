@@ -169,7 +169,7 @@ def main(stiction, sources, *options):
         below, above = steps()
         check("steps", below, accepted=True, says=" operations")
         check("steps", above, accepted=False)
-        for n in (10, 40, 100, 130) if dearest else (10,):
+        for n in (10, 40, 100) if dearest else (10,):
             check(f"dense {n}", dense(n), accepted=True)
     for failure in failures:
         print("FAILED:", failure)
