@@ -265,7 +265,7 @@ def dearest(program):
     lines = program.script("tests/certify/limits_test.py", ".", "--dearest").splitlines()
     rows = []
     for line in lines:
-        found = re.fullmatch(r"(.+?)  +(stiction check|check_\w+\.py) +ACCEPTED +([\d.]+) s +(\d+) MB", line)
+        found = re.fullmatch(r"(.+?)  +(stiction check|check_\w+\.py) +accepted +([\d.]+) s +(\d+) MB", line)
         if found:
             name, checker, seconds, megabytes = found.groups()
             rows.append((name.strip(), f"`{checker}`", three(float(seconds)), megabytes))
