@@ -31,6 +31,9 @@ Json RangeCertificate(const ExactProblem& problem);
 // `h` or `not-h` (hypothesis.h); null if neither is shown, which is rare and happens in space only. InputError
 // for problems with sliding contacts.
 Json HypothesisCertificate(const ExactProblem& problem);
+// `exists`: A is semidefinite and (H) holds, so there is a solution (existence.md, theorem 1); null if either is not
+// shown. InputError for an asymmetric A and for sliding contacts, of which the theorem does not speak.
+Json ExistsCertificate(const ExactProblem& problem);
 // `cycle`, for those of the policies that end in one; a null value if none does.
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
 // `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that

@@ -181,14 +181,26 @@ void RequireCones(const ExactProblem& problem) {
   }
 }
 
-Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
-  RequireKeys(witness, "witness", {"y"});
+void RequireHypothesis(const ExactProblem& problem, const Json& witness) {
   RequireCones(problem);
   const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
   RequireProduct(problem, y);
   if (const auto violation = FindDualConeViolation(problem, DualRest(problem, y))) {
     throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};
   }
+}
+
+Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"y"});
+  RequireHypothesis(problem, witness);
+  return Json::object();
+}
+
+// The assumptions of theorem 1 of existence.md, whose conclusion is that a solution exists.
+Json CheckExists(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L", "y"});
+  RequireFactors(problem, witness);
+  RequireHypothesis(problem, witness);
   return Json::object();
 }
 
@@ -370,6 +382,7 @@ const std::map<std::string, WitnessCheck*>& Checks() {
       {"not-in-range", CheckNotInRange},
       {"h", CheckHypothesis},
       {"not-h", CheckNotHypothesis},
+      {"exists", CheckExists},
       {"cycle", CheckCycle},
       {"counterexample", CheckCounterexample},
   };

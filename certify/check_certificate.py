@@ -145,6 +145,13 @@ def check_h(problem, witness):
     return f"{len(y)} rows"
 
 
+def check_exists(problem, witness):
+    """A positive semidefinite and (H): by theorem 1 of certify/existence.md a solution exists, in space one of Coulomb's
+    law. No forces are given."""
+    check_psd(problem, witness)
+    return check_h(problem, witness)
+
+
 def check_not_h(problem, witness):
     """v in the friction cones with A v = 0 and b'v < 0."""
     v = factor_of_products(problem, witness, "v")
@@ -470,6 +477,7 @@ CLAIMS = {  # the keys of the witness, and what checks it
     "not-in-range": ("y value", check_not_in_range),
     "h": ("y", check_h),
     "not-h": ("v value", check_not_h),
+    "exists": ("L D y", check_exists),
     "safe": ("determinants", check_safe),
     "safe-by-condition": ("scaling least most", check_safe_by_condition),
     "unsafe": ("word determinant", check_unsafe),

@@ -9,6 +9,8 @@
 #include "certify/certificate.h"
 #include "certify/condition.h"
 #include "certify/existence.h"
+#include "certify/hypothesis.h"
+#include "certify/properties.h"
 #include "certify/safe.h"
 #include "corpus/input_error.h"
 
@@ -35,12 +37,28 @@ Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOpti
   return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
 }
 
+bool TheoremSpeaksOf(const ExactProblem& problem) { return IsSymmetric(problem) && !HasSlidingContact(problem); }
+
+// Forces, or that there are none; where neither is found, by the theorem.
 Json OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
-  return ExistingUnder(o.law, problem, o);
+  Json found = ExistingUnder(o.law, problem, o);
+  return found.is_null() && TheoremSpeaksOf(problem) ? ExistsCertificate(problem) : found;
 }
 
 Json OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
   return ExistingUnder(FrictionLaw::kBaraff, problem, o);
+}
+
+void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& source) {
+  if (const auto pair = FindAsymmetry(problem.A))
+    throw InputError(source, fmt::format("A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
+                     "a symmetric A: the theorem speaks of no other");
+  const auto sliding = std::find_if(problem.contacts.begin(), problem.contacts.end(), [](const auto& contact) {
+    return contact.kind == ContactKind::kSliding;
+  });
+  if (sliding != problem.contacts.end())
+    throw InputError(source, fmt::format("contacts[{}].kind", sliding - problem.contacts.begin()), "sliding",
+                     "bilateral, frictionless or static: with sliding contacts there may be no solution");
 }
 
 // The best bound that was found, or null.
@@ -63,7 +81,7 @@ Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
 }
 
 const std::array kRows = {
-    ClaimRow{{"existence", "solution-exists, in space by default coulomb-solution (--law), or no-solution"},
+    ClaimRow{{"existence", "solution-exists, in space by default coulomb-solution (--law), exists or no-solution"},
              RequireNothing,
              OfExistence},
     ClaimRow{{"solution-exists", "forces that meet all conditions, in space (21), (22)"},
@@ -77,6 +95,9 @@ const std::array kRows = {
     ClaimRow{{"h", "b'v >= 0 for all v in the friction cones with A v = 0"},
              RequireNothing,
              Alone<HypothesisCertificate>},
+    ClaimRow{{"exists", "psd and h: by a theorem there is a solution, of any size; no forces are given"},
+             RequireTheoremSpeaksOf,
+             Alone<ExistsCertificate>},
     ClaimRow{{"safe", "A is safe: ties apart, the published algorithm under apex=suspended ends"}, RequireSafetyIsSaid, Alone<SafetyCertificate>},
     ClaimRow{{"safe-by-condition", "its condition number alone shows that it is"},
              RequireSafetyIsSaid,

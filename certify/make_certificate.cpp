@@ -186,6 +186,17 @@ Json HypothesisCertificate(const ExactProblem& problem) {
                          {{"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
 }
 
+Json ExistsCertificate(const ExactProblem& problem) {
+  RequireSymmetric(problem, "exists");
+  const Json hypothesis = HypothesisCertificate(problem);
+  if (hypothesis.is_null() || hypothesis["claim"] != "h") return nullptr;
+  Json semidefinite = SemidefiniteCertificate(problem);
+  if (semidefinite["claim"] != "psd") return nullptr;
+  Json& witness = semidefinite["witness"];
+  witness.update(hypothesis["witness"]);
+  return MakeCertificate("exists", problem, std::move(witness));
+}
+
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
   const Json runs = CyclesToJson(problem, policies, limits);
   return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});

@@ -243,6 +243,18 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
+// What a certificate proves about solutions, "" if it speaks of something else.
+std::string_view ProvedOfSolutions(std::string_view claim) {
+  if (claim == "solution-exists") return ": forces that meet all conditions";
+  if (claim == "coulomb-solution") return ": forces that meet Coulomb's law up to the bound";
+  if (claim == "exists") return ": there is a solution, by the theorem of certify/existence.md; its forces are not known";
+  if (claim == "no-solution") return ": no forces meet all conditions";
+  return "";
+}
+
+// `certify --claim exists` where one of its two parts is not shown.
+constexpr std::string_view kPartsOfExists = " ('--claim psd' and '--claim h' say what is missing)";
+
 void RequireAffordable(const Json& certificate, const std::string& file) {
   const CheckReport report = CheckCertificate(certificate, file);
   if (report.accepted) return;
@@ -274,9 +286,11 @@ int RunCertify(const CertifyOptions& o) {
   if (o.json) {
     out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file.problem)}}) << "\n";
   } else if (certified) {
-    out << fmt::format("{}: {}\n", o.output, claim.get<std::string>());
+    const std::string name = claim.get<std::string>();
+    out << Folded(fmt::format("{}: {}{}\n", o.output, name, ProvedOfSolutions(name)));
   } else {
-    out << fmt::format("undecided: nothing that was run shows '{}'\n", o.claim);
+    out << Folded(fmt::format("undecided: nothing that was run shows '{}'{}\n", o.claim,
+                              o.claim == "exists" ? kPartsOfExists : ""));
   }
   return certified ? kExitDone : kExitUndecided;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `node lines.mjs MODULE`: what stiction-live does, by the WebAssembly module. For the tests.
+// `node lines.mjs MODULE`: a request a line, an answer a line, by the WebAssembly module. For the tests.
 import {readFileSync} from 'node:fs';
 import {gunzipSync} from 'node:zlib';
 

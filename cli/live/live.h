@@ -6,7 +6,7 @@
 // file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
 // irrational, the published algorithm runs over doubles, and what does not end solved again over long double
 // (solver/problem/extended.h) and over intervals (certify/interval_portable.h), as in the program. Built for
-// browsers by build.py, and natively for the tests, as stiction-live.
+// browsers by build.py.
 
 #ifndef STICTION_CLI_LIVE_LIVE_H_
 #define STICTION_CLI_LIVE_LIVE_H_

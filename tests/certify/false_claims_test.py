@@ -506,6 +506,35 @@ false("no-solution", "in space, of a contact behind a bilateral one", behind_a_h
 false("no-solution", "in space, by the friction of a contact behind a bilateral one", behind_a_hinge([0, 0, -1, 0]),
       prefixes=[{"modes": [], "y": texts([0, 0, 1, 0])}])
 
+# --- exists: psd and h together ------------------------------------------------------
+
+def without_forces():
+    """What is claimed of `psd`, beside a y that shows (H) since b = 0; of `h`, beside L and D of A = 0."""
+    for how, entries in ((true, TRUE), (false, FALSE)):
+        for name, entry in list(entries):
+            of, witness, n = entry["problem"], entry["witness"], len(entry["problem"]["b"])
+            if entry["claim"] == "psd":
+                how("exists", name, of, **witness, y=texts([0] * n))
+            if entry["claim"] == "h" and of["A"] == texts([[0] * n] * n):
+                how("exists", name, of, **witness, L=texts([[int(i == j) for j in range(n)] for i in range(n)]),
+                    D=texts([0] * n))
+
+
+without_forces()
+ROD = [["8/5", "6/5"], ["6/5", "17/5"]]
+BOTH = {"L": texts([[1, 0], ["3/4", 1]]), "D": texts(["8/5", "5/2"]), "y": texts([Fraction(-17, 2), 3])}
+true("exists", "a rod that may stick", problem([2], ROD, ["-10", "0"]), **BOTH)
+false("exists", "a rod that slides, which has no solution", problem([("2", "1")], ROD, ["-10", "0"]), **BOTH)
+WEDGE = problem([1], [[1, -1], [-1, 1]], [-1, 0])
+for y in ([0, 0], [-1, 0], [0, 1], [Fraction(-1, 2), Fraction(1, 2)]):
+    false("exists", f"a wedge without a solution, y = {texts(y)}", WEDGE, L=texts([[1, 0], [-1, 1]]), D=texts([1, 0]), y=texts(y))
+DRAWN = {"L": texts([[1, 0], [1, 1]]), "D": texts([1, 0])}
+true("exists", "b outside of range(A)", problem([1], [[1, 1], [1, 1]], [1, 0]), **DRAWN, y=texts([0, 0]))
+false("exists", "(H) fails", problem([1], [[1, 1], [1, 1]], [0, 1]), **DRAWN, y=texts([0, 0]))
+false("exists", "A of another sign", problem([1], [[1, 1], [1, -1]], [1, 0]), **DRAWN, y=texts([0, 0]))
+false("exists", "D of psd alone, no y that fits", problem([1], IDENTITY, [-1, 0]), L=texts(IDENTITY), D=texts([1, 1]), y=texts([0, 0]))
+false("exists", "y of h alone, no D that fits", problem([1], IDENTITY, [-1, 0]), L=texts(IDENTITY), D=texts([1, 0]), y=texts([-1, 0]))
+
 # --- cycle -------------------------------------------------------------------------
 
 CYCLING = problem([1, 1], [[7, -2, -6, 0], [-2, 9, -1, -7], [-6, -1, 7, 3], [0, -7, 3, 7]], [2, -1, -2, 2])

@@ -66,7 +66,7 @@ CLAIMS = [("solution-exists", "solution-exists", REFERENCE), ("symmetric", "symm
           ("definite", "definite", REFERENCE), ("not-definite", "definite", SINGULAR),
           ("in-range", "in-range", SINGULAR), ("not-in-range", "in-range", OUTSIDE),
           ("solution-exists", "solution-exists", SPACE), ("coulomb-solution", "coulomb-solution", SPACE),
-          ("h", "h", BESIDE), ("not-h", "h", WEDGE), ("no-solution", "existence", DEAD),
+          ("h", "h", BESIDE), ("exists", "exists", BESIDE), ("not-h", "h", WEDGE), ("no-solution", "existence", DEAD),
           ("h", "h", INSIDE), ("not-h", "h", OUTSIDE), ("cycle", "cycle", REFERENCE),
           ("counterexample", "counterexample", REFERENCE)]
 OF_RUNS = ("cycle", "counterexample")
@@ -237,7 +237,9 @@ def is_true(altered, original):
         return [dot(row, numbers(witness["x"])) for row in A] == b
     if claim == "no-solution":
         return refuted_in_space(altered["problem"], witness["prefixes"])
-    if claim == "h":
+    if claim == "exists" and not factors(A, rows(witness["L"]), numbers(witness["D"])):
+        return False
+    if claim in ("h", "exists"):
         image = [dot(numbers(witness["y"]), column) for column in zip(*A)]
         return in_cones(altered["problem"], [x - y for x, y in zip(b, image, strict=True)], dual=True)
     value = Fraction(witness["value"])

@@ -71,6 +71,10 @@ const std::map<std::string, Contradicts>& Contradictions() {
       {"not-in-range", [](P p) { return IsInRange(p); }},
       {"h", [](P p) { return ContradictsHypothesis(p, "h"); }},
       {"not-h", [](P p) { return ContradictsHypothesis(p, "not-h"); }},
+      {"exists",
+       [](P p) {
+         return !IsSymmetric(p) || !IsPositiveSemidefinite(p) || ContradictsHypothesis(p, "h") || ProvesNoSolution(p);
+       }},
       {"safe", [](P p) { return !IsSafe(p); }},
       {"unsafe", IsSafe},
       {"safe-by-condition", [](P p) { return !IsSafe(p); }},

@@ -305,6 +305,10 @@ bug("claim-not-in-range-value", 'RequireEqual(ReadNumber(witness["value"], "witn
   if (product == 0)''')
 bug("claim-h-sliding", "HasSlidingContact(problem)", "false", "h, not-h: sliding contacts, too")
 bug("claim-h-cone", """throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};""", "", "h: any y")
+bug("claim-exists-psd", "RequireFactors(problem, witness);", "", "exists: any A",
+    context="RequireFactors(problem, witness);\n  RequireHypothesis(problem, witness);")
+bug("claim-exists-h", "RequireHypothesis(problem, witness);", "", "exists: any b",
+    context="RequireFactors(problem, witness);\n  RequireHypothesis(problem, witness);")
 bug("claim-not-h-cone", 'if (const auto violation = FindConeViolation(problem, v)) throw Rejected{"witness.v", '
     '*violation, "v in K"};', "", "not-h: v outside of K")
 bug("claim-not-h-kernel", 'RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));', "", "not-h: A v may be anything")
