@@ -21,7 +21,7 @@ namespace {
 constexpr int kTimedRuns = 3;
 
 std::vector<RungTally> TallyRungs(const Source& source, const std::vector<RungRow>& rows, std::int64_t problems,
-                               std::uint64_t seed) {
+                                  std::uint64_t seed) {
   std::vector<RungTally> tallies(rows.size());
   for (std::int64_t index = 0; index < problems; ++index) {
     const RungProblem problem(source.make(seed, index));

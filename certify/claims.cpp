@@ -37,7 +37,9 @@ Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOpti
   return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
 }
 
-bool TheoremSpeaksOf(const ExactProblem& problem) { return IsSymmetric(problem) && !HasSlidingContact(problem); }
+bool TheoremSpeaksOf(const ExactProblem& problem) {
+  return IsSymmetric(problem) && !HasSlidingContact(problem);
+}
 
 // Forces, or that there are none; where neither is found, by the theorem.
 Json OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
@@ -53,9 +55,8 @@ void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& sour
   if (const auto pair = FindAsymmetry(problem.A))
     throw InputError(source, fmt::format("A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
                      "a symmetric A: the theorem speaks of no other");
-  const auto sliding = std::find_if(problem.contacts.begin(), problem.contacts.end(), [](const auto& contact) {
-    return contact.kind == ContactKind::kSliding;
-  });
+  const auto sliding = std::find_if(problem.contacts.begin(), problem.contacts.end(),
+                                    [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
   if (sliding != problem.contacts.end())
     throw InputError(source, fmt::format("contacts[{}].kind", sliding - problem.contacts.begin()), "sliding",
                      "bilateral, frictionless or static: with sliding contacts there may be no solution");
@@ -81,9 +82,10 @@ Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
 }
 
 const std::array kRows = {
-    ClaimRow{{"existence", "solution-exists, in space by default coulomb-solution (--law), exists or no-solution"},
-             RequireNothing,
-             OfExistence},
+    ClaimRow{
+        {"existence", "solution-exists, in space by default coulomb-solution (--law), exists or no-solution"},
+        RequireNothing,
+        OfExistence},
     ClaimRow{{"solution-exists", "forces that meet all conditions, in space (21), (22)"},
              RequireNothing,
              OfSolution},
@@ -98,7 +100,9 @@ const std::array kRows = {
     ClaimRow{{"exists", "psd and h: by a theorem there is a solution, of any size; no forces are given"},
              RequireTheoremSpeaksOf,
              Alone<ExistsCertificate>},
-    ClaimRow{{"safe", "A is safe: ties apart, the published algorithm under apex=suspended ends"}, RequireSafetyIsSaid, Alone<SafetyCertificate>},
+    ClaimRow{{"safe", "A is safe: ties apart, the published algorithm under apex=suspended ends"},
+             RequireSafetyIsSaid,
+             Alone<SafetyCertificate>},
     ClaimRow{{"safe-by-condition", "its condition number alone shows that it is"},
              RequireSafetyIsSaid,
              Alone<ByCondition>},

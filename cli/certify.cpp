@@ -247,7 +247,8 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
 std::string_view ProvedOfSolutions(std::string_view claim) {
   if (claim == "solution-exists") return ": forces that meet all conditions";
   if (claim == "coulomb-solution") return ": forces that meet Coulomb's law up to the bound";
-  if (claim == "exists") return ": there is a solution, by the theorem of certify/existence.md; its forces are not known";
+  if (claim == "exists")
+    return ": there is a solution, by the theorem of certify/existence.md; its forces are not known";
   if (claim == "no-solution") return ": no forces meet all conditions";
   return "";
 }
@@ -363,7 +364,9 @@ void AddCertify(CommandLine& program) {
   verb.Option("--law", o.law, "friction in space, of the claim existence; by default coulomb")
       .Choices({{"coulomb", "Coulomb's law up to a proved bound on the angle: coulomb-solution"},
                 {"baraff", "the paper's conditions (21), (22): solution-exists"}});
-  verb.Flag("--safe", o.safe, "the friction coefficient below which A is safe: ties apart, the published algorithm under apex=suspended ends")
+  verb.Flag("--safe", o.safe,
+            "the friction coefficient below which A is safe: ties apart, the published algorithm under "
+            "apex=suspended ends")
       .Details("See certify/README.md; with -o a certificate whether the problem is");
   verb.Flag("--all", o.all, "list all contact modes that have solutions; writes no certificate");
   verb.Flag("--robust", o.robust, "of a loop: how far A, b and mu may move at once while it stays one")

@@ -50,6 +50,10 @@ constexpr std::array kWords = {
     Word{"start, period",
          "how many drives (of a stall: steps) before the state that recurs, and until it recurs", ""},
     Word{"singular", "no direction keeps the conditions of the sets: the algorithm cannot go on", "5.5"},
+    Word{"existence",
+         "a solution exists, for every mu, wherever A is symmetric positive semidefinite and b in its range: a "
+         "theorem",
+         "certify/existence.md"},
     Word{"ray", "a step without limit: the forces could grow for ever", "6"},
     Word{"fold",
          "in complete driving: the determinant changes its sign, and the driven force turns back; there the "
@@ -70,7 +74,10 @@ constexpr std::array kWords = {
          "one reading of the published text: a value for each of its open choices; `paper` is the reference",
          "solver/published/readings.md"},
     Word{"finding", "a run that is no solution, or a disagreement between methods, arithmetics or checks", ""},
-    Word{"grave", "of a finding: methods that are proved disagree, or a problem loops that is safe, which ties alone can make", ""},
+    Word{"grave",
+         "of a finding: methods that are proved disagree, or a problem loops that is safe, which ties alone "
+         "can make",
+         ""},
     Word{"certificate", "a claim with an exact witness, which a short independent program accepts",
          "certify/README.md"},
 };

@@ -73,7 +73,8 @@ const std::map<std::string, Contradicts>& Contradictions() {
       {"not-h", [](P p) { return ContradictsHypothesis(p, "not-h"); }},
       {"exists",
        [](P p) {
-         return !IsSymmetric(p) || !IsPositiveSemidefinite(p) || ContradictsHypothesis(p, "h") || ProvesNoSolution(p);
+         return !IsSymmetric(p) || !IsPositiveSemidefinite(p) || ContradictsHypothesis(p, "h") ||
+                ProvesNoSolution(p);
        }},
       {"safe", [](P p) { return !IsSafe(p); }},
       {"unsafe", IsSafe},
