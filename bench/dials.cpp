@@ -118,7 +118,7 @@ ExactProblem Levers(int setting, Choices& choices) {
 }
 
 // All masses at once, and so all forces.
-ExactProblem OtherUnits(int setting, Choices& choices) {
+ExactProblem Units(int setting, Choices& choices) {
   Draft draft = DrawBodies(choices);
   draft.W *= PowerOfTen(setting);
   return Made(draft);
@@ -271,7 +271,7 @@ const std::vector<Dial>& Dials() {
        {-150, -75, -16, -8, 0, 8, 16, 75, 150},
        true,
        &Levers},
-      {"units", "unit of mass", "10^k kg", {-300, -150, 0, 150, 300}, true, &OtherUnits},
+      {"units", "unit of mass", "10^k kg", {-300, -150, 0, 150, 300}, true, &Units},
       {"conditioned", "condition number of A", "10^k", {0, 8, 16, 32, 100, 300}, true, &Conditioned},
       {"parallel", "contacts alike but for", "10^-k", {1, 4, 8, 12, 16, 40}, true, &Parallel},
       {"duplicates", "copies of a contact", "copies", {0, 1, 2, 4}, true, &Duplicates},

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kTimedRuns = 3;
 
-std::vector<RungTally> TallyRungs(const Source& source, const std::vector<RungRow>& rows, std::int64_t problems,
-                                  std::uint64_t seed) {
+std::vector<RungTally> Measure(const Source& source, const std::vector<RungRow>& rows, std::int64_t problems,
+                               std::uint64_t seed) {
   std::vector<RungTally> tallies(rows.size());
   for (std::int64_t index = 0; index < problems; ++index) {
     const RungProblem problem(source.make(seed, index));
@@ -78,7 +78,7 @@ int RunLadder(const BenchOptions& o, const std::vector<Source>& sources, std::in
   progress::Expect(sources.size());
   for (const Source& source : sources) {
     progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
-    const auto tallies = TallyRungs(source, rows, problems, o.seed);
+    const auto tallies = Measure(source, rows, problems, o.seed);
     progress::Clear();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const RungTally& tally = tallies[i];

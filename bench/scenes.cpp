@@ -79,11 +79,11 @@ Pair MeasureScene(const SceneFileIn<Kind>& file, const std::array<Way, 2>& ways,
   return pair;
 }
 
-Json SpreadToJson(const Spread& s) { return {{"least", s.least}, {"median", s.median}, {"most", s.most}}; }
+Json ToJson(const Spread& s) { return {{"least", s.least}, {"median", s.median}, {"most", s.most}}; }
 
 Json ToJson(const Measured& m) {
   if (!m.failure.empty()) return {{"failure", m.failure}};
-  return {{"frames_a_second", SpreadToJson(SpreadOf(m.rates))}, {"rows", m.rows}, {"problems", m.problems}};
+  return {{"frames_a_second", ToJson(SpreadOf(m.rates))}, {"rows", m.rows}, {"problems", m.problems}};
 }
 
 void PrintHead(const std::array<Way, 2>& ways) {
@@ -135,7 +135,7 @@ int BenchScenes(const BenchOptions& o) {
     rows.push_back({{"scene", name},
                     {ways[0].name, ToJson(pair.first)},
                     {ways[1].name, ToJson(pair.second)},
-                    {"ratio", SpreadToJson(pair.ratio)}});
+                    {"ratio", ToJson(pair.ratio)}});
     if (!o.json) PrintRow(name, pair);
   }
   if (o.json) std::cout << JsonText(rows) << "\n";

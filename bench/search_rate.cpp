@@ -39,7 +39,7 @@ constexpr std::int64_t kProblems = 200'000;  // of a run at two contacts
 
 double OwnSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
-Json ToList(const Spread& s) { return {s.least, s.median, s.most}; }
+Json ToJson(const Spread& s) { return {s.least, s.median, s.most}; }
 
 // ---- Rates -----------------------------------------------------------------------------------
 
@@ -74,7 +74,7 @@ BenchTable MeasureRates(const BenchOptions& o) {
       table.rows.push_back(
           {{"generator", row.name},
            {"contacts", contacts},
-           {"problems a second", ToList(SearchRate(row.id, contacts, BestInstructionSet(), o))}});
+           {"problems a second", ToJson(SearchRate(row.id, contacts, BestInstructionSet(), o))}});
   }
   return table;
 }
@@ -87,7 +87,7 @@ BenchTable MeasureLanes(const BenchOptions& o) {
     if (o.generator && row.id != *o.generator) continue;
     Json line = {{"generator", row.name}};
     for (const InstructionSet set : InstructionSets())
-      line[std::string(Name(set))] = ToList(SearchRate(row.id, 2, set, o));
+      line[std::string(Name(set))] = ToJson(SearchRate(row.id, 2, set, o));
     table.rows.push_back(std::move(line));
   }
   return table;

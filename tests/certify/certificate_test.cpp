@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 
+#include "certify/claims.h"
 #include "corpus/digest.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
@@ -98,6 +99,18 @@ TEST_CASE("certificate: no contacts at all can be certified") {
   CHECK(CheckCertificate(SolutionCertificate(NoContacts(), Vector({})), "c").accepted);
   CHECK(CheckCertificate(SemidefiniteCertificate(NoContacts()), "c").accepted);
   CHECK(CheckCertificate(RangeCertificate(NoContacts()), "c").accepted);
+}
+
+// With budgets so small that no forces are found.
+TEST_CASE("certificate: where no forces are found, the theorem says that there are some") {
+  const ClaimOptions few = {.limits = {.pivots = 1}, .enumeration = {.programs = 1}};
+  const ExactProblem problem = ReferenceProblem();
+  CHECK(ClaimOf(CertifyClaim(problem, "p", "existence", {})) == "solution-exists");
+  const Json exists = CertifyClaim(problem, "p", "existence", few);
+  REQUIRE(ClaimOf(exists) == "exists");
+  CHECK(CheckCertificate(exists, "c.json").accepted);
+  CHECK(CertifyClaim(problem, "p", "solution-exists", few).is_null());
+  CHECK(CertifyClaim(NoSolution(), "p", "existence", few).is_null());  // (H) fails
 }
 
 TEST_CASE("certificate: what is not so is not certified") {

@@ -22,7 +22,7 @@ from math import prod
 from pathlib import Path
 
 BATCH = 500  # files in one call of the program
-SHARE = 4 if os.environ.get("STICTION_TESTS") == "short" else 1  # one in so many is shown
+SHARE = 1 if os.environ.get("STICTION_TESTS") == "all" else 5  # one in so many is shown
 POLICIES = ["paper", "ties=contacts", "resume=round", "file=yes"]
 
 

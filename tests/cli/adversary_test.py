@@ -40,7 +40,7 @@ class Adversary(cli.TestCase):
         again = json.loads(assembled.read_text())
         self.assertEqual((again["A"], again["b"]), (simpler["A"], simpler["b"]))
 
-    @unittest.skipIf(cli.SHORT, "long")
+    @unittest.skipUnless(cli.ALL, "long")
     def test_threads_and_pieces_leave_the_same_store(self):
         options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt",
                    "--finishing", 100]

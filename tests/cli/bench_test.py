@@ -445,7 +445,7 @@ class Smallest(cli.TestCase):
 
 class Sliding(cli.TestCase):
     def test_every_problem_has_one_outcome_and_every_cycle_is_decided(self):
-        problems = 4000 if cli.SHORT else 20000
+        problems = 20000 if cli.ALL else 4000
         arguments = ["bench", "--suite", "sliding", "--contacts", "1", "2", "--problems", problems, "--json"]
         done = self.succeeds(*arguments)
         rows = done.json()["rows"]

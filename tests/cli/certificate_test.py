@@ -32,6 +32,7 @@ class Certificates(cli.TestCase):
             (cli.REFERENCE, "counterexample", "counterexample"),
             (cli.SOLVED, "in-range", "in-range"), (outside, "in-range", "not-in-range"),
             (cli.SOLVED, "h", "h"), (outside, "h", "not-h"),
+            (cli.SOLVED, "exists", "exists"), (cli.REFERENCE, "exists", "exists"),
         ]:
             with self.subTest(problem=problem["name"], claim=claim):
                 file, out = self.file("p.json", problem), self.folder / "c.json"
@@ -40,8 +41,22 @@ class Certificates(cli.TestCase):
                 self.assertEqual(json.loads(out.read_text())["claim"], certified)
                 self.assertEqual(self.check(out, accepted=True)["claim"], certified)
                 text = self.succeeds("certify", file, "-o", out, "--claim", claim).out
-                self.assertEqual(text, f"{out}: {certified}\n")
+                says = {"solution-exists": "forces that meet all conditions", "exists": "by the theorem"}.get(certified)
+                self.assertRegex(text, f"^{out}: {certified}: .*{says}" if says else f"^{out}: {certified}\n$")
                 self.assertIn(f"{out}: accepted: {certified}", self.succeeds("check", out).out)
+
+    def test_existence_without_forces(self):
+        out = self.folder / "c.json"
+        outside = self.file("p.json", {**cli.SOLVED, "A": [["1", "1"], ["1", "1"]]})
+        indefinite = self.file("q.json", {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]})
+        for file in (outside, indefinite):
+            done = self.succeeds("certify", file, "-o", out, "--claim", "exists", code=3)
+            self.assertRegex(done.out, "undecided: .*--claim psd.*--claim h")
+        asymmetric = self.file("r.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})
+        sliding = cli.ROOT / "corpus/sliding/rod-without-solution.json"
+        for file, says in [(asymmetric, "A[0][1]"), (sliding, "contacts[0].kind: found sliding")]:
+            self.refuses("certify", file, "-o", out, "--claim", "exists", says=says)
+        self.assertFalse(out.exists())
 
     def test_no_claim_is_made_without_a_witness(self):
         out = self.folder / "c.json"

@@ -14,7 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 os.environ["COLUMNS"] = "200"  # sentences stay on one line; terminal_test.py is about narrower ones
-SHORT = os.environ.get("STICTION_TESTS") == "short"
+SHORT = os.environ.get("STICTION_TESTS") == "short"  # builds of the matrix but the first
+ALL = os.environ.get("STICTION_TESTS") == "all"  # its first
 # What is compared of two stores; `work` is another in every run.
 TABLES = {
     "campaign": "key",
@@ -52,6 +53,11 @@ class Run:
 
     def json(self):
         return json.loads(self.out)
+
+
+def share(cases, n):
+    """Every n-th of the cases; all of them in the first build of the matrix."""
+    return list(cases) if ALL else list(cases)[::n]
 
 
 def run(*arguments, cwd=None, timeout=120):

@@ -108,12 +108,12 @@ class Live(cli.TestCase):
     def test_it_says_what_the_program_says_to_the_byte(self):
         cases = [(problem, *reading) for problem in corpus(2, "", "sliding", "endless") for reading in READINGS]
         self.assertGreater(len(cases), 300)
-        self.compare(cases)
+        self.compare(cli.share(cases, 4))  # of five readings
 
     def test_in_space_it_says_what_the_program_says_to_the_byte(self):
         cases = [(problem, *reading) for problem in in_space() for reading in IN_SPACE]
         self.assertGreater(len(cases), 100)
-        ends = self.compare(cases)
+        ends = self.compare(cli.share(cases, 5))  # of six
         # The tongues of all arithmetics: doubles, run again more finely, intervals that prove or leave open.
         for end in ("^solved", "^cycle: after rounding.*; over intervals, proved: cycle",
                     "; over intervals, which do not decide it", "^ray.*; over intervals, proved: ray"):

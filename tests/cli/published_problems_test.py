@@ -55,7 +55,7 @@ class PublishedProblems(cli.TestCase):
                     exact = variant["runs"][-1]
                     self.assertEqual((exact["arithmetic"], exact["certificate"]), ("exact", "solution-exists"))
 
-    @unittest.skipIf(cli.SHORT, "long")
+    @unittest.skipUnless(cli.ALL, "long")
     def test_large_planar_ones_are_solved_with_a_verified_residual(self):
         large = {"friction/FrictionContactProblem00237.dat": 376,
                  "friction/fc2d_granularflowonwall_00667_00000.dat": 667,
@@ -71,7 +71,7 @@ class PublishedProblems(cli.TestCase):
                 self.assertLess(run["residual"], 1e-8)  # of every contact in its own units
 
     def test_all_in_space_obey_coulombs_law(self):
-        spatial = [name for name in FILES if FILES[name][1] == 3] + ([] if cli.SHORT else list(LARGER))
+        spatial = [name for name in FILES if FILES[name][1] == 3] + (list(LARGER) if cli.ALL else [])
         for name, entry in self.survey(spatial).items():
             if name in LARGER:
                 self.assertEqual(entry["contacts"], LARGER[name])

@@ -245,7 +245,7 @@ class Benches(Background):
         suites = [choice["name"] for choice in words[0]["choices"]]
         self.assertGreater(len(suites), 15)
         few = ("smallest", "sliding", "structure", "methods")  # one of each kind, of a program or another
-        for suite in few if cli.SHORT else suites:
+        for suite in suites if cli.ALL else few:
             with self.subTest(suite=suite):
                 mine, its = self.open_terminal()
                 bench = self.launch("bench", "--suite", suite, "--entries", 4, "--scenes", cli.ROOT / "corpus/scenes",

@@ -13,7 +13,7 @@ import cli
 
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
             "contacts": [2, 3], "unit_problems": 2000}
-PROBLEMS = 60000 if cli.SHORT else 300000
+PROBLEMS = 300000 if cli.ALL else 60000
 
 
 class Slurm(cli.TestCase):

@@ -35,10 +35,10 @@ class Solve(cli.TestCase):
             for arithmetic in method[dimension]:
                 yield method["name"], arithmetic
 
-    def solve_everywhere(self, problem, judge=True):
-        """By every method in every arithmetic; how often it was solved and refused."""
+    def solve_everywhere(self, problem, judge=True, share=3):
+        """By every method in every arithmetic, or a share of these; how often it was solved and refused."""
         file, solved, refused = self.file("p.json", problem), 0, 0
-        for method, arithmetic in self.methods():
+        for method, arithmetic in cli.share(self.methods(), share):
             with self.subTest(method=method, arithmetic=arithmetic):
                 done = cli.run("solve", file, "--method", method, "--arithmetic", arithmetic, "--json")
                 self.assertIn(done.code, (0, 1, 2, 3), done.err)
@@ -61,7 +61,7 @@ class Solve(cli.TestCase):
     def test_wrong_answers_of_a_search_are_no_longer_called_solved(self):
         for contacts in (2, 3, 6):
             problem = json.loads((cli.ROOT / f"corpus/wrong-in-doubles-{contacts}-contacts.json").read_text())
-            solved, _ = self.solve_everywhere(problem)
+            solved, _ = self.solve_everywhere(problem, share=1)
             self.assertGreater(solved, 5)
 
     def test_a_suspicion_is_answered_with_exact_forces(self):
@@ -98,7 +98,7 @@ class Solve(cli.TestCase):
                 problem["contacts"][0]["mu"] = value
             file = self.file("p.json", problem)
             for arithmetic in arithmetics:
-                for method, built in self.methods():
+                for method, built in cli.share(self.methods(), 2):
                     if built != arithmetic:
                         continue
                     self.refuses("solve", file, "--method", method, "--arithmetic", arithmetic,

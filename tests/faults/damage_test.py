@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 import cli  # noqa: E402
 
-FLIPS = 10 if cli.SHORT else 60
+FLIPS = 60 if cli.ALL else 10
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 5, "generators": ["small", "duplicates"],
             "contacts": [2, 3], "unit_problems": 220}
 PROBLEMS = 190000  # one block and some units
