@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Lemke's method, as a function, ends, and where: for w = M z + q with a covering vector d > 0; over any ordered
-   field, nondegenerate.
+(* Proves that Lemke's method, as a function, ends, and where: for w = M z + q with a covering vector d > 0; over any
+   ordered field, nondegenerate.
    Columns: number 0 is z0 (column -d), number j+1 is w_j or, if `s j`, z_j. A basis: a set s and a column l that is
    left out (zero); the edge of s: all n + 1 columns of s. *)
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -202,7 +202,8 @@ Notation pos := (pos mates true (s0, first)).
 Lemma is_vertex_pos k x : pos k = Some x -> is_vertex x.1 x.2.
 Proof.
 case: k => [[<-]|k /posS [y _]]; first exact: first_vertex.
-by case: (turn _ _) => /=; rewrite /over /along; move=> e; move: (mates_sym (c := true)) (mates_sym (c := false)) => /=;
+by case: (turn _ _) => /=; rewrite /over /along; move=> e;
+  move: (mates_sym (c := true)) (mates_sym (c := false)) => /=;
   rewrite /over /along => s1 s2; [move: (s1 _ _ e) | move: (s2 _ _ e)]; case: ifP.
 Qed.
 Lemma state_pos k : state k = pos k.*2.

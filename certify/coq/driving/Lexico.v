@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Lemke's method ends in a solution where q has ties: over R(X), for q + (e, e^2, ...), e = 1/X infinitesimal. The
-   basis in which it ends is one of a solution for q itself. d may be over R(X) for some R: graded. *)
+(* Proves that Lemke's method ends in a solution where q has ties: over R(X), for q + (e, e^2, ...), e = 1/X
+   infinitesimal. The basis in which it ends is one of a solution for q itself.
+   d may be over R(X) for some R: graded. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity.
 From Stiction.driving Require Import Rational Statement Path Lemke Eval.
@@ -37,7 +38,8 @@ have P0 : P = 0.
   rewrite rmorphD rmorph_sum /= mulrDr; congr (_ + _).
     rewrite -mul_polyC rmorphM rmorphX /= mulrC; congr (_ * _).
     rewrite -/(emb _) mxE rmorph_sum; apply: eq_bigr => k _; by rewrite !mxE rmorphM.
-  rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA; congr (_ * _).
+  rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA;
+    congr (_ * _).
   by rewrite /Statement.eps exprVn -expfB_cond //; rewrite gt_eqF ?X_gt0 //= add0n ltn_ord.
 have := congr1 (fun Q : {poly R} => Q`_(n - j.+1)) P0; rewrite coef0 coefD coefZ coefXn.
 have -> : (n - j.+1 == n)%N = false by apply/negbTE; rewrite neq_ltn ltn_subrL /= (leq_ltn_trans _ (ltn_ord j)).
@@ -87,7 +89,8 @@ move=> un nn; split.
 - by move=> j; rewrite mxE; case: (s j).
 - by move=> j; rewrite mxE; case: (s j).
 - have : basis s *m basic s = q by rewrite mulKVmx.
-  move=> e; rewrite -[in RHS]e; apply/matrixP => i j; rewrite [j]ord1 [RHS]mxE [X in _ = X + _]mxE [X in _ = _ + X]mxE -big_split /=.
+  move=> e; rewrite -[in RHS]e; apply/matrixP => i j;
+    rewrite [j]ord1 [RHS]mxE [X in _ = X + _]mxE [X in _ = _ + X]mxE -big_split /=.
   rewrite (eq_bigr (fun k => if i == k then w_basic s k 0 else 0)) => [|k _].
     by rewrite -big_mkcond (big_pred1 i) // => k; rewrite eq_sym.
   rewrite [z_basic s k 0]mxE [basis s i k]mxE [w_basic s k 0]mxE; case: (s k); first by rewrite mulNr subrr if_same.
@@ -127,7 +130,8 @@ Hypothesis rays : forall z z', nonneg z -> nonneg z' -> nonneg (M *m z) -> dotp 
 (* Lemke's method, ties told by infinitesimals *)
 Definition lemke_lex := lemke (MF M) dF qeps (2 ^ n).-1 (s0 n) (first dF qeps).
 Theorem lemke_lex_ends_in_a_solution :
-  exists s, [/\ lemke_lex = Solved s, basis s \in unitmx, nonneg (basic s) & lcp_solution M q (w_basic s) (z_basic s)].
+  exists s,
+    [/\ lemke_lex = Solved s, basis s \in unitmx, nonneg (basic s) & lcp_solution M q (w_basic s) (z_basic s)].
 Proof.
 have raysE z z' : nonneg z -> nonneg z' -> nonneg (MF M *m z) -> dotp z (MF M *m z) = 0 ->
     0 <= dotp z qeps /\ 0 <= dotp z (MF M *m z') + dotp z' (MF M *m z).

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Lemke's method solves static friction in the plane with any positive covering vector (over R(W), so also one
-   graded by an infinite W), for any A symmetric positive semidefinite and any b in its range. *)
+(* Proves that Lemke's method solves static friction in the plane with any positive covering vector (over R(W), so
+   also one graded by an infinite W), for any A symmetric positive semidefinite and any b in its range. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Rational Statement.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.
@@ -71,14 +71,15 @@ move=> d0; have [s [e l]] := lemke_cover_ends_in_a_solution d0 (copos psd mu0) (
 by exists s; split=> //; exact: lcp_law l.
 Qed.
 
-(* the covering vector of equivalence.md: W^v in the rows of variable v = 1, 2, ... (normal of contact 1, its friction, normal of
-   contact 2, ...), W infinitely large; 1/W in multiplier rows *)
+(* the covering vector of equivalence.md: W^v in the rows of variable v = 1, 2, ... (normal of contact 1, its
+   friction, normal of contact 2, ...), W infinitely large; 1/W in multiplier rows *)
 Notation W := (X R).
 Definition graded : 'cV[ratfun R]_((n + n) + (n + n)) :=
   mk (\col_i W ^+ (i : nat).*2.+1) (\col_i W ^+ (i : nat).*2.+2) (\col_i W ^+ (i : nat).*2.+2) (\col_i W^-1).
 Lemma graded_gt0 i : 0 < graded i 0.
 Proof.
-rewrite /graded /mk mxE; case: splitP => j _; rewrite mxE; case: splitP => k _; rewrite mxE ?exprn_gt0 ?invr_gt0 //; exact: X_gt0.
+rewrite /graded /mk mxE; case: splitP => j _; rewrite mxE; case: splitP => k _; rewrite mxE ?exprn_gt0 ?invr_gt0 //;
+  exact: X_gt0.
 Qed.
 Theorem graded_lemke_ends_in_a_solution :
   exists s, lemke_lex (MF M) graded (qF q) = Solved s /\ obeys_law (f_of (z_basic M q s)).

@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Coulomb's law has solutions up to a factor 1 - 2/M: the directions are the points (i/M, j/M) of the disc, M = m + 1. *)
+(* Proves that Coulomb's law has solutions up to a factor 1 - 2/M:
+   the directions are the points (i/M, j/M) of the disc, M = m + 1. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon.

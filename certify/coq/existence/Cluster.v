@@ -1,7 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves of limits of forces that obey Coulomb's law up to a factor: they obey it, and friction works against them in the end. *)
+(* Proves of limits of forces that obey Coulomb's law up to a factor:
+   they obey it, and friction works against them in the end. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

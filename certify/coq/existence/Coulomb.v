@@ -1,8 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Coulomb's law has a solution under (H), and that one constant bounds some solution for all b in range(A) and all
-   mu <= M. *)
+(* Proves that Coulomb's law has a solution under (H), and that one constant bounds some solution for all b in
+   range(A) and all mu <= M. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

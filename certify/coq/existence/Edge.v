@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves, over any ordered field, that an edge (n rows, n + 1 columns) of a nondegenerate system has two vertices, or a ray. *)
+(* Proves, over any ordered field, that an edge (n rows, n + 1 columns) of a nondegenerate system has two vertices,
+   or a ray. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.

@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (* Proves that complementarity problems have solutions whose rows are named by a finite type and whose matrix is
-   M x y = E x . A E y + S x y, A positive semidefinite, S with z' S z' + z' S z >= 0: the form of every polygonal law. *)
+   M x y = E x . A E y + S x y, A positive semidefinite, S with z' S z' + z' S z >= 0:
+   the form of every polygonal law. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* What a reader must trust of the plane, for existence and for complete driving alike: the law of static friction, and what a
-   solution is. It proves nothing; Tests.v tests it.
+(* What a reader must trust of the plane, for existence and for complete driving alike: the law of static friction,
+   and what a solution is. It proves nothing; Tests.v tests it.
 
    n contacts. f and a hold 2n numbers, all normal components first, then all friction components; a = A f + b.
    mu i: coefficient of friction at contact i. R: any ordered field. *)
@@ -31,6 +31,7 @@ Definition solution (f : vec) := forall j, law (mu j) (xN f j) (xF f j) (aN f j)
 
 (* K: the forces that friction allows *)
 Definition in_cones (v : vec) := forall j, `|xF v j| <= mu j * xN v j /\ 0 <= xN v j.
-(* (H): b does no negative work on forces that accelerate nothing. It holds where b is in range(A), or in range(A) + K*. *)
+(* (H): b does no negative work on forces that accelerate nothing.
+   It holds where b is in range(A), or in range(A) + K*. *)
 Definition H_holds := forall v, in_cones v -> A *m v = 0 -> 0 <= dotp v b.
 End Law.

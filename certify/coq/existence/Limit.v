@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves the same for every q: q + (e, e^2, ...) is nondegenerate for small e, and signs of polynomials near 0 are those at 0. *)
+(* Proves the same for every q: q + (e, e^2, ...) is nondegenerate for small e,
+   and signs of polynomials near 0 are those at 0. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge Parity.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

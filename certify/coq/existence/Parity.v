@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that a nondegenerate linear complementarity problem w = M z + q, whose matrix is copositive and whose q meets no ray,
-   has a solution: vertices of edges are counted twice. No path is followed. *)
+(* Proves that a nondegenerate linear complementarity problem w = M z + q, whose matrix is copositive and whose q
+   meets no ray, has a solution: vertices of edges are counted twice. No path is followed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law Edge.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -18,7 +18,8 @@ Lemma even_side i : ~~ odd (\sum_s F s (lift ord0 i)).
 Proof.
 rewrite (bigID (fun s : {ffun 'I_n -> bool} => s i)) /=.
 rewrite [X in (_ + X)%N](reindex_inj (inv_inj (flipK i))) /=.
-have -> : (\sum_(s | ~~ flip i s i) F (flip i s) (lift ord0 i) = \sum_(s : {ffun 'I_n -> bool} | s i) F s (lift ord0 i))%N.
+have -> : (\sum_(s | ~~ flip i s i) F (flip i s) (lift ord0 i) =
+           \sum_(s : {ffun 'I_n -> bool} | s i) F s (lift ord0 i))%N.
   by apply: eq_big => [s|s _]; [rewrite ffunE eqxx negbK | rewrite across].
 by rewrite addnn odd_double.
 Qed.

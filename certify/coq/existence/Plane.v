@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that every static problem of the plane, (15) and (16), with A symmetric positive semidefinite and b in its range has a
-   solution, over any ordered field. *)
+(* Proves that every static problem of the plane, (15) and (16), with A symmetric positive semidefinite and b in its
+   range has a solution, over any ordered field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit.

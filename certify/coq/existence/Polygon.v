@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that friction in space with finitely many directions d_k in place of the circle has a solution: forces of the polygon
-   (any directions); and a weaker law in the disc (directions in it), from which Approx.v goes on. *)
+(* Proves that friction in space with finitely many directions d_k in place of the circle has a solution: forces of
+   the polygon (any directions); and a weaker law in the disc (directions in it), from which Approx.v goes on. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
 From Stiction.existence Require Import Law Edge Parity Limit Plane Finite.

@@ -1,10 +1,11 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves the statements of Statement.v: every problem with static friction has a solution, in space under Coulomb's law, with
-   friction in polygons, and in the plane. *)
+(* Proves the statements of Statement.v: every problem with static friction has a solution, in space under Coulomb's
+   law, with friction in polygons, and in the plane. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import reals.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster Coulomb Statement.
+From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster
+  Coulomb Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -40,7 +41,8 @@ have slide : ~ (aX = 0 /\ aY = 0) -> fX = - s * (aX / len aX aY) /\ fY = - s * (
   have [zx zy] := len_eq0 z.
   by split; rewrite mulNr; apply/eqP; rewrite -addr_eq0 ?zx ?zy.
 split; first split=> //.
-  by have [az|az] := altP ((aX, aY) =P (0, 0)); [left; case: az | right; apply: slide => -[x y]; rewrite x y eqxx in az].
+  by have [az|az] := altP ((aX, aY) =P (0, 0));
+    [left; case: az | right; apply: slide => -[x y]; rewrite x y eqxx in az].
 split=> // [|az].
   by rewrite (le_trans p) // oppr_le0 mulr_ge0 // len_ge0.
 have [-> ->] := slide az; have e x : - s * x = s * - x by rewrite mulNr mulrN.
@@ -53,20 +55,23 @@ Qed.
 Variable n : nat.
 Implicit Types (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) (mu : 'I_n -> R).
 Lemma obeys_solution A b mu f : let a := A *m f + b in obeys 1 mu f a ->
-  solution A b mu (usubmx f) (usubmx (dsubmx f)) (dsubmx (dsubmx f)) (usubmx a) (usubmx (dsubmx a)) (dsubmx (dsubmx a)).
+  solution A b mu (usubmx f) (usubmx (dsubmx f)) (dsubmx (dsubmx f))
+    (usubmx a) (usubmx (dsubmx a)) (dsubmx (dsubmx a)).
 Proof.
 rewrite /=; set a := A *m f + b => h; split=> [|i]; first by rewrite !vsubmxK.
 have [nl [h1 h2]] := h i; have [c w] := laws h1 h2; move: nl c w; rewrite /nor /tx /ty.
 by rewrite ![usubmx _ i 0]mxE ![dsubmx _ i 0]mxE ![dsubmx _ _ 0]mxE.
 Qed.
-Lemma obeys_exists A b mu : (exists f, obeys 1 mu f (A *m f + b)) -> exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY.
+Lemma obeys_exists A b mu : (exists f, obeys 1 mu f (A *m f + b)) ->
+  exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY.
 Proof.
 move=> [f hf]; exists (usubmx f), (usubmx (dsubmx f)), (dsubmx (dsubmx f)).
 set a := A *m f + b in hf; exists (usubmx a), (usubmx (dsubmx a)), (dsubmx (dsubmx a)); exact: obeys_solution.
 Qed.
 End Rows.
 
-(* A positive semidefinite, symmetric or not: it is enough that b does no negative work on the solutions of the law with b = 0 *)
+(* A positive semidefinite, symmetric or not: it is enough that b does no negative work on the solutions of the law
+   with b = 0 *)
 Theorem coulomb_solution_exists_nonsymmetric : coulomb_without_symmetry.
 Proof.
 move=> R n A b mu psd mu0 safe; apply/obeys_exists/solution_S => // [f|v ov]; first by rewrite -dotp_mul.
@@ -95,8 +100,8 @@ have safe' v : cone mu v -> A *m v = 0 -> 0 <= dotp v b.
 exact/obeys_exists/(solution_H psd' sym mu0 safe').
 Qed.
 
-(* inertial bodies (W symmetric positive semidefinite), contact Jacobian J, loads F, and gaps >= 0 that are allowed to close:
-   every scene at rest, every step of a time-stepping scheme without penetration *)
+(* inertial bodies (W symmetric positive semidefinite), contact Jacobian J, loads F, and gaps >= 0 that are allowed to
+   close: every scene at rest, every step of a time-stepping scheme without penetration *)
 Theorem scene_solution_exists : scenes_have_a_solution.
 Proof.
 move=> R n d J W F gap mu sym psd gap0 mu0.
@@ -119,7 +124,8 @@ move=> R n A b mu sym psd [c bc] mu0; apply: coulomb_solution_exists_H => // vN 
 by rewrite dotp_mul bc sym_dotp // Av dotpC dotp0.
 Qed.
 
-(* moreover: one constant, for all loads in the range of A and all coefficients up to M, bounds the forces of some solution *)
+(* moreover: one constant, for all loads in the range of A and all coefficients up to M,
+   bounds the forces of some solution *)
 Theorem coulomb_solution_bounded : coulomb_has_a_bounded_solution.
 Proof.
 move=> R n A M sym psd; have psd' f : 0 <= dotp f (A *m f) by rewrite -dotp_mul.

@@ -1,7 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that every bounded sequence of reals has a limit along a free ultrafilter on the natural numbers; so no subsequences. *)
+(* Proves that every bounded sequence of reals has a limit along a free ultrafilter on the natural numbers;
+   so no subsequences. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
 From Stiction.existence Require Import Polygon.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory numFieldNormedType.Exports.
