@@ -2,7 +2,7 @@
 (* Proves that complete driving ends at a solution for b without ties, over any ordered field; and that b(eps) has no
    ties and b(eps).v > 0, so that it ends on b(eps) for every b with (H). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity Limit Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.

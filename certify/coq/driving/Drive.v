@@ -3,7 +3,7 @@
    and one on the next piece, but for the first end and for solutions; so no piece comes twice, and the run ends at a
    solution. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Parity Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Statement Path Piece Local.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -552,7 +552,7 @@ Qed.
 Lemma inn_law f j c : inn (mu j) (xN f j) (xF f j) (aN f j) (aF f j) c -> finished c -> ok (mu j) c ->
   law (mu j) (xN f j) (xF f j) (aN f j) (aF f j).
 Proof.
-case: c => // + _ oc; rewrite /law.
+case: c => // + _ oc; rewrite /law /normal_conditions.
 - by rewrite iB => /and3P [/eqP -> /eqP -> /ltW ->]; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx.
 - rewrite iS => /and4P [/eqP -> /eqP -> b1 b2]; rewrite !mul0r !mulr0 lexx.
   have le : `|xF f j| <= mu j * xN f j by rewrite ler_norml (ltW b1) andbT ler_oppl ltW.
@@ -568,7 +568,7 @@ case: c => // + _ oc; rewrite /law.
 - by rewrite iZ => /and3P [/eqP -> /eqP -> p0]; rewrite normr0 subr0 (eqP oc) !mul0r !mulr0 lexx (ltW p0).
 Qed.
 Lemma later_law f j : xN f j = 0 -> xF f j = 0 -> 0 <= aN f j -> law (mu j) (xN f j) (xF f j) (aN f j) (aF f j).
-Proof. by rewrite /law => -> -> ->; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx. Qed.
+Proof. by rewrite /law /normal_conditions => -> -> ->; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx. Qed.
 
 Lemma zero_count j : aN 0 j != 0.
 Proof.

@@ -2,7 +2,7 @@
 (* Proves that what holds of vectors and matrices over R holds over R(X): signs of rational functions are those of
    their values at large numbers. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
+From Stiction.existence Require Import Law Dot Edge Parity.
 From Stiction.driving Require Import Rational.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

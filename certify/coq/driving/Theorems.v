@@ -2,7 +2,7 @@
 (* Proves the statements of Statement.v. The last step to them is here: the values at the end of the run on b(eps)
    solve the problem itself. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity Limit Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive Complete.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* What a reader must trust of existence: the law of static friction in space, and the statements. (Law.v: the plane.)
-   It proves nothing; Theorems.v proves the statements, and Tests.v tests them.
+(* What a reader must trust of existence: the law of static friction in space, and the statements. (Law.v: (15), and
+   the plane.) It proves nothing; Theorems.v proves the statements, and Tests.v tests them.
 
    n contacts. fN i, fX i, fY i: normal force and the two components of the friction force at contact i;
    aN i, aX i, aY i: normal acceleration and the two components of the tangential acceleration.
@@ -18,9 +18,6 @@ Section Laws.
 Variable R : rcfType.
 
 Definition length (x y : R) := Num.sqrt (x ^+ 2 + y ^+ 2).
-
-(* (15): contacts push and do not sink in; a contact that opens carries no force *)
-Definition normal_conditions (fN aN : R) := [/\ 0 <= fN, 0 <= aN & fN * aN = 0].
 
 (* Coulomb: friction is at most mu fN;
    where the contact begins to slide it is exactly mu fN, opposed to the acceleration *)

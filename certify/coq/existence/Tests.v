@@ -56,7 +56,7 @@ Let half : R := 1 / 2%:R.
 Lemma sliding_obeys : law half 1 (- half) 0 half.
 Proof.
 have h0 : 0 < half by rewrite /half divr_gt0 ?ltr01 ?ltr0n.
-rewrite /law normrN (gtr0_norm h0) !mulr1 mulr0 subrr mulr0; split; split=> //; rewrite ?ler01 //.
+rewrite /law /normal_conditions normrN (gtr0_norm h0) !mulr1 mulr0 subrr mulr0; split; split=> //; rewrite ?ler01 //.
 by rewrite mulrN oppr_le0 mulr_ge0 // ltW.
 Qed.
 Lemma no_friction_does_not : ~ law half 1 0 0 1.

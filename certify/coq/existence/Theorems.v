@@ -4,7 +4,7 @@
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import reals.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster
+From Stiction.existence Require Import Law Dot Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster
   Coulomb Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -15,21 +15,21 @@ Proof. by rewrite mxE; apply: eq_bigr => i _; rewrite mxE. Qed.
 
 Section Rows.
 Variable R : realType.
-Lemma laws (m fN fX fY aX aY : R) : len fX fY <= m * fN -> fX * aX + fY * aY <= - (1 * len aX aY * (m * fN)) ->
+Lemma laws (m fN fX fY aX aY : R) : length fX fY <= m * fN -> fX * aX + fY * aY <= - (1 * length aX aY * (m * fN)) ->
   coulomb_law m fN fX fY aX aY /\ baraff_law m fN fX fY aX aY.
 Proof.
 move=> c p; set s := m * fN in c p *; rewrite mul1r in p.
 have s0 : 0 <= s by apply: le_trans c; exact: len_ge0.
-have slide : ~ (aX = 0 /\ aY = 0) -> fX = - s * (aX / len aX aY) /\ fY = - s * (aY / len aX aY).
-  move=> az; have lp : 0 < len aX aY.
+have slide : ~ (aX = 0 /\ aY = 0) -> fX = - s * (aX / length aX aY) /\ fY = - s * (aY / length aX aY).
+  move=> az; have lp : 0 < length aX aY.
     by rewrite lt_neqAle len_ge0 andbT eq_sym; apply/eqP => /len_eq0.
-  pose u := aX / len aX aY; pose v := aY / len aX aY.
+  pose u := aX / length aX aY; pose v := aY / length aX aY.
   have uv : u ^+ 2 + v ^+ 2 = 1.
     by rewrite /u /v !exprMn -mulrDl -len_sqr exprVn divff // expf_neq0 // gt_eqF.
   have pu : fX * u + fY * v <= - s.
     rewrite -(ler_pmul2r lp) mulrDl /u /v -!mulrA !mulVf ?gt_eqF // !mulr1 (le_trans p) //.
     by rewrite mulNr mulrC.
-  have z : len (fX + s * u) (fY + s * v) = 0.
+  have z : length (fX + s * u) (fY + s * v) = 0.
     apply/eqP; rewrite eq_le len_ge0 andbT; apply: le_len => //; rewrite expr0n /=.
     have -> : (fX + s * u) ^+ 2 + (fY + s * v) ^+ 2 =
       (fX ^+ 2 + fY ^+ 2) + (s * (fX * u + fY * v)) *+ 2 + s ^+ 2 * (u ^+ 2 + v ^+ 2) by ring.
@@ -46,9 +46,9 @@ split; first split=> //.
 split=> // [|az].
   by rewrite (le_trans p) // oppr_le0 mulr_ge0 // len_ge0.
 have [-> ->] := slide az; have e x : - s * x = s * - x by rewrite mulNr mulrN.
-rewrite /length -/(len _ _) !e lenZ //; suff -> : len (- (aX / len aX aY)) (- (aY / len aX aY)) = 1 by rewrite mulr1.
-have lp : len aX aY != 0 by apply/eqP => /len_eq0.
-by rewrite [len (- _) _]/len !sqrrN !exprMn -mulrDl -len_sqr exprVn divff ?sqrtr1 // expf_neq0.
+rewrite !e lenZ //; suff -> : length (- (aX / length aX aY)) (- (aY / length aX aY)) = 1 by rewrite mulr1.
+have lp : length aX aY != 0 by apply/eqP => /len_eq0.
+by rewrite [length (- _) _]/length !sqrrN !exprMn -mulrDl -len_sqr exprVn divff ?sqrtr1 // expf_neq0.
 Qed.
 
 
@@ -112,7 +112,7 @@ apply: coulomb_solution_exists_H => //.
 - by move=> f; rewrite work -dotp_mul.
 move=> vN vX vY cv v Av.
 have psd' x : 0 <= dotp x (W *m x) by rewrite -dotp_mul.
-have Wv : W *m (J^T *m v) = 0 by apply: (kernel_of_psd sym psd'); rewrite -work Av mulmx0 mxE.
+have Wv : W *m (J^T *m v) = 0 by apply: (psd_kernel sym psd'); rewrite -work Av mulmx0 mxE.
 rewrite dotp_mul dotpD -{1}[J]trmxK dotp_adj (sym_dotp sym) Wv [dotp 0 _]dotpC dotp0 add0r.
 rewrite dotp_col dotp0 addr0; apply: dotp_ge0 => // i; by case: (cv i).
 Qed.
@@ -144,7 +144,7 @@ have safe' v : polygonal_itself mu dx dy v (A *m v) -> 0 <= dotp v b.
   have le : dotp v (A *m v) <= 0.
     rewrite dotp_rows -oppr_ge0 -sumrN sumr_ge0 // => i _; rewrite oppr_ge0.
     by have [[_ _ ->] [_ _]] := h i; rewrite add0r.
-  have Av : A *m v = 0 by apply: (kernel_of_psd sym psd'); apply/eqP; rewrite eq_le le psd'.
+  have Av : A *m v = 0 by apply: (psd_kernel sym psd'); apply/eqP; rewrite eq_le le psd'.
   have := safe (usubmx v) (usubmx (dsubmx v)) (dsubmx (dsubmx v)).
   rewrite /= !vsubmxK dotp_mul; apply=> // i; have [[v0 _ _] [P _ _]] := h i; by rewrite !mxE.
 have [f hf] := polygon_itself_solution psd' mu0 safe'; set a := A *m f + b in hf.
@@ -156,9 +156,5 @@ Qed.
 (* the plane *)
 Theorem plane_solution_exists : plane_has_a_solution.
 Proof.
-move=> R n A b mu sym psd [c bc] mu0.
-have mu0' i : 0 <= (\row_i mu i) 0 i by rewrite mxE.
-have [fN [fF [aN [aF [e l]]]]] := static_solution_exists c sym psd mu0'.
-exists (col_mx fN fF) => j; have := l j.
-by rewrite /Law.aN /Law.aF /xN /xF /acc bc -e !col_mxEu !col_mxEd mxE.
+by move=> R n A b mu sym psd [c ->] mu0; exact: static_solution_exists.
 Qed.

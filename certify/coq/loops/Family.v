@@ -214,12 +214,20 @@ Proof.
   - intros m [<-|[<-|[]]]; discriminate.
 Qed.
 
-(* For every c > K(1) = 3 + 2 sqrt(2) there are problems of condition number below c on which `paper` never ends. *)
-Theorem loops_near_K : paper_loops_near_K.
+(* Policies that never end on members with a small eta never end at condition numbers below any c > K(1). *)
+Lemma near_K (policies : policy -> Prop) :
+  (forall pol eta, policies pol -> 0 < eta < small -> never_ends (member eta) pol) -> loops_near_K policies.
 Proof.
-  intros c Hc H6. destruct (condition_numbers c Hc H6) as [e0 [E0 H]].
+  intros N c Hc H6. destruct (condition_numbers c Hc H6) as [e0 [E0 H]].
   exists (if Qlt_le_dec e0 small then e0 else small).
   split; [destruct (Qlt_le_dec e0 small); [exact E0 | reflexivity]|].
   intros eta [L U]. split; [apply member_well_formed|]. split; [apply matrix_symmetric|].
-  split; [apply H | intros pol ->; apply paper_never_ends]; (split; [exact L|]); destruct (Qlt_le_dec e0 small); lra.
+  assert (eta < e0 /\ eta < small) as [U1 U2].
+  { destruct (Qlt_le_dec e0 small) as [G|G];
+    split; [exact U | eapply Qlt_trans; eassumption | eapply Qlt_le_trans; eassumption | exact U]. }
+  split; [apply H; split; assumption | intros pol P; apply N; [exact P | split; assumption]].
 Qed.
+
+(* For every c > K(1) = 3 + 2 sqrt(2) there are problems of condition number below c on which `paper` never ends. *)
+Theorem loops_near_K : paper_loops_near_K.
+Proof. apply near_K. intros pol eta ->. apply paper_never_ends. Qed.

@@ -408,7 +408,8 @@ Definition well_formed (p : problem rationals) :=
   length (b p) = (2 * length (mu p))%nat /\ length (A p) = length (b p) /\
   (forall r, In r (A p) -> length r = length (b p)) /\ (forall m, In m (mu p) -> 0 <= m).
 
-(* Forces f that meet (15) and (16) at every contact c, with a = A f + b; rows N1 F1 N2 F2 ... *)
+(* Forces f that meet (15) and (16) at every contact c, with a = A f + b; rows N1 F1 N2 F2 ...
+   SameLaw.v: this law is that of existence/Law.v, over Q. *)
 Definition law (m fN fF aN aF : Q) :=
   (0 <= fN /\ 0 <= aN /\ fN * aN == 0) /\                                                          (* (15) *)
   (Qabs fF <= m * fN /\ aF * fF <= 0 /\ aF * (m * fN - Qabs fF) == 0).                             (* (16) *)
