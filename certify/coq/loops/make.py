@@ -73,7 +73,8 @@ def coq(certificate, source):
     statement = f"  loops_under_every_policy {n} the_problem." if whole else f"""\
   well_formed the_problem /\\ symmetric {n} (A the_problem) /\\ positive_definite {n} (A the_problem) /\\
   (exists g, solution the_problem g) /\\
-  ({every} forall k, exists x, drives the_problem pol k = Going x /\\ ~ solution the_problem (f (point_of x)))."""
+  ({every} forall k, exists x,
+    drives the_problem pol k = Going x /\\ ~ solution the_problem (f (point_of x)))."""
     opened = "unfold loops_under_every_policy. " if whole else ""
     counts = sorted(Counter(table.values()).items(), key=lambda x: (-x[1], x[0]))
     lines = ["(* SPDX-License-Identifier: Apache-2.0 *)",
