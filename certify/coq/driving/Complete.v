@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that complete driving ends at a solution for b without ties, over any ordered field; and that b(eps) has no ties and
-   b(eps).v > 0, so that it ends on b(eps) for every b with (H). *)
+(* Proves that complete driving ends at a solution for b without ties, over any ordered field; and that b(eps) has no
+   ties and b(eps).v > 0, so that it ends on b(eps) for every b with (H). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity Limit Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -84,9 +84,11 @@ have P0 : P = 0.
     rewrite -/(emb _) mxE rmorph_sum; apply: eq_bigr => k _; by rewrite [map_mx _ _ _ _]mxE [qF _ _ _]mxE rmorphM.
   - have Xe : X R ^+ N.+1 * eps = X R ^+ N by rewrite exprSr -mulrA divff ?mulr1 // gt_eqF // X_gt0.
     rewrite -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrA Xe mulrC; congr (_ * _).
-    rewrite big_split_ord /= [X in _ = _ + X]big1 => [|k _]; last by rewrite /Statement.eN col_mxEd [X in _ * X]mxE mulr0.
+    rewrite big_split_ord /= [X in _ = _ + X]big1 => [|k _];
+      last by rewrite /Statement.eN col_mxEd [X in _ * X]mxE mulr0.
     by rewrite addr0 rmorph_sum; apply: eq_bigr => k _; rewrite col_mxEu !mxE mulr1.
-  - rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA; congr (_ * _).
+  - rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA;
+      congr (_ * _).
     by rewrite /Statement.eps exprVn -expfB_cond //; rewrite gt_eqF ?X_gt0 //= add0n ltnS ltn_ord.
 have jN : (j < N)%N := ltn_ord j.
 have := congr1 (fun Q : {poly R} => Q`_(N.+1 - j.+2)) P0; rewrite coef0 !coefD !coefZ !coefXn.
@@ -104,7 +106,8 @@ move=> f; rewrite leqNgt; apply/negP => big.
 pose uN j := xN f j != 0.
 pose uF j := (xF f j != 0) && ((xN f j == 0) || (muF j * xN f j != xF f j) && (muF j * xN f j != - xF f j)).
 pose sl j : R := if uF j || (xF f j == 0) then 0 else if muF j * xN f j == xF f j then mu j else - mu j.
-pose T : 'M[R]_(n + n) := block_mx (diag_mx (\row_j (uN j)%:R)) 0 (diag_mx (\row_j sl j)) (diag_mx (\row_j (uF j)%:R)).
+pose T : 'M[R]_(n + n) :=
+  block_mx (diag_mx (\row_j (uN j)%:R)) 0 (diag_mx (\row_j sl j)) (diag_mx (\row_j (uF j)%:R)).
 pose I (r : 'I_(n + n)) := match split r with inl j => uN j | inr j => uF j end.
 pose J (r : 'I_(n + n)) := acc AF beps f r 0 == 0.
 pose D : 'M[R]_(n + n) := \matrix_(r, s) ((r == s) && J r)%:R.
@@ -131,7 +134,8 @@ have Tf : map_mx emb T *m f = f.
 have rD : (#|J| <= \rank D)%N.
   pose D' : 'M[R]_(n + n) := \matrix_(r, s) ((r == s) && ~~ J r)%:R.
   have e1 : D + D' = 1%:M.
-    by apply/matrixP => r s; rewrite !mxE; case: (r == s) => //=; [case: (J r); rewrite ?addr0 ?add0r | rewrite addr0].
+    by apply/matrixP => r s; rewrite !mxE; case: (r == s) => //=;
+      [case: (J r); rewrite ?addr0 ?add0r | rewrite addr0].
   have r' : (\rank D' <= #|[predC J]|)%N.
     rewrite -(eq_card (_ : (fun r => ~~ J r) =i [predC J])) //.
     by apply: rank_cols => r s; rewrite negbK mxE => js; case: (r =P s) => //= ->; rewrite js.
@@ -156,7 +160,8 @@ have IJ : (#|I| < #|J|)%N.
   rewrite cI cJ -(ltn_add2r (n + n)); apply: leq_trans le; by rewrite addnC ltn_add2r.
 have nsub : ~~ (kermx (D *m A *m T) <= kermx D)%MS.
   apply/negP => /mxrankS; rewrite !mxrank_ker leq_subLR -{1}(subnKC (rank_leq_row D)) leq_add2r => le.
-  have := leq_ltn_trans rT IJ; rewrite ltnNge => /negP; apply; apply: leq_trans rD _; apply: leq_trans le _; exact: mxrankM_maxr.
+  have := leq_ltn_trans rT IJ; rewrite ltnNge => /negP; apply; apply: leq_trans rD _; apply: leq_trans le _;
+    exact: mxrankM_maxr.
 case/row_subPn: nsub => i; set l := row i _ => nl.
 have l0 : l *m (D *m A *m T) = 0 by apply/sub_kermxP/row_sub.
 case/negP: nl; apply/sub_kermxP/transcendental2.
@@ -177,23 +182,27 @@ Lemma dual_eps v : in_cones muF v -> AF *m v = 0 -> 0 <= dotp v (qF b).
 Proof.
 move=> vK Av; apply: ge0_val.
 have hA : large (fun t => A *m valv v t = 0).
-  by apply: large_imp (large_and (val_mul A v) (val_q (0 : 'cV[R]_(n + n)))) => t [<-]; rewrite Av /Statement.qF map_mx0.
+  by apply: large_imp (large_and (val_mul A v) (val_q (0 : 'cV[R]_(n + n)))) => t [<-];
+    rewrite Av /Statement.qF map_mx0.
 have hK : large (fun t => in_cones mu (valv v t)).
   apply: large_all => j; have [le n0] := vK j; move: le; rewrite ler_norml => /andP [l1 l2].
   rewrite -subr_ge0 opprK in l1; rewrite -subr_ge0 in l2.
-  apply: large_imp (large_and (val_ge0 l1) (large_and (val_ge0 l2) (large_and (val_ge0 n0) (large_and (Eval.valD (xF v j) (muF j * xN v j))
-    (large_and (Eval.valD (muF j * xN v j) (- xF v j)) (large_and (val_opp (xF v j)) (large_and (valM (muF j) (xN v j)) (val_emb (mu j))))))))).
+  apply: large_imp (large_and (val_ge0 l1) (large_and (val_ge0 l2) (large_and (val_ge0 n0)
+    (large_and (Eval.valD (xF v j) (muF j * xN v j)) (large_and (Eval.valD (muF j * xN v j) (- xF v j))
+    (large_and (val_opp (xF v j)) (large_and (valM (muF j) (xN v j)) (val_emb (mu j))))))))).
   move=> t [a1 [a2 [a3 [e1 [e2 [e3 [e4 e5]]]]]]]; rewrite /xN /xF !mxE -/(xN v j) -/(xF v j); split=> //.
   rewrite e1 e4 e5 in a1; rewrite e2 e3 e4 e5 in a2.
   by rewrite ler_norml -[X in X && _]subr_ge0 opprK a1 -subr_ge0 a2.
-apply: large_imp (large_and hA (large_and hK (large_and (val_dotp v (qF b)) (val_q b)))) => t [h1 [h2 [-> ->]]]; exact: dual.
+apply: large_imp (large_and hA (large_and hK (large_and (val_dotp v (qF b)) (val_q b)))) => t [h1 [h2 [-> ->]]];
+  exact: dual.
 Qed.
 Lemma cone_eps v : in_cones muF v -> v != 0 -> AF *m v = 0 -> 0 < dotp v beps.
 Proof.
 move=> vK vn Av; rewrite /Statement.beps !dotpD dotpZ.
 apply: ltr_paddl; first exact: dual_eps.
 have eNE : dotp v eN = \sum_j xN v j.
-  rewrite /dotp big_split_ord /= [X in _ + X]big1 ?addr0 => [|j _]; last by rewrite /Statement.eN col_mxEd [X in _ * X]mxE mulr0.
+  rewrite /dotp big_split_ord /= [X in _ + X]big1 ?addr0 => [|j _];
+    last by rewrite /Statement.eN col_mxEd [X in _ * X]mxE mulr0.
   by apply: eq_bigr => j _; rewrite /Statement.eN col_mxEu mxE mulr1.
 have n0 j : 0 <= xN v j by case: (vK j).
 set S := \sum_j xN v j in eNE *.

@@ -1,8 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves of complete driving (Statement.v), for b without ties: every end of a piece has one partner along the piece and one on
-   the next piece, but for the first end and for solutions; so no piece comes twice, and the run ends at a solution. *)
+(* Proves of complete driving (Statement.v), for b without ties: every end of a piece has one partner along the piece
+   and one on the next piece, but for the first end and for solutions; so no piece comes twice, and the run ends at a
+   solution. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Parity Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Statement Path Piece Local.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -59,7 +60,9 @@ have hF : aF f j = xF (A *m f) j + b (rshift n j) 0 by rewrite /Law.aF /Law.xF m
 by rewrite rowf0 hN hF; case: c => /=; rewrite ?addr0 // opprD.
 Qed.
 Lemma valE p x f : val (G p) (h p) x f = lval (mu x.1) (xN f x.1) (xF f x.1) (aN f x.1) (aF f x.1) (p x.1) x.2.
-Proof. by rewrite /val /lin /Statement.G /Statement.h /lval; case: ineq => [c|]; rewrite ?rowfE // mul0mx mxE add0r. Qed.
+Proof.
+by rewrite /val /lin /Statement.G /Statement.h /lval; case: ineq => [c|]; rewrite ?rowfE // mul0mx mxE add0r.
+Qed.
 Lemma rowM (u : 'I_n -> 'rV[R]_(n + n)) (f : vec) j : (\matrix_(i < n) u i *m f) j 0 = (u j *m f) 0 0.
 Proof. by rewrite mxE [RHS]mxE; apply: eq_bigr => k _; rewrite mxE. Qed.
 Lemma EE p (f : vec) : E p *m f = e p <-> forall j, on (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j).
@@ -70,7 +73,8 @@ have r (c : 'I_n -> form) j : ((\matrix_(j < n) rowf (c j) j *m f) j 0 == - cons
 have r1 := r (fun j => eq1 (p j)); have r2 := r (fun j => eq2 (p j)); rewrite /= in r1 r2.
 rewrite /Statement.E /Statement.e mul_col_mx; split=> [/eq_col_mx [e1 e2] j|ok].
   by rewrite /on -r1 -r2 e1 e2 !mxE !eqxx.
-congr col_mx; apply/matrixP => j k; rewrite ord1 [RHS]mxE; apply/eqP; [rewrite r1 | rewrite r2]; by have /andP [] := ok j.
+congr col_mx; apply/matrixP => j k; rewrite ord1 [RHS]mxE; apply/eqP; [rewrite r1 | rewrite r2];
+  by have /andP [] := ok j.
 Qed.
 Lemma EE0 p (v : vec) : E p *m v = 0 -> forall j, on (mu j) (xN v j) (xF v j) (xN (A *m v) j) (xF (A *m v) j) (p j).
 Proof.
@@ -115,8 +119,8 @@ Proof. by rewrite /Statement.drv => pi; case: pickP => [j pj|/(_ i)]; [rewrite (
 
 (* ---- hypotheses ---- *)
 Hypothesis mu0 : forall i, 0 <= mu i.
-(* b is nondegenerate: of the equations fN = 0, fF = 0, abs fF = mu fN, aN = 0, aF = 0 of the contacts no more hold anywhere
-   than there are unknowns (fN = fF = 0 counts for two) *)
+(* b is nondegenerate: of the equations fN = 0, fF = 0, abs fF = mu fN, aN = 0, aF = 0 of the contacts no more hold
+   anywhere than there are unknowns (fN = fF = 0 counts for two) *)
 Notation count f j := (cnt (mu j) (xN f j) (xF f j) (aN f j) (aF f j)).
 Hypothesis generic : forall f, (\sum_j count f j <= n + n)%N.
 (* no v in the cones has v.Av <= 0, but for A symmetric v with A v = 0 and b.v > 0 *)
@@ -135,7 +139,8 @@ case: (ltngtP t i) => lt; last by move/eqP: ti; case; apply/val_inj.
 - by have /implyP /(_ lt) /eqP -> := forallP l t.
 Qed.
 Definition zs (p : word) f j : nat := addn (addn (zeros (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j) s0)
-  (zeros (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j) s1)) (zeros (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j) s2).
+  (zeros (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j) s1))
+  (zeros (mu j) (xN f j) (xF f j) (aN f j) (aF f j) (p j) s2).
 Lemma need_zs p i f : piece p i -> E p *m f = e p -> forall j, (need (p j) + zs p f j <= count f j)%N.
 Proof.
 move=> /and4P [_ _ _ /forallP o] /EE Ef j; have := cnt_on (o j) (Ef j); by rewrite /zs !addnA.
@@ -186,7 +191,8 @@ by have := leq_trans (leq_add (leqnn (count f t)) geT) le2; rewrite leq_add2r.
 Qed.
 
 (* ---- no ray ---- *)
-Lemma linE p x v : lin (G p) x v = hval (mu x.1) (xN v x.1) (xF v x.1) (xN (A *m v) x.1) (xF (A *m v) x.1) (p x.1) x.2.
+Lemma linE p x v : lin (G p) x v =
+  hval (mu x.1) (xN v x.1) (xF v x.1) (xN (A *m v) x.1) (xF (A *m v) x.1) (p x.1) x.2.
 Proof. by rewrite /lin /Statement.G /hval; case: ineq => [c|]; rewrite ?rowf0 // mul0mx mxE. Qed.
 Lemma dotp_split (x y : vec) : dotp x y = \sum_j (xN x j * xN y j + xF x j * xF y j).
 Proof. by rewrite /dotp big_split_ord /= -big_split. Qed.
@@ -246,7 +252,8 @@ Definition good p j k f (y : ends) := [/\ exists i', piece y.1 i', V y.1 y.2.1 y
 Lemma updj p j t : upd p j t j = t. Proof. by rewrite ffunE eqxx. Qed.
 Lemma upd_upd p j t : upd (upd p j t) j (p j) = p.
 Proof. by apply/ffunP => s; rewrite !ffunE; case: eqP => // ->. Qed.
-Lemma piece_upd p i j t : piece p i -> driven t = driven (p j) -> finished t = finished (p j) -> ok (mu j) t -> piece (upd p j t) i.
+Lemma piece_upd p i j t : piece p i -> driven t = driven (p j) -> finished t = finished (p j) -> ok (mu j) t ->
+  piece (upd p j t) i.
 Proof.
 move=> /and4P [d /forallP f /forallP l /forallP o] ed ef ot; apply/and4P; split.
 - by rewrite ffunE; case: eqP => // e1; rewrite ed -e1.
@@ -255,7 +262,8 @@ move=> /and4P [d /forallP f /forallP l /forallP o] ed ef ot; apply/and4P; split.
   by move: ed ef; rewrite e1; case: t ot.
 - by apply/forallP => s; rewrite ffunE; case: eqP => // ->.
 Qed.
-Lemma cross p i j k f t k' : piece p i -> V p j k f -> driven t = driven (p j) -> finished t = finished (p j) -> ok (mu j) t ->
+Lemma cross p i j k f t k' : piece p i -> V p j k f -> driven t = driven (p j) -> finished t = finished (p j) ->
+  ok (mu j) t ->
   fac (mu j) (xN f j) (xF f j) (aN f j) (aF f j) t k' -> t <> p j ->
   over_at f (upd p j t) j k' = Some (upd (upd p j t) j (p j), (j, k)) -> good p j k f (upd p j t, (j, k')).
 Proof.
@@ -266,7 +274,8 @@ move=> pi [_ v] ed ef ot ft tp ov; split=> /=.
 - by rewrite ov upd_upd.
 - by move=> e1; apply: tp; rewrite -e1 updj.
 Qed.
-Lemma nextP f (i i' : 'I_n) : reflect [/\ (i < i')%N, aN f i' < 0 & forall s : 'I_n, (i < s < i')%N -> 0 <= aN f s] (next f i == Some i').
+Lemma nextP f (i i' : 'I_n) :
+  reflect [/\ (i < i')%N, aN f i' < 0 & forall s : 'I_n, (i < s < i')%N -> 0 <= aN f s] (next f i == Some i').
 Proof.
 apply: (iffP eqP); rewrite /Statement.next.
   by case: pickP => // t /and3P [a1 a2 /forallP a3] [<-]; split=> // s lt; exact: (implyP (a3 s)).
@@ -276,7 +285,8 @@ congr Some; apply/val_inj; case: (ltngtP t i') => // lt.
 - by have := a3 t; rewrite b1 lt leNgt b2 => /(_ isT).
 - by have := b3 i'; rewrite a1 lt /= leNgt a2.
 Qed.
-Lemma prevP (p : word) (i j : 'I_n) : reflect [/\ (j < i)%N, p j <> cB & forall s : 'I_n, (j < s < i)%N -> p s = cB] (prev p i == Some j).
+Lemma prevP (p : word) (i j : 'I_n) :
+  reflect [/\ (j < i)%N, p j <> cB & forall s : 'I_n, (j < s < i)%N -> p s = cB] (prev p i == Some j).
 Proof.
 apply: (iffP eqP); rewrite /Statement.prev.
   by case: pickP => // t /and3P [a1 /eqP a2 /forallP a3] [<-]; split=> // s lt; apply/eqP; exact: (implyP (a3 s)).
@@ -302,7 +312,8 @@ Proof.
 move=> lt; have l1 := ltn_trans ii lt; rewrite ffunE ltnNge (ltnW l1) /= ltnNge (ltnW lt) /=.
 by rewrite !ord_gt.
 Qed.
-Inductive five (s : 'I_n) : Prop := Lt of (s < i)%N | At of s = i | Mid of (i < s < i')%N | At' of s = i' | Gt of (i' < s)%N.
+Inductive five (s : 'I_n) : Prop :=
+  Lt of (s < i)%N | At of s = i | Mid of (i < s < i')%N | At' of s = i' | Gt of (i' < s)%N.
 Lemma order5 (s : 'I_n) : five s.
 Proof.
 case: (ltngtP s i) => l1; [by constructor 1| |by constructor 2; apply/val_inj].
@@ -310,21 +321,25 @@ case: (ltngtP s i') => l2; [|by constructor 5|by constructor 4; apply/val_inj].
 by constructor 3; rewrite l1 l2.
 Qed.
 End Order.
-Lemma enter_lt p (i : 'I_n) t (s : 'I_n) : (s < i)%N -> enter p i t s = p s. Proof. by move=> lt; rewrite ffunE lt. Qed.
+Lemma enter_lt p (i : 'I_n) t (s : 'I_n) : (s < i)%N -> enter p i t s = p s.
+Proof. by move=> lt; rewrite ffunE lt. Qed.
 Lemma enter_i p (i : 'I_n) t : enter p i t i = t. Proof. by rewrite ffunE ltnn eqxx. Qed.
 Lemma enter_gt p (i : 'I_n) t (s : 'I_n) : (i < s)%N -> enter p i t s = Later.
 Proof. by move=> lt; rewrite ffunE ltnNge (ltnW lt) /= ord_gt. Qed.
 
-Lemma later_neq p (i : 'I_n) k f (s : 'I_n) : piece p i -> V p i k f -> (i < s)%N -> [/\ xN f s = 0, xF f s = 0 & aN f s != 0].
+Lemma later_neq p (i : 'I_n) k f (s : 'I_n) : piece p i -> V p i k f -> (i < s)%N ->
+  [/\ xN f s = 0, xF f s = 0 & aN f s != 0].
 Proof.
 move=> pi v lt; have /and4P [_ _ /forallP l _] := pi; have /implyP /(_ lt) /eqP ps := l s.
 have si : s != i by rewrite ord_gt.
 have := proj2 v s si; rewrite ps iO => /andP [/eqP z1 /eqP z2]; split=> //.
 have := proj2 (exact_count pi v) s si; rewrite ps z1 z2 /cnt eqxx /=; by case: eqP.
 Qed.
-Lemma up_ok p i k c f y : piece p i -> V p i k f -> inn (mu i) (xN f i) (xF f i) (aN f i) (aF f i) c -> finished c -> c <> cB ->
+Lemma up_ok p i k c f y : piece p i -> V p i k f -> inn (mu i) (xN f i) (xF f i) (aN f i) (aF f i) c ->
+  finished c -> c <> cB ->
   ok (mu i) c -> up f p i c = Some y -> exists i', let p' := rise p i c i' in
-  [/\ y = (p', (i', s0)), piece p' i', V p' i' s0 f & [/\ prev p' i' = Some i, enter p' i (p i) = p, p' i = c, p' i' = dN & p' <> p]].
+  [/\ y = (p', (i', s0)), piece p' i', V p' i' s0 f
+    & [/\ prev p' i' = Some i, enter p' i (p i) = p, p' i = c, p' i' = dN & p' <> p]].
 Proof.
 move=> pi v ic fc cb oc; rewrite /Statement.up; case ei: (next f i) => [i'|] // [<-].
 have /and4P [d /forallP fin /forallP l /forallP o] := pi.
@@ -410,7 +425,8 @@ move=> /and4P [_ /forallP f /forallP l _] dj; apply/val_inj; case: (ltngtP j i) 
 Qed.
 Lemma up_good p i j k f c y : piece p i -> V p j k f -> j = i -> finished c -> c <> cB -> ok (mu i) c ->
   inn (mu i) (xN f i) (xF f i) (aN f i) (aF f i) c ->
-  (match c with cS => if 0 < xF f i then (dP, s2) else (dM, s2) | cP => (dP, s1) | cM => (dM, s1) | _ => (dN, s1) end) = (p i, k) ->
+  (match c with cS => if 0 < xF f i then (dP, s2) else (dM, s2) | cP => (dP, s1) | cM => (dM, s1) | _ => (dN, s1)
+   end) = (p i, k) ->
   up f p j c = Some y -> good p j k f y.
 Proof.
 move=> pi v ji fc cb oc ic back; rewrite ji in v *; move=> u.
@@ -421,7 +437,8 @@ case: c back fc cb => //=; first by case: ifP => _ [e1 e2]; rewrite e1 e2 en.
 - by case=> e1 e2; rewrite e1 e2 en.
 - by case=> e1 e2; rewrite e1 e2 en.
 Qed.
-Lemma down_good p i j j' f t k : piece p i -> V p j s0 f -> j = i -> p i = dN -> prev p j = Some j' -> driven t -> ok (mu j') t ->
+Lemma down_good p i j j' f t k : piece p i -> V p j s0 f -> j = i -> p i = dN -> prev p j = Some j' -> driven t ->
+  ok (mu j') t ->
   fac (mu j') (xN f j') (xF f j') (aN f j') (aF f j') t k ->
   over_at f (enter p j' t) j' k = up f (enter p j' t) j' (p j') -> good p j s0 f (enter p j' t, (j', k)).
 Proof.
@@ -497,7 +514,8 @@ rewrite /Statement.over_at; case pj: (p j) vj oj cj dj => vj oj cj dj.
     by rewrite /Statement.over_at updj ?pj ag gt_eqF.
 - have ji := dj isT; have pid : p i = dM by rewrite -ji.
   case: k v vj => [[]|] v vj.
-  + move: vj; rewrite fDM2 => /and4P [z1 z2 b1 b2]; apply: (up_good pi v ji) => //; rewrite -?ji ?(ltNge 0) ?(ltW b1) ?pj //.
+  + move: vj; rewrite fDM2 => /and4P [z1 z2 b1 b2]; apply: (up_good pi v ji) => //;
+      rewrite -?ji ?(ltNge 0) ?(ltW b1) ?pj //.
     rewrite iS z1 z2 b2 andbT /=; apply: lt_trans b2; by rewrite (lt_trans b1) // oppr_gt0.
   + move: vj; rewrite fDM1 // => vj; apply: (up_good pi v ji) => //; rewrite -?ji ?pj ?iM //.
   + move: vj; rewrite fDM0 // => /and4P [z1 z2 z3 ag] [<-]; apply: (cross pi v); rewrite ?pj //= ?fN1 ?z1 ?z2 //.
@@ -534,7 +552,7 @@ Qed.
 Lemma inn_law f j c : inn (mu j) (xN f j) (xF f j) (aN f j) (aF f j) c -> finished c -> ok (mu j) c ->
   law (mu j) (xN f j) (xF f j) (aN f j) (aF f j).
 Proof.
-case: c => // + _ oc; rewrite /law.
+case: c => // + _ oc; rewrite /law /normal_conditions.
 - by rewrite iB => /and3P [/eqP -> /eqP -> /ltW ->]; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx.
 - rewrite iS => /and4P [/eqP -> /eqP -> b1 b2]; rewrite !mul0r !mulr0 lexx.
   have le : `|xF f j| <= mu j * xN f j by rewrite ler_norml (ltW b1) andbT ler_oppl ltW.
@@ -550,13 +568,14 @@ case: c => // + _ oc; rewrite /law.
 - by rewrite iZ => /and3P [/eqP -> /eqP -> p0]; rewrite normr0 subr0 (eqP oc) !mul0r !mulr0 lexx (ltW p0).
 Qed.
 Lemma later_law f j : xN f j = 0 -> xF f j = 0 -> 0 <= aN f j -> law (mu j) (xN f j) (xF f j) (aN f j) (aF f j).
-Proof. by rewrite /law => -> -> ->; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx. Qed.
+Proof. by rewrite /law /normal_conditions => -> -> ->; rewrite !mul0r !mulr0 normr0 subr0 mulr0 lexx. Qed.
 
 Lemma zero_count j : aN 0 j != 0.
 Proof.
 have x0 (i : 'I_n) : xN 0 i = 0 /\ xF 0 i = 0 by rewrite /Law.xN /Law.xF !mxE.
 have ge i : (2 <= count 0 i)%N by have [z1 z2] := x0 i; rewrite /cnt z1 z2 eqxx /= -addnA leq_addr.
-apply/eqP => z; have gj : (2 < count 0 j)%N by have [z1 z2] := x0 j; rewrite /cnt z1 z2 z eqxx /= addn1 addSn ltnS leq_addr.
+apply/eqP => z; have gj : (2 < count 0 j)%N
+  by have [z1 z2] := x0 j; rewrite /cnt z1 z2 z eqxx /= addn1 addSn ltnS leq_addr.
 have n0 : (0 < n)%N := leq_ltn_trans (leq0n _) (ltn_ord j).
 have := generic 0; rewrite (bigD1 j) //= => le.
 have geS : ((n.-1).*2 <= \sum_(i | i != j) count 0 i)%N.
@@ -564,7 +583,8 @@ have geS : ((n.-1).*2 <= \sum_(i | i != j) count 0 i)%N.
 have := leq_trans (leq_add gj geS) le; by rewrite !addSn add0n -doubleS prednK // addnn ltnn.
 Qed.
 Definition word0 (i : 'I_n) : word := [ffun s : 'I_n => if (s < i)%N then cB else if s == i then dN else Later].
-Lemma firstP x : reflect (exists2 i, x = (word0 i, (i, s0)) & aN 0 i < 0 /\ forall s : 'I_n, (s < i)%N -> 0 <= aN 0 s) (first == Some x).
+Lemma firstP x : reflect
+  (exists2 i, x = (word0 i, (i, s0)) & aN 0 i < 0 /\ forall s : 'I_n, (s < i)%N -> 0 <= aN 0 s) (first == Some x).
 Proof.
 apply: (iffP eqP); rewrite /Statement.first.
   case: pickP => // i /andP [neg /forallP mid] [<-]; exists i => //; split=> // s lt; exact: (implyP (mid s)).
@@ -594,14 +614,16 @@ have v : V (word0 i) i s0 0.
   - by rewrite wg // iO z1 z2 eqxx.
   - by move/eqP: si; case; exact/val_inj.
 have ex : is_end (word0 i, (i, s0)) by apply/(is_endP i s0 pi); exists 0.
-split=> //; rewrite /Statement.over ex /= (pointE pi v) /Statement.over_at wi /Statement.down /Statement.prev; case: pickP => // t /and3P [lt + _].
+split=> //; rewrite /Statement.over ex /= (pointE pi v) /Statement.over_at wi /Statement.down /Statement.prev;
+  case: pickP => // t /and3P [lt + _].
 by rewrite wl.
 Qed.
 Lemma next_none f i : next f i = None -> forall s : 'I_n, (i < s)%N -> 0 <= aN f s.
 Proof.
 rewrite /Statement.next; case: pickP => // none _ s lt; rewrite leNgt; apply/negP => neg.
 have Ps : (i < s)%N && (aN f s < 0) by rewrite lt neg.
-case: (@arg_minnP _ s (fun t : 'I_n => (i < t)%N && (aN f t < 0)) (fun t : 'I_n => nat_of_ord t) Ps) => t /andP [t1 t2] tmin.
+case: (@arg_minnP _ s (fun t : 'I_n => (i < t)%N && (aN f t < 0)) (fun t : 'I_n => nat_of_ord t) Ps)
+  => t /andP [t1 t2] tmin.
 have := none t; rewrite t1 t2 /= => /forallP; case=> r; apply/implyP => /andP [r1 r2].
 by rewrite leNgt; apply/negP => rn; have := tmin r; rewrite r1 rn leqNgt r2 => /(_ isT).
 Qed.
@@ -609,11 +631,13 @@ Lemma prev_none p i : prev p i = None -> forall s : 'I_n, (s < i)%N -> p s = cB.
 Proof.
 rewrite /Statement.prev; case: pickP => // none _ s lt; apply/eqP; apply: contraT => neg.
 have Ps : (s < i)%N && (p s != cB) by rewrite lt neg.
-case: (@arg_maxnP _ s (fun t : 'I_n => (t < i)%N && (p t != cB)) (fun t : 'I_n => nat_of_ord t) Ps) => t /andP [t1 t2] tmax.
+case: (@arg_maxnP _ s (fun t : 'I_n => (t < i)%N && (p t != cB)) (fun t : 'I_n => nat_of_ord t) Ps)
+  => t /andP [t1 t2] tmax.
 have := none t; rewrite t1 t2 /= => /forallP; case=> r; apply/implyP => /andP [r1 r2].
 by apply: contraT => rn; have := tmax r; rewrite r2 rn /geq /= leqNgt r1 => /(_ isT).
 Qed.
-Lemma up_none p i j k f c : piece p i -> V p j k f -> j = i -> inn (mu i) (xN f i) (xF f i) (aN f i) (aF f i) c -> finished c ->
+Lemma up_none p i j k f c : piece p i -> V p j k f -> j = i -> inn (mu i) (xN f i) (xF f i) (aN f i) (aF f i) c ->
+  finished c ->
   ok (mu i) c -> up f p j c = None -> solution f.
 Proof.
 move=> pi v ji ic fc oc; rewrite ji in v *; rewrite /Statement.up; case e1: (next f i) => // _ s.
@@ -625,7 +649,8 @@ case: (ltngtP s i) => lt.
 Qed.
 Lemma over_none x : is_end x -> over x = None -> solution (point x) \/ first = Some x.
 Proof.
-case: x => p [j k] ex; rewrite /Statement.over ex /=; have [i [pi v]] := is_end_V ex; rewrite /= in pi; move: (point _) v => f /= v.
+case: x => p [j k] ex; rewrite /Statement.over ex /=; have [i [pi v]] := is_end_V ex; rewrite /= in pi;
+  move: (point _) v => f /= v.
 have [vj vo] := v; have o : forall s, ok (mu s) (p s) by have /and4P [_ _ _ /forallP] := pi.
 have oj := o j; have dj := @driven_at p i j pi.
 rewrite /Statement.over_at; case pj: (p j) vj oj dj => vj oj dj; try by case: ifP => //; case: ifP.
@@ -685,7 +710,8 @@ by have [z [xz _ _ ez _]] := alongP ex; move: xy; rewrite xz => -[<-].
 Qed.
 Lemma entry_pos k : entry k = pos k.*2.
 Proof.
-elim: k => // k IH; rewrite /Statement.entry iterS -/(Statement.entry A b mu x0 k) IH doubleS /= /turn /= odd_double /=.
+elim: k => // k IH; rewrite /Statement.entry iterS -/(Statement.entry A b mu x0 k) IH doubleS
+  /= /turn /= odd_double /=.
 by case: (Path.pos _ _ _ _) => //= x; case: (along x).
 Qed.
 (* no end twice, no piece twice *)
@@ -741,9 +767,11 @@ have : (#|codom g| <= #|predC1 [ffun => code cB] : {pred {ffun 'I_n -> 'I_4}}|)%
 by rewrite card_codom // card_ord cardC1 card_ffun !card_ord; case: (4 ^ n)%N.
 Qed.
 Lemma drive_entry a : forall k x, entry k = Some x ->
-  if drive a x is Some y then over y = None /\ exists2 j, pos j = Some y & odd j else exists z, entry (k + a).+1 = Some z.
+  if drive a x is Some y then over y = None /\ exists2 j, pos j = Some y & odd j
+  else exists z, entry (k + a).+1 = Some z.
 Proof.
-elim: a => [|a IH] k x ek /=; have pk := ek; rewrite entry_pos in pk; have [y [xy _ _ _ _]] := alongP (pos_end pk); rewrite xy.
+elim: a => [|a IH] k x ek /=; have pk := ek; rewrite entry_pos in pk;
+  have [y [xy _ _ _ _]] := alongP (pos_end pk); rewrite xy.
   case ov: (over y) => [z|].
     by exists z; rewrite addn0; exact: entryS ek xy ov.
   split=> //; exists k.*2.+1; last by rewrite /= odd_double.

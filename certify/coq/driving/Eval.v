@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that what holds of vectors and matrices over R holds over R(X): signs of rational functions are those of their values
-   at large numbers. *)
+(* Proves that what holds of vectors and matrices over R holds over R(X): signs of rational functions are those of
+   their values at large numbers. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
+From Stiction.existence Require Import Law Dot Edge Parity.
 From Stiction.driving Require Import Rational.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -15,7 +15,9 @@ Notation F := (ratfun R).
 Notation pf := (@pf R).
 Definition large (C : R -> Prop) := exists b, forall t, b < t -> C t.
 Lemma large_and C D : large C -> large D -> large (fun t => C t /\ D t).
-Proof. by move=> [b hb] [c hc]; exists (Num.max b c) => t; rewrite lt_maxl => /andP [h1 h2]; split; [apply: hb|apply: hc]. Qed.
+Proof.
+by move=> [b hb] [c hc]; exists (Num.max b c) => t; rewrite lt_maxl => /andP [h1 h2]; split; [apply: hb|apply: hc].
+Qed.
 Lemma large_imp (C D : R -> Prop) : (forall t, C t -> D t) -> large C -> large D.
 Proof. by move=> h [b hb]; exists b => t /hb /h. Qed.
 Lemma large_true (C : R -> Prop) : (forall t, C t) -> large C.
@@ -148,20 +150,23 @@ Notation MF := (Statement.MF M).
 Lemma val_mul z : large (fun t => valv (MF *m z) t = M *m valv z t).
 Proof.
 have h i : large (fun t => val ((MF *m z) i 0) t = (M *m valv z t) i 0).
-  rewrite mxE; apply: large_imp (large_and (val_sum (fun j => MF i j * z j 0)) (large_and (large_all (fun j => valM (MF i j) (z j 0))) (large_all (fun j => val_emb (M i j))))).
+  rewrite mxE; apply: large_imp (large_and (val_sum (fun j => MF i j * z j 0))
+    (large_and (large_all (fun j => valM (MF i j) (z j 0))) (large_all (fun j => val_emb (M i j))))).
   move=> t [-> [h1 h2]]; rewrite mxE; apply: eq_bigr => j _; by rewrite h1 mxE h2 mxE.
 apply: large_imp (large_all h) => t ht; by apply/matrixP => i j; rewrite ord1 mxE ht.
 Qed.
 Lemma val_dotp x y : large (fun t => val (dotp x y) t = dotp (valv x t) (valv y t)).
 Proof.
-apply: large_imp (large_and (val_sum (fun j => x j 0 * y j 0)) (large_all (fun j => valM (x j 0) (y j 0)))) => t [-> h].
+apply: large_imp (large_and (val_sum (fun j => x j 0 * y j 0)) (large_all (fun j => valM (x j 0) (y j 0))))
+  => t [-> h].
 by apply: eq_bigr => i _; rewrite h !mxE.
 Qed.
 Lemma val_nonneg z : nonneg z -> large (fun t => nonneg (valv z t)).
 Proof. by move=> h; apply: large_imp (large_all (fun i => val_ge0 (h i))) => t ht i; rewrite mxE. Qed.
 Lemma val_dotM x y : large (fun t => val (dotp x (MF *m y)) t = dotp (valv x t) (M *m valv y t)).
 Proof. by apply: large_imp (large_and (val_dotp x (MF *m y)) (val_mul y)) => t [-> ->]. Qed.
-Lemma copositiveF : (forall z, nonneg z -> 0 <= dotp z (M *m z)) -> forall z : 'cV[F]_n, nonneg z -> 0 <= dotp z (MF *m z).
+Lemma copositiveF : (forall z, nonneg z -> 0 <= dotp z (M *m z)) ->
+  forall z : 'cV[F]_n, nonneg z -> 0 <= dotp z (MF *m z).
 Proof.
 move=> h z z0; apply: ge0_val; apply: large_imp (large_and (val_dotM z z) (val_nonneg z0)) => t [-> zt]; exact: h.
 Qed.
@@ -179,12 +184,15 @@ Proof.
 move=> h z z' z0 z0' Mz e.
 have e0 : large (fun t => dotp (valv z t) (M *m valv z t) = 0).
   apply: large_imp (large_and (val_dotM z z) (val_emb 0)) => t [<-]; by rewrite e rmorph0.
-have H : large (fun t => 0 <= dotp (valv z t) q /\ 0 <= dotp (valv z t) (M *m valv z' t) + dotp (valv z' t) (M *m valv z t)).
-  apply: large_imp (large_and e0 (large_and (val_nonneg z0) (large_and (val_nonneg z0') (large_and (val_nonneg Mz) (val_mul z))))).
+have H : large (fun t => 0 <= dotp (valv z t) q /\
+  0 <= dotp (valv z t) (M *m valv z' t) + dotp (valv z' t) (M *m valv z t)).
+  apply: large_imp (large_and e0 (large_and (val_nonneg z0) (large_and (val_nonneg z0')
+    (large_and (val_nonneg Mz) (val_mul z))))).
   by move=> t [a [b [c [d f]]]]; apply: h => //; rewrite -f.
 split; apply: ge0_val.
   by apply: large_imp (large_and H (large_and (val_dotp z qF) val_q)) => t [[a _] [-> ->]].
-apply: large_imp (large_and H (large_and (valD (dotp z (MF *m z')) (dotp z' (MF *m z))) (large_and (val_dotM z z') (val_dotM z' z)))).
+apply: large_imp (large_and H (large_and (valD (dotp z (MF *m z')) (dotp z' (MF *m z)))
+  (large_and (val_dotM z z') (val_dotM z' z)))).
 by move=> t [[_ a] [-> [-> ->]]].
 Qed.
 End Vectors.

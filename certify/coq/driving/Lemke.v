@@ -1,10 +1,10 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Lemke's method, as a function, ends, and where: for w = M z + q with a covering vector d > 0; over any ordered
-   field, nondegenerate.
+(* Proves that Lemke's method, as a function, ends, and where: for w = M z + q with a covering vector d > 0; over any
+   ordered field, nondegenerate.
    Columns: number 0 is z0 (column -d), number j+1 is w_j or, if `s j`, z_j. A basis: a set s and a column l that is
    left out (zero); the edge of s: all n + 1 columns of s. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
+From Stiction.existence Require Import Law Dot Edge Parity.
 From Stiction.driving Require Import Path.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -50,13 +50,8 @@ Arguments state : simpl never.
 Hypothesis d0 : forall i, 0 < d i 0.
 Hypothesis nd : forall s u, nonneg u -> H s *m u = q -> forall k l, u k 0 = 0 -> u l 0 = 0 -> k = l.
 
-Lemma candidateE s l u : vertex (H s) q l u -> candidate s l = u.
-Proof.
-move=> ul; have [Hu ull _] := ul.
-by rewrite /candidate /Parity.candidate -[in LHS]Hu -{1}(padl_of ull) padlE mulKmx ?(basis_unit nd ul) // padl_of.
-Qed.
 Lemma vertexC s l : is_vertex s l -> vertex (H s) q l (candidate s l).
-Proof. by move=> v; have [u ul] := is_vertexP nd s l v; rewrite (candidateE ul). Qed.
+Proof. by move=> v; have [u ul] := is_vertexP nd s l v; rewrite (candidateE nd ul). Qed.
 Lemma dirE s l : is_vertex s l -> H s *m dir s l = 0 /\ dir s l l 0 = 1.
 Proof.
 move=> /vertexC ul; split; last by rewrite mxE unlift_none.
@@ -123,22 +118,15 @@ Qed.
 (* the primary edge: w = q + z0 d, a ray with one vertex *)
 Lemma first_vertex : is_vertex s0 first.
 Proof.
-pose mk t : 'cV[R]_n.+1 := \col_k if unlift ord0 k is Some j then q j 0 + t * d j 0 else t.
-have mk0 t : mk t ord0 0 = t by rewrite mxE unlift_none.
-have mkj t j : mk t (lift ord0 j) 0 = q j 0 + t * d j 0 by rewrite mxE liftK.
-have Hmk t : H s0 *m mk t = q by apply/primaryE => j; rewrite mkj mk0.
-have vert t l : nonneg (mk t) -> mk t l 0 = 0 -> is_vertex s0 l.
-  move=> h e; apply/(is_vertexP nd); exists (mk t); split=> // k kl.
-  rewrite lt_neqAle h andbT eq_sym; apply: contra kl => /eqP z.
-  by apply/eqP/(nd h (Hmk t)).
-rewrite /first; case: pickP => [i /andP [qi /forallP imin]|h].
-  apply: (vert (- (q i 0 / d i 0))); last by rewrite mkj mulNr divfK ?subrr // gt_eqF.
+rewrite /first; case: pickP => [i /andP [qi /forallP imin]|h]; apply/(is_vertexP nd).
+  exists (primary_point d q (- (q i 0 / d i 0))); apply: (primary_vertex nd); last first.
+    by rewrite primary_point_lift mulNr divfK ?subrr // gt_eqF.
   move=> j; case: (unliftP ord0 j) => [m ->|->].
-    by rewrite mkj mulNr subr_ge0 -ler_pdivl_mulr // imin.
-  by rewrite mk0 oppr_ge0 pmulr_lle0 ?invr_gt0 // ltW.
-apply: (vert 0); last by rewrite mk0.
-move=> j; case: (unliftP ord0 j) => [m ->|->]; last by rewrite mk0.
-rewrite mkj mul0r addr0 leNgt; apply/negP => mn.
+    by rewrite primary_point_lift mulNr subr_ge0 -ler_pdivl_mulr // imin.
+  by rewrite primary_point0 oppr_ge0 pmulr_lle0 ?invr_gt0 // ltW.
+exists (primary_point d q 0); apply: (primary_vertex nd); last exact: primary_point0.
+move=> j; case: (unliftP ord0 j) => [m ->|->]; last by rewrite primary_point0.
+rewrite primary_point_lift mul0r addr0 leNgt; apply/negP => mn.
 case: (@arg_minP _ _ _ m predT (fun k => q k 0 / d k 0) isT) => k _ kmin.
 have := h k; rewrite (introT forallP) ?andbT => [|x]; last exact: kmin.
 have -> // : q k 0 < 0.
@@ -147,23 +135,7 @@ have : q k 0 / d k 0 < 0 by apply: le_lt_trans le _; rewrite pmulr_llt0 ?invr_gt
 by rewrite pmulr_llt0 // invr_gt0.
 Qed.
 Lemma first_only l : is_vertex s0 l -> l = first.
-Proof.
-have only l1 l2 : is_vertex s0 l1 -> is_vertex s0 l2 -> candidate s0 l1 ord0 0 < candidate s0 l2 ord0 0 -> False.
-  move=> /vertexC ul /vertexC [Hu' ul' up'] lt; have u0 := vertex_nonneg ul; case: (ul) => /primaryE Hu _ _.
-  move/primaryE: Hu' => Hu'; suff : 0 < candidate s0 l2 l2 0 by rewrite ul' ltxx.
-  case: (unliftP ord0 l2) lt ul' Hu' => [j ->|->] lt ul' Hu'; last exact: le_lt_trans (u0 ord0) lt.
-  rewrite Hu'; apply: le_lt_trans (u0 (lift ord0 j)) _.
-  by rewrite Hu ltr_add2l ltr_pmul2r.
-move=> vl; have vf := first_vertex.
-case: (ltgtP (candidate s0 l ord0 0) (candidate s0 first ord0 0)) => [h|h|h].
-- by case: (only _ _ vl vf h).
-- by case: (only _ _ vf vl h).
-have [Hu ul _] := vertexC vl; have [Hf fl _] := vertexC vf.
-have e : candidate s0 l = candidate s0 first.
-  move/primaryE: (Hu) => Eu; move/primaryE: (Hf) => Ef; apply/matrixP => k j; rewrite ord1.
-  by case: (unliftP ord0 k) => [i ->|->]; rewrite ?Eu ?Ef h.
-rewrite -e in fl; exact: (nd (vertex_nonneg (vertexC vl)) Hu ul fl).
-Qed.
+Proof. by move=> /vertexC ul; apply: (primary_only d0 nd ul (vertexC first_vertex)). Qed.
 
 (* ---- the graph: ends (s, l) of edges; matchings: over to the next edge, to the other end of the edge ---- *)
 Definition over (x : sel * 'I_n.+1) : option (sel * 'I_n.+1) :=
@@ -202,7 +174,8 @@ Notation pos := (pos mates true (s0, first)).
 Lemma is_vertex_pos k x : pos k = Some x -> is_vertex x.1 x.2.
 Proof.
 case: k => [[<-]|k /posS [y _]]; first exact: first_vertex.
-by case: (turn _ _) => /=; rewrite /over /along; move=> e; move: (mates_sym (c := true)) (mates_sym (c := false)) => /=;
+by case: (turn _ _) => /=; rewrite /over /along; move=> e;
+  move: (mates_sym (c := true)) (mates_sym (c := false)) => /=;
   rewrite /over /along => s1 s2; [move: (s1 _ _ e) | move: (s2 _ _ e)]; case: ifP.
 Qed.
 Lemma state_pos k : state k = pos k.*2.
@@ -324,66 +297,16 @@ Qed.
 Hypothesis copositive : forall z, nonneg z -> 0 <= dotp z (M *m z).
 Hypothesis rays : forall z z', nonneg z -> nonneg z' -> nonneg (M *m z) -> dotp z (M *m z) = 0 ->
   0 <= dotp z q /\ 0 <= dotp z (M *m z') + dotp z' (M *m z).
-(* the proof of Parity.no_ray, at the vertex where the run is *)
-Lemma no_ray s l u : l != ord0 -> s != s0 -> vertex (H s) q l u ->
-  forall v, nonneg v -> H s *m v = 0 -> v = 0.
-Proof.
-move=> l0 ns ul v v0 Hv; have u0 := vertex_nonneg ul; case: (ul) => Hu ull up.
-set z := zof s v; set w := wof s v.
-have wE : w = M *m z + v ord0 0 *: d.
-  by move: Hv; rewrite HE -/z -/w -addrA -opprD => /eqP; rewrite subr_eq0 => /eqP.
-have zn : nonneg z := z_nonneg s v0.
-have [cop vd] : dotp z (M *m z) = 0 /\ v ord0 0 * dotp z d = 0.
-  apply: sum0; [exact: copositive | by rewrite mulr_ge0 // dotd_ge0 |].
-  by rewrite -dotpZ -dotpD -wE apart.
-have wdone : z = 0 -> w = 0 -> v ord0 0 = 0 -> v = 0.
-  move=> z0 w0 v00; apply/matrixP => k j; rewrite ord1 mxE.
-  case: (unliftP ord0 k) => [i ->|-> //].
-  have := congr1 (fun m : 'cV[R]_n => m i 0) z0; have := congr1 (fun m : 'cV[R]_n => m i 0) w0.
-  by rewrite !mxE; case: (s i).
-case: (altP (z =P 0)) => [z0|znz].
-  case: (altP (v ord0 0 =P 0)) => [v00|vn].
-    by apply: wdone => //; rewrite wE z0 mulmx0 v00 scale0r addr0.
-  exfalso; move/negP: ns; apply; apply/eqP/ffunP => j; rewrite ffunE; apply/negbTE/negP => sj.
-  have := congr1 (fun m : 'cV[R]_n => m j 0) wE; rewrite z0 mulmx0 add0r !mxE sj => /esym/eqP.
-  by rewrite mulf_eq0 (negbTE vn) (gt_eqF (d0 j)).
-exfalso.
-have dz : dotp z d != 0 by apply: contra znz => /eqP /(dotd0 d0 zn) ->.
-have v00 : v ord0 0 = 0 by move/eqP: vd; rewrite mulf_eq0 (negbTE dz) orbF => /eqP.
-have wE' : w = M *m z by rewrite wE v00 scale0r addr0.
-set z' := zof s u; have zn' : nonneg z' := z_nonneg s u0.
-have Mzn : nonneg (M *m z) by rewrite -wE'; move=> j; rewrite mxE; case: (s j).
-have [r1 r2] := rays zn zn' Mzn cop.
-have qE : wof s u = q + M *m z' + u ord0 0 *: d.
-  by rewrite -Hu HE -/z' addrAC subrK subrK.
-have e1 : dotp z q + dotp z (M *m z') + u ord0 0 * dotp z d = 0.
-  by rewrite -dotpZ -!dotpD -qE apart.
-have e2 : dotp z' (M *m z) = 0 by rewrite -wE' apart.
-have p : 0 <= u ord0 0 * dotp z d by rewrite mulr_ge0 // (dotd_ge0 d0).
-rewrite e2 addr0 in r2.
-have [_ /eqP] := sum0 (addr_ge0 r1 r2) p e1.
-rewrite mulf_eq0 (negbTE dz) orbF => /eqP u00.
-have e : l = ord0 := nd u0 Hu ull u00.
-by rewrite e eqxx in l0.
-Qed.
-
 
 (* the answer that a set of basic z's stands for *)
 Definition z_of s := zof s (candidate s ord0).
 Definition w_of s := wof s (candidate s ord0).
-Definition lcp_solution (w z : 'cV[R]_n) := [/\ nonneg w, nonneg z, w = M *m z + q & forall i, w i 0 * z i 0 = 0].
-Lemma answer s : is_vertex s ord0 -> lcp_solution (w_of s) (z_of s).
-Proof.
-move=> /vertexC ul; have [Hu u0 _] := ul; have nn := vertex_nonneg ul; split.
-- by move=> j; rewrite mxE; case: (s j).
-- exact: z_nonneg.
-- by move: Hu; rewrite HE u0 scale0r subr0 => <-; rewrite addrC subrK.
-- by move=> i; rewrite !mxE; case: (s i); rewrite ?mul0r ?mulr0.
-Qed.
+Lemma answer s : is_vertex s ord0 -> lcp_solution M q (w_of s) (z_of s).
+Proof. by move=> /vertexC ul; have [Hu u0 _] := ul; apply: edge_solution Hu u0; exact: vertex_nonneg ul. Qed.
 Theorem lemke_ends_in_a_solution :
-  exists s, lemke (2 ^ n).-1 s0 first = Solved s /\ lcp_solution (w_of s) (z_of s).
+  exists s, lemke (2 ^ n).-1 s0 first = Solved s /\ lcp_solution M q (w_of s) (z_of s).
 Proof.
 have := lemke_ends; case: lemke => [s v|s l [ns nl v [nn [Hd nz]]]|//]; first by exists s; split=> //; exact: answer.
-by rewrite (no_ray nl ns (vertexC v) nn Hd) eqxx in nz.
+by rewrite (no_ray d0 nd copositive rays nl ns (vertexC v) nn Hd) eqxx in nz.
 Qed.
 End Lemke.

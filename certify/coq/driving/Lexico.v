@@ -1,8 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Lemke's method ends in a solution where q has ties: over R(X), for q + (e, e^2, ...), e = 1/X infinitesimal. The
-   basis in which it ends is one of a solution for q itself. d may be over R(X) for some R: graded. *)
+(* Proves that Lemke's method ends in a solution where q has ties: over R(X), for q + (e, e^2, ...), e = 1/X
+   infinitesimal. The basis in which it ends is one of a solution for q itself.
+   d may be over R(X) for some R: graded. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
+From Stiction.existence Require Import Law Dot Edge Parity.
 From Stiction.driving Require Import Rational Statement Path Lemke Eval.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -37,7 +38,8 @@ have P0 : P = 0.
   rewrite rmorphD rmorph_sum /= mulrDr; congr (_ + _).
     rewrite -mul_polyC rmorphM rmorphX /= mulrC; congr (_ * _).
     rewrite -/(emb _) mxE rmorph_sum; apply: eq_bigr => k _; by rewrite !mxE rmorphM.
-  rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA; congr (_ * _).
+  rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA;
+    congr (_ * _).
   by rewrite /Statement.eps exprVn -expfB_cond //; rewrite gt_eqF ?X_gt0 //= add0n ltn_ord.
 have := congr1 (fun Q : {poly R} => Q`_(n - j.+1)) P0; rewrite coef0 coefD coefZ coefXn.
 have -> : (n - j.+1 == n)%N = false by apply/negbTE; rewrite neq_ltn ltn_subrL /= (leq_ltn_trans _ (ltn_ord j)).
@@ -46,21 +48,6 @@ rewrite coefZ coefXn; have -> : (n - j.+1 == n - k.+1)%N = false; last by rewrit
 apply/negbTE; apply: contra kj => /eqP e2; apply/eqP/val_inj => /=.
 have : (n - (n - j.+1) = n - (n - k.+1))%N by rewrite e2.
 by rewrite !subKn ?ltn_ord // => -[].
-Qed.
-Lemma annihilate (A : 'M[R]_(n, n.+1)) k l : k != l ->
-  exists2 p : 'rV[R]_n, p != 0 & forall j, j != k -> j != l -> (p *m A) 0 j = 0.
-Proof.
-case: n A k l => [|m] A k l; first by rewrite !ord1 eqxx.
-move=> kl; case: (unliftP k l) => [l' ll|e]; last by rewrite e eqxx in kl.
-pose K : 'M[R]_(m.+1, m) := \matrix_(i, j) A i (lift k (lift l' j)).
-have r : (0 < \rank (kermx K))%N by rewrite mxrank_ker subn_gt0 ltnS rank_leq_col.
-have [p p0 pK] : exists2 p : 'rV[R]_m.+1, p != 0 & p *m K = 0.
-  exists (nz_row (kermx K)); first by rewrite nz_row_eq0 -mxrank_eq0 -lt0n.
-  by apply/sub_kermxP/nz_row_sub.
-exists p => // j jk jl; case: (unliftP k j) jk jl => [j' ->|->]; last by rewrite eqxx.
-move=> _; rewrite ll; case: (unliftP l' j') => [a ->|->]; last by rewrite eqxx.
-move=> _; have := congr1 (fun x : 'rV[R]_m => x 0 a) pK; rewrite !mxE => h; rewrite -[RHS]h.
-by apply: eq_bigr => b _; rewrite ?mxE.
 Qed.
 Lemma ndF s (u : 'cV[F]_n.+1) : nonneg u -> H (MF M) dF s *m u = qeps -> forall k l, u k 0 = 0 -> u l 0 = 0 -> k = l.
 Proof.
@@ -79,20 +66,14 @@ Definition basis (s : sel) : 'M[R]_n := \matrix_(i, j) if s j then - M i j else 
 Definition basic (s : sel) : 'cV[R]_n := invmx (basis s) *m q.
 Definition z_basic (s : sel) : 'cV[R]_n := \col_j if s j then basic s j 0 else 0.
 Definition w_basic (s : sel) : 'cV[R]_n := \col_j if s j then 0 else basic s j 0.
-Lemma basisE s : col' ord0 (H M d s) = basis s.
+Lemma basisE c s : col' ord0 (H M c s) = basis s.
 Proof. by apply/matrixP => i j; rewrite !mxE liftK. Qed.
-Lemma basic_solution s : basis s \in unitmx -> nonneg (basic s) -> lcp_solution M q (w_basic s) (z_basic s).
+Lemma basic_lcp s : basis s \in unitmx -> nonneg (basic s) -> lcp_solution M q (w_basic s) (z_basic s).
 Proof.
-move=> un nn; split.
-- by move=> j; rewrite mxE; case: (s j).
-- by move=> j; rewrite mxE; case: (s j).
-- have : basis s *m basic s = q by rewrite mulKVmx.
-  move=> e; rewrite -[in RHS]e; apply/matrixP => i j; rewrite [j]ord1 [RHS]mxE [X in _ = X + _]mxE [X in _ = _ + X]mxE -big_split /=.
-  rewrite (eq_bigr (fun k => if i == k then w_basic s k 0 else 0)) => [|k _].
-    by rewrite -big_mkcond (big_pred1 i) // => k; rewrite eq_sym.
-  rewrite [z_basic s k 0]mxE [basis s i k]mxE [w_basic s k 0]mxE; case: (s k); first by rewrite mulNr subrr if_same.
-  by rewrite mulr0 add0r; case: eqP => _; rewrite ?mul1r ?mul0r.
-- by move=> i; rewrite !mxE; case: (s i); rewrite ?mul0r ?mulr0.
+move=> un nn; have e k : padl ord0 (basic s) (lift ord0 k) 0 = basic s k 0 by rewrite [LHS]mxE liftK.
+have -> : w_basic s = wof s (padl ord0 (basic s)) by apply/matrixP => i j; rewrite [LHS]mxE [RHS]mxE e.
+have -> : z_basic s = zof s (padl ord0 (basic s)) by apply/matrixP => i j; rewrite [LHS]mxE [RHS]mxE e.
+by apply: (basic_solution (d := 0)); rewrite ?basisE ?mulKVmx.
 Qed.
 Lemma small_sum (c : 'I_n -> R) (y : R) : 0 < emb y + \sum_i emb (c i) * eps ^+ i.+1 -> 0 <= y.
 Proof.
@@ -114,7 +95,7 @@ Lemma vertex_basic s : is_vertex (MF M) dF qeps s ord0 -> basis s \in unitmx /\ 
 Proof.
 move=> v; have ul := vertexC ndF v; have := basis_unit (@ndF) ul.
 have eH : col' ord0 (H (MF M) dF s) = map_mx (@emb R) (basis s).
-  by rewrite H_map -basisE; apply/matrixP => i j; rewrite !mxE.
+  by rewrite H_map -(basisE d); apply/matrixP => i j; rewrite !mxE.
 rewrite eH map_unitmx => un; split=> // j.
 have [_ _ /(_ (lift ord0 j))] := ul; rewrite eq_sym neq_lift mxE liftK eH => /(_ isT).
 rewrite -map_invmx mulmxDr mxE [X in _ + X]mxE => h; apply: (small_sum (c := fun i => invmx (basis s) j i)).
@@ -127,13 +108,14 @@ Hypothesis rays : forall z z', nonneg z -> nonneg z' -> nonneg (M *m z) -> dotp 
 (* Lemke's method, ties told by infinitesimals *)
 Definition lemke_lex := lemke (MF M) dF qeps (2 ^ n).-1 (s0 n) (first dF qeps).
 Theorem lemke_lex_ends_in_a_solution :
-  exists s, [/\ lemke_lex = Solved s, basis s \in unitmx, nonneg (basic s) & lcp_solution M q (w_basic s) (z_basic s)].
+  exists s,
+    [/\ lemke_lex = Solved s, basis s \in unitmx, nonneg (basic s) & lcp_solution M q (w_basic s) (z_basic s)].
 Proof.
 have raysE z z' : nonneg z -> nonneg z' -> nonneg (MF M *m z) -> dotp z (MF M *m z) = 0 ->
     0 <= dotp z qeps /\ 0 <= dotp z (MF M *m z') + dotp z' (MF M *m z).
   move=> hz hz' hM e; have [r1 r2] := raysF rays hz hz' hM e; split=> //.
   rewrite dotpD addr_ge0 //; apply: dotp_ge0 => // i; by rewrite mxE exprn_ge0 // ltW // eps_gt0.
 have := lemke_ends dF0 ndF; have [s [e _]] := lemke_ends_in_a_solution dF0 ndF (copositiveF copositive) raysE.
-rewrite e => /vertex_basic [un nn]; exists s; split=> //; exact: basic_solution.
+rewrite e => /vertex_basic [un nn]; exists s; split=> //; exact: basic_lcp.
 Qed.
 End Lexico.

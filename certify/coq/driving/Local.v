@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves, of the cells of one contact (Statement.v), what their facets are, that equations are counted right, and that along a
-   ray in a cell no force works against an acceleration. *)
+(* Proves, of the cells of one contact (Statement.v), what their facets are, that equations are counted right, and
+   that along a ray in a cell no force works against an acceleration. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -19,7 +19,8 @@ Notation fac := (Statement.fac m fN fF aN aF).
 Notation cnt := (Statement.cnt m fN fF aN aF).
 Definition need t : nat := if driven t then 1%N else 2%N.
 
-Ltac crunch := rewrite /Statement.fac /Statement.inn /Statement.on /Statement.lval /= ?ltr01 ?oner_eq0 ?oppr_gt0 ?oppr_eq0 ?subr_eq0 ?addr_eq0 ?eqxx ?andbT ?andbF.
+Ltac crunch := rewrite /Statement.fac /Statement.inn /Statement.on /Statement.lval /=
+  ?ltr01 ?oner_eq0 ?oppr_gt0 ?oppr_eq0 ?subr_eq0 ?addr_eq0 ?eqxx ?andbT ?andbF.
 Lemma fB k : fac cB k = [&& k == s0, fN == 0, fF == 0 & aN == 0].
 Proof. by case: k => [[]|]; crunch => //=; rewrite ?andbF //= -!andbA. Qed.
 Lemma fZ k : fac cZ k = [&& k == s0, fN == 0, fF == 0 & aN == 0].
@@ -98,7 +99,8 @@ Proof. by rewrite /Statement.cnt => ->. Qed.
 Definition zeros t k := lval t k == 0.
 Lemma cnt_on t : ok m t -> on t -> (need t + zeros t s0 + zeros t s1 + zeros t s2 <= cnt)%N.
 Proof.
-rewrite /zeros /Statement.cnt /Statement.on /Statement.lval /need; case: t => /=; rewrite ?oner_eq0 ?oppr_eq0 ?subr_eq0 ?addr_eq0 ?eqxx.
+rewrite /zeros /Statement.cnt /Statement.on /Statement.lval /need; case: t => /=;
+  rewrite ?oner_eq0 ?oppr_eq0 ?subr_eq0 ?addr_eq0 ?eqxx.
 - by move=> m0 /andP [-> ->]; case: (aN == 0); case: (aF == 0).
 - move=> m0 /andP [-> ->]; case: (altP (m * fN =P fF)) => e1; case: (altP (m * fN =P - fF)) => e2.
   + have fF0 : fF == 0.
@@ -129,7 +131,8 @@ End Local.
 Section Cones.
 Variables (R : realFieldType) (m : R).
 Definition hval (fN fF aN aF : R) t k := if ineq t k is Some c then ev m fN fF aN aF c else 0.
-Definition closed (fN fF aN aF : R) t := [&& on m fN fF aN aF t, 0 <= hval fN fF aN aF t s0, 0 <= hval fN fF aN aF t s1 & 0 <= hval fN fF aN aF t s2].
+Definition closed (fN fF aN aF : R) t :=
+  [&& on m fN fF aN aF t, 0 <= hval fN fF aN aF t s0, 0 <= hval fN fF aN aF t s1 & 0 <= hval fN fF aN aF t s2].
 Lemma closedK fN fF aN aF t : ok m t -> closed fN fF aN aF t -> `|fF| <= m * fN /\ 0 <= fN.
 Proof.
 rewrite /closed /on /hval; case: t => /= m0 /and4P [/andP [/eqP e1 /eqP e2] i1 i2 i3].
@@ -150,9 +153,11 @@ rewrite /closed /on /hval; case: t => /= m0 /and4P [/andP [/eqP e1 /eqP e2] i1 i
   by rewrite ler0_norm // -(pmulr_rge0 _ m0) (le_trans i1).
 - by rewrite e1 e2 normr0 mulr0.
 Qed.
-Lemma mono vN vF gN gF fN fF aN aF t : ok m t -> closed vN vF gN gF t -> closed fN fF aN aF t -> vN * aN + vF * aF <= 0.
+Lemma mono vN vF gN gF fN fF aN aF t : ok m t -> closed vN vF gN gF t -> closed fN fF aN aF t ->
+  vN * aN + vF * aF <= 0.
 Proof.
-rewrite /closed /on /hval; case: t => /= m0 /and4P [/andP [/eqP e1 /eqP e2] i1 i2 i3] /and4P [/andP [/eqP d1 /eqP d2] j1 j2 j3].
+rewrite /closed /on /hval;
+  case: t => /= m0 /and4P [/andP [/eqP e1 /eqP e2] i1 i2 i3] /and4P [/andP [/eqP d1 /eqP d2] j1 j2 j3].
 - by rewrite e1 e2 !mul0r addr0.
 - by rewrite d1 d2 !mulr0 addr0.
 - move/eqP: e2; rewrite subr_eq0 => /eqP <-; rewrite d1 mulr0 add0r; apply: mulr_ge0_le0; last by rewrite -oppr_ge0.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that a walk meets no point twice and ends, if it uses two partial matchings of a finite set in turn from a point that
-   one of them leaves alone. Here the points are the ends of pieces: `m true` goes over to the next piece, `m false` to the
-   other end of the piece, or the reverse. *)
+(* Proves that a walk meets no point twice and ends, if it uses two partial matchings of a finite set in turn from a
+   point that one of them leaves alone. Here the points are the ends of pieces: `m true` goes over to the next piece,
+   `m false` to the other end of the piece, or the reverse. *)
 From mathcomp Require Import all_ssreflect.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 

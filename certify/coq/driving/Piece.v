@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that a piece has exactly two ends, and that the ratio test finds the other: a line (m unknowns, m equations of which one
-   is 0 = 0) within finitely many half spaces, no two of whose boundaries meet in it, and which contains no ray. *)
+(* Proves that a piece has exactly two ends, and that the ratio test finds the other: a line (m unknowns, m equations
+   of which one is 0 = 0) within finitely many half spaces, no two of whose boundaries meet in it, and which contains
+   no ray. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.driving Require Import Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -8,7 +9,8 @@ Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 
 Section Piece.
-Variables (R : realFieldType) (m : nat) (K : finType) (E : 'M[R]_m) (e : 'cV[R]_m) (G : K -> 'rV[R]_m) (h : K -> R) (r0 : 'I_m).
+Variables (R : realFieldType) (m : nat) (K : finType)
+  (E : 'M[R]_m) (e : 'cV[R]_m) (G : K -> 'rV[R]_m) (h : K -> R) (r0 : 'I_m).
 Notation lin := (Statement.lin G).
 Notation val := (Statement.val G h).
 Notation Bk := (Statement.Bk E G r0).
@@ -33,7 +35,8 @@ Lemma end_ge0 k f : isend k f -> forall k', 0 <= val k' f.
 Proof. by case=> _ z p k'; case: (altP (k' =P k)) => [->|/p /ltW //]; rewrite z. Qed.
 
 Lemma first_zero u v k0 : (forall k, 0 <= val k u) -> E *m u = e -> E *m v = 0 -> lin k0 v < 0 ->
-  exists t k, [/\ 0 <= t, forall k', 0 <= val k' (u + t *: v), lin k v < 0, val k (u + t *: v) = 0 & E *m (u + t *: v) = e].
+  exists t k,
+    [/\ 0 <= t, forall k', 0 <= val k' (u + t *: v), lin k v < 0, val k (u + t *: v) = 0 & E *m (u + t *: v) = e].
 Proof.
 move=> u0 Hu Hv k0n.
 case: (@arg_minP _ _ _ k0 (fun k => lin k v < 0) (fun k => val k u / - lin k v) k0n) => k kn kmin.
@@ -142,7 +145,8 @@ have le1 : ratio k k1 <= val k x by have := kmin l; rewrite -/v vl xr.
 have le2 : val k x <= ratio k k1.
   rewrite /Statement.ratio -/u -/v ler_pdivl_mulr ?oppr_gt0 // mulrN -subr_ge0 opprK -xE; exact: x0.
 have e1 : val k x = ratio k k1 by apply/eqP; rewrite eq_le le2 le1.
-apply: (nd Hx x0) => //; rewrite xE e1 /Statement.ratio -/u -/v -{2}[lin k1 v]opprK mulrN divfK ?subrr // gt_eqF // oppr_gt0; exact: kn.
+apply: (nd Hx x0) => //;
+  rewrite xE e1 /Statement.ratio -/u -/v -{2}[lin k1 v]opprK mulrN divfK ?subrr // gt_eqF // oppr_gt0; exact: kn.
 Qed.
 Lemma end_unique k u u' : isend k u -> isend k u' -> u = u'.
 Proof. by move=> /candE <- /candE <-. Qed.

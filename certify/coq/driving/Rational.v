@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* The field R(X) of rational functions over an ordered field R, ordered with X infinitely large: x < y where the leading
-   coefficients of y - x have a positive product. It proves that this is an ordered field. *)
+(* The field R(X) of rational functions over an ordered field R, ordered with X infinitely large: x < y where the
+   leading coefficients of y - x have a positive product. It proves that this is an ordered field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory FracField.
@@ -47,7 +47,8 @@ Proof.
 move=> q0 e; have := congr1 lead_coef (cross q0 e); rewrite !lead_coefM => h.
 have l1 : lead_coef q != 0 by rewrite lead_coef_eq0.
 have l2 : lead_coef (den x) != 0 by rewrite lead_coef_eq0 den_neq0.
-rewrite -(pmulr_lgt0 _ (_ : 0 < lead_coef q ^+ 2)) ?exprn_even_gt0 // -[in RHS](pmulr_lgt0 _ (_ : 0 < lead_coef (den x) ^+ 2)) ?exprn_even_gt0 //.
+rewrite -(pmulr_lgt0 _ (_ : 0 < lead_coef q ^+ 2)) ?exprn_even_gt0 //
+  -[in RHS](pmulr_lgt0 _ (_ : 0 < lead_coef (den x) ^+ 2)) ?exprn_even_gt0 //.
 by rewrite /sgf; congr (0 < _); rewrite !expr2 mulrACA h [RHS]mulrACA [lead_coef (den x) * lead_coef q]mulrC.
 Qed.
 Definition ltf (x y : F) := 0 < sgf (y - x).

@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* What a reader must trust of complete driving in the plane: the algorithm as a function, and the statements. (Law.v: the
-   law; Rational.v: the ordered field R(X).) It proves nothing; Theorems.v proves the statements, and Tests.v tests them.
+(* What a reader must trust of complete driving in the plane: the algorithm as a function, and the statements.
+   (Law.v: the law; Rational.v: the ordered field R(X).) It proves nothing; Theorems.v proves the statements, and
+   Tests.v tests them.
 
    solver/complete/complete_driving.md, parts 1 to 5, is what is defined here. n contacts. mu i > 0: static; mu i = 0:
    frictionless (its second row is not looked at). f = (normal forces, friction forces), a = A f + b. *)
@@ -11,25 +12,30 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 
-(* ---- A line within finitely many half spaces: E f = e (m unknowns; row r0 of E is 0 = 0), G k f + h k >= 0 for all k ---- *)
+(* ---- A line within finitely many half spaces:
+        E f = e (m unknowns; row r0 of E is 0 = 0), G k f + h k >= 0 for all k ---- *)
 Section Piece.
-Variables (R : realFieldType) (m : nat) (K : finType) (E : 'M[R]_m) (e : 'cV[R]_m) (G : K -> 'rV[R]_m) (h : K -> R) (r0 : 'I_m).
+Variables (R : realFieldType) (m : nat) (K : finType)
+  (E : 'M[R]_m) (e : 'cV[R]_m) (G : K -> 'rV[R]_m) (h : K -> R) (r0 : 'I_m).
 Definition lin k (v : 'cV[R]_m) := (G k *m v) 0 0.
 Definition val k f := lin k f + h k.
 (* the point of the line on boundary k, and the direction that leaves it *)
 Definition Bk k := E + delta_mx r0 (0 : 'I_1) *m G k.
 Definition cand k : 'cV[R]_m := invmx (Bk k) *m (e - h k *: delta_mx r0 0).
 Definition dir k : 'cV[R]_m := invmx (Bk k) *m delta_mx r0 0.
-Definition isendb k : bool := [&& E *m cand k == e, val k (cand k) == 0 & [forall k', (k' != k) ==> (0 < val k' (cand k))]].
+Definition isendb k : bool :=
+  [&& E *m cand k == e, val k (cand k) == 0 & [forall k', (k' != k) ==> (0 < val k' (cand k))]].
 Definition ratio k k' := val k' (cand k) / - lin k' (dir k).
 Definition pivot k : option K :=
   [pick k' | (lin k' (dir k) < 0) && [forall k2, (lin k2 (dir k) < 0) ==> (ratio k k' <= ratio k k2)]].
 End Piece.
 
-(* ---- The cells of one contact: finished (B, S, +, -, and 0 for mu = 0), driven (its normal; its friction on side + or -),
-        later; each as two equations and up to three inequalities ---- *)
+(* ---- The cells of one contact:
+        finished (B, S, +, -, and 0 for mu = 0), driven (its normal; its friction on side + or -), later;
+        each as two equations and up to three inequalities ---- *)
 Inductive loc := cB | cS | cP | cM | cZ | dN | dP | dM | Later.
-Definition loc_nat t : nat := (match t with cB => 0 | cS => 1 | cP => 2 | cM => 3 | cZ => 4 | dN => 5 | dP => 6 | dM => 7 | Later => 8 end)%N.
+Definition loc_nat t : nat := (match t with
+  cB => 0 | cS => 1 | cP => 2 | cM => 3 | cZ => 4 | dN => 5 | dP => 6 | dM => 7 | Later => 8 end)%N.
 Definition nat_loc (k : nat) : option loc :=
   nth None [:: Some cB; Some cS; Some cP; Some cM; Some cZ; Some dN; Some dP; Some dM; Some Later] k.
 Lemma loc_natK : pcancel loc_nat nat_loc. Proof. by case. Qed.
@@ -75,7 +81,8 @@ Definition ev c : R := match c with
 Definition lval t k : R := if ineq t k is Some c then ev c else 1.
 Definition on t := (ev (eq1 t) == 0) && (ev (eq2 t) == 0).
 Definition inn t := [&& on t, 0 < lval t s0, 0 < lval t s1 & 0 < lval t s2].
-Definition fac t k := [&& on t, lval t k == 0, (k == s0) || (0 < lval t s0), (k == s1) || (0 < lval t s1) & (k == s2) || (0 < lval t s2)].
+Definition fac t k := [&& on t, lval t k == 0,
+  (k == s0) || (0 < lval t s0), (k == s1) || (0 < lval t s1) & (k == s2) || (0 < lval t s2)].
 (* how many of the equations of contacts hold *)
 Definition cnt : nat := addn (addn (if (fN == 0) && (fF == 0) then 2%N
   else nat_of_bool [|| fN == 0, fF == 0, m * fN == fF | m * fN == - fF]) (aN == 0)) (aF == 0).
@@ -88,7 +95,8 @@ Notation vec := 'cV[R]_(n + n).
 Notation aN := (Law.aN A b).
 Notation aF := (Law.aF A b).
 
-(* a word: the state of every contact. A piece: contact i is driven, those before are finished, those after have no force *)
+(* a word: the state of every contact. A piece: contact i is driven, those before are finished, those after have no
+   force *)
 Definition word := {ffun 'I_n -> loc}.
 Definition piece (p : word) (i : 'I_n) : bool := [&& driven (p i), [forall t : 'I_n, (t < i)%N ==> finished (p t)],
   [forall t : 'I_n, (i < t)%N ==> (p t == Later)] & [forall t, ok (mu t) (p t)]].
@@ -100,7 +108,8 @@ Definition rowf c (j : 'I_n) : 'rV[R]_(n + n) := match c with
   | UP => mu j *: delta_mx 0 (lshift n j) - delta_mx 0 (rshift n j)
   | DN => mu j *: delta_mx 0 (lshift n j) + delta_mx 0 (rshift n j) end.
 Definition constf c (j : 'I_n) : R := match c with
-  | AN => b (lshift n j) 0 | ANm => - b (lshift n j) 0 | AF => b (rshift n j) 0 | AFm => - b (rshift n j) 0 | _ => 0 end.
+  | AN => b (lshift n j) 0 | ANm => - b (lshift n j) 0 | AF => b (rshift n j) 0 | AFm => - b (rshift n j) 0
+  | _ => 0 end.
 Definition E (p : word) : 'M[R]_(n + n) :=
   col_mx (\matrix_(j < n) rowf (eq1 (p j)) j) (\matrix_(j < n) rowf (eq2 (p j)) j).
 Definition e (p : word) : vec := col_mx (\col_j - constf (eq1 (p j)) j) (\col_j - constf (eq2 (p j)) j).
@@ -108,14 +117,17 @@ Definition G (p : word) (x : 'I_n * slot) : 'rV[R]_(n + n) := if ineq (p x.1) x.
 Definition h (p : word) (x : 'I_n * slot) : R := if ineq (p x.1) x.2 is Some c then constf c x.1 else 1.
 (* an end of a piece: (p, (j, k)), the point where inequality k of contact j becomes zero *)
 Definition ends : finType := [finType of word * ('I_n * slot)].
-Definition is_end (x : ends) : bool := if drv x.1 is Some i then isendb (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 else false.
-Definition point (x : ends) : vec := if drv x.1 is Some i then cand (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 else 0.
+Definition is_end (x : ends) : bool :=
+  if drv x.1 is Some i then isendb (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 else false.
+Definition point (x : ends) : vec :=
+  if drv x.1 is Some i then cand (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 else 0.
 
 (* ---- the algorithm ---- *)
 (* along the piece: the null vector, the ratio test *)
 Definition along (x : ends) : option ends :=
   if is_end x then if drv x.1 is Some i then
-    if pivot (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 is Some k then Some (x.1, k) else None else None else None.
+    if pivot (E x.1) (e x.1) (G x.1) (h x.1) (rshift n i) x.2 is Some k then Some (x.1, k) else None
+    else None else None.
 (* over to the next piece *)
 Definition upd (p : word) (j : 'I_n) t : word := [ffun s => if s == j then t else p s].
 Definition next (f : vec) (i : 'I_n) : option 'I_n := (* the first contact after i that would penetrate *)
@@ -124,8 +136,10 @@ Definition prev (p : word) (i : 'I_n) : option 'I_n := (* the last contact befor
   [pick t : 'I_n | [&& (t < i)%N, p t != cB & [forall s : 'I_n, (t < s < i)%N ==> (p s == cB)]]].
 Definition rise (p : word) (i : 'I_n) c (i' : 'I_n) : word := [ffun s : 'I_n =>
   if (s < i)%N then p s else if s == i then c else if (s < i')%N then cB else if s == i' then dN else Later].
-Definition enter (p : word) (i : 'I_n) t : word := [ffun s : 'I_n => if (s < i)%N then p s else if s == i then t else Later].
-Definition up (f : vec) (p : word) i c : option ends := if next f i is Some i' then Some (rise p i c i', (i', s0)) else None.
+Definition enter (p : word) (i : 'I_n) t : word :=
+  [ffun s : 'I_n => if (s < i)%N then p s else if s == i then t else Later].
+Definition up (f : vec) (p : word) i c : option ends :=
+  if next f i is Some i' then Some (rise p i c i', (i', s0)) else None.
 Definition down (f : vec) (p : word) i : option ends := if prev p i is Some j then
   match p j with
   | cS => if 0 < xF f j then Some (enter p j dP, (j, s2)) else Some (enter p j dM, (j, s2))
@@ -158,7 +172,8 @@ Definition first : option ends :=
   if [pick t : 'I_n | (aN 0 t < 0) && [forall s : 'I_n, (s < t)%N ==> (0 <= aN 0 s)]] is Some i
   then Some (([ffun s : 'I_n => if (s < i)%N then cB else if s == i then dN else Later] : word), (i, s0)) else None.
 
-(* From end x: along its piece, over to the next, ...; at most fuel + 1 pieces. The last end, if there is no next piece. *)
+(* From end x: along its piece, over to the next, ...; at most fuel + 1 pieces.
+   The last end, if there is no next piece. *)
 Fixpoint drive fuel (x : ends) : option ends :=
   if along x is Some y then if over y is Some z then if fuel is k.+1 then drive k z else None else Some y else None.
 
@@ -167,8 +182,8 @@ Variable x0 : ends.
 Definition entry k := iter k (obind (fun x => obind over (along x))) (Some x0).
 End Algorithm.
 
-(* Without ties: of the equations fN = 0, fF = 0, abs fF = mu fN, aN = 0, aF = 0 of the contacts no more hold anywhere than
-   there are unknowns (fN = fF = 0 counts for two). *)
+(* Without ties: of the equations fN = 0, fF = 0, abs fF = mu fN, aN = 0, aF = 0 of the contacts no more hold anywhere
+   than there are unknowns (fN = fF = 0 counts for two). *)
 Section Nondegenerate.
 Variables (R : realFieldType) (n : nat) (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R).
 Definition nondegenerate := forall f, (\sum_j cnt (mu j) (xN f j) (xF f j) (aN A b f j) (aF A b f j) <= n + n)%N.
@@ -202,14 +217,18 @@ End Perturbed.
 
 (* ---- The statements ---- *)
 
-(* Every problem with A symmetric positive semidefinite, mu >= 0, and b with (H), so with b in range(A) + K*: complete driving
-   on b(eps) ends after at most 4^n - 1 pieces at a solution f for b(eps), which is infinitely near a solution g for b. *)
-Definition complete_driving_solves := forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R),
+(* Every problem with A symmetric positive semidefinite, mu >= 0, and b with (H), so with b in range(A) + K*:
+   complete driving on b(eps) ends after at most 4^n - 1 pieces at a solution f for b(eps), which is infinitely near a
+   solution g for b. *)
+Definition complete_driving_solves :=
+  forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R),
   A^T = A -> (forall x, 0 <= dotp x (A *m x)) -> (forall i, 0 <= mu i) -> H_holds A b mu ->
-  exists f g, [/\ complete_driving A b mu = Some f, solution (MF A) (beps b) (muF mu) f, near f g & solution A b mu g].
+  exists f g,
+    [/\ complete_driving A b mu = Some f, solution (MF A) (beps b) (muF mu) f, near f g & solution A b mu g].
 
 (* On its way no piece, named by its word, comes twice. *)
-Definition no_piece_comes_twice := forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R) x0,
+Definition no_piece_comes_twice :=
+  forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R) x0,
   A^T = A -> (forall x, 0 <= dotp x (A *m x)) -> (forall i, 0 <= mu i) -> H_holds A b mu ->
   first (MF A) (beps b) = Some x0 -> forall i j x y,
   entry (MF A) (beps b) (muF mu) x0 i = Some x -> entry (MF A) (beps b) (muF mu) x0 j = Some y -> x.1 = y.1 -> i = j.
@@ -236,7 +255,8 @@ Definition complete_driving_solves_semidefinite :=
 (* So the plane has a solution under (H). *)
 Definition plane_has_a_solution_under_H :=
   forall (R : realFieldType) n (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R),
-  A^T = A -> (forall x, 0 <= dotp x (A *m x)) -> (forall i, 0 <= mu i) -> H_holds A b mu -> exists g, solution A b mu g.
+  A^T = A -> (forall x, 0 <= dotp x (A *m x)) -> (forall i, 0 <= mu i) -> H_holds A b mu ->
+  exists g, solution A b mu g.
 
 (* (H) holds for b in range(A) + K*. *)
 Definition range_has_H := forall (R : realFieldType) n (A : 'M[R]_(n + n)) (c k : 'cV[R]_(n + n)) (mu : 'I_n -> R),

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Tests of driving/Statement.v: the cells of a finished contact are the law, no more and no less; where no contact would
-   penetrate, the run ends at once; without (H) there need not be a solution. *)
+(* Tests of driving/Statement.v: the cells of a finished contact are the law, no more and no less; where no contact
+   would penetrate, the run ends at once; without (H) there need not be a solution. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Stiction.existence Require Import Law.
 From Stiction.driving Require Import Rational Statement Local.

@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves the statements of Statement.v. The last step to them is here: the values at the end of the run on b(eps) solve the
-   problem itself. *)
+(* Proves the statements of Statement.v. The last step to them is here: the values at the end of the run on b(eps)
+   solve the problem itself. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity Limit Plane.
+From Stiction.existence Require Import Law Dot.
 From Stiction.driving Require Import Path Lemke Rational Eval Lexico Piece Local Statement Drive Complete.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
@@ -81,7 +81,8 @@ Lemma law_st m fN fF aN aF gN gF dN dF : st fN gN -> st fF gF -> st aN dN -> st 
   law (emb m) fN fF aN aF -> law m gN gF dN dF.
 Proof.
 move=> h1 h2 h3 h4 [[l1 l2 l3] [l4 l5 l6]].
-have hm : st (emb m * fN - `|fF|) (m * gN - `|gF|) by apply: st_D; [exact: st_M (st_emb m) h1 | exact: st_N (st_norm h2)].
+have hm : st (emb m * fN - `|fF|) (m * gN - `|gF|)
+  by apply: st_D; [exact: st_M (st_emb m) h1 | exact: st_N (st_norm h2)].
 split; split.
 - exact: st_ge0 h1 l1.
 - exact: st_ge0 h3 l2.
@@ -119,7 +120,8 @@ Lemma near_eN r : exists s, st (eN R n r 0) s.
 Proof.
 rewrite /eN mxE; case: (split r) => j; rewrite mxE; [by exists 1; exact: st_1 | by exists 0; exact: st_0].
 Qed.
-Lemma near_beps (bb : 'cV[R]_(n + n)) r : st ((qF bb + (eps R *: eN R n + \col_r eps R ^+ (nat_of_ord r).+2)) r 0) (bb r 0).
+Lemma near_beps (bb : 'cV[R]_(n + n)) r :
+  st ((qF bb + (eps R *: eN R n + \col_r eps R ^+ (nat_of_ord r).+2)) r 0) (bb r 0).
 Proof.
 rewrite mxE [X in st (_ + X)]mxE [X in st (X + _)]mxE [X in st (_ + (X + _))]mxE [X in st (_ + (_ + X))]mxE.
 by have [s hs] := near_eN r; apply: st_near3; [exact: st_epsM hs | exact: st_eps].
@@ -146,14 +148,16 @@ Proof.
 case: ch; rewrite /constf; [exact: st_0 | exact: st_0 | exact: st_0 | exact: st_0 | exact: near_b |
   apply: st_N; exact: near_b | exact: near_b | apply: st_N; exact: near_b | exact: st_0 | exact: st_0].
 Qed.
-Lemma cand_near p x r0 : near (cand (E AF muF p) (e bF p) (G AF muF p) (h bF p) r0 x) (cand (E A mu p) (e b p) (G A mu p) (h b p) r0 x).
+Lemma cand_near p x r0 :
+  near (cand (E AF muF p) (e bF p) (G AF muF p) (h bF p) r0 x) (cand (E A mu p) (e b p) (G A mu p) (h b p) r0 x).
 Proof.
 rewrite /cand; have -> : Bk (E AF muF p) (G AF muF p) r0 x = map_mx emb (Bk (E A mu p) (G A mu p) r0 x).
   rewrite /Bk map_mxD map_mxM E_map map_delta_mx; congr (_ + _ *m _).
   by rewrite /G; case: ineq => [ch|]; rewrite ?rowf_map ?map_mx0.
 rewrite -map_invmx; apply: near_mul; apply: nearD.
   move=> r; rewrite /e !mxE; case: split => j; rewrite !mxE; apply: st_N; exact: const_near.
-move=> r; rewrite !mxE; apply: st_N; apply: st_M; last by case: (_ && _); [rewrite -(rmorph1 (emb_rmorphism R)); exact: st_emb | exact: st_0].
+move=> r; rewrite !mxE; apply: st_N; apply: st_M;
+  last by case: (_ && _); [rewrite -(rmorph1 (emb_rmorphism R)); exact: st_emb | exact: st_0].
 by rewrite /h; case: ineq => [ch|]; [exact: const_near | rewrite -(rmorph1 (emb_rmorphism R)); exact: st_emb].
 Qed.
 
@@ -177,7 +181,9 @@ Theorem complete_driving_ends_in_a_solution : complete_driving_solves.
 Proof. by move=> R n A b mu; exact: ends_in_a_solution. Qed.
 
 Theorem plane_solution_exists_H : plane_has_a_solution_under_H.
-Proof. by move=> R n A b mu sym psd mu0 dual; have [f [g [_ _ _ s]]] := ends_in_a_solution sym psd mu0 dual; exists g. Qed.
+Proof.
+by move=> R n A b mu sym psd mu0 dual; have [f [g [_ _ _ s]]] := ends_in_a_solution sym psd mu0 dual; exists g.
+Qed.
 
 Theorem no_piece_twice : no_piece_comes_twice.
 Proof.

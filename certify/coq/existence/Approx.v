@@ -1,8 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Coulomb's law has solutions up to a factor 1 - 2/M: the directions are the points (i/M, j/M) of the disc, M = m + 1. *)
+(* Proves that Coulomb's law has solutions up to a factor 1 - 2/M:
+   the directions are the points (i/M, j/M) of the disc, M = m + 1. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon.
+From Stiction.existence Require Import Law Dot Edge Parity Limit Finite Statement Polygon.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -36,21 +37,21 @@ by rewrite ler_subl_addr ltW.
 Qed.
 
 Let K : finType := [finType of (bool * 'I_m.+2) * (bool * 'I_m.+2)].
-Let inside (k : K) := len (coord k.1) (coord k.2) <= 1.
+Let inside (k : K) := length (coord k.1) (coord k.2) <= 1.
 Definition dirx (k : K) := if inside k then coord k.1 else 0.
 Definition diry (k : K) := if inside k then coord k.2 else 0.
-Lemma dir_disc k : len (dirx k) (diry k) <= 1.
+Lemma dir_disc k : length (dirx k) (diry k) <= 1.
 Proof. by rewrite /dirx /diry; case: ifP => // _; rewrite len00 ler01. Qed.
-Lemma dir_net x y : exists k, (1 - 2%:R / M) * len x y <= - (dirx k * x + diry k * y).
+Lemma dir_net x y : exists k, (1 - 2%:R / M) * length x y <= - (dirx k * x + diry k * y).
 Proof.
-case: (altP (len x y =P 0)) => [l0|nz].
+case: (altP (length x y =P 0)) => [l0|nz].
   have [-> ->] := len_eq0 l0; exists ((false, ord0), (false, ord0)).
   by rewrite len00 !mulr0 addr0 oppr0.
-have lp : 0 < len x y by rewrite lt_neqAle eq_sym nz len_ge0.
-pose u := - (x / len x y); pose v := - (y / len x y).
+have lp : 0 < length x y by rewrite lt_neqAle eq_sym nz len_ge0.
+pose u := - (x / length x y); pose v := - (y / length x y).
 have uv : u ^+ 2 + v ^+ 2 = 1.
   by rewrite /u /v !sqrrN !exprMn -mulrDl -len_sqr exprVn divff // expf_neq0.
-have l1 : len u v = 1 by rewrite /len uv sqrtr1.
+have l1 : length u v = 1 by rewrite /length uv sqrtr1.
 have u1 : `|u| <= 1 by rewrite -l1 len_maxl.
 have v1 : `|v| <= 1 by rewrite -l1 len_maxr.
 have [s [s1 s2]] := round u1; have [t [t1 t2]] := round v1.
@@ -58,7 +59,7 @@ have ins : inside (s, t).
   rewrite /inside /=; apply: le_len => //; rewrite expr1n -uv.
   by apply: ler_add; rewrite -[leLHS]real_normK ?num_real // -[leRHS]real_normK ?num_real // ler_pexpn2r ?nnegrE.
 exists (s, t); rewrite /dirx /diry ins /=.
-have -> : - (coord s * x + coord t * y) = (coord s * u + coord t * v) * len x y.
+have -> : - (coord s * x + coord t * y) = (coord s * u + coord t * v) * length x y.
   by rewrite /u /v !mulrN -opprD mulNr mulrDl -!mulrA !mulVf // !mulr1.
 rewrite ler_pmul2r //; apply: le_trans (ler_add s2 t2).
 rewrite addrACA uv -opprD ler_add2l ler_opp2 -mulrDl ler_pmul2r ?invr_gt0 //.
@@ -97,7 +98,7 @@ rewrite z mul1r; have [k hk] := dir_net m (tx a i) (ty a i).
 have lz : l * (mu i * nor v i) = 0 by apply/eqP; rewrite -oppr_eq0 -e z.
 have c0 : 0 < 1 - 2%:R / m.+1%:R :> R.
   by rewrite subr_gt0 ltr_pdivr_mulr ?ltr0n // mul1r ltr_nat ltnS.
-have le : (1 - 2%:R / m.+1%:R) * len (tx a i) (ty a i) <= l.
+have le : (1 - 2%:R / m.+1%:R) * length (tx a i) (ty a i) <= l.
   by apply: (le_trans hk); rewrite ler_oppl -subr_ge0 opprK addrC.
 rewrite oppr_ge0 -(pmulr_rle0 _ c0).
 have n0 : 0 <= mu i * nor v i by rewrite mulr_ge0.

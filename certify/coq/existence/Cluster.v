@@ -1,9 +1,11 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves of limits of forces that obey Coulomb's law up to a factor: they obey it, and friction works against them in the end. *)
+(* Proves of limits of forces that obey Coulomb's law up to a factor:
+   they obey it, and friction works against them in the end. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra.
+From Stiction.existence Require Import Law Dot Edge Parity Limit Finite Statement Polygon Approx Ultra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -108,7 +110,7 @@ have term i : U [set j | nor v i * nor (h j) i + (tx v i * tx (h j) i + ty v i *
     have [[_ _ /eqP n3] _] := law j i; move: n3; rewrite mulf_eq0 (gt_eqF gp) /= => /eqP ->.
     by rewrite mulr0.
   case: (ltrP 0 (mu i * nor v i)) => [mp|mn]; last first.
-    have /len_eq0 [-> ->] : len (tx v i) (ty v i) = 0.
+    have /len_eq0 [-> ->] : length (tx v i) (ty v i) = 0.
       by apply/eqP; rewrite eq_le len_ge0 andbT (le_trans cN).
     by apply: filterS sq => j /= ->; rewrite !mul0r !addr0.
   have lim_d := tendsD UU (tendsM UU lim_k (lmu i)) (tendsN UU (tends_len UU
@@ -123,7 +125,7 @@ have term i : U [set j | nor v i * nor (h j) i + (tx v i * tx (h j) i + ty v i *
     ((tx v i - tx (g j) i) * tx (h j) i + (ty v i - ty (g j) i) * ty (h j) i) =
     tx v i * tx (h j) i + ty v i * ty (h j) i by ring.
   move=> /le_trans; apply; move: dp.
-  set L := len (tx (h j) i) _; set D := len (tx v i - _) _ => dp.
+  set L := length (tx (h j) i) _; set D := length (tx v i - _) _ => dp.
   have -> : - (k_ j * L * (mu_ j i * nor (g j) i)) + D * L = - (L * (k_ j * (mu_ j i * nor (g j) i) - D)) by ring.
   by rewrite oppr_le0 mulr_ge0 ?len_ge0 // ltW.
 apply: filterS (filter_forall FU term) => j hj /=.
@@ -146,13 +148,13 @@ have term i : U [set j | nor a i * nor (g j) i + (tx a i * tx (g j) i + ty a i *
     apply: filterS (tends_gt0 UU kN Np) => j /= hp.
     have [[_ _ /eqP n3] _] := law j i; move: n3; rewrite mulf_eq0 (gt_eqF hp) orbF => /eqP ->.
     by rewrite mulr0.
-  case: (ltrP 0 (len (tx a i) (ty a i))) => [lp|ln]; last first.
-    have /len_eq0 [-> ->] : len (tx a i) (ty a i) = 0 by apply/eqP; rewrite eq_le len_ge0 ln.
+  case: (ltrP 0 (length (tx a i) (ty a i))) => [lp|ln]; last first.
+    have /len_eq0 [-> ->] : length (tx a i) (ty a i) = 0 by apply/eqP; rewrite eq_le len_ge0 ln.
     by apply: filterS sq => j /= ->; rewrite !mul0r !addr0.
   have lim_d := tendsD UU (tendsM UU lim_k (tends_len UU kX kY)) (tendsN UU (tends_len UU
     (tendsD UU (tends_cst UU (tx a i)) (tendsN UU kX)) (tendsD UU (tends_cst UU (ty a i)) (tendsN UU kY)))).
   rewrite !subrr len00 subr0 in lim_d.
-  have klp : 0 < k * len (tx a i) (ty a i) by rewrite mulr_gt0.
+  have klp : 0 < k * length (tx a i) (ty a i) by rewrite mulr_gt0.
   apply: filterS (filterI sq (tends_gt0 UU lim_d klp)) => j /= [-> dp]; rewrite add0r.
   have [_ [q' p]] := law j i.
   have q := cauchy (tx a i - tx (h j) i) (ty a i - ty (h j) i) (tx (g j) i) (ty (g j) i).
@@ -161,7 +163,7 @@ have term i : U [set j | nor a i * nor (g j) i + (tx a i * tx (g j) i + ty a i *
     ((tx a i - tx (h j) i) * tx (g j) i + (ty a i - ty (h j) i) * ty (g j) i) =
     tx a i * tx (g j) i + ty a i * ty (g j) i by ring.
   move=> /le_trans; apply; move: dp.
-  set L := len (tx (h j) i) _; set D := len (tx a i - _) _ => dp.
+  set L := length (tx (h j) i) _; set D := length (tx a i - _) _ => dp.
   have -> : - (k_ j * L * (mu_ j i * nor (g j) i)) + D * (mu_ j i * nor (g j) i) =
     - ((k_ j * L - D) * (mu_ j i * nor (g j) i)) by ring.
   by rewrite oppr_le0 mulr_ge0 //; [exact: ltW | exact: le_trans (len_ge0 _ _) q'].

@@ -1,10 +1,11 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that Coulomb's law has a solution under (H), and that one constant bounds some solution for all b in range(A) and all
-   mu <= M. *)
+(* Proves that Coulomb's law has a solution under (H), and that one constant bounds some solution for all b in
+   range(A) and all mu <= M. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite Polygon Approx Ultra Cluster.
+From Stiction.existence Require Import Law Dot Edge Parity Limit Finite Statement Polygon Approx Ultra Cluster.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -79,7 +80,7 @@ exfalso; have W00 : W = 0 by apply/eqP; rewrite eq_le Wn.
 rewrite /a0 W00 scale0r addr0 in law_v lim_h.
 have vAv : dotp v (A *m v) = 0 by apply/eqP; rewrite eq_le psd andbT (obeys_power ler01 law_v).
 have Av : A^T *m v = - (A *m v).
-  by apply/eqP; rewrite -addr_eq0 addrC -mulmxDl (kernel_of_psd2 psd vAv).
+  by apply/eqP; rewrite -addr_eq0 addrC -mulmxDl (kernel_of_sum psd vAv).
 have [j [d1 d2]] : exists j, dotp v (h j) <= 0 /\ dotp (A *m v) (g j) <= 0.
   have FU : Filter U by exact _.
   exact: (@filter_ex _ U _ _ (filterI (dissipation UU lim_k lim_mu lim_g law_g ltr01)
@@ -96,7 +97,7 @@ Theorem solution_H (b : V) (mu : 'I_n -> R) : (forall i, 0 <= mu i) ->
   (forall v, cone mu v -> A *m v = 0 -> 0 <= dotp v b) -> exists f, obeys 1 mu f (A *m f + b).
 Proof.
 move=> mu0 safe; apply: solution_S => // v ov; apply: safe; first exact: obeys_cone ov.
-by apply: (kernel_of_psd sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power ler01 ov).
+by apply: (psd_kernel sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power ler01 ov).
 Qed.
 
 (* one constant for all b in the range of A and all coefficients up to M: jamming forces are never needed *)
@@ -165,7 +166,7 @@ have sum_v : \sum_i nor v i = 1.
   apply: (tends_uniq UU (u := fun _ => 1)); last exact: tends_cst.
   by apply: (tends_eq sum_g); exact: (tends_sum UU (fun i => lim_g _)).
 have Av : A *m v = 0.
-  by apply: (kernel_of_psd sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power (ltW half_gt0) law_v).
+  by apply: (psd_kernel sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power (ltW half_gt0) law_v).
 have [j] : exists j, dotp v (h j) <= 0.
   have FU : Filter U by exact _.
   exact: (@filter_ex _ U _ _ (dissipation UU (tends_cst UU half) lim_mu lim_g law_g half_gt0)).
@@ -180,7 +181,7 @@ have [C C0 hC] := force_bound; exists C => // mu _ hmu [c ->]; set b := A *m c.
 have mu0 i : 0 <= mu i by have /andP [] := hmu i.
 have safe v : obeys 1 mu v (A *m v) -> 0 <= dotp v b.
   move=> ov; have Av : A *m v = 0.
-    by apply: (kernel_of_psd sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power ler01 ov).
+    by apply: (psd_kernel sym psd); apply/eqP; rewrite eq_le psd andbT (obeys_power ler01 ov).
   by rewrite /b sym_dotp // Av dotpC dotp0.
 have ex j : exists f, obeys (1 - 2%:R / (j + 4).+1%:R) mu f (A *m f + (b + th j *: op)).
   by apply: approx => //; rewrite addn4.

@@ -1,13 +1,15 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves, over any ordered field, that an edge (n rows, n + 1 columns) of a nondegenerate system has two vertices, or a ray. *)
+(* Proves, over any ordered field, that an edge (n rows, n + 1 columns) of a nondegenerate system has two vertices,
+   or a ray; and that some row combination p /= 0 vanishes in all but two columns, by which systems are seen to be
+   nondegenerate. *)
 From mathcomp Require Import all_ssreflect all_algebra.
+From Stiction.existence Require Import Dot.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 
 Section Edge.
 Variables (R : realFieldType) (n : nat) (H : 'M[R]_(n, n.+1)) (q : 'cV[R]_n).
-Definition nonneg m (u : 'cV[R]_m) := forall k, 0 <= u k 0.
 Definition vertex (l : 'I_n.+1) (u : 'cV[R]_n.+1) :=
   [/\ H *m u = q, u l 0 = 0 & forall k, k != l -> 0 < u k 0].
 Hypothesis nd : forall u, nonneg u -> H *m u = q -> forall k l, u k 0 = 0 -> u l 0 = 0 -> k = l.
@@ -104,3 +106,20 @@ apply: (nd p Hp); last by rewrite pE.
 by rewrite -e -xe xmm.
 Qed.
 End Edge.
+
+(* p A is zero but for the columns k and l *)
+Lemma annihilate (R : realFieldType) n (A : 'M[R]_(n, n.+1)) k l : k != l ->
+  exists2 p : 'rV[R]_n, p != 0 & forall j, j != k -> j != l -> (p *m A) 0 j = 0.
+Proof.
+case: n A k l => [|m] A k l; first by rewrite !ord1 eqxx.
+move=> kl; case: (unliftP k l) => [l' ll|e]; last by rewrite e eqxx in kl.
+pose K : 'M[R]_(m.+1, m) := \matrix_(i, j) A i (lift k (lift l' j)).
+have r : (0 < \rank (kermx K))%N by rewrite mxrank_ker subn_gt0 ltnS rank_leq_col.
+have [p p0 pK] : exists2 p : 'rV[R]_m.+1, p != 0 & p *m K = 0.
+  exists (nz_row (kermx K)); first by rewrite nz_row_eq0 -mxrank_eq0 -lt0n.
+  by apply/sub_kermxP/nz_row_sub.
+exists p => // j jk jl; case: (unliftP k j) jk jl => [j' ->|->]; last by rewrite eqxx.
+move=> _; rewrite ll; case: (unliftP l' j') => [a ->|->]; last by rewrite eqxx.
+move=> _; have := congr1 (fun x : 'rV[R]_m => x 0 a) pK; rewrite !mxE => h; rewrite -[RHS]h.
+by apply: eq_bigr => b _; rewrite ?mxE.
+Qed.

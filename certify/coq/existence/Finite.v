@@ -1,41 +1,13 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (* Proves that complementarity problems have solutions whose rows are named by a finite type and whose matrix is
-   M x y = E x . A E y + S x y, A positive semidefinite, S with z' S z' + z' S z >= 0: the form of every polygonal law. *)
+   M x y = E x . A E y + S x y, A positive semidefinite, S with z' S z' + z' S z >= 0:
+   the form of every polygonal law. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane.
+From Stiction.existence Require Import Law Dot Edge Parity Limit.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
-
-Section Kernel.
-Variables (R : realFieldType) (N : nat) (A : 'M[R]_N).
-Hypothesis sym : A^T = A.
-Hypothesis psd : forall f, 0 <= dotp f (A *m f).
-Lemma sym_dotp f g : dotp f (A *m g) = dotp (A *m f) g.
-Proof. by rewrite -{1}sym dotp_adj. Qed.
-Lemma kernel_of_psd f : dotp f (A *m f) = 0 -> A *m f = 0.
-Proof.
-move=> f0; set g := A *m f; set s := dotp g g; set r := dotp g (A *m g).
-have r0 : 0 <= r := psd g.
-have fg : dotp f (A *m g) = s by rewrite -{1}sym dotp_adj.
-have q t : 0 <= t * s + t * s + t * t * r.
-  have := psd (f + t *: g); rewrite mulmxDr -scalemxAr dotpDl !dotpD !dotpZ.
-  rewrite (dotpC (t *: g)) dotpZ f0 add0r fg (dotpC (t *: g)) !dotpZ (dotpC _ g) -/s (dotpC _ g) -/r.
-  by rewrite -addrA mulrA.
-have s0 : s = 0.
-  apply/eqP; apply: contraT => sn; have k : 0 < r + 1 := ltr_paddl r0 ltr01.
-  pose x := s / (r + 1); have u : s = x * (r + 1) by rewrite /x divfK // gt_eqF.
-  have := q (- x); rewrite u.
-  have -> : - x * (x * (r + 1)) + - x * (x * (r + 1)) + - x * - x * r = - (x ^+ 2 * (r + 2%:R)) by ring.
-  rewrite oppr_ge0 leNgt mulr_gt0 ?(ltr_paddl r0) ?ltr0n //.
-  by rewrite exprn_even_gt0 //= /x mulf_neq0 // invr_eq0 gt_eqF.
-have h i : true -> 0 <= g i 0 * g i 0 by rewrite -expr2 sqr_ge0.
-apply/matrixP => i j; rewrite ord1 [RHS]mxE; apply/eqP.
-have /eqP : g i 0 * g i 0 = 0 by apply: (psumr_eq0P h s0).
-by rewrite mulf_eq0 orbb.
-Qed.
-End Kernel.
 
 Section FinLCP.
 Variables (R : realFieldType) (T : finType).
@@ -90,11 +62,11 @@ Variables (R : realFieldType) (T : finType) (N : nat) (A : 'M[R]_N) (b : 'cV[R]_
 Hypothesis psd : forall f, 0 <= dotp f (A *m f).
 Lemma dotp_tr f g : dotp f (A *m g) = dotp (A^T *m f) g.
 Proof. by rewrite -dotp_adj trmxK. Qed.
-Lemma kernel_of_psd2 f : dotp f (A *m f) = 0 -> (A + A^T) *m f = 0.
+Lemma kernel_of_sum f : dotp f (A *m f) = 0 -> (A + A^T) *m f = 0.
 Proof.
 have dbl g : dotp g ((A + A^T) *m g) = dotp g (A *m g) + dotp g (A *m g).
   by rewrite mulmxDl dotpD; congr (_ + _); rewrite dotp_adj dotpC.
-move=> e; apply: kernel_of_psd; last by rewrite dbl e addr0.
+move=> e; apply: psd_kernel; last by rewrite dbl e addr0.
   by rewrite linearD /= trmxK addrC.
 by move=> g; rewrite dbl addr_ge0.
 Qed.
@@ -129,7 +101,7 @@ have ra z z' : nng z -> nng z' -> nng (app M z) -> ip z (app M z) = 0 ->
     0 <= ip z (fun x => dotp (E x) b) /\ 0 <= ip z (app M z') + ip z' (app M z).
   move=> h h' k e; have := e; rewrite ipM => e'.
   have [e1 _] := sum0 (psd _) (skew1 h) e'.
-  have Af := kernel_of_psd2 e1; split.
+  have Af := kernel_of_sum e1; split.
     rewrite /ip -dotp_force; apply: rays; split=> // x; rewrite -appM; split; first exact: k.
     have h0 y : true -> 0 <= z y * app M z y by rewrite mulr_ge0.
     exact: (psumr_eq0P h0 e).

@@ -1,7 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves the same for every q: q + (e, e^2, ...) is nondegenerate for small e, and signs of polynomials near 0 are those at 0. *)
+(* Proves the same for every q: q + (e, e^2, ...) is nondegenerate for small e,
+   and signs of polynomials near 0 are those at 0. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge Parity.
+From Stiction.existence Require Import Law Dot Edge Parity.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -77,33 +78,17 @@ End Solve.
 
 Section Nondegenerate.
 Variables (R : realFieldType) (n : nat) (M : 'M[R]_n) (d q : 'cV[R]_n).
-Lemma annihilator (A : 'M[R]_(n, n.+1)) k l : k != l ->
-  exists2 p : 'rV[R]_n, p != 0 & forall u : 'cV[R]_n.+1, u k 0 = 0 -> u l 0 = 0 -> p *m (A *m u) = 0.
-Proof.
-case: n A k l => [|m] A k l; first by rewrite !ord1 eqxx.
-move=> kl; case: (unliftP k l) => [l' ll|e]; last by rewrite e eqxx in kl.
-pose K : 'M[R]_(m.+1, m) := \matrix_(i, j) A i (lift k (lift l' j)).
-have r : (0 < \rank (kermx K))%N by rewrite mxrank_ker subn_gt0 ltnS rank_leq_col.
-have [p p0 pK] : exists2 p : 'rV[R]_m.+1, p != 0 & p *m K = 0.
-  exists (nz_row (kermx K)); first by rewrite nz_row_eq0 -mxrank_eq0 -lt0n.
-  by apply/sub_kermxP/nz_row_sub.
-exists p => //.
-move=> u uk ul; rewrite mulmxA; apply/matrixP => i j; rewrite ord1 [j]ord1 !mxE.
-rewrite (bigD1_ord k) //= uk mulr0 add0r (bigD1_ord l') //= -ll ul mulr0 add0r big1 // => a _.
-have := congr1 (fun x : 'rV[R]_m => x 0 a) pK; rewrite !mxE => e.
-rewrite (_ : \sum_j0 p 0 j0 * A j0 (lift k (lift l' a)) = 0) ?mul0r //.
-by first [exact: e | rewrite -[RHS]e; apply: eq_bigr => b _; rewrite ?mxE].
-Qed.
-
 Definition nd_at e := forall s u, nonneg u -> H M d s *m u = qe q e -> forall k l, u k 0 = 0 -> u l 0 = 0 -> k = l.
 Lemma nondegenerate : ev nd_at.
 Proof.
 have h (x : {ffun 'I_n -> bool} * 'I_n.+1 * 'I_n.+1) : ev (fun e => forall u, H M d x.1.1 *m u = qe q e ->
     u x.1.2 0 = 0 -> u x.2 0 = 0 -> x.1.2 = x.2).
   case: x => [[s k] l] /=; case: (altP (k =P l)) => [->|kl]; first by exists 1; rewrite ?ltr01.
-  have [p p0 hp] := annihilator (H M d s) kl.
+  have [p p0 hp] := annihilate (H M d s) kl.
   have [b b0 hb] := near0 (pol_neq0 q p0); exists b => // e e0 eb u Hu uk ul.
-  by have [+ _] := hb e e0 eb; rewrite polE -Hu hp // mxE eqxx.
+  have [+ _] := hb e e0 eb; rewrite polE -Hu mulmxA mxE big1 ?eqxx // => j _.
+  case: (altP (j =P k)) => [->|jk]; first by rewrite uk mulr0.
+  by case: (altP (j =P l)) => [->|jl]; [rewrite ul mulr0 | rewrite hp // mul0r].
 have [b b0 hb] := ev_all h; exists b => // e e0 eb s u _ Hu k l uk ul.
 exact: (hb e e0 eb (s, k, l) u Hu uk ul).
 Qed.
@@ -113,15 +98,9 @@ Hypothesis copositive : forall z, nonneg z -> 0 <= dotp z (M *m z).
 Hypothesis rays : forall z z', nonneg z -> nonneg z' -> nonneg (M *m z) -> dotp z (M *m z) = 0 ->
   0 <= dotp z q /\ 0 <= dotp z (M *m z') + dotp z' (M *m z).
 
-Definition G (s : {ffun 'I_n -> bool}) : 'M[R]_n := \matrix_(i, j) H M d s i (lift ord0 j).
-Definition pad (y : 'cV[R]_n) : 'cV[R]_n.+1 := \col_k if unlift ord0 k is Some j then y j 0 else 0.
-Lemma padE s y : H M d s *m pad y = G s *m y.
-Proof.
-apply/matrixP => i j; rewrite ord1 !mxE big_ord_recl !mxE unlift_none mulr0 add0r.
-by apply: eq_bigr => k _; rewrite !mxE liftK.
-Qed.
+Notation G s := (col' ord0 (H M d s)).
 
-Theorem lcp_solvable : exists w z : 'cV[R]_n, [/\ nonneg w, nonneg z, w = M *m z + q & forall i, w i 0 * z i 0 = 0].
+Theorem lcp_solvable : exists w z, lcp_solution M q w z.
 Proof.
 (* e small: nondegenerate, and no coordinate of a solution changes its sign on the way to 0 *)
 have h (x : {ffun 'I_n -> bool} * 'I_n) : ev (fun e => G x.1 \in unitmx ->
@@ -143,31 +122,14 @@ have raysE z z' : nonneg z -> nonneg z' -> nonneg (M *m z) -> dotp z (M *m z) = 
 have [s sv] := solvable d0 nde copositive raysE.
 have [u ul] := elimT (is_vertexP nde s ord0) sv.
 have [Hu u00 up] := ul.
-have gu : G s \in unitmx.
-  rewrite -row_free_unit -kermx_eq0; apply: contraT => nz.
-  have [x Gx x0] : exists2 x : 'cV[R]_n, G s *m x = 0 & x != 0.
-    have nz' : kermx (G s)^T != 0.
-      by rewrite -mxrank_eq0 mxrank_ker mxrank_tr -mxrank_ker mxrank_eq0.
-    exists (nz_row (kermx (G s)^T))^T; last by rewrite -(inj_eq (@trmx_inj _ _ _)) trmxK trmx0 nz_row_eq0.
-    by apply: trmx_inj; rewrite trmx_mul trmxK trmx0; apply/sub_kermxP/nz_row_sub.
-  have p0 : pad x = 0.
-    by apply: (kernel_zero (nde s) ul); [rewrite padE | rewrite mxE unlift_none].
-  case/negP: x0; apply/eqP/matrixP => i j; rewrite ord1 mxE.
-  by have := congr1 (fun m : 'cV[R]_n.+1 => m (lift ord0 i) 0) p0; rewrite !mxE liftK.
+have gu : G s \in unitmx := basis_unit nde ul.
 pose y := invmx (G s) *m q.
 have yu j : (invmx (G s) *m qe q e) j 0 = u (lift ord0 j) 0.
-  have pe : pad (\col_j u (lift ord0 j) 0) = u.
-    by apply/matrixP => k i; rewrite ord1 mxE; case: (unliftP ord0 k) => [a ->|->]; rewrite ?mxE ?u00.
-  by rewrite -Hu -{1}pe padE mulKmx // mxE.
+  by rewrite -Hu -{1}(padl_of u00) padlE mulKmx // mxE.
 have y0 : nonneg y.
   move=> j; rewrite leNgt; apply/negP => yn; have := sg (s, j) gu yn; rewrite /= yu.
   by rewrite ltNge ltW // up // eq_sym neq_lift.
-have Hy : H M d s *m pad y = q by rewrite padE mulKVmx.
-have pn : nonneg (pad y) by move=> k; rewrite mxE; case: unliftP.
-exists (wof s (pad y)), (zof s (pad y)); split.
-- by move=> j; rewrite mxE; case: (s j).
-- exact: z_nonneg.
-- rewrite -[in RHS]Hy HE [pad y ord0 0]mxE unlift_none scale0r subr0 addrC subrK; done.
-- by move=> i; rewrite !mxE; case: (s i); rewrite ?mul0r ?mulr0.
+exists (wof s (padl ord0 y)), (zof s (padl ord0 y)).
+by apply: (basic_solution (d := d)) y0 _; rewrite mulKVmx.
 Qed.
 End Nondegenerate.

@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that a nondegenerate linear complementarity problem w = M z + q, whose matrix is copositive and whose q meets no ray,
-   has a solution: vertices of edges are counted twice. No path is followed. *)
+(* Proves that a nondegenerate linear complementarity problem w = M z + q, whose matrix is copositive and whose q
+   meets no ray, has a solution: vertices of edges are counted twice. No path is followed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From Stiction.existence Require Import Law Edge.
+From Stiction.existence Require Import Law Dot Edge.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
@@ -18,7 +18,8 @@ Lemma even_side i : ~~ odd (\sum_s F s (lift ord0 i)).
 Proof.
 rewrite (bigID (fun s : {ffun 'I_n -> bool} => s i)) /=.
 rewrite [X in (_ + X)%N](reindex_inj (inv_inj (flipK i))) /=.
-have -> : (\sum_(s | ~~ flip i s i) F (flip i s) (lift ord0 i) = \sum_(s : {ffun 'I_n -> bool} | s i) F s (lift ord0 i))%N.
+have -> : (\sum_(s | ~~ flip i s i) F (flip i s) (lift ord0 i) =
+           \sum_(s : {ffun 'I_n -> bool} | s i) F s (lift ord0 i))%N.
   by apply: eq_big => [s|s _]; [rewrite ffunE eqxx negbK | rewrite across].
 by rewrite addnn odd_double.
 Qed.
@@ -84,17 +85,18 @@ case/negP: x0; apply/eqP/matrixP => i j; rewrite [j]ord1 mxE.
 by have := congr1 (fun m : 'cV[R]_n.+1 => m (lift l i) 0) p0; rewrite !mxE liftK.
 Qed.
 Definition candidate s l := padl l (invmx (col' l (H s)) *m q).
+Lemma candidateE s l u : vertex (H s) q l u -> candidate s l = u.
+Proof.
+move=> ul; have [Hu ull _] := ul.
+by rewrite /candidate -[in LHS]Hu -{1}(padl_of ull) padlE mulKmx ?(basis_unit ul) // padl_of.
+Qed.
 Definition is_vertex s l : bool :=
   [&& H s *m candidate s l == q, candidate s l l 0 == 0 & [forall k, (k != l) ==> (0 < candidate s l k 0)]].
 Lemma is_vertexP s l : reflect (exists u, vertex (H s) q l u) (is_vertex s l).
 Proof.
 apply: (iffP idP) => [/and3P [/eqP a /eqP b /forallP c]|[u ul]].
   by exists (candidate s l); split=> // k kl; have := c k; rewrite kl.
-have -> : is_vertex s l = true; last by [].
-have e : candidate s l = u.
-  rewrite /candidate; have [Hu ull _] := ul.
-  by rewrite -[in LHS]Hu -{1}(padl_of ull) padlE mulKmx ?(basis_unit ul) // padl_of.
-have [Hu ull up] := ul; rewrite /is_vertex e Hu ull !eqxx /=.
+have [Hu ull up] := ul; rewrite /is_vertex (candidateE ul) Hu ull !eqxx /=.
 by apply/forallP => k; apply/implyP => kl; apply: up.
 Qed.
 
@@ -108,12 +110,6 @@ have half t : is_vertex t (lift ord0 i) -> is_vertex (flip i t) (lift ord0 i).
 by apply/idP/idP => [/half|/half //]; rewrite flipK.
 Qed.
 
-Lemma dotpD (x y z : 'cV[R]_n) : dotp x (y + z) = dotp x y + dotp x z.
-Proof. by rewrite -big_split /=; apply: eq_bigr => i _; rewrite mxE mulrDr. Qed.
-Lemma dotpZ (x : 'cV[R]_n) c y : dotp x (c *: y) = c * dotp x y.
-Proof. by rewrite mulr_sumr; apply: eq_bigr => i _; rewrite mxE mulrCA. Qed.
-Lemma dotp_ge0 (x y : 'cV[R]_n) : nonneg x -> nonneg y -> 0 <= dotp x y.
-Proof. by move=> hx hy; apply: sumr_ge0 => i _; rewrite mulr_ge0. Qed.
 Lemma z_nonneg s u : nonneg u -> nonneg (zof s u).
 Proof. by move=> h j; rewrite mxE; case: (s j). Qed.
 Lemma apart s u v : dotp (zof s u) (wof s v) = 0.
@@ -128,13 +124,11 @@ have h k : true -> 0 <= z k 0 * d k 0 by rewrite mulr_ge0 // d_nonneg.
 have /eqP : z i 0 * d i 0 = 0 by apply: (psumr_eq0P h e).
 by rewrite mulf_eq0 (gt_eqF (d0 i)) orbF => /eqP.
 Qed.
-Lemma sum0 (x y : R) : 0 <= x -> 0 <= y -> x + y = 0 -> x = 0 /\ y = 0.
-Proof. by move=> hx hy /eqP; rewrite paddr_eq0 // => /andP [/eqP -> /eqP ->]. Qed.
 
-Lemma no_ray s l u : (forall t, ~~ is_vertex t ord0) -> s != [ffun => false] -> vertex (H s) q l u ->
+Lemma no_ray s l u : l != ord0 -> s != [ffun => false] -> vertex (H s) q l u ->
   forall v, nonneg v -> H s *m v = 0 -> v = 0.
 Proof.
-move=> none ns ul v v0 Hv; have u0 := vertex_nonneg ul; case: (ul) => Hu ull up.
+move=> l0 ns ul v v0 Hv; have u0 := vertex_nonneg ul; case: (ul) => Hu ull up.
 set z := zof s v; set w := wof s v.
 have wE : w = M *m z + v ord0 0 *: d.
   by move: Hv; rewrite HE -/z -/w -addrA -opprD => /eqP; rewrite subr_eq0 => /eqP.
@@ -170,7 +164,7 @@ rewrite e2 addr0 in r2.
 have [_ /eqP] := sum0 (addr_ge0 r1 r2) p e1.
 rewrite mulf_eq0 (negbTE dz) orbF => /eqP u00.
 have e : l = ord0 := nd u0 Hu ull u00.
-by move/negP: (none s); apply; apply/is_vertexP; exists u; rewrite -e.
+by rewrite e eqxx in l0.
 Qed.
 
 Lemma primaryE u : H [ffun => false] *m u = q <-> forall j, u (lift ord0 j) 0 = q j 0 + u ord0 0 * d j 0.
@@ -180,46 +174,54 @@ rewrite mulmx0 subr0; split=> [e j|e].
   have := congr1 (fun m : 'cV[R]_n => m j 0) e; rewrite !mxE ffunE => <-; by rewrite subrK.
 by apply/matrixP => i j; rewrite ord1 !mxE ffunE e addrK.
 Qed.
-Lemma primary : (forall t, ~~ is_vertex t ord0) -> odd (\sum_l is_vertex [ffun => false] l).
+(* the points of the primary edge, w = q + t d *)
+Definition primary_point t : 'cV[R]_n.+1 := \col_k if unlift ord0 k is Some j then q j 0 + t * d j 0 else t.
+Lemma primary_point0 t : primary_point t ord0 0 = t. Proof. by rewrite mxE unlift_none. Qed.
+Lemma primary_point_lift t j : primary_point t (lift ord0 j) 0 = q j 0 + t * d j 0. Proof. by rewrite mxE liftK. Qed.
+Lemma primary_vertex t l : nonneg (primary_point t) -> primary_point t l 0 = 0 ->
+  vertex (H [ffun => false]) q l (primary_point t).
 Proof.
-move=> none; set s0 : sel := [ffun => false].
-pose mk t : 'cV[R]_n.+1 := \col_k if unlift ord0 k is Some j then q j 0 + t * d j 0 else t.
-have mk0 t : mk t ord0 0 = t by rewrite mxE unlift_none.
-have mkj t j : mk t (lift ord0 j) 0 = q j 0 + t * d j 0 by rewrite mxE liftK.
-have Hmk t : H s0 *m mk t = q by apply/primaryE => j; rewrite mkj mk0.
-have vert t l : nonneg (mk t) -> mk t l 0 = 0 -> vertex (H s0) q l (mk t).
-  move=> h e; split=> // k kl; rewrite lt_neqAle h andbT eq_sym; apply: contra kl => /eqP z.
-  by apply/eqP/(nd h (Hmk t)).
-have only l l' u u' : vertex (H s0) q l u -> vertex (H s0) q l' u' -> u ord0 0 < u' ord0 0 -> False.
-  move=> ul [Hu' ul' up'] lt; have u0 := vertex_nonneg ul; case: (ul) => /primaryE Hu _ _.
-  move/primaryE: Hu' => Hu'; suff : 0 < u' l' 0 by rewrite ul' ltxx.
-  case: (unliftP ord0 l') => [j ->|->]; last exact: le_lt_trans (u0 ord0) lt.
-  rewrite Hu'; apply: le_lt_trans (u0 (lift ord0 j)) _.
-  by rewrite Hu ltr_add2l ltr_pmul2r.
-have uniq l l' u u' : vertex (H s0) q l u -> vertex (H s0) q l' u' -> l = l'.
-  move=> ul ul'; case: (ltgtP (u ord0 0) (u' ord0 0)) => [h|h|h].
-  - by case: (only _ _ _ _ ul ul' h).
-  - by case: (only _ _ _ _ ul' ul h).
-  have e : u = u'.
-    case: (ul) (ul') => /primaryE Hu _ _ [/primaryE Hu' _ _]; apply/matrixP => k j; rewrite ord1.
-    by case: (unliftP ord0 k) => [i ->|-> //]; rewrite Hu Hu' h.
-  case: (ul) (ul') => Hu a _ [_ b _]; rewrite -e in b.
-  exact: (nd (vertex_nonneg ul) Hu a b).
-suff [l [u ul]] : exists l u, vertex (H s0) q l u.
-  have vl : is_vertex s0 l by apply/is_vertexP; exists u.
-  rewrite (bigD1 l) //= vl big1 // => m ml; case: (boolP (is_vertex s0 m)) => // /is_vertexP [x xm].
-  by rewrite (uniq _ _ _ _ xm ul) eqxx in ml.
+have Ht : H [ffun => false] *m primary_point t = q.
+  by apply/primaryE => j; rewrite primary_point_lift primary_point0.
+move=> h e; split=> // k kl; rewrite lt_neqAle h andbT eq_sym; apply: contra kl => /eqP z.
+by apply/eqP/(nd h Ht).
+Qed.
+Lemma primary_only l l' u u' : vertex (H [ffun => false]) q l u -> vertex (H [ffun => false]) q l' u' -> l = l'.
+Proof.
+have below m m' x x' : vertex (H [ffun => false]) q m x -> vertex (H [ffun => false]) q m' x' ->
+    x ord0 0 < x' ord0 0 -> False.
+  move=> xm [Hx' x'm' _] lt; have x0 := vertex_nonneg xm; case: (xm) => /primaryE Hx _ _.
+  move/primaryE: Hx' => Hx'; suff : 0 < x' m' 0 by rewrite x'm' ltxx.
+  case: (unliftP ord0 m') => [j ->|->]; last exact: le_lt_trans (x0 ord0) lt.
+  rewrite Hx'; apply: le_lt_trans (x0 (lift ord0 j)) _.
+  by rewrite Hx ltr_add2l ltr_pmul2r.
+move=> ul ul'; case: (ltgtP (u ord0 0) (u' ord0 0)) => [h|h|h].
+- by case: (below _ _ _ _ ul ul' h).
+- by case: (below _ _ _ _ ul' ul h).
+have e : u = u'.
+  case: (ul) (ul') => /primaryE Hu _ _ [/primaryE Hu' _ _]; apply/matrixP => k j; rewrite ord1.
+  by case: (unliftP ord0 k) => [i ->|-> //]; rewrite Hu Hu' h.
+case: (ul) (ul') => Hu a _ [_ b _]; rewrite -e in b.
+exact: (nd (vertex_nonneg ul) Hu a b).
+Qed.
+Lemma primary : odd (\sum_l is_vertex [ffun => false] l).
+Proof.
+suff [l [u ul]] : exists l u, vertex (H [ffun => false]) q l u.
+  have vl : is_vertex [ffun => false] l by apply/is_vertexP; exists u.
+  rewrite (bigD1 l) //= vl big1 // => m ml.
+  case: (boolP (is_vertex [ffun => false] m)) => // /is_vertexP [x xm].
+  by rewrite (primary_only xm ul) eqxx in ml.
 case: (boolP [exists i, q i 0 < 0]) => [/existsP [i qi]|].
   case: (@arg_minP _ _ _ i predT (fun k => q k 0 / d k 0) isT) => k _ kmin.
-  exists (lift ord0 k), (mk (- (q k 0 / d k 0))); apply: vert.
+  exists (lift ord0 k), (primary_point (- (q k 0 / d k 0))); apply: primary_vertex.
     move=> j; case: (unliftP ord0 j) => [m ->|->].
-      by rewrite mkj mulNr subr_ge0 -ler_pdivl_mulr // kmin.
-    rewrite mk0 oppr_ge0; apply: le_trans (kmin i isT) _.
+      by rewrite primary_point_lift mulNr subr_ge0 -ler_pdivl_mulr // kmin.
+    rewrite primary_point0 oppr_ge0; apply: le_trans (kmin i isT) _.
     by rewrite pmulr_lle0 ?invr_gt0 // ltW.
-  by rewrite mkj mulNr divfK ?subrr // gt_eqF.
-rewrite negb_exists => /forallP p; exists ord0, (mk 0); apply: vert; last by rewrite mk0.
-move=> j; case: (unliftP ord0 j) => [m ->|->]; last by rewrite mk0.
-by rewrite mkj mul0r addr0 leNgt.
+  by rewrite primary_point_lift mulNr divfK ?subrr // gt_eqF.
+rewrite negb_exists => /forallP p; exists ord0, (primary_point 0); apply: primary_vertex; last exact: primary_point0.
+move=> j; case: (unliftP ord0 j) => [m ->|->]; last by rewrite primary_point0.
+by rewrite primary_point_lift mul0r addr0 leNgt.
 Qed.
 
 Theorem solvable : exists s, is_vertex s ord0.
@@ -229,10 +231,29 @@ apply: (contradiction across none (s0 := [ffun => false])) => [s ns|]; last exac
 case: (boolP [exists l, is_vertex s l]) => [/existsP [l vl]|]; last first.
   rewrite negb_exists => /forallP no; rewrite big1 // => l _; by rewrite (negbTE (no l)).
 have [u ul] := is_vertexP _ _ vl.
-have [l' [u' [ll ul' only]]] := edge (nd (s := s)) ul (no_ray none ns ul).
+have l0 : l != ord0 by apply: contraTneq vl => ->; exact: none.
+have [l' [u' [ll ul' only]]] := edge (nd (s := s)) ul (no_ray l0 ns ul).
 rewrite (bigD1 l) //= (bigD1 l') //= vl.
 have -> : is_vertex s l' by apply/is_vertexP; exists u'.
 rewrite big1 // => m /andP [ml ml']; case: (boolP (is_vertex s m)) => // /is_vertexP [x xm].
 by case: (only m x xm) => e; [rewrite e eqxx in ml | rewrite e eqxx in ml'].
+Qed.
+
+(* what it stands for *)
+Definition lcp_solution (w z : 'cV[R]_n) :=
+  [/\ nonneg w, nonneg z, w = M *m z + q & forall i, w i 0 * z i 0 = 0].
+Lemma edge_solution s u : nonneg u -> H s *m u = q -> u ord0 0 = 0 -> lcp_solution (wof s u) (zof s u).
+Proof.
+move=> nn Hu u0; split.
+- by move=> j; rewrite mxE; case: (s j).
+- exact: z_nonneg.
+- by move: Hu; rewrite HE u0 scale0r subr0 => <-; rewrite addrC subrK.
+- by move=> i; rewrite !mxE; case: (s i); rewrite ?mul0r ?mulr0.
+Qed.
+Lemma basic_solution s y : nonneg y -> col' ord0 (H s) *m y = q ->
+  lcp_solution (wof s (padl ord0 y)) (zof s (padl ord0 y)).
+Proof.
+move=> y0 Hy; apply: edge_solution; rewrite ?padlE // ?mxE ?unlift_none //.
+by move=> k; rewrite mxE; case: unliftP.
 Qed.
 End LCP.

@@ -1,69 +1,24 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that every static problem of the plane, (15) and (16), with A symmetric positive semidefinite and b in its range has a
-   solution, over any ordered field. *)
+(* Proves that every static problem of the plane, (15) and (16), with A symmetric positive semidefinite and b in its
+   range has a solution, over any ordered field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit.
+From Stiction.existence Require Import Law Dot Edge Parity Limit.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 
-Section Dot.
-Variable R : realFieldType.
-Lemma dotpC n (x y : 'cV[R]_n) : dotp x y = dotp y x.
-Proof. by apply: eq_bigr => i _; rewrite mulrC. Qed.
-Lemma dotp_adj m n (E : 'M[R]_(m, n)) (x : 'cV[R]_n) (y : 'cV[R]_m) : dotp x (E^T *m y) = dotp (E *m x) y.
-Proof.
-rewrite /dotp; transitivity (\sum_i \sum_j x i 0 * (E j i * y j 0)).
-  by apply: eq_bigr => i _; rewrite mxE mulr_sumr; apply: eq_bigr => j _; rewrite mxE.
-rewrite exchange_big; apply: eq_bigr => j _; rewrite mxE mulr_suml; apply: eq_bigr => i _.
-by rewrite mulrA [x i 0 * _]mulrC.
-Qed.
-Lemma dotp_col m n (a c : 'cV[R]_m) (b d : 'cV[R]_n) : dotp (col_mx a b) (col_mx c d) = dotp a c + dotp b d.
-Proof.
-rewrite /dotp big_split_ord /=; congr (_ + _); apply: eq_bigr => i _; rewrite ?col_mxEu ?col_mxEd //.
-Qed.
-Lemma dotp0 n (x : 'cV[R]_n) : dotp x 0 = 0.
-Proof. by apply: big1 => i _; rewrite mxE mulr0. Qed.
-Lemma dotpN n (x y : 'cV[R]_n) : dotp x (- y) = - dotp x y.
-Proof. by rewrite -[- y]scaleN1r dotpZ mulN1r. Qed.
-Lemma dotpDl n (x y z : 'cV[R]_n) : dotp (x + y) z = dotp x z + dotp y z.
-Proof. by rewrite dotpC dotpD !(dotpC z). Qed.
-End Dot.
-
 Section Static.
-Variables (R : realFieldType) (n : nat) (A : 'M[R]_(n + n)) (c : 'cV[R]_(n + n)) (mu : 'rV[R]_n).
+Variables (R : realFieldType) (n : nat) (A : 'M[R]_(n + n)) (c : 'cV[R]_(n + n)) (mu : 'I_n -> R).
 Hypothesis sym : A^T = A.
 Hypothesis psd : forall f, 0 <= dotp f (A *m f).
-Hypothesis mu0 : forall i, 0 <= mu 0 i.
+Hypothesis mu0 : forall i, 0 <= mu i.
 Let b := A *m c.
-
-Lemma psd_kernel f : dotp f (A *m f) = 0 -> A *m f = 0.
-Proof.
-move=> f0; set g := A *m f; set s := dotp g g; set r := dotp g (A *m g).
-have r0 : 0 <= r := psd g.
-have fg : dotp f (A *m g) = s by rewrite -{1}sym dotp_adj.
-have q t : 0 <= t * s + t * s + t * t * r.
-  have := psd (f + t *: g); rewrite mulmxDr -scalemxAr dotpDl !dotpD !dotpZ.
-  rewrite (dotpC (t *: g)) dotpZ f0 add0r fg (dotpC (t *: g)) !dotpZ (dotpC _ g) -/s (dotpC _ g) -/r.
-  by rewrite -addrA mulrA.
-have s0 : s = 0.
-  apply/eqP; apply: contraT => sn; have k : 0 < r + 1 := ltr_paddl r0 ltr01.
-  pose x := s / (r + 1); have u : s = x * (r + 1) by rewrite /x divfK // gt_eqF.
-  have := q (- x); rewrite u.
-  have -> : - x * (x * (r + 1)) + - x * (x * (r + 1)) + - x * - x * r = - (x ^+ 2 * (r + 2%:R)) by ring.
-  rewrite oppr_ge0 leNgt mulr_gt0 ?(ltr_paddl r0) ?ltr0n //.
-  by rewrite exprn_even_gt0 //= /x mulf_neq0 // invr_eq0 gt_eqF.
-have h i : true -> 0 <= g i 0 * g i 0 by rewrite -expr2 sqr_ge0.
-apply/matrixP => i j; rewrite ord1 [RHS]mxE; apply/eqP.
-have /eqP : g i 0 * g i 0 = 0 by apply: (psumr_eq0P h s0).
-by rewrite mulf_eq0 orbb.
-Qed.
 
 Notation V := ('cV[R]_n).
 Definition E : 'M[R]_(n + n, (n + n) + (n + n)) := row_mx 1%:M (block_mx 0 0 (- 1%:M) 0).
 Definition S : 'M[R]_((n + n) + (n + n)) :=
-  block_mx 0 (block_mx 0 0 0 1%:M) (block_mx 0 0 (diag_mx mu) (- 1%:M)) (block_mx 0 1%:M (- 1%:M) 0).
+  block_mx 0 (block_mx 0 0 0 1%:M) (block_mx 0 0 (diag_mx (\row_i mu i)) (- 1%:M)) (block_mx 0 1%:M (- 1%:M) 0).
 Definition M := E^T *m A *m E + S.
 Definition mk (N P Q L : V) := col_mx (col_mx N P) (col_mx Q L).
 Lemma mkK z : exists N P Q L, z = mk N P Q L.
@@ -80,7 +35,7 @@ Proof.
 rewrite tr_row_mx trmx1 tr_block_mx !trmx0 linearN /= trmx1 mul_col_mx mul1mx mul_block_col !mul0mx.
 by rewrite !add0r mulNmx mul1mx.
 Qed.
-Definition muN (N : V) : V := diag_mx mu *m N.
+Definition muN (N : V) : V := diag_mx (\row_i mu i) *m N.
 Lemma Sz N P Q L : S *m mk N P Q L = mk 0 L L (muN N - P - Q).
 Proof.
 rewrite /mk /S mul_block_col mul0mx add0r !mul_block_col !mul0mx !add0r !addr0 !mulNmx !mul1mx add_col_mx.
@@ -95,7 +50,7 @@ move=> h; split=> i.
 - by have := h (rshift _ (rshift _ i)); rewrite !col_mxEd.
 Qed.
 Lemma muN_nonneg N : nonneg N -> nonneg (muN N).
-Proof. by move=> h i; rewrite /muN mul_diag_mx mxE mulr_ge0. Qed.
+Proof. by move=> h i; rewrite /muN mul_diag_mx !mxE mulr_ge0. Qed.
 Lemma dotM z z' : dotp z (M *m z') = dotp (E *m z) (A *m (E *m z')) + dotp z (S *m z').
 Proof. by rewrite mulmxDl dotpD -!mulmxA dotp_adj. Qed.
 Lemma dotS N P Q L N' P' Q' L' : dotp (mk N P Q L) (S *m mk N' P' Q' L') =
@@ -117,7 +72,7 @@ have [N [P [Q [L ->]]]] := mkK z; have [N' [P' [Q' [L' ->]]]] := mkK z'.
 move=> hz hz' _ e; have [hN hP hQ hL] := mk_nonneg hz; have [hN' hP' hQ' hL'] := mk_nonneg hz'.
 set f := E *m mk N P Q L.
 have Af : A *m f = 0.
-  apply: psd_kernel; move: e; rewrite dotM -/f => e.
+  apply: (psd_kernel sym psd); move: e; rewrite dotM -/f => e.
   apply: (proj1 (sum0 (psd f) _ e)).
   rewrite dotS_self; exact: dotp_ge0 (muN_nonneg hN).
 split; first by rewrite dotp_adj -/f /b -{1}sym dotp_adj Af dotpC dotp0.
@@ -153,28 +108,33 @@ have Ln : L != 0 by rewrite gt_eqF // (lt_le_trans pos) // -subr_ge0.
 by rewrite (slack Ln) P00 sub0r add0r normrN ger0_norm // subrr mulr0.
 Qed.
 
-Theorem static_solution_exists : exists fN fF aN aF : V,
-  col_mx aN aF = A *m col_mx fN fF + b /\ forall i, law (mu 0 i) (fN i 0) (fF i 0) (aN i 0) (aF i 0).
+(* what a solution of the complementarity problem stands for *)
+Lemma lcp_law (a0 : 'cV[R]_(n + n)) w z : lcp_solution M (E^T *m a0) w z -> solution A a0 mu (E *m z).
 Proof.
-have d0 i : 0 < (const_mx 1 : 'cV[R]_((n + n) + (n + n))) i 0 by rewrite mxE ltr01.
-have [w [z [w0 z0 we wz]]] := lcp_solvable d0 copos raysM.
+move=> [w0 z0 we wz] i; rewrite /aN /aF /xN /xF /acc.
 have [N [P [Q [L ze]]]] := mkK z; have [wN [wP [wQ [wL wE]]]] := mkK w.
-rewrite ze in z0 we wz; rewrite wE in w0 we wz.
+rewrite ze in z0 we wz *; rewrite wE in w0 we wz.
 have [N0 P0 Q0 L0] := mk_nonneg z0; have [wN0 wP0 wQ0 wL0] := mk_nonneg w0.
-set a := A *m col_mx N (P - Q) + b.
-exists N, (P - Q), (usubmx a), (dsubmx a); rewrite vsubmxK; split=> // i.
+rewrite Ez; set a := A *m col_mx N (P - Q) + a0.
 have : mk wN wP wQ wL = E^T *m a + S *m mk N P Q L.
   by rewrite we /M mulmxDl -!mulmxA Ez /a mulmxDr addrAC.
 rewrite -[a in E^T *m a]vsubmxK ETa Sz /mk !add_col_mx addr0 => /eq_col_mx [/eq_col_mx [eN eP] /eq_col_mx [eQ eL]].
-have co (x y : V) : True by [].
 have cN : N i 0 * wN i 0 = 0 by have := wz (lshift _ (lshift _ i)); rewrite !col_mxEu mulrC.
 have cP : P i 0 * wP i 0 = 0 by have := wz (lshift _ (rshift _ i)); rewrite !col_mxEu !col_mxEd mulrC.
 have cQ : Q i 0 * wQ i 0 = 0 by have := wz (rshift _ (lshift _ i)); rewrite !col_mxEd !col_mxEu mulrC.
 have cL : L i 0 * wL i 0 = 0 by have := wz (rshift _ (rshift _ i)); rewrite !col_mxEd mulrC.
-have xP : wP i 0 = dsubmx a i 0 + L i 0 by rewrite eP !mxE.
-have xQ : wQ i 0 = L i 0 - dsubmx a i 0 by rewrite eQ !mxE addrC.
-have xL : wL i 0 = mu 0 i * N i 0 - P i 0 - Q i 0 by rewrite eL add0r /muN mul_diag_mx !mxE.
-have -> : (P - Q) i 0 = P i 0 - Q i 0 by rewrite !mxE.
-apply: (law_of (L := L i 0)) => //; rewrite -?xP -?xQ -?xL //; by rewrite -eN.
+have aF : a (rshift n i) 0 = dsubmx a i 0 by rewrite [dsubmx a i 0]mxE.
+have xP : wP i 0 = a (rshift n i) 0 + L i 0 by rewrite aF eP mxE.
+have xQ : wQ i 0 = L i 0 - a (rshift n i) 0 by rewrite aF eQ mxE [X in X + _]mxE addrC.
+have xL : wL i 0 = mu i * N i 0 - P i 0 - Q i 0 by rewrite eL add0r /muN mul_diag_mx !mxE.
+have xN : wN i 0 = a (lshift n i) 0 by rewrite eN [usubmx a i 0]mxE.
+rewrite col_mxEu col_mxEd; have -> : (P - Q) i 0 = P i 0 - Q i 0 by rewrite !mxE.
+by apply: (law_of (L := L i 0)) => //; rewrite -?xP -?xQ -?xL -?xN //.
+Qed.
+
+Theorem static_solution_exists : exists f, solution A b mu f.
+Proof.
+have d0 i : 0 < (const_mx 1 : 'cV[R]_((n + n) + (n + n))) i 0 by rewrite mxE ltr01.
+by have [w [z /lcp_law s]] := lcp_solvable d0 copos raysM; exists (E *m z).
 Qed.
 End Static.

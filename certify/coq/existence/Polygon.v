@@ -1,34 +1,33 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that friction in space with finitely many directions d_k in place of the circle has a solution: forces of the polygon
-   (any directions); and a weaker law in the disc (directions in it), from which Approx.v goes on. *)
+(* Proves that friction in space with finitely many directions d_k in place of the circle has a solution: forces of
+   the polygon (any directions); and a weaker law in the disc (directions in it), from which Approx.v goes on. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
-From Stiction.existence Require Import Law Edge Parity Limit Plane Finite.
+From Stiction.existence Require Import Law Dot Edge Parity Limit Finite Statement.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 
 Section Length.
 Variable R : rcfType.
-Definition len (x y : R) := Num.sqrt (x ^+ 2 + y ^+ 2).
 Lemma ss_ge0 (x y : R) : 0 <= x ^+ 2 + y ^+ 2. Proof. by rewrite addr_ge0 ?sqr_ge0. Qed.
-Lemma len_ge0 x y : 0 <= len x y. Proof. exact: sqrtr_ge0. Qed.
-Lemma len_sqr x y : len x y ^+ 2 = x ^+ 2 + y ^+ 2. Proof. by rewrite sqr_sqrtr // ss_ge0. Qed.
-Lemma len00 : len 0 0 = 0. Proof. by rewrite /len expr0n addr0 sqrtr0. Qed.
-Lemma len_eq0 x y : len x y = 0 -> x = 0 /\ y = 0.
+Lemma len_ge0 (x y : R) : 0 <= length x y. Proof. exact: sqrtr_ge0. Qed.
+Lemma len_sqr (x y : R) : length x y ^+ 2 = x ^+ 2 + y ^+ 2. Proof. by rewrite sqr_sqrtr // ss_ge0. Qed.
+Lemma len00 : length 0 0 = 0 :> R. Proof. by rewrite /length expr0n addr0 sqrtr0. Qed.
+Lemma len_eq0 (x y : R) : length x y = 0 -> x = 0 /\ y = 0.
 Proof.
 move=> e; have := len_sqr x y; rewrite e expr0n => /esym/eqP.
 by rewrite paddr_eq0 ?sqr_ge0 // !sqrf_eq0 => /andP [/eqP -> /eqP ->].
 Qed.
-Lemma le_len x y c : 0 <= c -> x ^+ 2 + y ^+ 2 <= c ^+ 2 -> len x y <= c.
+Lemma le_len (x y c : R) : 0 <= c -> x ^+ 2 + y ^+ 2 <= c ^+ 2 -> length x y <= c.
 Proof. by move=> c0 h; rewrite -(@ler_pexpn2r _ 2) ?nnegrE ?len_ge0 // len_sqr. Qed.
-Lemma len_maxl x y : `|x| <= len x y.
-Proof. by rewrite -sqrtr_sqr /len ler_wsqrtr // ler_addl sqr_ge0. Qed.
-Lemma len_maxr x y : `|y| <= len x y.
-Proof. by rewrite -sqrtr_sqr /len ler_wsqrtr // ler_addr sqr_ge0. Qed.
-Lemma lenZ c x y : 0 <= c -> len (c * x) (c * y) = c * len x y.
-Proof. by move=> c0; rewrite /len !exprMn -mulrDr sqrtrM ?sqr_ge0 // sqrtr_sqr ger0_norm. Qed.
-Lemma cauchy x y u v : x * u + y * v <= len x y * len u v.
+Lemma len_maxl (x y : R) : `|x| <= length x y.
+Proof. by rewrite -sqrtr_sqr /length ler_wsqrtr // ler_addl sqr_ge0. Qed.
+Lemma len_maxr (x y : R) : `|y| <= length x y.
+Proof. by rewrite -sqrtr_sqr /length ler_wsqrtr // ler_addr sqr_ge0. Qed.
+Lemma lenZ (c x y : R) : 0 <= c -> length (c * x) (c * y) = c * length x y.
+Proof. by move=> c0; rewrite /length !exprMn -mulrDr sqrtrM ?sqr_ge0 // sqrtr_sqr ger0_norm. Qed.
+Lemma cauchy (x y u v : R) : x * u + y * v <= length x y * length u v.
 Proof.
 case: (lerP (x * u + y * v) 0) => [h|h]; first by rewrite (le_trans h) // mulr_ge0 // len_ge0.
 rewrite -(@ler_pexpn2r _ 2) ?nnegrE ?(ltW h) ?mulr_ge0 ?len_ge0 //.
@@ -37,13 +36,13 @@ have -> : (x ^+ 2 + y ^+ 2) * (u ^+ 2 + v ^+ 2) - (x * u + y * v) ^+ 2 = (x * v 
 exact: sqr_ge0.
 Qed.
 (* a nonnegative combination of vectors of the disc is no longer than its weights *)
-Lemma len_comb (K : finType) (be dx dy : K -> R) : (forall k, 0 <= be k) -> (forall k, len (dx k) (dy k) <= 1) ->
-  len (\sum_k be k * dx k) (\sum_k be k * dy k) <= \sum_k be k.
+Lemma len_comb (K : finType) (be dx dy : K -> R) : (forall k, 0 <= be k) -> (forall k, length (dx k) (dy k) <= 1) ->
+  length (\sum_k be k * dx k) (\sum_k be k * dy k) <= \sum_k be k.
 Proof.
 move=> be0 d1; set X := \sum_k be k * dx k; set Y := \sum_k be k * dy k.
 have s0 : 0 <= \sum_k be k by apply: sumr_ge0.
-case: (altP (len X Y =P 0)) => [->//|nz].
-have lp : 0 < len X Y by rewrite lt_neqAle eq_sym nz len_ge0.
+case: (altP (length X Y =P 0)) => [->//|nz].
+have lp : 0 < length X Y by rewrite lt_neqAle eq_sym nz len_ge0.
 rewrite -(ler_pmul2r lp) -expr2 len_sqr mulr_suml.
 have -> : X ^+ 2 + Y ^+ 2 = \sum_k be k * (dx k * X + dy k * Y).
   rewrite !expr2 {1}/X {1}/Y !mulr_suml -big_split; apply: eq_bigr => k _ /=; ring.
@@ -77,7 +76,7 @@ case: (split_ordP r) => [i ->|s ->]; first by case: (h i).
 by case: (split_ordP s) => i ->; case: (h i).
 Qed.
 (* the product of the friction cones *)
-Definition cone (mu : 'I_n -> R) f := forall i, 0 <= nor f i /\ len (tx f i) (ty f i) <= mu i * nor f i.
+Definition cone (mu : 'I_n -> R) f := forall i, 0 <= nor f i /\ length (tx f i) (ty f i) <= mu i * nor f i.
 End Rows.
 
 (* f and a satisfy Coulomb's law (k = 1), or that law up to a factor k *)
@@ -85,9 +84,9 @@ Section Law.
 Variables (R : rcfType) (n : nat).
 Notation V := 'cV[R]_(n + (n + n)).
 Definition obeys (k : R) (mu : 'I_n -> R) (f a : V) := forall i,
-  [/\ 0 <= nor f i, 0 <= nor a i & nor f i * nor a i = 0] /\
-  len (tx f i) (ty f i) <= mu i * nor f i /\
-  tx f i * tx a i + ty f i * ty a i <= - (k * len (tx a i) (ty a i) * (mu i * nor f i)).
+  normal_conditions (nor f i) (nor a i) /\
+  length (tx f i) (ty f i) <= mu i * nor f i /\
+  tx f i * tx a i + ty f i * ty a i <= - (k * length (tx a i) (ty a i) * (mu i * nor f i)).
 Lemma norZ c (f : V) i : nor (c *: f) i = c * nor f i. Proof. by rewrite /nor mxE. Qed.
 Lemma txZ c (f : V) i : tx (c *: f) i = c * tx f i. Proof. by rewrite /tx mxE. Qed.
 Lemma tyZ c (f : V) i : ty (c *: f) i = c * ty f i. Proof. by rewrite /ty mxE. Qed.
@@ -98,7 +97,7 @@ Proof.
 move=> c0 h i; have [[n1 n2 n3] [h1 h2]] := h i; rewrite !norZ !txZ !tyZ !lenZ //.
 split; first by split; rewrite ?mulr_ge0 // mulrACA n3 mulr0.
 split; first by rewrite mulrCA ler_wpmul2l.
-move: h2; set L := len _ _ => h2.
+move: h2; set L := length _ _ => h2.
 have -> : c * tx f i * (c * tx a i) + c * ty f i * (c * ty a i) = c * c * (tx f i * tx a i + ty f i * ty a i) by ring.
 have -> : - (k * (c * L) * (mu i * (c * nor f i))) = c * c * (- (k * L * (mu i * nor f i))) by ring.
 by apply: ler_wpmul2l => //; rewrite mulr_ge0.
@@ -122,21 +121,15 @@ Variables (R : rcfType) (n : nat) (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n 
 Hypothesis psd : forall f, 0 <= dotp f (A *m f).
 Hypothesis mu0 : forall i, 0 <= mu i.
 Variables (K : finType) (dx dy : K -> R).
-Hypothesis disc : forall k, len (dx k) (dy k) <= 1.
+Hypothesis disc : forall k, length (dx k) (dy k) <= 1.
 Definition polygonal (f a : 'cV[R]_(n + (n + n))) := forall i,
-  [/\ 0 <= nor f i, 0 <= nor a i & nor f i * nor a i = 0] /\
-  len (tx f i) (ty f i) <= mu i * nor f i /\
+  normal_conditions (nor f i) (nor a i) /\
+  length (tx f i) (ty f i) <= mu i * nor f i /\
   exists2 l, 0 <= l & (forall k, 0 <= l + (dx k * tx a i + dy k * ty a i)) /\
     tx f i * tx a i + ty f i * ty a i = - (l * (mu i * nor f i)).
 Hypothesis safe : forall v, polygonal v (A *m v) -> 0 <= dotp v b.
-(* the law of the polygon itself: the force is a combination of the directions, and opposes the acceleration most *)
-Definition on_polygon (m fN fX fY : R) := exists w : K -> R,
-  [/\ forall k, 0 <= w k, \sum_k w k <= m * fN, fX = \sum_k w k * dx k & fY = \sum_k w k * dy k].
-Definition polygonal_itself (f a : 'cV[R]_(n + (n + n))) := forall i,
-  [/\ 0 <= nor f i, 0 <= nor a i & nor f i * nor a i = 0] /\
-  [/\ on_polygon (mu i) (nor f i) (tx f i) (ty f i),
-      forall k, tx f i * tx a i + ty f i * ty a i <= mu i * nor f i * (dx k * tx a i + dy k * ty a i)
-    & tx f i * tx a i + ty f i * ty a i <= 0].
+Definition polygonal_itself (f a : 'cV[R]_(n + (n + n))) := forall i, normal_conditions (nor f i) (nor a i) /\
+  polygon_law dx dy (mu i) (nor f i) (tx f i) (ty f i) (tx a i) (ty a i).
 
 (* unknowns: N i, beta i k, lambda i *)
 Let T := (('I_n + 'I_n * K) + 'I_n)%type.
@@ -209,54 +202,44 @@ rewrite /nor /tx /ty !fr /eN /eX /eY; split.
   rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE !eq_shift /= !mulr0 add0r andbT.
   by rewrite mulrA mulrC.
 Qed.
-Let polygonal_of z a : comp E S z a -> polygonal (force E z) a.
+(* what a solution of the complementarity problem says of the rows of contact i; z (inr i) is lambda *)
+Let rows_of z a i : comp E S z a -> let f := force E z in let bound := mu i * nor f i in let l := z (inr i) in
+  [/\ normal_conditions (nor f i) (nor a i), 0 <= l, total z i <= bound,
+      forall k, 0 <= l + (dx k * tx a i + dy k * ty a i)
+    & tx f i * tx a i + ty f i * ty a i = - (l * bound)].
 Proof.
-move=> [z0 w0] i; set f := force E z.
+move=> [z0 w0] /=; set f := force E z.
 have [fN fX fY] := force_rows z i; rewrite -/f in fN fX fY.
 have [n1 n2] := w0 (inl (inl i)); rewrite SN addr0 /= dotp_delta in n1 n2.
 have ae k : dotp (E (inl (inr (i, k)))) a = dx k * tx a i + dy k * ty a i.
   by rewrite /= dotpDl dotpC dotpZ dotpC dotp_delta dotpC dotpZ dotpC dotp_delta.
-have c1 k : 0 <= z (inr i) + (dx k * tx a i + dy k * ty a i).
-  by have [+ _] := w0 (inl (inr (i, k))); rewrite SB ae addrC.
 have c2 k : z (inl (inr (i, k))) * (dx k * tx a i + dy k * ty a i) = - (z (inl (inr (i, k))) * z (inr i)).
   have [_] := w0 (inl (inr (i, k))); rewrite SB ae mulrDr => /eqP.
   by rewrite addr_eq0 => /eqP.
 have [l1 l2] := w0 (inr i); rewrite SL /= dotpC dotp0 add0r in l1 l2.
-split; first by split; rewrite ?fN // /nor.
-split; first by rewrite fN fX fY (le_trans (len_comb _ disc)) // -subr_ge0.
-exists (z (inr i)) => //; split=> //.
+split=> //.
+- by split; rewrite ?fN // /nor.
+- by rewrite fN -subr_ge0.
+- by move=> k; have [+ _] := w0 (inl (inr (i, k))); rewrite SB ae addrC.
 rewrite fX fY fN !mulr_suml -big_split /=.
 rewrite (eq_bigr (fun k => - (z (inr i) * z (inl (inr (i, k)))))) => [|k _]; last first.
   by rewrite -!mulrA -mulrDr c2 mulrC.
 rewrite sumrN -mulr_sumr -/(total z i); congr (- _).
 by move/eqP: l2; rewrite mulrBr subr_eq0 => /eqP ->.
 Qed.
-
+Let polygonal_of z a : comp E S z a -> polygonal (force E z) a.
+Proof.
+move=> h i; have [nl l0 le ge power] := rows_of i h; have [_ fX fY] := force_rows z i; have [z0 _] := h.
+split=> //; split; first by rewrite fX fY (le_trans (len_comb _ disc)).
+by exists (z (inr i)).
+Qed.
 Let itself_of z a : comp E S z a -> polygonal_itself (force E z) a.
 Proof.
-move=> [z0 w0] i; set f := force E z.
-have [fN fX fY] := force_rows z i; rewrite -/f in fN fX fY.
-have [n1 n2] := w0 (inl (inl i)); rewrite SN addr0 /= dotp_delta in n1 n2.
-have ae k : dotp (E (inl (inr (i, k)))) a = dx k * tx a i + dy k * ty a i.
-  by rewrite /= dotpDl dotpC dotpZ dotpC dotp_delta dotpC dotpZ dotpC dotp_delta.
-have c1 k : 0 <= z (inr i) + (dx k * tx a i + dy k * ty a i).
-  by have [+ _] := w0 (inl (inr (i, k))); rewrite SB ae addrC.
-have c2 k : z (inl (inr (i, k))) * (dx k * tx a i + dy k * ty a i) = - (z (inl (inr (i, k))) * z (inr i)).
-  have [_] := w0 (inl (inr (i, k))); rewrite SB ae mulrDr => /eqP.
-  by rewrite addr_eq0 => /eqP.
-have [l1 l2] := w0 (inr i); rewrite SL /= dotpC dotp0 add0r in l1 l2.
-have power : tx f i * tx a i + ty f i * ty a i = - (z (inr i) * (mu i * nor f i)).
-  rewrite fX fY fN !mulr_suml -big_split /=.
-  rewrite (eq_bigr (fun k => - (z (inr i) * z (inl (inr (i, k)))))) => [|k _]; last first.
-    by rewrite -!mulrA -mulrDr c2 mulrC.
-  rewrite sumrN -mulr_sumr -/(total z i); congr (- _).
-  by move/eqP: l2; rewrite mulrBr subr_eq0 => /eqP ->.
-have bound : 0 <= mu i * nor f i by rewrite mulr_ge0 // fN.
-split; first by split; rewrite ?fN // /nor.
-split.
-- exists (fun k => z (inl (inr (i, k)))); split=> //.
-  by rewrite fN -subr_ge0.
-- move=> k; rewrite power -subr_ge0 opprK [z _ * _]mulrC -mulrDr mulr_ge0 // addrC; exact: c1.
+move=> h i; have [nl l0 le ge power] := rows_of i h; have [fN fX fY] := force_rows z i; have [z0 _] := h.
+have bound : 0 <= mu i * nor (force E z) i by rewrite mulr_ge0 // fN.
+split=> //; split.
+- by exists (fun k => z (inl (inr (i, k)))).
+- move=> k; rewrite power -subr_ge0 opprK [z _ * _]mulrC -mulrDr mulr_ge0 // addrC; exact: ge.
 by rewrite power oppr_le0 mulr_ge0.
 Qed.
 

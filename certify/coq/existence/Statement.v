@@ -1,10 +1,11 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* What a reader must trust of existence: the law of static friction in space, and the statements. (Law.v: the plane.)
-   It proves nothing; Theorems.v proves the statements, and Tests.v tests them.
+(* What a reader must trust of existence: the law of static friction in space, and the statements. (Law.v: (15), and
+   the plane.) It proves nothing; Theorems.v proves the statements, and Tests.v tests them.
 
    n contacts. fN i, fX i, fY i: normal force and the two components of the friction force at contact i;
-   aN i, aX i, aY i: normal acceleration and the two components of the tangential acceleration. The columns f = (fN, fX, fY)
-   and a = (aN, aX, aY) hold 3n numbers; a = A f + b. mu i: coefficient of friction at contact i.
+   aN i, aX i, aY i: normal acceleration and the two components of the tangential acceleration.
+   The columns f = (fN, fX, fY) and a = (aN, aX, aY) hold 3n numbers; a = A f + b. mu i: coefficient of friction at
+   contact i.
    R: the real numbers (`realType`: a complete ordered field; `rcfType`, for polygons: a real closed one). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import reals.
@@ -18,10 +19,8 @@ Variable R : rcfType.
 
 Definition length (x y : R) := Num.sqrt (x ^+ 2 + y ^+ 2).
 
-(* (15): contacts push and do not sink in; a contact that opens carries no force *)
-Definition normal_conditions (fN aN : R) := [/\ 0 <= fN, 0 <= aN & fN * aN = 0].
-
-(* Coulomb: friction is at most mu fN; where the contact begins to slide it is exactly mu fN, opposed to the acceleration *)
+(* Coulomb: friction is at most mu fN;
+   where the contact begins to slide it is exactly mu fN, opposed to the acceleration *)
 Definition coulomb_law (mu fN fX fY aX aY : R) :=
   length fX fY <= mu * fN /\
   ((aX = 0 /\ aY = 0) \/
@@ -40,8 +39,8 @@ Definition solution n (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) (mu :
                 coulomb_law (mu i) (fN i 0) (fX i 0) (fY i 0) (aX i 0) (aY i 0)
               & baraff_law (mu i) (fN i 0) (fX i 0) (fY i 0) (aX i 0) (aY i 0)].
 
-(* Friction in a polygon: P is the convex hull of 0 and of finitely many points (dx k, dy k), the same at every contact.
-   The force is in mu fN P, ... *)
+(* Friction in a polygon: P is the convex hull of 0 and of finitely many points (dx k, dy k), the same at every
+   contact. The force is in mu fN P, ... *)
 Definition in_polygon (K : finType) (dx dy : K -> R) (bound fX fY : R) := exists w : K -> R,
   [/\ forall k, 0 <= w k, \sum_k w k <= bound, fX = \sum_k w k * dx k & fY = \sum_k w k * dy k].
 (* ... and there no other force opposes the acceleration more. *)
@@ -68,14 +67,15 @@ Definition coulomb_has_a_solution := forall (R : realType) n (A : 'M[R]_(n + (n 
   exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY.
 
 (* The same under (H): b does no negative work on the forces of the friction cones that accelerate nothing. *)
-Definition coulomb_has_a_solution_under_H := forall (R : realType) n (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) mu,
+Definition coulomb_has_a_solution_under_H :=
+  forall (R : realType) n (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) mu,
   symmetric A -> semidefinite A -> (forall i, 0 <= mu i) ->
   (forall vN vX vY : 'cV[R]_n, (forall i, 0 <= vN i 0 /\ length (vX i 0) (vY i 0) <= mu i * vN i 0) ->
     let v := col_mx vN (col_mx vX vY) in A *m v = 0 -> 0 <= (v^T *m b) 0 0) ->
   exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY.
 
-(* Inertial bodies (W symmetric positive semidefinite), contact Jacobian J, loads F, and gaps >= 0 that are allowed to close:
-   every scene at rest, every step of a time-stepping scheme without penetration. *)
+(* Inertial bodies (W symmetric positive semidefinite), contact Jacobian J, loads F, and gaps >= 0 that are allowed to
+   close: every scene at rest, every step of a time-stepping scheme without penetration. *)
 Definition scenes_have_a_solution := forall (R : realType) n d
     (J : 'M[R]_(n + (n + n), d)) (W : 'M[R]_d) (F : 'cV[R]_d) (gap : 'cV[R]_n) mu,
   symmetric W -> semidefinite W -> (forall i, 0 <= gap i 0) -> (forall i, 0 <= mu i) ->
@@ -87,10 +87,13 @@ Definition coulomb_has_a_bounded_solution := forall (R : realType) n (A : 'M[R]_
   exists2 C, 0 <= C & forall b mu, (exists c, b = A *m c) -> (forall i, 0 <= mu i <= M i) ->
   exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY /\ \sum_i fN i 0 <= C * \sum_r `|b r 0|.
 
-(* A positive semidefinite, symmetric or not: it is enough that b does no negative work on the solutions of the law with b = 0. *)
-Definition coulomb_without_symmetry := forall (R : realType) n (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) mu,
+(* A positive semidefinite, symmetric or not: it is enough that b does no negative work on the solutions of the law
+   with b = 0. *)
+Definition coulomb_without_symmetry :=
+  forall (R : realType) n (A : 'M[R]_(n + (n + n))) (b : 'cV[R]_(n + (n + n))) mu,
   semidefinite A -> (forall i, 0 <= mu i) ->
-  (forall vN vX vY rN rX rY : 'cV[R]_n, solution A 0 mu vN vX vY rN rX rY -> 0 <= ((col_mx vN (col_mx vX vY))^T *m b) 0 0) ->
+  (forall vN vX vY rN rX rY : 'cV[R]_n, solution A 0 mu vN vX vY rN rX rY ->
+    0 <= ((col_mx vN (col_mx vX vY))^T *m b) 0 0) ->
   exists fN fX fY aN aX aY, solution A b mu fN fX fY aN aX aY.
 
 (* A positive definite, symmetric or not: any b. *)

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Tests of Law.v and Statement.v: without its hypothesis on b the statement is false; a solution is one, and what is none is
-   refused; the statement can be read over Coq's own real numbers. *)
+(* Tests of Law.v and Statement.v: without its hypothesis on b the statement is false; a solution is one, and what is
+   none is refused; the statement can be read over Coq's own real numbers. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import reals Rstruct.
 From mathcomp Require Import ring.
@@ -30,7 +30,8 @@ have /h /eqP : ~ (3%:R = 0 :> R /\ aY 0 0 = 0) by case=> /eqP; rewrite pnatr_eq0
 by rewrite eq_sym oner_eq0.
 Qed.
 Lemma opposed_friction_is_a_solution : solution 1%:M b (fun _ => 1)
-  (const_mx 1) (const_mx (- (3%:R / 5%:R))) (const_mx (- (4%:R / 5%:R))) 0 (const_mx (12%:R / 5%:R)) (const_mx (16%:R / 5%:R)).
+  (const_mx 1) (const_mx (- (3%:R / 5%:R))) (const_mx (- (4%:R / 5%:R)))
+  0 (const_mx (12%:R / 5%:R)) (const_mx (16%:R / 5%:R)).
 Proof.
 have l1 : length (- (3%:R / 5%:R)) (- (4%:R / 5%:R)) = 1 :> R.
   by rewrite /length (_ : _ + _ = 1 ^+ 2) ?sqrtr_sqr ?normr1 //; field.
@@ -55,7 +56,7 @@ Let half : R := 1 / 2%:R.
 Lemma sliding_obeys : law half 1 (- half) 0 half.
 Proof.
 have h0 : 0 < half by rewrite /half divr_gt0 ?ltr01 ?ltr0n.
-rewrite /law normrN (gtr0_norm h0) !mulr1 mulr0 subrr mulr0; split; split=> //; rewrite ?ler01 //.
+rewrite /law /normal_conditions normrN (gtr0_norm h0) !mulr1 mulr0 subrr mulr0; split; split=> //; rewrite ?ler01 //.
 by rewrite mulrN oppr_le0 mulr_ge0 // ltW.
 Qed.
 Lemma no_friction_does_not : ~ law half 1 0 0 1.

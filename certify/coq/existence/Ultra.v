@@ -1,8 +1,10 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that every bounded sequence of reals has a limit along a free ultrafilter on the natural numbers; so no subsequences. *)
+(* Proves that every bounded sequence of reals has a limit along a free ultrafilter on the natural numbers;
+   so no subsequences. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype sequences realfun.
-From Stiction.existence Require Import Polygon.
+From mathcomp Require Import mathcomp_extra boolp classical_sets functions reals signed topology normedtype
+  sequences realfun.
+From Stiction.existence Require Import Statement Polygon.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory Order.TTheory numFieldNormedType.Exports.
 Local Open Scope ring_scope.
@@ -35,7 +37,7 @@ move=> h; elim: (index_enum I) => [|i s IH].
 rewrite big_cons; apply: (@tends_eq (fun j => u i j + \sum_(i <- s) u i j)) => [j|]; first by rewrite big_cons.
 exact: tendsD.
 Qed.
-Lemma tends_len u v l m : tends u l -> tends v m -> tends (fun j => len (u j) (v j)) (len l m).
+Lemma tends_len u v l m : tends u l -> tends v m -> tends (fun j => length (u j) (v j)) (length l m).
 Proof.
 move=> h k; have s : tends (fun j => u j ^+ 2 + v j ^+ 2) (l ^+ 2 + m ^+ 2).
   by apply: tendsD; rewrite expr2; apply: (tendsM _ _).

@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Writes the Coq function as an OCaml program, with no realizer: numbers, lists and nat are those of Coq. Proves nothing. *)
+(* Writes the Coq function as an OCaml program, with no realizer: numbers, lists and nat are those of Coq.
+   Proves nothing. *)
 From Coq Require Import QArith List.
 From Stiction.loops Require Import Statement.
 From Coq Require Extraction.

@@ -18,16 +18,10 @@ Proof.
   { apply (eq_ind (firstn 768 all_policies ++ skipn 768 all_policies) (fun l => all_recur 14 eta l = true)).
     - apply all_recur_app; [exact (first_half eta) | exact (second_half eta)].
     - apply firstn_skipn. }
-  exact (recurs_never_ends _ _ _ (states_eqb_eq small eta) 14 (all_recur_one 14 eta all_policies R pol (all_policies_complete pol))).
+  exact (recurs_never_ends _ _ _ (states_eqb_eq small eta) 14
+           (all_recur_one 14 eta all_policies R pol (all_policies_complete pol))).
 Qed.
 
 (* For every c > K(1) = 3 + 2 sqrt(2) there are problems of condition number below c on which no policy ever ends. *)
 Theorem loops_near_K_under_every_policy : every_policy_loops_near_K.
-Proof.
-  intros c Hc H6. destruct (condition_numbers c Hc H6) as [e0 [E0 H]].
-  exists (if Qlt_le_dec e0 small then e0 else small). split; [destruct (Qlt_le_dec e0 small); [exact E0 | reflexivity]|].
-  intros eta [L U]. split; [apply member_well_formed|]. split; [apply matrix_symmetric|].
-  assert (eta < e0 /\ eta < small) as [U1 U2].
-  { destruct (Qlt_le_dec e0 small) as [G|G]; split; [exact U | eapply Qlt_trans; eassumption | eapply Qlt_le_trans; eassumption | exact U]. }
-  split; [apply H; split; assumption | intros pol _; apply every_policy_never_ends; split; assumption].
-Qed.
+Proof. apply near_K. intros pol eta _. apply every_policy_never_ends. Qed.

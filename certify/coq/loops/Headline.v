@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Written by make.py from corpus/certificates/counterexample.json. It proves that the published algorithm never ends on
-   the_problem under the policies listed, nor ever stands at a solution, though A is definite and there is one. *)
+(* Written by make.py from corpus/certificates/counterexample.json.
+   It proves that the published algorithm never ends on the_problem under the policies listed, nor ever
+   stands at a solution, though A is definite and there is one. *)
 From Coq Require Import QArith ZArith List Bool Arith.
 From Stiction.loops Require Import Statement Loop Laws.
 Import ListNotations.
@@ -124,14 +125,16 @@ Qed.
 Theorem counterexample :
   loops_under_every_policy 4 the_problem.
 Proof.
-  unfold loops_under_every_policy. split; [exact is_well_formed|]. split; [apply check_symmetric_sound; vm_compute; reflexivity|].
+  unfold loops_under_every_policy. split; [exact is_well_formed|].
+  split; [apply check_symmetric_sound; vm_compute; reflexivity|].
   split; [apply (check_definite_sound _ _ L D); vm_compute; reflexivity|].
   split; [exists forces; apply (obeys_iff_solution _ _ is_well_formed); vm_compute; reflexivity|].
   intro pol. intro k. destruct (never_ends pol k) as [x Hx]. exists x.
   split; [exact Hx | exact (never_at_a_solution pol k x Hx)].
 Qed.
 
-(* The starts and periods, and how many policies have them: the first state at the top of the main loop that recurs. *)
+(* The starts and periods, and how many policies have them:
+   the first state at the top of the main loop that recurs. *)
 Theorem starts_and_periods : forall pol s period, In (pol, (s, period)) (combine all_policies table) ->
   cycles the_problem pol s period.
 Proof. exact (table_cycles _ _ _ table_checked). Qed.

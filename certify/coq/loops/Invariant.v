@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that along every run over Q a = A f + b. So the state is the sets, the forces, and what the policy remembers. *)
+(* Proves that along every run over Q a = A f + b.
+   So the state is the sets, the forces, and what the policy remembers. *)
 From Coq Require Import QArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement Loop Laws.
 Import ListNotations.
@@ -22,8 +23,10 @@ Proof. unfold axpy. rewrite map_length, combine_length. reflexivity. Qed.
 Lemma dot_axpy t : forall (r x y : list Q), length x = length y ->
   (dot r (axpy t x y) : Q) == dot r x + t * dot r y.
 Proof.
-  assert (cons : forall (u v : Q) r x, (@dot rationals (u :: r) (v :: x) : Q) = Qred (Qred (u * v) + dot r x)) by reflexivity.
-  assert (acons : forall (u v : Q) x y, @axpy rationals t (u :: x) (v :: y) = Qred (u + Qred (t * v)) :: axpy t x y) by reflexivity.
+  assert (cons : forall (u v : Q) r x, (@dot rationals (u :: r) (v :: x) : Q) = Qred (Qred (u * v) + dot r x))
+    by reflexivity.
+  assert (acons : forall (u v : Q) x y, @axpy rationals t (u :: x) (v :: y) = Qred (u + Qred (t * v)) :: axpy t x y)
+    by reflexivity.
   induction r as [|u r IH]; intros [|v x] [|w y] L; try discriminate; try (unfold dot; simpl; ring).
   rewrite acons, !cons, !Qred_correct, IH by (simpl in L; lia). ring.
 Qed.
@@ -31,9 +34,11 @@ Qed.
 Lemma accelerations_axpy t (x y z : list Q) : length x = length y -> Forall2 Qeq z (accelerations p x) ->
   Forall2 Qeq (axpy t z (times p y)) (accelerations p (axpy t x y)).
 Proof.
-  intro L. unfold accelerations, times. revert z. generalize (b p) as c. induction (A p) as [|r M IH]; intros [|d c] z H;
+  intro L. unfold accelerations, times. revert z. generalize (b p) as c.
+  induction (A p) as [|r M IH]; intros [|d c] z H;
   cbn [map combine] in H |- *; inversion H as [|v w z' l' Hv Hz]; subst; try constructor.
-  - change (Qred (v + Qred (t * dot r y)) == Qred (@dot rationals r (axpy t x y) + d)). change (v == Qred (dot r x + d)) in Hv.
+  - change (Qred (v + Qred (t * dot r y)) == Qred (@dot rationals r (axpy t x y) + d)).
+    change (v == Qred (dot r x + d)) in Hv.
     rewrite !Qred_correct, dot_axpy by exact L. rewrite Qred_correct in Hv. rewrite Hv. ring.
   - apply IH. exact Hz.
 Qed.
@@ -55,7 +60,8 @@ Qed.
 
 Lemma unit_change_length s i : length (unit_change p s i) = length (b p).
 Proof. unfold unit_change, rows. now rewrite map_length, seq_length. Qed.
-Lemma combination_length n : forall (c : list rationals) (vs : list (list rationals)), (forall v, In v vs -> length v = n) ->
+Lemma combination_length n : forall (c : list rationals) (vs : list (list rationals)),
+  (forall v, In v vs -> length v = n) ->
   length (combination n c vs) = n.
 Proof.
   intros c vs. unfold combination.
@@ -96,7 +102,8 @@ Proof.
   intro H. unfold drive_from, drive. set (m := if is_normal d && _ then _ else _).
   assert (Hm : ok (here m)).
   { unfold m. destruct (is_normal d && _); [|exact H]. eapply ok_same; [apply enter_same | exact H]. }
-  pose proof (steps_ok d g most_steps m) as G. destruct (steps most_steps p pol d g m) as [pvs [s'|e]]; intro E; [|discriminate].
+  pose proof (steps_ok d g most_steps m) as G.
+  destruct (steps most_steps p pol d g m) as [pvs [s'|e]]; intro E; [|discriminate].
   injection E as <-. exact (G s' Hm eq_refl).
 Qed.
 
@@ -104,7 +111,8 @@ Lemma sweep_ok s : ok s -> ok (sweep p pol s).
 Proof.
   unfold sweep. generalize (rows p) as is. intro is. revert s. induction is as [|i is IH]; intros s H; [exact H|].
   simpl. apply IH. eapply ok_same; [|exact H]. unfold sweep_row, same_numbers.
-  repeat match goal with |- context [if ?c then _ else _] => destruct c | |- context [match ?c with _ => _ end] => destruct c end;
+  repeat match goal with |- context [if ?c then _ else _] => destruct c
+    | |- context [match ?c with _ => _ end] => destruct c end;
   split; reflexivity.
 Qed.
 
@@ -123,7 +131,8 @@ Proof.
     { induction r as [|u r IH]; intros [|n]; try reflexivity.
       change (Qred (Qred (u * 0) + @dot rationals r (repeat (0 : Q) n)) == 0). rewrite !Qred_correct, IH. ring. }
     assert (G : forall n (M : list (list rationals)) (c : list rationals), length M = length c ->
-              Forall2 Qeq c (map (fun rb : Q * Q => Qred (fst rb + snd rb)) (combine (map (fun r => dot r (repeat (0 : Q) n)) M) c))).
+              Forall2 Qeq c (map (fun rb : Q * Q => Qred (fst rb + snd rb))
+                                 (combine (map (fun r => dot r (repeat (0 : Q) n)) M) c))).
     { intros n. induction M as [|r M IH]; intros [|d c] L; try discriminate; cbn [map combine]; constructor.
       - cbn [fst snd]. rewrite Qred_correct, zero. symmetry. apply Qplus_0_l.
       - apply IH. now injection L. }

@@ -1,12 +1,12 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that checks by computation are right: symmetric, positive definite, well formed; and that the algorithm's own test of
-   the conditions is the law of Statement.v. *)
+(* Proves that checks by computation are right: symmetric, positive definite, well formed; and that the algorithm's
+   own test of the conditions is the law of Statement.v. *)
 From Coq Require Import QArith Qabs ZArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement Loop.
 Import ListNotations.
 Local Open Scope Q_scope.
 
-(* ---- Sums --------------------------------------------------------------------------------------------------------- *)
+(* ---- Sums ------------------------------------------------------------------------------------------------------ *)
 
 Lemma sum_ext n g h : (forall i, (i < n)%nat -> g i == h i) -> sum n g == sum n h.
 Proof. induction n; intro H; simpl; [reflexivity|]. rewrite IHn, (H n) by auto. reflexivity. Qed.
@@ -20,13 +20,16 @@ Lemma sum_swap n m (g : nat -> nat -> Q) :
   sum n (fun i => sum m (fun j => g i j)) == sum m (fun j => sum n (fun i => g i j)).
 Proof. induction n; simpl; [symmetry; apply sum_zero|]. rewrite IHn. symmetry. apply sum_plus. Qed.
 Lemma sum_first n g : sum (S n) g == g O + sum n (fun i => g (S i)).
-Proof. induction n; [simpl; ring|]. change (sum (S (S n)) g) with (sum (S n) g + g (S n)). rewrite IHn. simpl. ring. Qed.
+Proof.
+  induction n; [simpl; ring|]. change (sum (S (S n)) g) with (sum (S n) g + g (S n)). rewrite IHn. simpl. ring.
+Qed.
 Lemma sum_nonnegative n g : (forall i, (i < n)%nat -> 0 <= g i) -> 0 <= sum n g.
 Proof. induction n; intro H; simpl; [lra|]. assert (0 <= sum n g) by auto. assert (0 <= g n) by auto. lra. Qed.
 Lemma sum_positive n g k : (k < n)%nat -> (forall i, (i < n)%nat -> 0 <= g i) -> 0 < g k -> 0 < sum n g.
 Proof.
   induction n; intros L H P; [lia|]. simpl. assert (0 <= sum n g) by (apply sum_nonnegative; auto).
-  assert (0 <= g n) by auto. destruct (Nat.eq_dec k n) as [->|N]; [lra|]. assert (0 < sum n g) by (apply IHn; auto; lia). lra.
+  assert (0 <= g n) by auto. destruct (Nat.eq_dec k n) as [->|N]; [lra|].
+  assert (0 < sum n g) by (apply IHn; auto; lia). lra.
 Qed.
 Lemma sum_single n g k : (k < n)%nat -> (forall i, (i < n)%nat -> i <> k -> g i == 0) -> sum n g == g k.
 Proof.
@@ -35,7 +38,7 @@ Proof.
   - rewrite IHn, (H n) by (auto; lia). ring.
 Qed.
 
-(* ---- The check of A = L D L' -------------------------------------------------------------------------------------- *)
+(* ---- The check of A = L D L' ----------------------------------------------------------------------------------- *)
 
 Definition all_below n (t : nat -> bool) := forallb t (seq 0 n).
 Lemma all_below_holds n t : all_below n t = true -> forall i, (i < n)%nat -> t i = true.
@@ -61,7 +64,8 @@ Proof.
   induction n; intros [i [L H]]; [lia|]. destruct (Qeq_dec (x n) 0) as [E|N].
   - destruct IHn as [m [Lm [Nm Z]]].
     { exists i. split; [|exact H]. destruct (Nat.eq_dec i n) as [->|]; [contradiction | lia]. }
-    exists m. repeat split; [lia | exact Nm|]. intros k Hk. destruct (Nat.eq_dec k n) as [->|]; [exact E | apply Z; lia].
+    exists m. repeat split; [lia | exact Nm|]. intros k Hk.
+    destruct (Nat.eq_dec k n) as [->|]; [exact E | apply Z; lia].
   - exists n. repeat split; [lia | exact N | lia].
 Qed.
 
@@ -117,12 +121,18 @@ Proof.
   - intros m Hm. apply Qle_bool_iff, H4, Hm.
 Qed.
 
-(* ---- The algorithm's own test is the law -------------------------------------------------------------------------- *)
+(* ---- The algorithm's own test is the law ----------------------------------------------------------------------- *)
 
 Lemma negative_spec (x : rationals) : negative x = true <-> (x : Q) < 0.
-Proof. unfold negative, Qlt. destruct x as [n d]. simpl. destruct (Z.compare_spec n 0); split; intros; try discriminate; auto; lia. Qed.
+Proof.
+  unfold negative, Qlt. destruct x as [n d]. simpl.
+  destruct (Z.compare_spec n 0); split; intros; try discriminate; auto; lia.
+Qed.
 Lemma is0_spec (x : rationals) : is0 x = true <-> (x : Q) == 0.
-Proof. unfold is0, Qeq. destruct x as [n d]. simpl. destruct (Z.compare_spec n 0); split; intros; try discriminate; auto; lia. Qed.
+Proof.
+  unfold is0, Qeq. destruct x as [n d]. simpl.
+  destruct (Z.compare_spec n 0); split; intros; try discriminate; auto; lia.
+Qed.
 Lemma abs_spec (x : rationals) : (abs x : Q) == Qabs x.
 Proof.
   unfold abs. destruct (negative x) eqn:E.
@@ -140,12 +150,14 @@ Qed.
 
 Lemma tests_spec (m fN fF aN aF xN xF slack : Q) : xN == aN -> xF == aF -> slack == m * fN - Qabs fF ->
   (negb (negative fN) && negb (negative xN) && (is0 fN || is0 xN) = true /\
-   negb (negative slack) && (is0 xF || is0 fF || negb (eqb (negative xF) (negative fF))) && (is0 xF || is0 slack) = true) <->
+   negb (negative slack) && (is0 xF || is0 fF || negb (eqb (negative xF) (negative fF))) &&
+   (is0 xF || is0 slack) = true) <->
   law m fN fF aN aF.
 Proof.
   intros EN EF ES. unfold law.
   assert (neg : forall x : Q, negative x = false <-> 0 <= x).
-  { intro x. rewrite <- not_true_iff_false, negative_spec. split; intro; [now apply Qnot_lt_le | now apply Qle_not_lt]. }
+  { intro x. rewrite <- not_true_iff_false, negative_spec.
+    split; intro; [now apply Qnot_lt_le | now apply Qle_not_lt]. }
   rewrite !andb_true_iff, !orb_true_iff, !negb_true_iff, !is0_spec, eqb_false_iff, !neg, EN, ES.
   assert (zero_product : forall x y : Q, (x == 0 \/ y == 0) <-> x * y == 0).
   { intros x y. split; [intros [-> | ->]; ring | apply Qmult_integral]. }
@@ -155,12 +167,14 @@ Proof.
       destruct (negative xF) eqn:E1, (negative fF) eqn:E2; try congruence.
       + apply negative_spec in E1. apply neg in E2. nra.
       + apply neg in E1. apply negative_spec in E2. nra.
-    - intro H. destruct (Qeq_dec xF 0) as [?|N1]; [tauto|]. destruct (Qeq_dec fF 0) as [?|N2]; [tauto|]. right. intro E.
+    - intro H. destruct (Qeq_dec xF 0) as [?|N1]; [tauto|]. destruct (Qeq_dec fF 0) as [?|N2]; [tauto|]. right.
+      intro E.
       destruct (negative xF) eqn:E1; symmetry in E.
       + apply negative_spec in E1, E. nra.
       + apply neg in E1, E. assert (0 < xF) by (apply Qnot_le_lt; intro; apply N1, Qle_antisym; assumption).
         assert (0 < fF) by (apply Qnot_le_lt; intro; apply N2, Qle_antisym; assumption). nra. }
-  rewrite opposed, EF, !zero_product. assert (Hs : 0 <= m * fN - Qabs fF <-> Qabs fF <= m * fN) by (split; intro; lra).
+  rewrite opposed, EF, !zero_product.
+  assert (Hs : 0 <= m * fN - Qabs fF <-> Qabs fF <= m * fN) by (split; intro; lra).
   rewrite Hs. tauto.
 Qed.
 
@@ -211,7 +225,8 @@ Proof.
   unfold obeys, solution. rewrite forallb_forall. destruct W as [Wb _]. fold s. split.
   - intros H c Hc. apply (tests_are_law c Hc). rewrite andb_true_iff. split; apply H, in_seq; simpl in *; lia.
   - intros H i Hi. apply in_seq in Hi.
-    assert (Hc : (Nat.div2 i < length (mu p))%nat) by (rewrite Nat.div2_div; apply Nat.div_lt_upper_bound; simpl in *; lia).
+    assert (Hc : (Nat.div2 i < length (mu p))%nat)
+      by (rewrite Nat.div2_div; apply Nat.div_lt_upper_bound; simpl in *; lia).
     pose proof (proj2 (tests_are_law _ Hc) (H _ Hc)) as T. apply andb_true_iff in T. destruct T as [HN HF].
     destruct (Nat.Even_or_Odd i) as [[c ->] | [c ->]].
     + rewrite Nat.div2_double in HN. exact HN.

@@ -1,12 +1,12 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Proves that a state that stands again makes a run endless, that a check of a start and a period by computation is right, and
-   that the list of policies has all of them, none twice. *)
+(* Proves that a state that stands again makes a run endless, that a check of a start and a period by computation is
+   right, and that the list of policies has all of them, none twice. *)
 From Coq Require Import QArith List Bool Arith Lia NArith.
 From Stiction.loops Require Import Statement.
 Import ListNotations.
 Local Open Scope nat_scope.
 
-(* ---- The run never ends, if a state recurs ------------------------------------------------------------------------ *)
+(* ---- The run never ends, if a state recurs --------------------------------------------------------------------- *)
 
 Section Periodic.
 
@@ -43,7 +43,7 @@ Qed.
 
 End Periodic.
 
-(* ---- Never ends, and never stands at a solution: a check by computation, over Q ----------------------------------- *)
+(* ---- Never ends, and never stands at a solution: a check by computation, over Q -------------------------------- *)
 
 Definition Q_eqb (x y : Q) := Z.eqb (Qnum x) (Qnum y) && Pos.eqb (Qden x) (Qden y).
 Fixpoint list_eqb {T} (eqb : T -> T -> bool) (x y : list T) :=
@@ -80,7 +80,8 @@ Proof. intro H. induction x as [|u x IH]; simpl; [reflexivity | now rewrite H, I
 Lemma state_eqb_refl x : state_eqb x x = true.
 Proof.
   assert (o : forall x, option_eqb x x = true) by (intros [n|]; simpl; [apply Nat.eqb_refl | reflexivity]).
-  assert (q : forall x, Q_eqb x x = true) by (intros [n d]; unfold Q_eqb; simpl; now rewrite Z.eqb_refl, Pos.eqb_refl).
+  assert (q : forall x, Q_eqb x x = true)
+    by (intros [n d]; unfold Q_eqb; simpl; now rewrite Z.eqb_refl, Pos.eqb_refl).
   unfold state_eqb. rewrite !o, !(list_eqb_refl _ q). simpl. rewrite !andb_true_r.
   apply list_eqb_refl. intros []; reflexivity.
 Qed.
@@ -114,7 +115,8 @@ Fixpoint distinct (l : list (state rationals)) :=
   match l with [] => true | x :: t => forallb (fun y => negb (state_eqb x y)) t && distinct t end.
 
 (* The laws (15), (16) at every contact, for the forces alone (5.1): the algorithm's own test, with a = A f + b. *)
-Definition accelerations (g : list rationals) : list rationals := map (fun rb => Qred (fst rb + snd rb)) (combine (times p g) (b p)).
+Definition accelerations (g : list rationals) : list rationals :=
+  map (fun rb => Qred (fst rb + snd rb)) (combine (times p g) (b p)).
 Definition obeys (g : list rationals) :=
   forallb (fun i => negb (violated p (@Point rationals g (accelerations g) []) i)) (rows p).
 
@@ -143,7 +145,8 @@ Proof.
   destruct (nth_error _ s) as [x|] eqn:Hx; [|discriminate].
   destruct (nth_error _ (s + period)) as [y|] eqn:Hy; [|discriminate].
   apply andb_true_iff in H2 as [_ H2]. apply state_eqb_eq in H2. subst y. exists x.
-  split; [now apply (orbit_drives pol (s + period) 0 (start p)) | now apply (orbit_drives pol (s + period) 0 (start p))].
+  split; [now apply (orbit_drives pol (s + period) 0 (start p))
+        | now apply (orbit_drives pol (s + period) 0 (start p))].
 Qed.
 
 Lemma distinct_holds l : distinct l = true -> forall i j x y, i < j ->
@@ -216,7 +219,7 @@ Qed.
 
 End Check.
 
-(* ---- All policies ------------------------------------------------------------------------------------------------- *)
+(* ---- All policies ---------------------------------------------------------------------------------------------- *)
 
 Theorem all_policies_complete : policies_complete.
 Proof.
@@ -250,7 +253,7 @@ Qed.
 Theorem all_policies_counted : policies_counted.
 Proof. split; [exact all_policies_length | exact all_policies_distinct]. Qed.
 
-(* ---- A table: a start and a period for each of a list of policies ------------------------------------------------- *)
+(* ---- A table: a start and a period for each of a list of policies ---------------------------------------------- *)
 
 Definition expand (t : list (nat * (nat * nat))) := flat_map (fun nx => repeat (snd nx) (fst nx)) t.
 Definition table_holds p (policies : list policy) (t : list (nat * nat)) :=
@@ -273,13 +276,15 @@ Qed.
 Theorem table_never_ends p policies t : table_holds p policies t = true ->
   forall pol, In pol policies -> never_ends p pol.
 Proof.
-  intros H pol Hpol. destruct (table_holds_loops p policies t H pol Hpol) as [sp [_ Hsp]]. exact (loops_never_ends p pol sp Hsp).
+  intros H pol Hpol. destruct (table_holds_loops p policies t H pol Hpol) as [sp [_ Hsp]].
+  exact (loops_never_ends p pol sp Hsp).
 Qed.
 
 Theorem table_never_obeys p policies t : table_holds p policies t = true -> forall pol, In pol policies ->
   forall k x, drives p pol k = Going x -> obeys p (f (point_of x)) = false.
 Proof.
-  intros H pol Hpol. destruct (table_holds_loops p policies t H pol Hpol) as [sp [_ Hsp]]. exact (loops_never_obeys p pol sp Hsp).
+  intros H pol Hpol. destruct (table_holds_loops p policies t H pol Hpol) as [sp [_ Hsp]].
+  exact (loops_never_obeys p pol sp Hsp).
 Qed.
 
 Theorem table_cycles p policies t : table_holds p policies t = true ->

@@ -2,16 +2,17 @@
 (* What a reader must trust of the loops: the published algorithm as a function, the law, and the statements.
 
    First the algorithm of D. Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies, SIGGRAPH 1994,
-   sections 4.3 and 5.2-5.5, for static contacts of the plane, in exact arithmetic, under every reading of its text that
-   solver/published/readings.md distinguishes (a `policy`). Section numbers are the paper's. `drives p pol k` is the state
-   after k drives, or how the run ended before. compare.py holds it against certify/check_runs.py, step by step.
+   sections 4.3 and 5.2-5.5, for static contacts of the plane, in exact arithmetic, under every reading of its text
+   that solver/published/readings.md distinguishes (a `policy`). Section numbers are the paper's. `drives p pol k` is
+   the state after k drives, or how the run ended before. compare.py holds it against certify/check_runs.py,
+   step by step.
 
    Then the law in plain mathematics over Q, the problems, and what is stated of them. Tests.v tests both. *)
 From Coq Require Import QArith Qabs ZArith List Bool Arith.
 Import ListNotations.
 Local Open Scope nat_scope.
 
-(* ---- Policies: the nine switches; the first value of each is the reading `paper` ---------------------------------- *)
+(* ---- Policies: the nine switches; the first value of each is the reading `paper` ------------------------------- *)
 
 Inductive scan_order := lowest | normals_first | most_violated | highest.   (* 5.5: "continually scans for" *)
 Inductive scan_begin := restart | round.
@@ -28,7 +29,7 @@ Record policy := Policy { scan : scan_order; resume : scan_begin; admit : admiss
 
 Definition paper := Policy lowest restart lazy unfiled first drop_contact rescan by_sets kept.
 
-(* ---- Numbers: any field with a sign. The theorems are about `rationals` (Q in lowest terms) ----------------------- *)
+(* ---- Numbers: any field with a sign. The theorems are about `rationals` (Q in lowest terms) -------------------- *)
 
 Record field := Field { num :> Type; zero : num; one : num; add : num -> num -> num; mul : num -> num -> num;
   opp : num -> num; inv : num -> num; sign : num -> comparison }.            (* sign: Lt, Eq, Gt for < 0, = 0, > 0 *)
@@ -36,7 +37,7 @@ Record field := Field { num :> Type; zero : num; one : num; add : num -> num -> 
 Canonical Structure rationals : field := Field Q 0%Q 1%Q (fun x y => Qred (x + y)) (fun x y => Qred (x * y))
   (fun x => Qred (- x)) (fun x => Qred (/ x)) (fun x => (Qnum x ?= 0)%Z).
 
-(* ---- Index sets (4.1, 5.3) ---------------------------------------------------------------------------------------- *)
+(* ---- Index sets (4.1, 5.3) ------------------------------------------------------------------------------------- *)
 
 Inductive set := none | C | NC | CF | NCm | NCp | suspended.   (* none: in no set; NCm, NCp: NC-, NC+ *)
 Scheme Equality for set.
@@ -90,7 +91,7 @@ Definition mu_of p row := at_ (mu p) (contact_of row).
 Record point := Point { f : vec; a : vec; sets : list set }.
 Definition set_of (s : point) row := nth row (sets s) none.
 
-(* ---- The conditions (15), (16) ------------------------------------------------------------------------------------ *)
+(* ---- The conditions (15), (16) --------------------------------------------------------------------------------- *)
 
 (* fN >= 0, aN >= 0, fN aN = 0 (15) *)
 Definition normal_holds (s : point) i :=
@@ -106,7 +107,7 @@ Definition friction_holds p (s : point) i :=
 Definition violated p s i :=
   if is_normal i then negb (normal_holds s i) else normal_holds s (normal_of i) && negb (friction_holds p s i).
 
-(* ---- Direction: fdirection (4.3, 5.5) ----------------------------------------------------------------------------- *)
+(* ---- Direction: fdirection (4.3, 5.5) -------------------------------------------------------------------------- *)
 
 (* Gauss-Jordan on rows [M | r], column by column. Returns the pivot rows, each with its column, and the others.
    A column that depends on those before it finds no pivot. *)
@@ -135,7 +136,8 @@ Definition solve n (M : list vec) : option vec :=
                         | Some jx => at_ (snd jx) n | None => 0 end) (seq 0 n))
   else None.
 
-(* Forces, if the force of this row changes by 1: a normal takes its friction along in NC- and NC+ (dfF = -+mu dfN). *)
+(* Forces, if the force of this row changes by 1:
+   a normal takes its friction along in NC- and NC+ (dfF = -+mu dfN). *)
 Definition unit_change p (s : list set) i : vec :=
   map (fun j => if Nat.eqb j i then 1 else
                 if is_normal i && Nat.eqb j (S i) then
@@ -158,7 +160,7 @@ Definition direction p (s : list set) d (rate : F) : option vec :=
   | Some x => Some (axpy 1 driven (combination (length (b p)) x changes))
   end.
 
-(* ---- Largest step: maxstep (4.3, 5.5) ----------------------------------------------------------------------------- *)
+(* ---- Largest step: maxstep (4.3, 5.5) -------------------------------------------------------------------------- *)
 
 (* (s, j, Y): after the step s, j wants into Y. A limit is offered where `gap` >= 0 closes at a positive rate. *)
 Record limit := Limit { step : F; who : nat; into : set }.
@@ -166,7 +168,8 @@ Definition closing (gap rate : F) j Y : list limit := if positive rate then [Lim
 
 Definition at_bound p (s : point) (df : vec) i : list limit :=        (* fF = mu fN, fF = -mu fN *)
   let bound := mu_of p i * at_ (f s) (normal_of i) in let growth := mu_of p i * at_ df (normal_of i) in
-  closing (bound - at_ (f s) i) (at_ df i - growth) i NCp ++ closing (bound + at_ (f s) i) (- at_ df i - growth) i NCm.
+  closing (bound - at_ (f s) i) (at_ df i - growth) i NCp ++
+  closing (bound + at_ (f s) i) (- at_ df i - growth) i NCm.
 
 Definition driven_limits p (s : point) d g (df da : vec) : list limit :=
   let fd := at_ (f s) d in let ad := at_ (a s) d in
@@ -197,7 +200,7 @@ Definition maxstep p pol s d g df da : option limit :=
   best (fun l k => less (step l) (step k))
        (driven_limits p s d g df da ++ flat_map (limits_of p s df da) (others p pol s d)).
 
-(* ---- Moving between sets, and giving up (5.3-5.5) ----------------------------------------------------------------- *)
+(* ---- Moving between sets, and giving up (5.3-5.5) -------------------------------------------------------------- *)
 
 (* A drive remembers the set that each variable last left, and whether its last step had length zero. *)
 Record inner := Inner { here : point; left : list (option set); zero_step : bool }.
@@ -229,7 +232,7 @@ Definition move (pol : policy) d j Y (zero_now : bool) (m : inner) : inner :=
       end
     else m.
 
-(* ---- One drive: drive-to-zero (4.3, 5.5) -------------------------------------------------------------------------- *)
+(* ---- One drive: drive-to-zero (4.3, 5.5) ----------------------------------------------------------------------- *)
 
 Record pivot := Pivot { driven : nat; driven_to : goal; length_ : F; limiting : nat; from : set; to : set }.
 
@@ -240,7 +243,8 @@ Arguments Going {T} x.  Arguments End {T} e.
 (* A step: the limit that is reached, what is then, and the pivot for the record. *)
 Definition take_step p pol d g (m : inner) : result (inner * pivot) :=
   let s := here m in
-  let rate := if is_normal d then 1 else match g with establish => - sgn (at_ (a s) d) | to_zero => - sgn (at_ (f s) d) end in
+  let rate := if is_normal d then 1 else
+              match g with establish => - sgn (at_ (a s) d) | to_zero => - sgn (at_ (f s) d) end in
   match direction p (sets s) d rate with
   | None => End Singular
   | Some df =>
@@ -276,7 +280,7 @@ Definition drive p pol d g (s : point) : list pivot * result point :=
   let m := if is_normal d && set_beq (set_of s fr) suspended then enter fr (filed_set s fr) m else m in
   steps most_steps p pol d g m.
 
-(* ---- Main loop: compute-forces (4.3, 5.5) ------------------------------------------------------------------------- *)
+(* ---- Main loop: compute-forces (4.3, 5.5) ---------------------------------------------------------------------- *)
 
 (* Between drives: the point, what is remembered under resume=round (the contact driven last), and under
    rezero=continue the friction that was just driven to zero and is violated there: it is driven next. *)
@@ -371,7 +375,7 @@ Arguments Problem {F}.
 Arguments Going {T} x.
 Arguments End {T} e.
 
-(* ---- Runs -------------------------------------------------------------------------------------------------------- *)
+(* ---- Runs ------------------------------------------------------------------------------------------------------ *)
 
 Definition never_ends {F : field} (p : problem F) pol := forall k, exists x, drives p pol k = Going x.
 
@@ -388,7 +392,7 @@ Definition all_policies : list policy :=
   [first; previous; second]) [unfiled; filed_at_scan]) [lazy; eager]) [restart; round])
   [lowest; normals_first; most_violated; highest].
 
-(* ---- The law ------------------------------------------------------------------------------------------------------ *)
+(* ---- The law --------------------------------------------------------------------------------------------------- *)
 
 Local Open Scope Q_scope.
 
@@ -404,7 +408,8 @@ Definition well_formed (p : problem rationals) :=
   length (b p) = (2 * length (mu p))%nat /\ length (A p) = length (b p) /\
   (forall r, In r (A p) -> length r = length (b p)) /\ (forall m, In m (mu p) -> 0 <= m).
 
-(* Forces f that meet (15) and (16) at every contact c, with a = A f + b; rows N1 F1 N2 F2 ... *)
+(* Forces f that meet (15) and (16) at every contact c, with a = A f + b; rows N1 F1 N2 F2 ...
+   SameLaw.v: this law is that of existence/Law.v, over Q. *)
 Definition law (m fN fF aN aF : Q) :=
   (0 <= fN /\ 0 <= aN /\ fN * aN == 0) /\                                                          (* (15) *)
   (Qabs fF <= m * fN /\ aF * fF <= 0 /\ aF * (m * fN - Qabs fF) == 0).                             (* (16) *)
@@ -420,7 +425,7 @@ Definition shifted n (c d : Q) (M : list (list Q)) : list (list Q) :=           
 Definition condition_below n M c := exists l u, 0 < l /\ u == c * l /\
   positive_definite n (shifted n 1 (- l) M) /\ positive_definite n (shifted n (-(1)) u M).
 
-(* ---- The problems ------------------------------------------------------------------------------------------------- *)
+(* ---- The problems ---------------------------------------------------------------------------------------------- *)
 
 (* corpus/cycle-every-policy-mu-1.json *)
 Definition headline : problem rationals := Problem
@@ -442,8 +447,8 @@ Definition endless_problem : problem rationals := Problem
     [0; 0; -(1); 4; -(1); 0] [1; 1; 1].
 Definition endless_policy := Policy lowest round lazy unfiled first drop_contact rescan by_sets kept.
 
-(* search/adversary/frontiers.md, 4, at mu = 1: two contacts. The condition number of the matrix tends to K(1) = 3 + 2 sqrt(2)
-   as eta tends to 0; below K(1) there are no folds. *)
+(* search/adversary/frontiers.md, 4, at mu = 1: two contacts. The condition number of the matrix tends to
+   K(1) = 3 + 2 sqrt(2) as eta tends to 0; below K(1) there are no folds. *)
 Definition matrix (eta : Q) : list (list Q) :=
   [[1; 1 + eta; 0; 4 * eta];
    [1 + eta; 3; - (4 * eta); 0];
@@ -451,10 +456,10 @@ Definition matrix (eta : Q) : list (list Q) :=
    [4 * eta; 0; 1 + eta; 3]].
 Definition member (eta : Q) : problem rationals := Problem (matrix eta) [eta; 1; - eta; 1] [1; 1].
 
-(* ---- The statements ----------------------------------------------------------------------------------------------- *)
+(* ---- The statements -------------------------------------------------------------------------------------------- *)
 
-(* n rows. A is symmetric positive definite; a solution exists; under every policy the run never ends (the state after k
-   drives is there for every k), and no state between two drives is a solution. *)
+(* n rows. A is symmetric positive definite; a solution exists; under every policy the run never ends
+   (the state after k drives is there for every k), and no state between two drives is a solution. *)
 Definition loops_under_every_policy n (p : problem rationals) :=
   well_formed p /\ symmetric n (A p) /\ positive_definite n (A p) /\ (exists g, solution p g) /\
   (forall pol, forall k, exists x, drives p pol k = Going x /\ ~ solution p (f (point_of x))).
@@ -470,7 +475,8 @@ Definition endless_run_without_repetition :=
   (forall i j x y, (i < j)%nat -> drives endless_problem endless_policy i = Going x ->
     drives endless_problem endless_policy j = Going y -> ~ same_state x y).
 
-(* For every c > K(1) (that is, c > 1 and c + 1/c > 6) all members with a small eta have a condition number below c, and loop. *)
+(* For every c > K(1) (that is, c > 1 and c + 1/c > 6) all members with a small eta have a condition number below c,
+   and loop. *)
 Definition loops_near_K (policies : policy -> Prop) := forall c, 1 < c -> 6 < c + / c -> exists eta0, 0 < eta0 /\
   forall eta, 0 < eta < eta0 -> well_formed (member eta) /\ symmetric 4 (A (member eta)) /\
     condition_below 4 (A (member eta)) c /\ forall pol, policies pol -> never_ends (member eta) pol.

@@ -1,16 +1,16 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (* Proves that runs on numbers that depend on a parameter t can be made for all t of an interval at once.
 
-   Statement.v has the algorithm over any `field`; so the plugin paramcoq derives (`next_R`, a lemma that Coq checks) that
-   runs over two fields that are related step by step are related. One field is Q, the other (`functions hi t`) is that of
-   rational functions of t, whose signs are decided for all t in (0, hi). *)
+   Statement.v has the algorithm over any `field`; so the plugin paramcoq derives (`next_R`, a lemma that Coq checks)
+   that runs over two fields that are related step by step are related. One field is Q, the other (`functions hi t`)
+   is that of rational functions of t, whose signs are decided for all t in (0, hi). *)
 From Coq Require Import QArith ZArith List Bool Arith Lia Lqa.
 From Stiction.loops Require Import Statement.
 From Param Require Import Param.
 Import ListNotations.
 Local Open Scope Q_scope.
 
-(* ---- The relation lemma ------------------------------------------------------------------------------------------- *)
+(* ---- The relation lemma ---------------------------------------------------------------------------------------- *)
 
 (* n drives from x on *)
 Fixpoint further {F : field} (p : problem F) pol n (x : state F) : result (state F) :=
@@ -32,7 +32,7 @@ Proof. destruct pol as [[] [] [] [] [] [] [] [] []]; repeat constructor. Qed.
 Lemma comparison_R_eq c d : c = d -> comparison_R c d.
 Proof. intros <-. destruct c; constructor. Qed.
 
-(* ---- Polynomials in t: coefficients of 1, t, t^2, ... ------------------------------------------------------------- *)
+(* ---- Polynomials in t: coefficients of 1, t, t^2, ... ---------------------------------------------------------- *)
 
 Definition poly := list Q.
 Fixpoint at_t (p : poly) (t : Q) : Q := match p with [] => 0 | c :: p => c + t * at_t p t end.
@@ -49,7 +49,9 @@ Proof. induction p as [|c p IH]; destruct q as [|d q]; cbn [at_t padd]; try ring
 Lemma at_pscale t c p : at_t (pscale c p) t == c * at_t p t.
 Proof. unfold pscale. induction p as [|d p IH]; cbn [at_t map]; [ring|]. rewrite IH, Qred_correct. ring. Qed.
 Lemma at_pmul t q : forall p, at_t (pmul p q) t == at_t p t * at_t q t.
-Proof. induction p as [|c p IH]; cbn [at_t pmul]; [ring|]. rewrite at_padd, at_pscale. cbn [at_t]. rewrite IH. ring. Qed.
+Proof.
+  induction p as [|c p IH]; cbn [at_t pmul]; [ring|]. rewrite at_padd, at_pscale. cbn [at_t]. rewrite IH. ring.
+Qed.
 Lemma at_trim t : forall p, at_t (trim p) t == at_t p t.
 Proof.
   induction p as [|c p IH]; simpl; [reflexivity|]. destruct (trim p) as [|d q]; simpl in *.
@@ -94,7 +96,8 @@ Proof.
   set (s := t * at_t p t) in *. set (g := against hi p) in *.
   assert (0 <= m + g) by lra. assert (- (m + g) <= c + s) by lra.
   assert (P : 0 <= hi * (m + g)) by nra.
-  repeat split; [exact P | nra|]. intro Q. assert (0 < m + g) by (destruct (Qlt_le_dec 0 (m + g)); [assumption | nra]). nra.
+  repeat split; [exact P | nra|]. intro Q.
+  assert (0 < m + g) by (destruct (Qlt_le_dec 0 (m + g)); [assumption | nra]). nra.
 Qed.
 
 Lemma sign_on_sound : forall p c, sign_on hi p = Some c -> sign_of (at_t p t) = c.
@@ -115,7 +118,7 @@ Qed.
 
 End Interval.
 
-(* ---- Rational functions of t -------------------------------------------------------------------------------------- *)
+(* ---- Rational functions of t ----------------------------------------------------------------------------------- *)
 
 Record function := Function { upper : poly; lower : poly }.
 Definition value (x : function) t := at_t (upper x) t / at_t (lower x) t.
@@ -155,7 +158,8 @@ Definition reduced (x : function) : function :=
 Lemma same_sound p q t : same p q = true -> at_t p t == at_t q t.
 Proof.
   unfold same. intro H. assert (Z : at_t (padd p (pscale (- (1)) q)) t == 0).
-  { induction (padd p (pscale (- (1)) q)) as [|c r IH]; [reflexivity|]. simpl in *. apply andb_true_iff in H as [H1 H2].
+  { induction (padd p (pscale (- (1)) q)) as [|c r IH]; [reflexivity|]. simpl in *.
+    apply andb_true_iff in H as [H1 H2].
     apply Qeq_bool_eq in H1. rewrite H1, IH by exact H2. ring. }
   rewrite at_padd, at_pscale in Z. lra.
 Qed.
@@ -175,7 +179,8 @@ Proof.
     assert (~ at_t l' t == 0) by (intro Z; apply N; rewrite Z; ring).
     assert (~ at_t g t == 0) by (intro Z; apply N; rewrite Z; ring).
     split; [assumption|]. rewrite E. field. auto. }
-  assert (K : ~ at_t (lower (Function u l)) t == 0 /\ y == at_t (upper (Function u l)) t / at_t (lower (Function u l)) t)
+  assert (K : ~ at_t (lower (Function u l)) t == 0 /\
+              y == at_t (upper (Function u l)) t / at_t (lower (Function u l)) t)
     by (split; assumption).
   assert (H0 : forall g, let u' := fst (divide u g) in let l' := fst (divide l g) in
     let r := match rev l' with
@@ -186,14 +191,17 @@ Proof.
   { intro g. simpl. destruct (rev (fst (divide l g))) as [|c r]; [exact K|].
     destruct (same u _ && same l _) eqn:T; [exact (G _ _ _ T) | exact K]. }
   destruct l as [|c [|d l]]; [exact (H0 _) | | exact (H0 _)].
-  cbn [at_t upper lower] in N, E |- *. rewrite at_pscale. split; [lra|]. rewrite E. field. intro Z. apply N. rewrite Z. ring.
+  cbn [at_t upper lower] in N, E |- *. rewrite at_pscale. split; [lra|]. rewrite E. field.
+  intro Z. apply N. rewrite Z. ring.
 Qed.
 
-Definition fadd x y := reduced (Function (padd (pmul (upper x) (lower y)) (pmul (upper y) (lower x))) (pmul (lower x) (lower y))).
+Definition fadd x y :=
+  reduced (Function (padd (pmul (upper x) (lower y)) (pmul (upper y) (lower x))) (pmul (lower x) (lower y))).
 Definition fmul x y := reduced (Function (pmul (upper x) (upper y)) (pmul (lower x) (lower y))).
 Definition fopp x := Function (pscale (- (1)) (upper x)) (lower x).
 
-Definition sign_product (c d : comparison) := match c, d with Eq, _ | _, Eq => Eq | Lt, Lt | Gt, Gt => Gt | _, _ => Lt end.
+Definition sign_product (c d : comparison) :=
+  match c, d with Eq, _ | _, Eq => Eq | Lt, Lt | Gt, Gt => Gt | _, _ => Lt end.
 Definition decided hi (x : function) : option comparison :=
   match sign_on hi (upper x), sign_on hi (lower x) with
   | Some c, Some (Lt as d) | Some c, Some (Gt as d) => Some (sign_product c d)
@@ -222,7 +230,8 @@ Proof.
   assert (Q : forall a b : Q, ~ b == 0 -> sign_of (a / b) = sign_product (sign_of a) (sign_of b)).
   { intros a b Hb. apply sign_of_unique.
     assert (R : a / b * b == a) by (field; exact Hb). set (q := a / b) in *.
-    pose proof (sign_of_spec a). pose proof (sign_of_spec b). destruct (sign_of a), (sign_of b); simpl; try contradiction;
+    pose proof (sign_of_spec a). pose proof (sign_of_spec b).
+    destruct (sign_of a), (sign_of b); simpl; try contradiction;
     try (destruct (Qlt_le_dec 0 q)); try (destruct (Qlt_le_dec q 0)); try assumption; try nra.
     all: try (assert (q * b == 0) by lra; destruct (Qmult_integral _ _ H1); [assumption | contradiction]). }
   destruct d; try reflexivity; symmetry; rewrite (Q _ _ N), U, L; reflexivity.
@@ -239,13 +248,17 @@ Proof.
   - intros x y [Nx Ex] u v [Nu Ev]. apply reduced_sound. split; unfold value in *; cbn [upper lower].
     + rewrite at_pmul. intro Z. apply Qmult_integral in Z. tauto.
     + rewrite Qred_correct, !at_pmul, Ex, Ev. field. auto.
-  - intros x y [Nx Ex]. split; unfold value in *; cbn [fopp upper lower]; [exact Nx|]. rewrite at_pscale, Qred_correct, Ex. field. exact Nx.
+  - intros x y [Nx Ex]. split; unfold value in *; cbn [fopp upper lower]; [exact Nx|].
+    rewrite at_pscale, Qred_correct, Ex. field. exact Nx.
   - intros x y H. pose proof (fsign_sound x y H) as S. destruct H as [Nx Ex]. unfold finv. rewrite S.
     pose proof (sign_of_spec y) as Y. destruct (sign_of y).
-    + split; [simpl; lra|]. unfold value. cbn [constant upper lower at_t]. rewrite Qred_correct, Y. transitivity 0; [reflexivity | field].
-    + apply reduced_sound. unfold value in Ex. assert (~ at_t (upper x) t == 0) by (intro Z; rewrite Z in Ex; unfold Qdiv in Ex; lra).
+    + split; [simpl; lra|]. unfold value. cbn [constant upper lower at_t]. rewrite Qred_correct, Y.
+      transitivity 0; [reflexivity | field].
+    + apply reduced_sound. unfold value in Ex.
+      assert (~ at_t (upper x) t == 0) by (intro Z; rewrite Z in Ex; unfold Qdiv in Ex; lra).
       split; [assumption|]. unfold value. cbn [upper lower]. rewrite Qred_correct, Ex. field. auto.
-    + apply reduced_sound. unfold value in Ex. assert (~ at_t (upper x) t == 0) by (intro Z; rewrite Z in Ex; unfold Qdiv in Ex; lra).
+    + apply reduced_sound. unfold value in Ex.
+      assert (~ at_t (upper x) t == 0) by (intro Z; rewrite Z in Ex; unfold Qdiv in Ex; lra).
       split; [assumption|]. unfold value. cbn [upper lower]. rewrite Qred_correct, Ex. field. auto.
   - intros x y H. apply comparison_R_eq. exact (fsign_sound x y H).
 Defined.
@@ -265,7 +278,7 @@ Proof.
   - intros x y E. apply comparison_R_eq. exact (sign_of_Qeq x y E).
 Defined.
 
-(* ---- Tools -------------------------------------------------------------------------------------------------------- *)
+(* ---- Tools ----------------------------------------------------------------------------------------------------- *)
 
 Definition symbolic := (list function * list function * list set * option nat * option nat)%type.
 (* A state of functions without its field, for computation. *)
@@ -282,13 +295,15 @@ Proof. destruct r as [[[f_ a_ s] l d]|e]; simpl; intro H; [now injection H as <-
 Lemma result_going {S T} (R : S -> T -> Type) x r : result_R S T R (Going x) r -> {y & (r = Going y) * R x y}%type.
 Proof. intro H. inversion H as [u v HR|]. subst. exists v. split; [reflexivity | exact HR]. Qed.
 
-Lemma further_drives {F : field} (p : problem F) q : forall n i x, drives p q i = Going x -> drives p q (i + n) = further p q n x.
+Lemma further_drives {F : field} (p : problem F) q : forall n i x, drives p q i = Going x ->
+  drives p q (i + n) = further p q n x.
 Proof.
   induction n; intros i x H; simpl; [now rewrite Nat.add_0_r|].
   rewrite <- Nat.add_succ_comm. destruct (next p q x) as [y|e] eqn:E.
   - apply IHn. simpl. now rewrite H.
   - assert (G : forall m, drives p q (S i + m) = End e).
-    { induction m; [rewrite Nat.add_0_r; simpl; now rewrite H|]. rewrite Nat.add_succ_r. cbn [drives]. now rewrite IHm. }
+    { induction m; [rewrite Nat.add_0_r; simpl; now rewrite H|].
+      rewrite Nat.add_succ_r. cbn [drives]. now rewrite IHm. }
     apply G.
 Qed.
 

@@ -73,12 +73,14 @@ def coq(certificate, source):
     statement = f"  loops_under_every_policy {n} the_problem." if whole else f"""\
   well_formed the_problem /\\ symmetric {n} (A the_problem) /\\ positive_definite {n} (A the_problem) /\\
   (exists g, solution the_problem g) /\\
-  ({every} forall k, exists x, drives the_problem pol k = Going x /\\ ~ solution the_problem (f (point_of x)))."""
+  ({every} forall k, exists x,
+    drives the_problem pol k = Going x /\\ ~ solution the_problem (f (point_of x)))."""
     opened = "unfold loops_under_every_policy. " if whole else ""
     counts = sorted(Counter(table.values()).items(), key=lambda x: (-x[1], x[0]))
     lines = ["(* SPDX-License-Identifier: Apache-2.0 *)",
-             f"(* Written by make.py from {source}. It proves that the published algorithm never ends on",
-             "   the_problem under the policies listed, nor ever stands at a solution, though A is definite and there is one. *)",
+             f"(* Written by make.py from {source}.",
+             "   It proves that the published algorithm never ends on the_problem under the policies listed, nor ever",
+             "   stands at a solution, though A is definite and there is one. *)",
              "From Coq Require Import QArith ZArith List Bool Arith.",
              "From Stiction.loops Require Import Statement Loop Laws.",
              "Import ListNotations.", "Local Open Scope Q_scope.", "",
@@ -115,14 +117,16 @@ Qed.
 Theorem counterexample :
 {statement}
 Proof.
-  {opened}split; [exact is_well_formed|]. split; [apply check_symmetric_sound; vm_compute; reflexivity|].
+  {opened}split; [exact is_well_formed|].
+  split; [apply check_symmetric_sound; vm_compute; reflexivity|].
   split; [apply (check_definite_sound _ _ L D); vm_compute; reflexivity|].
   split; [exists forces; apply (obeys_iff_solution _ _ is_well_formed); vm_compute; reflexivity|].
   {intro}. intro k. destruct (never_ends pol {'' if whole else 'H '}k) as [x Hx]. exists x.
   split; [exact Hx | exact (never_at_a_solution pol {'' if whole else 'H '}k x Hx)].
 Qed.
 
-(* The starts and periods, and how many policies have them: the first state at the top of the main loop that recurs. *)
+(* The starts and periods, and how many policies have them:
+   the first state at the top of the main loop that recurs. *)
 Theorem starts_and_periods : forall pol s period, In (pol, (s, period)) (combine {policies} table) ->
   cycles the_problem pol s period.
 Proof. exact (table_cycles _ _ _ table_checked). Qed.
