@@ -53,8 +53,8 @@ std::string ClaimOf(const Json& certificate) { return certificate["claim"].get<s
 
 TEST_CASE("certificate: every maker's certificate is accepted") {
   const std::vector<std::string> claims = {"solution-exists", "symmetric", "not-symmetric", "psd",
-                                           "not-psd",         "in-range",  "not-in-range",
-                                           "definite",  "not-definite",  "cycle",  "counterexample"};
+                                           "not-psd",         "in-range",  "not-in-range",  "definite",
+                                           "not-definite",    "cycle",     "counterexample"};
   const auto certificates = OneOfEveryClaim();
   REQUIRE(certificates.size() == claims.size());
   for (std::size_t i = 0; i < claims.size(); ++i) {
@@ -103,7 +103,9 @@ TEST_CASE("certificate: no contacts at all can be certified") {
 
 // With budgets so small that no forces are found.
 TEST_CASE("certificate: where no forces are found, the theorem says that there are some") {
-  const ClaimOptions few = {.limits = {.pivots = 1}, .enumeration = {.programs = 1}};
+  ClaimOptions few;
+  few.limits.pivots = 1;
+  few.enumeration.programs = 1;
   const ExactProblem problem = ReferenceProblem();
   CHECK(ClaimOf(CertifyClaim(problem, "p", "existence", {})) == "solution-exists");
   const Json exists = CertifyClaim(problem, "p", "existence", few);
@@ -477,8 +479,7 @@ TEST_CASE("certificate: numbers may be written in any way, and mean the same") {
 }
 
 TEST_CASE("certificate: one run in two is refused, however its numbers are written") {
-  Json certificate =
-      CycleCertificate(ReferenceProblem(), {Policy{}, ParsePolicy("ties=contacts")}, {});
+  Json certificate = CycleCertificate(ReferenceProblem(), {Policy{}, ParsePolicy("ties=contacts")}, {});
   Json& runs = certificate["witness"]["runs"];
   REQUIRE(runs.size() == 1);
   REQUIRE(runs[0]["policies"].size() == 2);
