@@ -88,7 +88,7 @@ class Gate(cli.TestCase):
         self.refuses("bench", "--suite", "gate", "--families", "jams", says="'jams'")
 
 
-@unittest.skipIf(cli.SHORT, "the packages are built in the first configuration")
+@unittest.skipUnless(cli.ALL, "the packages are built for the first build of the matrix")
 class PeersExtremes(cli.TestCase):
     """Packages along dials; those that are not installed are left out, our own are always there."""
 
@@ -247,7 +247,7 @@ FAMILIES = {"stack-10": (40, 30), "wall-6x5-masses": (180, 81), "wall-6x5-masses
             "nearly-dependent": (16, 8), "stack": (20, 15), "space-stack-5": (60, 30)}  # rows and rank
 
 
-@unittest.skipIf(cli.SHORT, "long")
+@unittest.skipUnless(cli.ALL, "the packages are built for the first build of the matrix")
 class Peers(cli.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -391,7 +391,7 @@ class Peers(cli.TestCase):
 
 
 class Search(cli.TestCase):
-    @unittest.skipIf(cli.SHORT, "the packages are built in the first configuration")
+    @unittest.skipUnless(cli.ALL, "the packages are built for the first build of the matrix")
     def test_a_search_is_measured_alone_and_beside_lemke(self):
         done = cli.run("bench", "--suite", "search", "--json", "--problems", 2000, "--repeat", 2, "--contacts", 2, 6)
         self.assertEqual(done.code, 0, done.err)

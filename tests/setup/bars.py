@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""How simple the sources are, as numbers: what each is, and the bar that it must not pass.
+
+    bars.py [BUILD]    BUILD (build/release) is asked for the processor time of its compilations
+
+Lines are those of files, blank ones and comments among them. Types are what stands behind struct, class, enum
+and union.
+The product is what a user runs: tests, and the peers that bench measures, are not in it. Exit 1 if a bar is passed."""
+
+import csv
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PRODUCT = ("answers", "bench", "certify", "cli", "corpus", "python", "reports", "scene", "search", "solver")
+CODE = (".h", ".ipp", ".cpp", ".py", ".pyi", ".js", ".mjs")
+JSON_HEADERS = ("nlohmann/json.hpp",)
+
+
+def files():
+    """Of the product, as Git has them."""
+    listed = subprocess.run(["git", "ls-files", *PRODUCT], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in listed.splitlines():
+        is_peer = re.match(r"bench/(peer|peers)_", name) or name == "bench/peers.cpp"
+        if name.endswith(CODE) and not is_peer and "/dist/" not in name:
+            yield name
+
+
+def text(name):
+    return (ROOT / name).read_text()
+
+
+def includes(names):
+    """Of every C++ file: which of these it includes, and which headers of other libraries."""
+    own, foreign = {}, {}
+    for name in names:
+        found = re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', text(name), re.M)
+        own[name] = [one for one in found if one in names]
+        foreign[name] = [one for one in found if one not in names]
+    return own, foreign
+
+
+def reached(name, own):
+    seen, left = {name}, [name]
+    while left:
+        for other in own[left.pop()]:
+            if other not in seen:
+                seen.add(other)
+                left.append(other)
+    return seen
+
+
+def depth(name, own, known):
+    if name not in known:
+        known[name] = 0  # a circle ends here; structure_test.py refuses it
+        known[name] = 1 + max((depth(other, own, known) for other in own[name]), default=0)
+    return known[name]
+
+
+def build_seconds(build):
+    """Of what the program is linked from; None where nothing was noted."""
+    noted = build / "compile_times.csv"
+    listed = subprocess.run(["ninja", "-C", build, "-t", "inputs", "stiction"], capture_output=True, text=True)
+    if listed.returncode or not noted.exists():
+        return None
+    with open(noted) as file:
+        seconds = {name: float(value) for name, value in csv.reader(file)}
+    return sum(seconds.get(name, 0) for name in listed.stdout.split())
+
+
+def measures(build):
+    """(what, how much, the most that it may be)"""
+    names = list(files())
+    lines = sum(len(text(name).splitlines()) for name in names)
+    cpp = {name for name in names if name.endswith((".h", ".ipp", ".cpp"))}
+    types = sum(len(re.findall(r"^\s*(?:template <[^;{]*>\s*)?(?:struct|class|enum|enum class|union) (?!class)\w+[^;(]*\{", text(name), re.M))
+                for name in cpp)
+    answers = sum(len(re.findall(r"^\s*(?:struct|class) \w*(?:Run|Verdict|Answer|Solution)\b[^;]*\{", text(name), re.M))
+                  for name in cpp)
+    tallies = sum(len(re.findall(r"^\s*for \(.*\btallies\)", text(name), re.M)) for name in cpp
+                  if not name.startswith(("reports/tables/", "corpus/record/")))
+    own, foreign = includes(cpp)
+    sources = [name for name in cpp if name.endswith(".cpp")]
+    reads_json = sum(any(header in JSON_HEADERS for one in reached(name, own) for header in foreign[one]) for name in sources)
+    known = {}
+    readmes = [name for name in subprocess.run(["git", "ls-files", "*README.md"], cwd=ROOT, capture_output=True, text=True,
+                                               check=True).stdout.splitlines()]
+    yield "lines of the product, peers apart", lines, 59_000
+    code = sum(sum(bool(line.strip()) and not line.strip().startswith(("//", "#!", "/*")) for line in text(name).splitlines())
+               for name in cpp)
+    yield "types per 1,000 lines of C++ that are code", round(1000 * types / code, 1), 10
+    yield "structs named Run, Verdict, Answer, Solution", answers, 6
+    yield "loops over tallies outside of tables and records", tallies, 0
+    yield "depth of includes", max(depth(name, own, known) for name in cpp), 8
+    yield f"sources that read the whole JSON library, of {len(sources)}", reads_json, 80
+    yield "longest page of a folder, in lines", max(len(text(name).splitlines()) for name in readmes), 120
+    seconds = build_seconds(build)
+    if seconds is not None:
+        yield "processor seconds of the program's compilations", round(seconds), 500
+
+
+def main():
+    passed = False
+    for what, found, most in measures(Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release")):
+        passed |= found > most
+        print(f"{what:60} {found:10,} {'over' if found > most else 'within':>7} {most:,}")
+    return passed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
