@@ -248,7 +248,7 @@ std::string_view ProvedOfSolutions(std::string_view claim) {
   if (claim == "solution-exists") return ": forces that meet all conditions";
   if (claim == "coulomb-solution") return ": forces that meet Coulomb's law up to the bound";
   if (claim == "exists")
-    return ": there is a solution, by the theorem of certify/existence.md; its forces are not known";
+    return ": there is a solution, by the theorem of certify/existence.md; its forces are not given";
   if (claim == "no-solution") return ": no forces meet all conditions";
   return "";
 }

@@ -50,10 +50,6 @@ constexpr std::array kWords = {
     Word{"start, period",
          "how many drives (of a stall: steps) before the state that recurs, and until it recurs", ""},
     Word{"singular", "no direction keeps the conditions of the sets: the algorithm cannot go on", "5.5"},
-    Word{"existence",
-         "a solution exists, for every mu, wherever A is symmetric positive semidefinite and b in its range: a "
-         "theorem",
-         "certify/existence.md"},
     Word{"ray", "a step without limit: the forces could grow for ever", "6"},
     Word{"fold",
          "in complete driving: the determinant changes its sign, and the driven force turns back; there the "
@@ -80,6 +76,11 @@ constexpr std::array kWords = {
          ""},
     Word{"certificate", "a claim with an exact witness, which a short independent program accepts",
          "certify/README.md"},
+    Word{"existence",
+         "that there is a solution: a theorem for every mu, where A is symmetric positive semidefinite, b in "
+         "its range "
+         "and no contact slides",
+         "certify/existence.md"},
 };
 
 std::string TextOf(const Word& word) {

@@ -131,10 +131,11 @@ Html ExistenceSection(const Record& total) {
                                           Grouped(all.disagreements), Grouped(all.compared));
   return Section(
       "existence", "Existence and agreement",
-      Html("<p>Every problem here has a symmetric positive semidefinite A and b in its range. So it has a "
-           "solution, for every mu: a theorem, in the plane and in space. Complete driving looks for it "
-           "wherever the published algorithm does not solve, and on "
-           "problems that are audited or drawn; the solution is verified exactly:</p>\n") +
+      Html("<p>Every problem here, those with sliding contacts apart, has a symmetric positive semidefinite A "
+           "and b in its range. So it has a solution, for every mu: a theorem, in the plane and in space. "
+           "Complete "
+           "driving looks for it wherever the published algorithm does not solve, and on problems that are "
+           "audited or drawn; the solution is verified exactly:</p>\n") +
           FigurePlace("driving",
                       "Share of the paths of complete driving with folds, with descents, and with ties, by "
                       "number of contacts; lines: exact intervals at 95 %.") +
