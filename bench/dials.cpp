@@ -5,7 +5,7 @@
 #include <array>
 
 #include "bench/structure.h"
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "corpus/rounded.h"
 #include "search/exponential.h"
 #include "search/generators.h"

@@ -5,8 +5,8 @@
 // Problems are those of gate_dials.h, so many at each setting of each dial, and a fifth as many of large ones.
 // Every method runs in every inexact arithmetic that it is built for in the dimension but intervals, with
 // limits that are counted, and nothing runs again to confirm it. Answers called solved are judged over
-// rationals (certify/judge.h) on the problem that the arithmetic was given: rounded to float, or to double for
-// all others.
+// rationals (certify/exact/judge.h) on the problem that the arithmetic was given: rounded to float, or to
+// double for all others.
 //
 //   refused    a number of the problem is not one of the arithmetic's; not a run
 //   runs       all others; each ends in one of the outcomes below
@@ -34,8 +34,8 @@
 #include "bench/rungs.h"
 #include "bench/suite.h"
 #include "bench/table.h"
-#include "certify/judge.h"
-#include "certify/solve.h"
+#include "certify/exact/judge.h"
+#include "certify/exact/solve.h"
 #include "corpus/exit_code.h"
 
 namespace stiction {

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "bench/plain_gauss.h"
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/feasibility_nlp.h"
-#include "certify/linear_system.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/feasibility_nlp.h"
+#include "certify/exact/linear_system.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/stopwatch.h"
 #include "solver/numeric/fast.h"
 #include "solver/problem/gate.h"

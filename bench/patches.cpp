@@ -19,8 +19,7 @@
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
+#include "certify/exact/exact.h"
 #include "corpus/exit_code.h"
 #include "corpus/intervals.h"
 

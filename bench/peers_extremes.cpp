@@ -24,7 +24,7 @@
 #include "bench/peers_measure.h"
 #include "bench/progress.h"
 #include "bench/rungs.h"
-#include "certify/existence.h"
+#include "certify/exact/exact.h"
 #include "corpus/atomic_file.h"
 #include "corpus/json_text.h"
 #include "corpus/problem_file.h"

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "bench/measure.h"
-#include "certify/exact.h"
-#include "certify/filtered.h"
-#include "certify/quad.h"
-#include "certify/solve.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/quad.h"
+#include "certify/exact/solve.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/intervals.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"

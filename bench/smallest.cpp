@@ -17,7 +17,7 @@
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "corpus/exit_code.h"
 #include "corpus/problem_file.h"
 #include "corpus/rounded.h"

@@ -12,10 +12,10 @@
 //             `approaches` a loop (a later start, or another period), or it is `refuted`.
 // Polygon     slip=polygon is complete driving on polygons of eight sides, exact: its steps are pieces. `on an
 //             edge` counts runs whose polygon's solution has a contact that slips with abs(fF) < mu fN, which
-//             the paper's conditions exclude; certify/space.h then turns it into a solution of them, for which
-//             polygons may need more corners (`refined`).
+//             the paper's conditions exclude; certify/exact/space.h then turns it into a solution of them, for
+//             which polygons may need more corners (`refined`).
 
-#include "certify/space.h"
+#include "certify/exact/space.h"
 
 #include <fmt/format.h>
 
@@ -27,8 +27,8 @@
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
-#include "certify/published_space.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/exit_code.h"
 #include "search/choices.h"
 

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "certify/solve.h"
+#include "certify/exact/solve.h"
 #include "cli/verbs.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "certify/exact.h"
-#include "certify/published_space.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/published_space.h"
 #include "cli/help.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "answers/version.h"
-#include "certify/claims.h"
+#include "certify/claims/claims.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "search/adversary/record.h"

@@ -10,16 +10,16 @@
 #include <set>
 #include <vector>
 
-#include "answers/all_policies.h"
-#include "answers/followed.h"
-#include "answers/narrate_text.h"
-#include "answers/problem_text.h"
-#include "answers/request.h"
-#include "answers/version.h"
-#include "certify/solve.h"
+#include "certify/exact/solve.h"
+#include "certify/request.h"
+#include "cli/narration/all_policies.h"
+#include "cli/narration/followed.h"
+#include "cli/narration/narrate_text.h"
+#include "cli/narration/problem_text.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 #include "cli/words.h"
 #include "corpus/digest.h"
 #include "corpus/json_text.h"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "certify/checker_files.h"
+#include "certify/claims/checker_files.h"
 #include "cli/records.h"
 #include "cli/shared.h"
 #include "cli/store_progress.h"

@@ -14,12 +14,12 @@
 #include <set>
 #include <thread>
 
-#include "answers/request.h"
-#include "answers/version.h"
+#include "certify/request.h"
 #include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/store_progress.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
@@ -131,7 +131,8 @@ int ExitOf(const Store& store, const std::string& file) {
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
   fmt::print(std::cerr,
-             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, which ties alone can make\n",
+             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, "
+             "which ties alone can make\n",
              file, grave);
   return kExitGrave;
 }

@@ -9,11 +9,11 @@
 #include <iostream>
 #include <sstream>
 
-#include "answers/request.h"
-#include "certify/bounds.h"
-#include "certify/certificate.h"
-#include "certify/hypothesis.h"
-#include "certify/properties.h"
+#include "certify/claims/certificate.h"
+#include "certify/exact/bounds.h"
+#include "certify/exact/hypothesis.h"
+#include "certify/exact/properties.h"
+#include "certify/request.h"
 #include "cli/help.h"
 
 namespace stiction {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "answers/outcome_text.h"
+#include "cli/narration/outcome_text.h"
 #include "cli/verb.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"

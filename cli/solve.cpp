@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction solve: one problem, one method, one arithmetic, one answer.
 
-#include "certify/solve.h"
+#include "certify/exact/solve.h"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "answers/answer_text.h"
-#include "answers/narrate_text.h"
-#include "answers/problem_text.h"
-#include "answers/request.h"
-#include "answers/solve_sparse.h"
+#include "certify/exact/answer_json.h"
+#include "certify/exact/solve_sparse.h"
+#include "certify/request.h"
+#include "cli/narration/narrate_text.h"
+#include "cli/narration/problem_text.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
 #include "cli/verbs.h"

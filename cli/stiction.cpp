@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
 // The program `stiction`: one verb per task. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
-#include "answers/version.h"
 #include "cli/help.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 
 namespace {
 

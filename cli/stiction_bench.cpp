@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "answers/version.h"
 #include "bench/one_thread.h"
 #include "bench/suite.h"
 #include "cli/bench_words.h"
 #include "cli/command_line.h"
 #include "cli/help.h"
 #include "cli/program.h"
+#include "cli/version.h"
 #include "corpus/input_error.h"
 
 namespace {

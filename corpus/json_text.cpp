@@ -276,4 +276,9 @@ void Faults::Throw() const {
   throw InputError(fmt::format("{}: {}{}", source_, fmt::join(first, "; "), more));
 }
 
+Json NumberToJson(double x) {
+  if (std::isnan(x)) return "nan";  // whose sign is the machine's
+  return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x));
+}
+
 }  // namespace stiction

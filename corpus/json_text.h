@@ -38,6 +38,23 @@ Json ParseJson(std::string_view text, const std::string& source);
 // The bytes of a file; InputError if it cannot be read.
 std::string ReadText(const std::filesystem::path& file);
 
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
+inline Json InJson(const Rational& x) { return ToString(x); }
+inline Json InJson(double x) { return NumberToJson(x); }
+template <class Numbers>
+Json ListJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(InJson(x));
+  return json;
+}
+
 // The text of `value`, on one line if `indent` is negative. A value that no JSON text stands for (infinity,
 // NaN, text that is not UTF-8) is an InternalError: nlohmann would write `null` for the first two.
 std::string JsonText(const Json& value, int indent = -1);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kinds of findings, the gravest first. A signature begins with its kind.
 //
-//   safe-cycle               a cycle of a problem that is safe (certify/safe.h), as found or minimized: there are
+//   safe-cycle               a cycle of a problem that is safe (certify/claims/safe.h), as found or minimized:
+//   there are
 //                            such, with ties (certify/where_loops_begin.md)
-//   disagreement-of-methods  exact methods contradict each other or what is proved (certify/agreement.h)
+//   disagreement-of-methods  exact methods contradict each other or what is proved (certify/claims/agreement.h)
 //   cycle, stall, ...        an exact outcome other than solved, in space one that intervals prove
 //   undecided                in space: a loop over doubles that intervals neither prove nor deny
 //   wrong-answer             doubles said solved, with an error above the bound of the gate

@@ -127,7 +127,7 @@ struct ExistenceTally {
   bool operator==(const ExistenceTally&) const = default;
 };
 
-// Methods held against each other (certify/agreement.h), by number of contacts.
+// Methods held against each other (certify/claims/agreement.h), by number of contacts.
 struct AgreementTally {
   std::int64_t compared = 0;       // published algorithm, complete driving and Lemke's method side by side
   std::int64_t enumerated = 0;     // of these, with all contact modes tried

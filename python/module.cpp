@@ -15,13 +15,13 @@
 #include <map>
 #include <tuple>
 
-#include "answers/all_policies.h"
-#include "answers/answer_text.h"
-#include "answers/followed.h"
-#include "answers/request.h"
-#include "certify/certificate.h"
-#include "certify/claims.h"
-#include "certify/solve.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/claims.h"
+#include "certify/exact/answer_json.h"
+#include "certify/exact/solve.h"
+#include "certify/request.h"
+#include "cli/narration/all_policies.h"
+#include "cli/narration/followed.h"
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"

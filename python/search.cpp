@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "answers/version.h"
+#include "cli/version.h"
 #include "corpus/json_text.h"
 #include "corpus/machine.h"
 #include "python/signals.h"

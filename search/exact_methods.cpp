@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/exact_methods.h"
 
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/feasibility_nlp.h"
-#include "certify/filtered.h"
-#include "certify/published_space.h"
-#include "certify/safe.h"
-#include "certify/space.h"
+#include "certify/claims/safe.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/feasibility_nlp.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/space.h"
 #include "corpus/input_error.h"
 
 namespace stiction {

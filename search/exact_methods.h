@@ -14,17 +14,17 @@
 
 namespace stiction {
 
-struct CompleteRun;       // certify/existence.h
-struct Enumeration;       // certify/enumerate.h
-struct ExactRun;          // certify/exact.h
-struct FilteredComplete;  // certify/filtered.h
-struct FilteredVerdict;   // certify/filtered.h
-struct IntervalSpaceRun;  // certify/published_space.h
-struct LemkeRun;          // certify/existence.h
+struct CompleteRun;       // certify/exact/exact.h
+struct Enumeration;       // certify/exact/enumerate.h
+struct ExactRun;          // certify/exact/exact.h
+struct FilteredComplete;  // certify/exact/filtered.h
+struct FilteredVerdict;   // certify/exact/filtered.h
+struct IntervalSpaceRun;  // certify/exact/published_space.h
+struct LemkeRun;          // certify/exact/exact.h
 struct Limits;
 struct PublishedOptions;
-struct Rungs;          // certify/filtered.h
-struct SpaceSolution;  // certify/space.h
+struct Rungs;          // certify/exact/filtered.h
+struct SpaceSolution;  // certify/exact/space.h
 
 // What Ipopt makes of a problem. It proposes, and rationals judge, so that a solution is one; its iterations
 // depend on the machine's libraries.

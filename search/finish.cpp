@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-#include "certify/agreement.h"
-#include "certify/certificate.h"
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/published_space.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/agreement.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/existence.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/minimize.h"

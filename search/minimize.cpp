@@ -7,9 +7,9 @@
 #include <array>
 #include <tuple>
 
-#include "certify/exact.h"
-#include "certify/properties.h"
-#include "certify/published_space.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/published_space.h"
 #include "search/choices.h"
 #include "search/rounding.h"
 #include "search/signature.h"

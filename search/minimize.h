@@ -3,7 +3,7 @@
 //
 // A candidate is kept if it is simpler and still interesting: A symmetric, positive semidefinite, b in
 // range(A), all exactly, and every policy asked for ends in the same outcome on it, exactly; in space, as
-// intervals prove (certify/published_space.h). Simpler, in this order (SimplicityOf):
+// intervals prove (certify/exact/published_space.h). Simpler, in this order (SimplicityOf):
 //   fewer contacts; fewer rows; fewer entries of A and b that are not zero; fewer bits in A (each entry
 //   once), b and mu; smaller sum of absolute numerators and denominators.
 // Passes run until none makes progress, so minimizing a minimized problem changes nothing:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/properties.h"
+#include "certify/exact/properties.h"
 
 namespace stiction {
 namespace {

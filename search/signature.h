@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 
 namespace stiction {
 

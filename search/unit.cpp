@@ -6,14 +6,13 @@
 #include <map>
 #include <tuple>
 
-#include "certify/agreement.h"
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/filtered.h"
-#include "certify/published_space.h"
-#include "certify/space.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/agreement.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/space.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/kinds.h"
 #include "corpus/scene_file.h"
 #include "search/batch/batch.h"

@@ -3,14 +3,14 @@
 //
 // Each problem is solved over doubles, under every policy of the campaign. Whatever does not end in a
 // verified `solved` there is only a suspicion: the same choices then give the exact problem, which is run with
-// certified signs (certify/filtered.h), or over rationals where these leave a sign open, and both verdicts are
-// counted. What is not solved then is a finding, and complete driving must solve it: by certified signs, with a
-// solution that is verified over rationals. What is audited, and one suspicion in `complete_every`, is run over
-// rationals throughout, and by other methods, which must agree (certify/agreement.h). A campaign may ask for
-// certified signs, or rationals, from the start. In space, where the published algorithm takes square roots,
-// intervals stand for exact numbers: what they prove is exact, otherwise they say `undecided`. Nothing but
-// (campaign, unit number) decides what comes out. In the plane the path of a problem that raises no suspicion
-// allocates nothing.
+// certified signs (certify/exact/filtered.h), or over rationals where these leave a sign open, and both
+// verdicts are counted. What is not solved then is a finding, and complete driving must solve it: by certified
+// signs, with a solution that is verified over rationals. What is audited, and one suspicion in
+// `complete_every`, is run over rationals throughout, and by other methods, which must agree
+// (certify/claims/agreement.h). A campaign may ask for certified signs, or rationals, from the start. In space,
+// where the published algorithm takes square roots, intervals stand for exact numbers: what they prove is
+// exact, otherwise they say `undecided`. Nothing but (campaign, unit number) decides what comes out. In the
+// plane the path of a problem that raises no suspicion allocates nothing.
 
 #ifndef STICTION_SEARCH_UNIT_H_
 #define STICTION_SEARCH_UNIT_H_

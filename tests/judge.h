@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "certify/judge.h"
-#include "certify/solve.h"
-#include "certify/space.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/judge.h"
+#include "certify/exact/solve.h"
+#include "certify/exact/space.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
 
 namespace stiction::testing {

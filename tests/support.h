@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "search/exponential.h"
 #include "search/generators.h"
 #include "solver/complete/polygon_errors.h"

@@ -16,7 +16,7 @@
 //
 // Other kinds: bilateral contacts have a free fN and aN = 0; sliding ones fF = -mu u fN (24), substituted.
 //
-// Protocol      one JSON object per line, in and out; certify/feasibility_nlp.h.
+// Protocol      one JSON object per line, in and out; certify/exact/feasibility_nlp.h.
 // Determinism   of one binary on one machine: starts come from the seed. Bounded by starts x max_iterations.
 
 #include <fcntl.h>

@@ -7,9 +7,9 @@
 #include <new>
 #include <vector>
 
-#include "answers/followed.h"
-#include "answers/replay_page.h"
-#include "certify/inexact.h"
+#include "certify/exact/inexact.h"
+#include "cli/narration/followed.h"
+#include "cli/narration/replay_page.h"
 #include "corpus/problem_file.h"
 #include "solver/published/published_space.h"
 
@@ -76,7 +76,8 @@ FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
     return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
   const Solution solution = SolvePublishedInSpace(file.problem, request);
   FollowedRun run = Followed(path, file, solution);
-  if (const auto proved = OverIntervals(file.problem, request, solution.outcome())) TellOverIntervals(*proved, run);
+  if (const auto proved = OverIntervals(file.problem, request, solution.outcome()))
+    TellOverIntervals(*proved, run);
   return run;
 }
 

@@ -2,11 +2,11 @@
 // What a page of `replay` asks of the solver that it brings along (reports/web/README.md): run an edited
 // problem.
 //
-// The same sources as the program's, over numbers that are headers alone and behave as the ones of the program: no
-// file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
+// The same sources as the program's, over numbers that are headers alone and behave as the ones of the program:
+// no file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
 // irrational, the published algorithm runs over doubles, and what does not end solved again over long double
-// (solver/problem/extended.h) and over intervals (certify/interval_portable.h), as in the program. Built for
-// browsers by build.py.
+// (solver/problem/extended.h) and over intervals (certify/exact/interval_portable.h), as in the program. Built
+// for browsers by build.py.
 
 #ifndef STICTION_CLI_LIVE_LIVE_H_
 #define STICTION_CLI_LIVE_LIVE_H_

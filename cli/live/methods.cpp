@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods of a page: of certify/methods.cpp those that have a path; over floating-point numbers, in space,
-// the published algorithm, which takes roots.
+// The methods of a page: of certify/exact/methods.cpp those that have a path; over floating-point numbers, in
+// space, the published algorithm, which takes roots.
 
 #include <array>
 
-#include "certify/polygons.h"
-#include "certify/solve.h"
+#include "certify/exact/polygons.h"
+#include "certify/exact/solve.h"
 #include "solver/floating_methods.ipp"
 #include "solver/problem/long_double.h"
 #include "solver/problem/reduction.ipp"

@@ -21,8 +21,8 @@
 
 namespace stiction {
 
-// `checkers`: name -> text (certify/checker_files.h). Writes the directory as a whole; the same content of a
-// store gives the same bytes. Returns where a directory with files of others was moved to, if so.
+// `checkers`: name -> text (certify/claims/checker_files.h). Writes the directory as a whole; the same content
+// of a store gives the same bytes. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WritePackage(const Store& store, const std::filesystem::path& directory,
                                    const std::map<std::string, std::string>& checkers,
                                    Occupied occupied = Occupied::kRefused, const ShowWriting& show = {});

@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/feasibility_nlp.h"
-#include "certify/robust.h"
+#include "certify/claims/robust.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/feasibility_nlp.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 
@@ -205,9 +205,10 @@ std::span<const Objective> Objectives() {
         return row;
       }(),
       [] {
-        Objective row = Exactly(
-            {"radius", "how far all numbers of a loop may move at once while it stays, proved by intervals", ""},
-            [](ExactTrial& t) { return Radius(t); });
+        Objective row =
+            Exactly({"radius",
+                     "how far all numbers of a loop may move at once while it stays, proved by intervals", ""},
+                    [](ExactTrial& t) { return Radius(t); });
         row.of_loops = true;
         return row;
       }(),

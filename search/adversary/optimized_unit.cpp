@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "corpus/json_text.h"
 #include "search/signature.h"
 #include "solver/problem/check.h"

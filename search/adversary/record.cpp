@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/certificate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/properties.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/existence.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 
 namespace stiction {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Agreement of methods: right answers agree, and every kind of wrong one is noticed.
 
-#include "certify/agreement.h"
+#include "certify/claims/agreement.h"
 
 #include <catch2/catch.hpp>
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "certify/wide_ball.h"
+#include "certify/exact/wide_ball.h"
 #include "search/choices.h"
 
 namespace stiction {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounds from doubles against what exact elimination decides; (H) against its witnesses.
 
-#include "certify/bounds.h"
+#include "certify/exact/bounds.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/certificate.h"
-#include "certify/hypothesis.h"
+#include "certify/claims/certificate.h"
+#include "certify/exact/hypothesis.h"
 #include "tests/support.h"
 
 namespace stiction {

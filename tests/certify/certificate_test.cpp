@@ -5,14 +5,14 @@
 // lengths) must be refused. An alteration of a value may be accepted only if this file finds the altered claim
 // true by its defining equation, from the numbers in the JSON alone.
 
-#include "certify/certificate.h"
+#include "certify/claims/certificate.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <set>
 
-#include "certify/claims.h"
+#include "certify/claims/claims.h"
 #include "corpus/digest.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"

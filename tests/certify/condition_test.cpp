@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The condition number that forbids folds (condition_number.md), against the determinants of all words.
 
-#include "certify/condition.h"
+#include "certify/claims/condition.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/certificate.h"
-#include "certify/safe.h"
-#include "certify/safety_threshold.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/safe.h"
+#include "certify/claims/safety_threshold.h"
 #include "tests/support.h"
 
 namespace stiction {

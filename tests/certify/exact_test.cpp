@@ -2,14 +2,14 @@
 // Runs of the whole grid: policies share a run only if they take the same steps. Runs with bilateral and
 // sliding contacts: told in the terms of the whole problem.
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 
 #include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "certify/certificate.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/certificate.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ipopt as a proposer. STICTION_IPOPT: path of the program stiction-ipopt.
 
-#include "certify/feasibility_nlp.h"
+#include "certify/exact/feasibility_nlp.h"
 
 #include <signal.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <thread>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

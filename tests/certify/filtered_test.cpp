@@ -2,14 +2,14 @@
 // The planar methods over balls: the pivots of rationals, and forces within their ends. Rung after rung they
 // end as runs over rationals do.
 
-#include "certify/filtered.h"
+#include "certify/exact/filtered.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/certificate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/existence.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

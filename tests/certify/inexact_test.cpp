@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/enumerate.h"
+#include "certify/exact/enumerate.h"
 #include "solver/complete/complete.ipp"
 #include "solver/lemke/lemke.ipp"
 #include "solver/numeric/fast.ipp"

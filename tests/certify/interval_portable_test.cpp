@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Intervals that round by what rounding leaves, against CGAL's, which switch how the processor rounds.
-#include "certify/interval_portable.h"
+#include "certify/exact/interval_portable.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "certify/interval.h"
+#include "certify/exact/interval.h"
 
 namespace stiction {
 namespace {

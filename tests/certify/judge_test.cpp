@@ -3,14 +3,14 @@
 // all, and depends neither on the units of contacts, nor on mu, nor on forces that do no work. A small sample
 // of bench --suite gate besides.
 
-#include "certify/judge.h"
+#include "certify/exact/judge.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/gate_dials.h"
-#include "certify/solve.h"
+#include "certify/exact/solve.h"
 #include "corpus/rounded.h"
 #include "tests/judge.h"
 #include "tests/support.h"

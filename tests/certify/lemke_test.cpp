@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/read_problem.h"
 #include "solver/published/published.h"
 #include "tests/support.h"

@@ -6,10 +6,11 @@
 #include <map>
 #include <set>
 
-#include "certify/enumerate.h"
-#include "certify/no_solution.h"
-#include "certify/verify_solution.h"
-#include "certify/witness.h"
+#include "certify/claims/no_solution.h"
+#include "certify/claims/witness.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/farkas.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 

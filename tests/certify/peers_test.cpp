@@ -6,9 +6,8 @@
 #include <set>
 
 #include "bench/rungs.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/problem_file.h"
 #include "corpus/rational.h"
 #include "corpus/read_problem.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's assumptions, decided exactly: every witness is checked by its defining equation.
 
-#include "certify/properties.h"
+#include "certify/exact/properties.h"
 
 #include <catch2/catch.hpp>
 

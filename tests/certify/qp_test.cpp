@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frictionless contacts as a quadratic program, exactly and by Ipopt. STICTION_IPOPT: path of stiction-ipopt.
 
-#include "certify/qp.h"
+#include "certify/exact/qp.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/existence.h"
-#include "certify/qp_ipopt.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/qp_ipopt.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rest: where accelerations are not unique, the solution that has none.
 
-#include "certify/rest.h"
+#include "certify/exact/rest.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/enumerate.h"
-#include "certify/hypothesis.h"
-#include "certify/solve.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/hypothesis.h"
+#include "certify/exact/solve.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -2,7 +2,7 @@
 // Robust loops: the radius is that of a box in which every problem, or scene, loops alike, and is not claimed
 // where some do not.
 
-#include "certify/robust.h"
+#include "certify/claims/robust.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 #include <functional>
 #include <utility>
 
-#include "certify/robust_scene.h"
+#include "certify/claims/robust_scene.h"
 #include "corpus/scene_file.h"
 #include "search/choices.h"
 #include "tests/support.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Safe problems: reduced determinants, certificates of them, the threshold of mu, and what safety is good for.
 
-#include "certify/safe.h"
+#include "certify/claims/safe.h"
 
 #include <catch2/catch.hpp>
 #include <cstdio>
@@ -10,10 +10,10 @@
 #include <functional>
 #include <random>
 
-#include "certify/enumerate.h"
-#include "certify/existence.h"
-#include "certify/safety_threshold.h"
-#include "certify/witness.h"
+#include "certify/claims/safety_threshold.h"
+#include "certify/claims/witness.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes: they enclose what they say, and know what the same parameters do to two numbers.
 
-#include "certify/slope.h"
+#include "certify/exact/slope.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every method in every arithmetic: what is called solved is a solution, whatever the scales of the problem.
 
-#include "certify/solve.h"
+#include "certify/exact/solve.h"
 
 #include <catch2/catch.hpp>
 

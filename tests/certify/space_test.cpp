@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solutions in space: certificates of (21), (22) and of Coulomb's law up to a bound.
 
-#include "certify/space.h"
+#include "certify/exact/space.h"
 
 #include <catch2/catch.hpp>
 
-#include "certify/certificate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/lemke_space.h"
-#include "certify/no_solution.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/existence.h"
+#include "certify/claims/no_solution.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/lemke_space.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/complete/polygon_errors.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"

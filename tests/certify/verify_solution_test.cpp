@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The exact check of a solution.
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 
 #include <catch2/catch.hpp>
 

@@ -29,7 +29,7 @@ METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.c
 PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
          "bench/peers_tables.cpp")
 JUDGED = ("solver/problem/errors.h", "solver/problem/units.h")
-ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/filtered.cpp", *JUDGED)
+ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/exact/filtered.cpp", *JUDGED)
 RUNGS = (*ANSWERS, "bench/ladder.cpp")
 SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers_search.cpp", "bench/peak.cpp")
 STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
@@ -59,7 +59,7 @@ FIGURES = [
            ("algorithm", "bench/scenes.cpp")),
     Figure("tolerance", "corpus/scenes/README.md", "minutes", scene.tolerance, ("algorithm", "tests/setup/tolerance.py")),
     Figure("safe-by-condition", "certify/condition_number.md", "cheap", corpus.safe_by_condition),
-    Figure("dearest", "certify/README.md", "minutes", corpus.dearest, ("certify/check_certificate.cpp", "certify/witness.cpp",
+    Figure("dearest", "certify/README.md", "minutes", corpus.dearest, ("certify/claims/check_certificate.cpp", "certify/claims/witness.cpp",
            "certify/check_certificate.py", "certify/certificate_reader.py", "tests/certify/limits_test.py")),
     Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
            ("algorithm", "bench/linear_algebra.cpp")),
@@ -90,8 +90,8 @@ FIGURES = [
     Figure("method-times", "reports/methods.md", "minutes", bench.method_times, METHODS),
     Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless, METHODS),
     Figure("certified", "reports/arithmetic.md", "minutes", rungs.certified,
-           ("algorithm", "bench/ratios.cpp", "certify/filtered.cpp")),
-    Figure("same-tables", "reports/arithmetic.md", "long", rungs.same_tables, ("algorithm", "certify/filtered.cpp")),
+           ("algorithm", "bench/ratios.cpp", "certify/exact/filtered.cpp")),
+    Figure("same-tables", "reports/arithmetic.md", "long", rungs.same_tables, ("algorithm", "certify/exact/filtered.cpp")),
     Figure("trade", "reports/arithmetic.md", "minutes", rungs.trade, RUNGS),
     Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
     Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/silent.cpp")),

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/certificate.h"
+#include "certify/claims/certificate.h"
 
 #include <functional>
 #include <map>
 
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/hypothesis.h"
-#include "certify/properties.h"
-#include "certify/safe.h"
+#include "certify/claims/existence.h"
+#include "certify/claims/safe.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/hypothesis.h"
+#include "certify/exact/properties.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/targets.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Certificates of problems at extremes: what is made is accepted, and nothing else is claimed.
 
-#include "certify/certificate.h"
-#include "certify/condition.h"
-#include "certify/existence.h"
-#include "certify/safe.h"
-#include "certify/safety_threshold.h"
+#include "certify/claims/certificate.h"
+#include "certify/claims/condition.h"
+#include "certify/claims/existence.h"
+#include "certify/claims/safe.h"
+#include "certify/claims/safety_threshold.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/extreme.h"

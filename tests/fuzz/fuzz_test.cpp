@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "certify/certificate.h"
+#include "certify/claims/certificate.h"
 #include "corpus/input_file.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/extreme.h"

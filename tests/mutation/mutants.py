@@ -276,7 +276,7 @@ bug("bilateral-constant", "x0[determines[i]] = -T(i, kept + count);", "x0[determ
 
 CHECKER = "^program: false_claims|^certify: certificate"
 
-bug = in_file("certify/check_certificate.cpp", CHECKER)
+bug = in_file("certify/claims/check_certificate.cpp", CHECKER)
 bug("claim-symmetric", """throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
                    "A = A'"};""", "", "every A is symmetric")
 bug("claim-not-symmetric", 'if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", '
@@ -347,12 +347,12 @@ bug("certificate-version", '!certificate["version"].is_number_integer() || certi
     'certificate["version"] != 1', "version 1.0 is read")
 bug("certificate-format", 'certificate["format"] != "stiction-certificate"', "false", "any format is read")
 
-bug = in_file("certify/witness.cpp", "^program: limits")
+bug = in_file("certify/claims/witness.cpp", "^program: limits")
 bug("work-operations", "operations <= static_cast<double>(kMostOperations)", "true", "any number of operations")
 bug("work-bits", "bits_ <= most_", "true", "operations on numbers of any length")
 bug("work-one-bit", "bits_ <= most_", "bits_ < most_", "a bit less than the other checkers take")
 
-bug = in_file("certify/verify_solution.cpp", CHECKER + "|^certify: (verify|space|coulomb)|^solver: run")
+bug = in_file("certify/exact/verify_solution.cpp", CHECKER + "|^certify: (verify|space|coulomb)|^solver: run")
 bug("planar-complementarity", 'if (product != 0) return Broken(contact, "fN aN = 0", product);', "", "(15) without fN aN = 0")
 bug("planar-acceleration", 'if (a < 0) return Broken(contact, "aN >= 0", a);', "", "(15) without aN >= 0")
 bug("planar-force", 'if (f < 0) return Broken(contact, "fN >= 0", f);', "", "(15) without fN >= 0")
@@ -372,7 +372,7 @@ bug("coulomb-angle", 'if (excess < 0) return Broken(c.number, "(fF.aF)^2 >= c^2 
     "Coulomb's law at any angle")
 bug("space-sliding-y", "Rational(c.f_y + c.Bound() * c.law.slip[1])", "Rational(0)", "sliding friction along x only")
 
-bug = in_file("certify/no_solution.cpp", CHECKER + "|^certify: (no-solution|modes)")
+bug = in_file("certify/exact/farkas.cpp", CHECKER + "|^certify: (no-solution|modes)")
 bug("break-friction", "return yN >= 0 && yF == 0;", "return yN >= 0;", "break: yF may be anything")
 bug("break-normal", "return yN >= 0 && yF == 0;", "return yF == 0;", "break: yN may be anything")
 bug("touch-slip", "gN - SlipOf(contact) * along <= 0 && yF == 0", "gN + SlipOf(contact) * along <= 0 && yF == 0",
@@ -396,13 +396,14 @@ bug("touch-in-space-slip", "contact.slip[0] * g[row + 1] + contact.slip[1] * g[r
     "contact.slip[0] * g[row + 1] - contact.slip[1] * g[row + 2]", "in space: a sliding contact slides another way",
     type="Rational")
 bug("refutation-of-zero", "farkas.value >= 0", "farkas.value > 0", "y'b = 0 refutes")
+bug = in_file("certify/claims/no_solution.cpp", CHECKER + "|^certify: (no-solution|modes)")
 bug("prefix-twice", 'if (listed.size() < prefixes.size()) throw Rejected{path, "a prefix twice", "each once"};', "",
     "a prefix counts twice")
 bug("prefix-extension", 'throw Rejected{ElementPath(path, k) + ".modes", "an extension of another prefix", "none"};', "",
     "a prefix and its extensions count")
 bug("cover-less", "covered != words", "covered > words", "words may be left out")
 
-bug = in_file("certify/hypothesis.cpp", CHECKER + r"|^certify: \(H\)")
+bug = in_file("certify/exact/hypothesis.cpp", CHECKER + r"|^certify: \(H\)")
 bug("dual-bilateral", 'if (contact.kind == ContactKind::kBilateral && g[row] != 0) return Broken(i, "gN = 0", g[row]);', "",
     "bilateral contacts have the dual cone of others")
 bug("dual-normal", 'if (g[row] < 0) return Broken(i, "gN >= 0", g[row]);', "", "a dual cone and its opposite")
@@ -414,27 +415,27 @@ bug("second-tangent", "for (int k = 1; k < dimension; ++k) square += x[row + k] 
     "for (int k = 1; k < 2; ++k) square += x[row + k] * x[row + k];", "the second tangent does not count")
 bug("dual-transpose", "rest[j] -= y[i] * problem.A(i, j);", "rest[j] -= y[i] * problem.A(j, i);", "A y for A'y")
 
-bug = in_file("certify/modes.cpp", CHECKER)
+bug = in_file("certify/exact/modes.cpp", CHECKER)
 bug("modes-in-space", "dimension == 2 && HasFrictionModes(contact)", "HasFrictionModes(contact)",
     "contacts in space have the modes of the plane")
 
 IN_SPACE = r"^certify: (space|rest|\(H\))"
-bug = in_file("certify/refute_in_space.cpp", IN_SPACE)
+bug = in_file("certify/claims/refute_in_space.cpp", IN_SPACE)
 bug("open-word", "result_.end = EnumerationEnd::kOpen;", "", "a word that nothing refutes is refuted")
 bug("refuted-touch", "i < prefix.size() && prefix[i] == Mode::kTouch", "i < prefix.size()",
     "contacts that break are in touch")
-bug = in_file("certify/cones.cpp", IN_SPACE)
+bug = in_file("certify/exact/cones.cpp", IN_SPACE)
 bug("added-corner-side", "which == EdgesOf::kAroundCone ? 1 : -1", "which == EdgesOf::kAroundCone ? -1 : 1",
     "corners are added opposite to where they are wanted")
 bug("corner-length", "dual ? mu * mu * length <= normal : length <= mu * mu * normal",
     "dual ? length <= mu * mu * normal : length <= mu * mu * normal", "a cone is its dual cone")
-bug = in_file("certify/rest.cpp", IN_SPACE)
+bug = in_file("certify/exact/rest.cpp", IN_SPACE)
 bug("rest-sliding", "if (HasSlidingContact(problem)) return std::nullopt;", "", "contacts that slide rest")
 bug("rest-without-programs", "IsRegular(problem.A)", "true", "at rest by one vector or not at all")
-bug = in_file("certify/solve.cpp", IN_SPACE + "|^program: solve")
+bug = in_file("certify/exact/solve.cpp", IN_SPACE + "|^program: solve")
 bug("moves-elsewhere", "answer.moves_elsewhere = true;", "", "that accelerations are not unique is not told")
 
-bug = in_file("certify/safe.cpp", CHECKER + "|^certify: safe")
+bug = in_file("certify/claims/safe.cpp", CHECKER + "|^certify: safe")
 bug("safe-of-zero", 'if (determinant <= 0) throw Rejected{path, ToString(determinant), "a number > 0"};',
     'if (determinant < 0) throw Rejected{path, ToString(determinant), "a number > 0"};', "a determinant of zero is safe")
 bug("unsafe-positive", 'if (value > 0) throw Rejected{"witness.determinant", ToString(value), "a number <= 0"};', "",
@@ -449,7 +450,7 @@ bug("pivot-of-zero", "pivot <= 0", "pivot < 0", "the search divides by zero")
 bug("short-word", 'RequireList(stated, "witness.word", problem.contacts.size(), "modes");', "", "a word of fewer modes")
 bug("safe-of-other-kinds", "if (PublishedHandles(problem)) return;", "return;", "safe: sliding and bilateral contacts")
 
-bug = in_file("certify/condition.cpp", CHECKER + "|^certify: condition")
+bug = in_file("certify/claims/condition.cpp", CHECKER + "|^certify: condition")
 bug("scaling-sign", 'if (d[i] <= 0) throw Rejected{ElementPath("witness.scaling", i), ToString(d[i]), "a number > 0"};', "",
     "scalings may be negative")
 bug("condition-least", "!IsSemidefinite(B - least * I)", "false", "any least eigenvalue")
@@ -465,7 +466,7 @@ bug("ratio-upside-down", "largest = std::max(largest, Rational(weight * d[row - 
 bug("ratio-last", "largest = std::max(largest, Rational(weight * d[row - 1] / d[row]));",
     "largest = Rational(weight * d[row - 1] / d[row]);", "the friction of the last contact alone")
 
-bug = in_file("certify/witness.cpp", CHECKER)
+bug = in_file("certify/claims/witness.cpp", CHECKER)
 bug("unknown-keys", 'if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", expected};', "",
     "unknown keys are passed over")
 bug("least-integer", "json.is_number_integer() && json.get<std::int64_t>() >= least", "json.is_number_integer()",
@@ -473,7 +474,7 @@ bug("least-integer", "json.is_number_integer() && json.get<std::int64_t>() >= le
 
 # ---- certify: deciding ---------------------------------------------------------------
 
-bug = in_file("certify/enumerate.cpp", "^certify: (modes|no-solution|agreement)|^program: existence")
+bug = in_file("certify/exact/enumerate.cpp", "^certify: (modes|no-solution|agreement)|^program: existence")
 bug("tight-everywhere", "if (value != 0) continue;", "", "every condition is tight")
 bug("only-solution-rank", "if (Rank(normals, static_cast<int>(variables)) < static_cast<int>(variables)) return false;", "",
     "a continuum is called one solution")
@@ -486,18 +487,18 @@ bug("enumerate-cancel", "if (!options_.progress(progress)) result_.end = Enumera
 bug("tight-direction", "for (mpz_class& coefficient : normals.back()) coefficient = -coefficient;", "",
     "an upper limit is a lower one")
 
-bug = in_file("certify/modes.cpp", "^certify: (modes|agreement|no-solution)")
+bug = in_file("certify/exact/modes.cpp", "^certify: (modes|agreement|no-solution)")
 bug("slip-edge", "return {{{-mu}}, Relation::kZero, Relation::kAtLeastZero};",
     "return {{{mu}}, Relation::kZero, Relation::kAtLeastZero};", "slip+ pushes along")
 bug("stick-anywhere", "return abs(f[row + 1]) <= contact.mu * f[row];", "return true;", "sticking with any force")
 
-bug = in_file("certify/exact.cpp", "^certify: (runs|exact|policy classes|variables|certificate)|^program: paths")
+bug = in_file("certify/exact/exact.cpp", "^certify: (runs|exact|policy classes|variables|certificate)|^program: paths")
 bug("contact-not-restored", "state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);", "",
     "the contact driven last is told in numbers of the reduced problem")
 bug("classes-too-wide", "!AgreeOn(known.consulted, known.policies.front(), policy)", "false",
     "one run speaks for all policies")
 
-bug = in_file("certify/agreement.cpp", "^certify: agreement|^search: (unit|alarms)")
+bug = in_file("certify/claims/agreement.cpp", "^certify: agreement|^search: (unit|alarms)")
 bug("another-solution-listed", "(!solution.unique || solution.f == f)", "true", "any force in a mode is its solution")
 bug("lemke-need-not-solve", 'answer.method == "complete" || answer.method == "lemke"', 'answer.method == "complete"',
     "Lemke's method may end anyhow")
@@ -506,22 +507,22 @@ bug("regular-on-boundary", "modes.distinct_witnesses == count.words", "true", "s
 bug("incomplete-counts", "!answers.modes || answers.modes->end != EnumerationEnd::kComplete", "!answers.modes",
     "an enumeration that was stopped claims to be complete")
 
-bug = in_file("certify/slope.h", "^certify: (slope|robust)")
+bug = in_file("certify/exact/slope.h", "^certify: (slope|robust)")
 bug("slope-of-a-product", "x.range_ * t + y.centre_ * s", "x.centre_ * t + y.centre_ * s", "a slope at the centre alone")
 bug("slope-of-a-quotient", "s - quotient * t", "s", "a denominator that does not change")
 
-bug = in_file("certify/robust_scene.cpp", "^certify: robust")
+bug = in_file("certify/claims/robust_scene.cpp", "^certify: robust")
 bug("contact-not-moved", "Number(point[1]) + Off(reach_)", "Number(point[1])", "heights are known exactly")
 bug("rows-not-independent", "Unsure<Slope>::TellsSign(determinant) && !IsSurelyZero(determinant)", "true",
     "any three rows hold a body")
 bug("gravity-between-bodies", "if (bodies_[contact.a].fixed == bodies_[contact.b].fixed) return {};", "",
     "gravity accelerates bodies that fall together relative to each other")
 
-bug = in_file("certify/safety_threshold.cpp", "^certify: safe")
+bug = in_file("certify/claims/safety_threshold.cpp", "^certify: safe")
 bug("sturm-variations", "sign * last < 0", "sign * last <= 0", "roots that are none")
 bug("threshold-of-the-last", "if (smallest && !IsSmaller(root, *smallest)) continue;", "", "not the smallest root")
 
-bug = in_file("certify/properties.cpp", "^certify: (semidefinite|range|symmetry|assumptions|certificate)")
+bug = in_file("certify/exact/properties.cpp", "^certify: (semidefinite|range|symmetry|assumptions|certificate)")
 bug("curvature-witness", "y[k] = -(S(i, i) + 1) / (2 * S(i, k));", "y[k] = (S(i, i) + 1) / (2 * S(i, k));",
     "a direction of positive curvature")
 bug("range-obstacle", "M(i, size) != 0", "M(i, size) > 0", "an obstacle of one sign only")
@@ -545,7 +546,7 @@ bug("ball-sign-of-zero", "if (!IsZero()) throw UnsureSign();", "", "an unsure si
 bug("ball-earliest", "(gap.Size() - gap.radius()) / (rate.Size() + rate.radius())", "gap.Size() / rate.Size()",
     "an unsure limit is later than it may be")
 
-bug = in_file("certify/filtered.cpp", FILTERED)
+bug = in_file("certify/exact/filtered.cpp", FILTERED)
 bug("no-second-rung", "Rung::kDoubleDouble <= rungs.last", "false", "double-doubles are never asked")
 bug("rungs-beyond-last", "rungs.last != Rung::kExact", "false", "rationals are asked where they were not wanted")
 bug("complete-upper-lower", "Mode::kSlipMinus", "Mode::kSlipPlus",
@@ -553,11 +554,11 @@ bug("complete-upper-lower", "Mode::kSlipMinus", "Mode::kSlipPlus",
 bug("no-dependent-rows", "TryPublished<dd_real>(remaining, options, &dependent)", "TryPublished<dd_real>(remaining, options, nullptr)",
     "zeros of singular matrices are unsure")
 
-bug = in_file("certify/dependent_rows.cpp", FILTERED)
+bug = in_file("certify/exact/dependent_rows.cpp", FILTERED)
 bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << problem_.A.row(i), Rational(0);", "equations between rows of A alone",
     equivalent="of the generators b is in the range of A, where the same equations hold for b")
 
-bug = in_file("certify/interval_portable.h", "^certify: portable intervals")
+bug = in_file("certify/exact/interval_portable.h", "^certify: portable intervals")
 bug("portable-sum", "return left <= 0 ? sum : Next(sum);", "return left < 0 ? Next(sum) : sum;", "sums are rounded inward")
 bug("portable-product", "IsTiny(product) || std::fma(x, y, -product) > 0", "std::fma(x, y, -product) > 0",
     "a product whose rest underflows is taken for exact")
@@ -955,11 +956,11 @@ bug("certificate-of-another", "of_original ? files.original : files.problem", "f
 
 VIEWER = "^program: viewer_data"
 
-bug = in_file("answers/narrate_baraff.cpp", "^program: replay")
+bug = in_file("cli/narration/narrate_baraff.cpp", "^program: replay")
 bug("mark-late", "(ended == answer_.start)", "(ended == answer_.start + 1)", "the state that recurs is marked a drive late")
 bug("mark-inside", "ended == Ended(steps - 1)", "false", "every step of a drive is marked")
 
-bug = in_file("answers/outcome_text.cpp", "^program: replay")
+bug = in_file("cli/narration/outcome_text.cpp", "^program: replay")
 bug("all-rounded", "text.size() <= kLong", "text.size() <= 2", "short fractions are rounded, too")
 bug("none-rounded", "fractions == FractionText::kFull", "true", "long fractions stand in full")
 
@@ -978,18 +979,18 @@ bug("nothing-in-common", "of_some == values(grid)", "true", "what policies share
 bug = in_file("cli/solve.cpp", "^program: replay")
 bug("bound-untold", 'if (result.contains("bound")) return WithinText(result);', "", "friction up to a bound is called exact")
 
-bug = in_file("certify/claims.cpp", "^program: (usage|certificate|existence)")
+bug = in_file("certify/claims/claims.cpp", "^program: (usage|certificate|existence)")
 bug("claims-in-space", "problem.dimension != 2", "false", "loops are claimed of problems in space")
 bug("claims-of-any-kind", "kind == ContactKind::kFrictionless || kind == ContactKind::kStatic", "true",
     "safety is claimed of sliding contacts")
 
-bug = in_file("answers/partings.cpp", VIEWER)
+bug = in_file("cli/narration/partings.cpp", VIEWER)
 bug("parting-without-sets", "left.sets == right.sets", "true", "runs that differ in their sets part a step late")
 bug("parting-own-value", "value == row.get(policy)", "false", "a run is compared with itself alone",
     equivalent="a run that is compared with itself parts nowhere")
 bug("parting-at-the-end", "step < both", "true", "a run that is the same is said to part")
 
-bug = in_file("answers/replay_page.cpp", VIEWER)
+bug = in_file("cli/narration/replay_page.cpp", VIEWER)
 bug("loop-from", 'pivots[from]["drive"] <= replay["start"]', 'pivots[from]["drive"] < replay["start"]',
     "the state that stands again is marked a drive early")
 bug("reading-of-friction", "row.id != PolicySwitch::kDrop || !on_normal", "row.id != PolicySwitch::kDrop",
@@ -1006,7 +1007,7 @@ bug("scene-of-another", "!AreSame(model.Problem(0), problem)", "false",
 
 PYTHON_TESTS = "^python: "
 
-bug = in_file("answers/request.cpp", PYTHON_TESTS)
+bug = in_file("certify/request.cpp", PYTHON_TESTS)
 bug("follow-without-path", "if (facts.has_path) followed.push_back(facts.name);", "followed.push_back(facts.name);",
     "methods without a path are followed")
 bug("policy-of-any-method", 'wanted.method != "baraff" && request.options.policy != Policy{}', "false",
@@ -1016,7 +1017,7 @@ bug("space-refused", "request.arithmetic = Arithmetic::kDouble;", "", "no replay
 bug("budgets-of-claims", "wanted.limits", "Limits{}", "certify has the usual budgets, whatever is asked for")
 bug("grid-is-no-name", 'text == "*"', "false", "'*' is no policy")
 
-bug = in_file("answers/followed.cpp", PYTHON_TESTS)
+bug = in_file("cli/narration/followed.cpp", PYTHON_TESTS)
 bug("proved-of-solved", "outcome == Outcome::kSolved", "false", "a run that ends solved is run over intervals, too")
 
 bug = in_file("python/module.cpp", PYTHON_TESTS)

@@ -33,7 +33,7 @@ sys.dont_write_bytecode = True  # beside the sources
 from mutants import LABELS, MUTANTS, PROGRAMS, PYTHON  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("answers", "bench", "certify", "cli", "cmake", "corpus", "python", "reports", "scene", "search", "solver",
+SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "python", "reports", "scene", "search", "solver",
            "tests")
 TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", "stiction_python", "stiction_python_package",
            *(f"test_{label}" for label in LABELS))

@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <random>
 
-#include "certify/existence.h"
-#include "certify/properties.h"
-#include "certify/verify_solution.h"
+#include "certify/claims/existence.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/scene_file.h"
 #include "scene/assemble.h"
 #include "solver/problem/reduction.h"

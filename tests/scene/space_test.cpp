@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes in space: contacts, rows, assembly; closed forms exactly, and minimal models against full ones.
 
-#include "certify/space.h"
+#include "certify/exact/space.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <random>
 #include <tuple>
 
-#include "certify/properties.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/polyhedron.h"
@@ -439,7 +439,9 @@ TEST_CASE("scene in space: a slider-crank starts as its reduced inertia asks, ex
   REQUIRE(linkage.f.size() == 1);
   CHECK(linkage.f[0].size() == 16);
   const Rational crank = Exactly("1/12") * Exactly("26/25") + Exactly("1/4");
-  const Rational rod = Exactly("121/100") + Exactly("9/100") + Exactly("1/12") * Exactly("29/20") * Exactly("1/2"), piston = Exactly("49/25");
+  const Rational rod = Exactly("121/100") + Exactly("9/100") +
+                       Exactly("1/12") * Exactly("29/20") * Exactly("1/2"),
+                 piston = Exactly("49/25");
   const Rational moment = 10 * (Exactly("1/2") * Exactly("3/5") + Exactly("3/10"));
   const Rational angular = -moment / (crank + rod + piston);
   CHECK(linkage.accelerations[1].tail<3>() == Vector3<Rational>(0, -angular, 0));

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <set>
 
-#include "certify/condition.h"
-#include "certify/exact.h"
-#include "certify/properties.h"
+#include "certify/claims/condition.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
 #include "scene/polygon.h"

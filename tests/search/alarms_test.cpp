@@ -11,13 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "certify/agreement.h"
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
-#include "certify/filtered.h"
-#include "certify/published_space.h"
-#include "certify/space.h"
+#include "certify/claims/agreement.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/space.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
 #include "search/unit.h"

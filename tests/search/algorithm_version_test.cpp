@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "certify/existence.h"
+#include "certify/exact/exact.h"
 #include "corpus/rational.h"
 #include "search/unit.h"
 

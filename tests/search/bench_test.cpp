@@ -11,8 +11,8 @@
 #include "bench/peak.h"
 #include "bench/plain_gauss.h"
 #include "bench/structure.h"
-#include "certify/existence.h"
-#include "certify/properties.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
 #include "search/generators.ipp"
 #include "solver/published/published.ipp"
 

@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "certify/certificate.h"
-#include "certify/enumerate.h"
-#include "certify/exact.h"
-#include "certify/existence.h"
+#include "certify/claims/certificate.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"

@@ -12,8 +12,8 @@
 #include <set>
 #include <utility>
 
-#include "certify/exact.h"
-#include "certify/properties.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/properties.h"
 #include "corpus/rational.h"
 #include "search/exponential.h"
 

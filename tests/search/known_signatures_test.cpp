@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "corpus/problem_file.h"
 #include "corpus/read_problem.h"
 #include "search/signature.h"

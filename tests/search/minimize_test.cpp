@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/properties.h"
-#include "certify/published_space.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/published_space.h"
 #include "search/signature.h"
 #include "tests/support.h"
 

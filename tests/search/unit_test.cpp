@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "certify/agreement.h"
-#include "certify/certificate.h"
-#include "certify/exact.h"
-#include "certify/published_space.h"
+#include "certify/claims/agreement.h"
+#include "certify/claims/certificate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/published_space.h"
 #include "corpus/kinds.h"
 #include "corpus/problem_file.h"
 #include "search/finish.h"

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PRODUCT = ("answers", "bench", "certify", "cli", "corpus", "python", "reports", "scene", "search", "solver")
+PRODUCT = ("bench", "certify", "cli", "corpus", "python", "reports", "scene", "search", "solver")
 CODE = (".h", ".ipp", ".cpp", ".py", ".pyi", ".js", ".mjs")
 JSON_HEADERS = ("nlohmann/json.hpp",)
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "certify/properties.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/complete/complete.ipp"
 #include "tests/support.h"
 

@@ -10,8 +10,8 @@
 #include <set>
 #include <utility>
 
-#include "certify/properties.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/properties.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

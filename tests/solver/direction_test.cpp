@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

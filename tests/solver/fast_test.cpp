@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/complete/complete.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <type_traits>
 
-#include "certify/enumerate.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published algorithm in space (readings.md, 8): examples by hand, planar problems in space, random ones.
 
-#include "certify/published_space.h"
+#include "certify/exact/published_space.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -626,10 +626,10 @@ TEST_CASE("weak residual: zero at a solution, the size of what is broken elsewhe
     return WeakErrorOf(problem, forces, a);
   };
   CHECK(residual({1, -0.5, 0}) == 0);
-  CHECK(residual({1, -0.75, 0}) == Approx(0.25 / 2));         // outside the circle
-  CHECK(residual({1, -0.25, 0}) == Approx(0.25 / 2));         // inside, though aF /= 0
-  CHECK(residual({1, 0.5, 0}) == Approx(0.236).epsilon(1e-3));  // along its acceleration
-  CHECK(residual({0.75, -0.375, 0}) == Approx(0.1392).epsilon(1e-3));       // aN = -1/2
+  CHECK(residual({1, -0.75, 0}) == Approx(0.25 / 2));                  // outside the circle
+  CHECK(residual({1, -0.25, 0}) == Approx(0.25 / 2));                  // inside, though aF /= 0
+  CHECK(residual({1, 0.5, 0}) == Approx(0.236).epsilon(1e-3));         // along its acceleration
+  CHECK(residual({0.75, -0.375, 0}) == Approx(0.1392).epsilon(1e-3));  // aN = -1/2
 }
 
 }  // namespace

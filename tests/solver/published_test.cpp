@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {

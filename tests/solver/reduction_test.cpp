@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/existence.h"
-#include "certify/verify_solution.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/verify_solution.h"
 #include "solver/linear/direction.ipp"
 #include "solver/problem/errors.h"
 #include "solver/problem/reduction.ipp"

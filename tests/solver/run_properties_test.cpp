@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "certify/verify_solution.h"
+#include "certify/exact/verify_solution.h"
 #include "search/signature.h"
 #include "solver/published/published.ipp"
 #include "tests/support.h"
@@ -27,9 +27,8 @@ void ForEachPair(int count, Visit visit) {
   }
   for (const CyclingSeed& seed : CyclingSeeds()) {
     CAPTURE(seed.index);
-    for (const char* policy :
-         {"paper", "resume=round", "resume=round,admit=eager", "file=yes,apex=suspended", "give-up=previous",
-          "give-up=second,drop=variable"}) {
+    for (const char* policy : {"paper", "resume=round", "resume=round,admit=eager", "file=yes,apex=suspended",
+                               "give-up=previous", "give-up=second,drop=variable"}) {
       visit(Cycling(seed), ParsePolicy(policy));
     }
   }

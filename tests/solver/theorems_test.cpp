@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/properties.h"
+#include "certify/exact/properties.h"
 #include "tests/support.h"
 
 namespace stiction {

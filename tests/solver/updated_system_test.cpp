@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "certify/exact.h"
+#include "certify/exact/exact.h"
 #include "search/choices.h"
 #include "solver/complete/complete.ipp"
 #include "solver/problem/errors.h"

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Certificates: `stiction-certificate`, version 1; README.md of this folder describes them.
+
+#ifndef STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_
+#define STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_
+
+#include <string>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+struct ExactRun;  // certify/exact/exact.h
+
+// ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
+
+// Requires: f is a solution (FindViolation is empty; in space FindWeakViolation); otherwise InternalError.
+Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
+// Requires: dimension 3, FindCoulombViolation is empty for this bound; otherwise InternalError.
+Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f, const Rational& bound);
+// `symmetric` or `not-symmetric`.
+Json SymmetryCertificate(const ExactProblem& problem);
+// `psd` or `not-psd`. Of an asymmetric matrix only `not-psd` can be certified: otherwise InputError.
+Json SemidefiniteCertificate(const ExactProblem& problem);
+// `definite` or `not-definite`, in the same way.
+Json DefiniteCertificate(const ExactProblem& problem);
+// `in-range` or `not-in-range`.
+Json RangeCertificate(const ExactProblem& problem);
+// `h` or `not-h` (hypothesis.h); null if neither is shown, which is rare and happens in space only. InputError
+// for problems with sliding contacts.
+Json HypothesisCertificate(const ExactProblem& problem);
+// `exists`: A is semidefinite and (H) holds, so there is a solution (existence.md, theorem 1); null if either
+// is not shown. InputError for an asymmetric A and for sliding contacts, of which the theorem does not speak.
+Json ExistsCertificate(const ExactProblem& problem);
+// `cycle`, for those of the policies that end in one; a null value if none does.
+Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
+// `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that
+// they miss; a null value if one of these is not so, or if no solution was found.
+Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
+                               const Limits& limits);
+
+// Steps as certificates and `replay --json` write them.
+Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names);
+// The outer state that recurs.
+Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names);
+Json VectorToJson(const ExactProblem::Vector& values);
+
+// ---- Checking --------------------------------------------------------------------------------
+
+struct CheckReport {
+  bool accepted = false;
+  std::string claim;         // as far as it could be read
+  std::string reason;        // why it was rejected: JSON path, found, expected
+  bool is_too_dear = false;  // rejected for the work that it asks for, not for what it says
+  std::string digest;        // of the problem (corpus/digest.h), as far as it could be read
+  Json facts;                // of an accepted certificate: policies, start, period, ...
+};
+
+// A certificate comes from anywhere; no honest one has come near these, nor near kMostJsonDepth and
+// kMostCharactersOfNumber.
+inline constexpr std::size_t kMostBytesOfCertificate = std::size_t{1} << 24;
+inline constexpr int kMostRowsOfCertificate = 1000;
+// Of all its numbers together, numerators and denominators, as they are written with their exponents written
+// out.
+inline constexpr std::int64_t kMostDigitsOfCertificate = 10'000'000;
+
+// `source` names the certificate in reasons; `digest`, where it is not empty, is that of the problem which the
+// certificate must speak of. Never throws for a bad certificate.
+CheckReport CheckCertificate(const Json& certificate, const std::string& source,
+                             const std::string& digest = {});
+
+// The policies that a `cycle` or a `counterexample` names.
+std::vector<Policy> CertifiedPolicies(const Json& certificate);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_

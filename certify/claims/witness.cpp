@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/claims/witness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "corpus/exact_number.h"
+
+namespace stiction {
+
+Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witness) {
+  return {{"format", "stiction-certificate"},
+          {"version", 1},
+          {"claim", claim},
+          {"problem", ProblemToJson(problem)},
+          {"witness", std::move(witness)}};
+}
+
+void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
+  if (!json.is_object()) throw Rejected{path, Shown(json), "an object"};
+  const std::string expected = fmt::format("{}", fmt::join(keys, ", "));
+  for (const auto& [key, value] : json.items()) {
+    if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", expected};
+  }
+  for (const std::string& key : keys) {
+    if (!json.contains(key)) throw Rejected{path, "no key '" + key + "'", expected};
+  }
+}
+
+void RequireEqual(const Rational& found, const Rational& expected, const std::string& path) {
+  if (found != expected) throw Rejected{path, ToString(found), ToString(expected)};
+}
+
+void RequireList(const Json& json, const std::string& path) {
+  if (!json.is_array()) throw Rejected{path, Shown(json), "a list"};
+}
+
+void RequireList(const Json& json, const std::string& path, std::size_t size, const char* items) {
+  if (json.is_array() && json.size() == size) return;
+  throw Rejected{path, Shown(json), fmt::format("a list of {} {}", size, items)};
+}
+
+Rational ReadNumber(const Json& json, const std::string& path) {
+  const auto* text = json.get_ptr<const std::string*>();  // null if it is no text
+  if (text != nullptr && text->size() > kMostCharactersOfNumber) {
+    throw Rejected{path, Shown(json), fmt::format("at most {} characters", kMostCharactersOfNumber)};
+  }
+  if (text != nullptr) {
+    if (const auto value = ParseRational(*text)) return *value;
+  }
+  throw Rejected{path, Shown(json), "an exact number as a string"};
+}
+
+std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
+  if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
+  throw Rejected{path, Shown(json), fmt::format("an integer >= {}", least)};
+}
+
+ExactVector ReadVector(const Json& json, const std::string& path, int size) {
+  RequireList(json, path, static_cast<std::size_t>(size), "numbers");
+  ExactVector values(size);
+  for (int i = 0; i < size; ++i) values[i] = ReadNumber(json[i], ElementPath(path, i));
+  return values;
+}
+
+ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProblem& problem) {
+  const std::size_t contacts = problem.contacts.size();
+  if (!json.is_array() || json.size() > contacts) {
+    throw Rejected{path, Shown(json), fmt::format("a list of at most {} modes", contacts)};
+  }
+  ModeWord prefix;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto modes = ModesOf(problem.contacts[i], problem.dimension);
+    const auto* name = json[i].get_ptr<const std::string*>();  // null if it is no text
+    const auto mode =
+        std::ranges::find_if(modes, [name](Mode m) { return name != nullptr && *name == Name(m); });
+    if (mode == modes.end()) {
+      const ModeWord all(modes.begin(), modes.end());
+      throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + WordToJson(all).dump()};
+    }
+    prefix.push_back(*mode);
+  }
+  return prefix;
+}
+
+// ---- Cost --------------------------------------------------------------------------------------
+
+double ProductOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n + 8 * n) / 8);
+}
+
+double EliminationOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n * n + 10 * n * n) / 10);
+}
+
+double ReducedOperations(const ExactProblem& problem, double times) {
+  const double n = problem.rows();
+  return std::floor(times * (n * n * n + 240 * n) / 240);
+}
+
+Cost::Cost(double operations)
+    : most_(static_cast<std::int64_t>(std::sqrt(std::floor(kMostWork / std::max(operations, 1.0))))) {
+  if (operations <= static_cast<double>(kMostOperations)) return;
+  throw TooDear{{"certificate", fmt::format("a claim that takes {:.0f} operations", operations),
+                 fmt::format("at most {}", kMostOperations)}};
+}
+
+void Cost::Add(std::int64_t bits) {
+  bits_ += bits;
+  if (bits_ <= most_) return;
+  throw TooDear{{"certificate", fmt::format("numbers that grow beyond {} bits", most_),
+                 "fewer, for as many operations as the claim takes"}};
+}
+
+// Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit.
+std::int64_t Cost::Bits(std::span<const Rational> numbers) const {
+  using Parts = Fractions<Rational>;
+  Parts::Integer denominator = 1;
+  std::int64_t numerator = 1;
+  for (const Rational& x : numbers) {
+    Parts::Include(denominator, x);
+    if (BitLength<Parts::Integer>::Of(denominator) > most_) return most_ + 1;
+  }
+  for (const Rational& x : numbers)
+    numerator = std::max(numerator, BitLength<Parts::Integer>::Of(Parts::Numerator(x, denominator)));
+  return BitLength<Parts::Integer>::Of(denominator) + numerator;
+}
+
+Cost& Cost::Numbers(std::span<const Rational> numbers, int times) {
+  Add(times * Bits(numbers));
+  return *this;
+}
+
+Cost& Cost::Vector(const ExactVector& x, int times) {
+  return Numbers({x.data(), static_cast<std::size_t>(x.size())}, times);
+}
+
+namespace {
+
+// Row i of A and b.
+std::vector<Rational> RowOf(const ExactProblem& problem, int i) {
+  std::vector<Rational> row = {problem.b[i]};
+  for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j));
+  return row;
+}
+
+}  // namespace
+
+Cost& Cost::LongestRow(const ExactProblem& problem) {
+  std::int64_t longest = 0;
+  for (int i = 0; i < problem.rows(); ++i) {
+    const ExactVector column = problem.A.col(i);
+    longest = std::max({longest, Bits(RowOf(problem, i)), Bits({column.data(), std::size_t(column.size())})});
+    if (longest > most_) break;
+  }
+  Add(longest);
+  return *this;
+}
+
+Cost& Cost::AllRows(const ExactProblem& problem) {
+  std::vector<Rational> mu;
+  for (const Contact<Rational>& contact : problem.contacts)
+    if (contact.HasFrictionRows()) mu.push_back(contact.mu);
+  const std::int64_t friction = Bits(mu);
+  for (int i = 0; i < problem.rows(); ++i) Add(Bits(RowOf(problem, i)) + friction);
+  return *this;
+}
+
+std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {
+  try {
+    check(problem, witness);
+    return std::nullopt;
+  } catch (const TooDear&) {
+    return std::nullopt;
+  } catch (const Rejected& rejected) {
+    return rejected;
+  }
+}
+
+}  // namespace stiction

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Certificates put together, and their witnesses read.
+//
+// A witness comes from anywhere. What the functions below expect of it and do not find is thrown as `Rejected`,
+// and ends the check of the certificate: CheckCertificate (certificate.h) makes a reason of it.
+
+#ifndef STICTION_CERTIFY_CLAIMS_WITNESS_H_
+#define STICTION_CERTIFY_CLAIMS_WITNESS_H_
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "certify/exact/modes.h"
+#include "corpus/json_text.h"
+#include "corpus/problem_file.h"
+
+namespace stiction {
+
+// ---- Making ------------------------------------------------------------------------------------
+
+// `stiction-certificate`, version 1, of this claim.
+Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witness);
+
+// ---- Reading -----------------------------------------------------------------------------------
+
+struct Rejected {
+  std::string path, found, expected;
+};
+// More work than any checker does for a certificate, whether its claim is true or not.
+struct TooDear : Rejected {};
+
+// ---- Cost --------------------------------------------------------------------------------------
+//
+// What a check will cost is bounded before it begins, in every checker by the same rule. `operations` counts
+// those of the check on numbers as long as they get; these are bounded by the bits of rows and vectors over
+// their common denominators, which add up: a determinant of A has no more bits than the rows of A together.
+
+inline constexpr std::int64_t kMostOperations = 2'000'000;
+inline constexpr double kMostWork = 1e13;  // operations, times the square of the bits
+
+// Each with numbers of `problem`, n rows of them; `times`: how often.
+double ProductOperations(const ExactProblem& problem, double times);      // A x
+double EliminationOperations(const ExactProblem& problem, double times);  // of A
+double ReducedOperations(const ExactProblem& problem, double times);      // of a reduced matrix: half as large
+
+class Cost {
+ public:
+  // TooDear beyond kMostOperations.
+  explicit Cost(double operations);
+
+  // Each adds bits, and throws TooDear where there are too many.
+  Cost& Numbers(std::span<const Rational> numbers, int times = 1);  // over their common denominator
+  Cost& Vector(const ExactVector& x, int times = 1);
+  Cost& LongestRow(const ExactProblem& problem);  // or column, of A and b
+  Cost& AllRows(const ExactProblem& problem);     // of A and b, each with the coefficients of friction
+
+ private:
+  std::int64_t Bits(std::span<const Rational> numbers) const;
+  void Add(std::int64_t bits);
+
+  std::int64_t most_, bits_ = 0;
+};
+
+// An object with exactly these keys, in any order.
+void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys);
+void RequireEqual(const Rational& found, const Rational& expected, const std::string& path);
+// A list; of `size` items.
+void RequireList(const Json& json, const std::string& path);
+void RequireList(const Json& json, const std::string& path, std::size_t size, const char* items);
+
+Rational ReadNumber(const Json& json, const std::string& path);
+std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least);
+ExactVector ReadVector(const Json& json, const std::string& path, int size);
+// Modes of the first contacts of the problem, of their kinds.
+ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProblem& problem);
+
+// A check of a witness against its problem: the facts of an accepted one, otherwise Rejected is thrown.
+using WitnessCheck = Json(const ExactProblem&, const Json& witness);
+
+// What the check finds wrong; empty if it accepts, and if it is too dear to be made.
+std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_CLAIMS_WITNESS_H_

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of (A b) that follow from others, told over rationals, and remembered.
+
+#ifndef STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_
+#define STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "solver/linear/elimination.h"
+#include "solver/problem/enclosure.h"
+
+namespace stiction {
+
+// Of one problem, which must outlive it. Cost of a new question: a system of `zero` unknowns.
+class ExactDependentRows final : public DependentRows {
+ public:
+  explicit ExactDependentRows(const ExactProblem& problem) : problem_(problem) {}
+
+  bool Follows(const std::vector<bool>& zero, int row) override;
+
+ private:
+  using Integers = Eigen::Matrix<Elimination<Rational>::Entry, Eigen::Dynamic, Eigen::Dynamic>;
+
+  bool IsCombination(const std::vector<bool>& zero, int row);
+  void ScaleToIntegers();
+
+  const ExactProblem& problem_;
+  Integers integers_;  // (A b), each row scaled; from the first question on
+  Elimination<Rational> system_;
+  std::map<std::pair<std::vector<bool>, int>, bool> known_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Enumeration: every word of contact modes (modes.h), an exact linear program each. All solutions, or a proof
+// of none.
+//
+// Words are searched depth first by their prefixes, the contacts behind a prefix relaxed (RelaxedCone). An
+// infeasible prefix ends the search below it with one Farkas vector (no_solution.h), which refutes all its
+// completions.
+//
+// In space a word is refuted, or it is left open (RefuteInSpace): its programs have polygons around the
+// friction cones (cones.h), so that what refutes them refutes the cones, with corners added where forces leave
+// the cones.
+//
+// Cost          in the worst case the product of the numbers of modes.
+// Exactness     programs with integer data, solved by CGAL's QP_solver over Gmpz, Bland's rule. Nothing that
+//               it says is believed: witnesses and Farkas vectors are verified here over rationals.
+// Determinism   the result depends on the problem alone.
+
+#ifndef STICTION_CERTIFY_EXACT_ENUMERATE_H_
+#define STICTION_CERTIFY_EXACT_ENUMERATE_H_
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "certify/exact/modes.h"
+
+namespace stiction {
+
+struct EnumerationProgress {
+  double decided = 0;  // part of all words, 0 to 1
+  std::int64_t prefixes = 0;
+  std::int64_t programs = 0;
+  std::int64_t solutions = 0;
+};
+
+struct EnumerationOptions {
+  bool first_solution_only = false;
+  std::int64_t programs = 1000000;  // budget of linear programs
+  // Called after every prefix; false cancels the search.
+  std::function<bool(const EnumerationProgress&)> progress;
+};
+
+// A word that has solutions.
+struct WordSolution {
+  ModeWord word;
+  ExactVector f;        // one of them, a vertex in general: rows x 1 in N
+  bool unique = false;  // no other f in this word (decided exactly)
+};
+
+struct RefutedPrefix {
+  ModeWord modes;
+  ExactVector y;  // integers without a common factor; no_solution.h says what it proves
+};
+
+enum class EnumerationEnd : std::uint8_t { kComplete, kFirstSolution, kCancelled, kLimit, kOpen };
+
+struct Enumeration {
+  EnumerationEnd end = EnumerationEnd::kComplete;
+  std::vector<WordSolution> solutions;  // in the order of the words
+  std::vector<RefutedPrefix> refuted;   // if complete: words and prefixes together cover every word once
+  std::int64_t distinct_witnesses = 0;  // different f among the solutions
+  std::int64_t prefixes = 0;            // visited
+  std::int64_t programs = 0;            // linear programs solved to decide them
+  std::int64_t reused_witnesses = 0;    // prefixes decided by the witness of the prefix before
+  std::int64_t reused_vectors = 0;      // prefixes refuted by an earlier Farkas vector
+
+  bool ProvesNoSolution() const { return end == EnumerationEnd::kComplete && solutions.empty(); }
+};
+
+// Requires: a planar problem (otherwise InputError). Throws InternalError if a witness or a Farkas vector of
+// the linear programs does not stand exact verification.
+Enumeration EnumerateModes(const ExactProblem& problem, const EnumerationOptions& options = {});
+
+// Requires: a problem in space (otherwise InputError). Ends as kOpen at the first word that no Farkas vector is
+// found for; of `solutions` nothing is said.
+Enumeration RefuteInSpace(const ExactProblem& problem, const EnumerationOptions& options = {});
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_ENUMERATE_H_

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/exact.h"
+
+#include <utility>
+
+#include "solver/complete/complete.ipp"
+#include "solver/lemke/lemke.ipp"
+#include "solver/problem/reduction.ipp"
+#include "solver/problem/remainder.h"
+#include "solver/published/published.ipp"
+
+namespace stiction {
+
+template class Reduction<Rational>;
+template class PublishedAlgorithm<Rational>;
+template class CompleteDriving<Rational>;
+template class LemkeAlgorithm<Rational>;
+
+namespace {
+
+Verdict VerdictOn(const Remainder<Rational>& remainder) {
+  Verdict verdict;
+  verdict.outcome = Outcome::kSingular;
+  verdict.reason = remainder.Obstacle();
+  return verdict;
+}
+
+// A run on the remainder in the terms of the whole problem.
+ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
+  for (Pivot<Rational>& pivot : run.trace.pivots) pivot = remainder.Restored(std::move(pivot));
+  ExactState& state = run.state;
+  state.sets = remainder.Sets(std::move(state.sets), IndexSet::kClamped);
+  state.last_left = remainder.Sets(std::move(state.last_left), IndexSet::kNone);
+  state.f = remainder.Forces(state.f);
+  state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);
+  run.initial_f = remainder.Forces(run.initial_f);
+  run.a = remainder.Accelerations(state.f);
+  if (run.verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(run.ray);
+  return run;
+}
+
+// A run of no steps.
+ExactRun Unstarted(const ExactProblem& problem, const Verdict& verdict) {
+  ExactRun run;
+  run.verdict = verdict;
+  run.initial_f = run.state.f = ExactProblem::Vector::Zero(problem.rows());
+  run.state.sets.assign(problem.rows(), IndexSet::kNone);
+  run.state.last_left = run.state.sets;
+  run.a = problem.b;
+  return run;
+}
+
+ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& options) {
+  PublishedAlgorithm<Rational> algorithm(options);
+  ExactRun run;
+  run.verdict = algorithm.Run(problem, &run.trace);
+  run.initial_f = ExactProblem::Vector::Zero(problem.rows());
+  run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(),
+               algorithm.last_left(), algorithm.last_step_zero()};
+  run.a = algorithm.state().a;
+  if (run.verdict.outcome == Outcome::kRay) run.ray = algorithm.direction().df();
+  return run;
+}
+
+}  // namespace
+
+ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
+  const Remainder<Rational> remainder(problem);
+  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), options))
+                                              : Unstarted(problem, VerdictOn(remainder));
+  run.policy = options.policy;
+  return run;
+}
+
+namespace {
+
+// Runs policies one by one and remembers which others each run speaks for.
+class GridRunner {
+ public:
+  GridRunner(const ExactProblem& problem, const Limits& limits) : remainder_(problem) {
+    algorithm_.options().limits = limits;
+    trace_.keep_pivots = false;
+  }
+
+  const PolicyClass& Run(const Policy& policy) {
+    for (PolicyClass& known : classes_) {
+      if (!AgreeOn(known.consulted, known.policies.front(), policy)) continue;
+      known.policies.push_back(policy);
+      return known;
+    }
+    algorithm_.options().policy = policy;
+    const Verdict verdict =
+        remainder_.Obstacle().empty() ? algorithm_.Run(remainder_.problem(), &trace_) : VerdictOn(remainder_);
+    return classes_.emplace_back(PolicyClass{{policy}, trace_.consulted, verdict});
+  }
+
+  std::vector<PolicyClass> Take() { return std::move(classes_); }
+
+ private:
+  const Remainder<Rational> remainder_;
+  PublishedAlgorithm<Rational> algorithm_;
+  Trace<Rational> trace_;
+  std::vector<PolicyClass> classes_;
+};
+
+}  // namespace
+
+std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
+                                     const Limits& limits, const std::function<bool()>& cancelled) {
+  GridRunner runner(problem, limits);
+  for (const Policy& policy : policies) {
+    if (cancelled()) break;
+    runner.Run(policy);
+  }
+  return runner.Take();
+}
+
+bool AllEndIn(Outcome outcome, const ExactProblem& problem, const std::vector<Policy>& policies,
+              const Limits& limits) {
+  GridRunner runner(problem, limits);
+  for (const Policy& policy : policies) {
+    if (runner.Run(policy).verdict.outcome != outcome) return false;
+  }
+  return true;
+}
+
+std::string VariableName(const RowLayout<Eigen::Dynamic>& layout, int row) {
+  return (layout.IsNormal(row) ? "N" : "F") + std::to_string(layout.ContactOf(row) + 1);
+}
+
+std::vector<std::string> VariableNames(const ExactProblem& problem) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  std::vector<std::string> names;
+  for (int row = 0; row < problem.rows(); ++row) names.push_back(VariableName(layout, row));
+  return names;
+}
+
+namespace {
+
+// A run of a method that takes frictionless and static contacts only, on what bilateral and sliding ones leave;
+// forces and accelerations are those of the whole problem, all else is of what remains.
+template <class Run>
+Run OnRemainder(const ExactProblem& problem, Run (*run)(const ExactProblem&, const Limits&),
+                const Limits& limits) {
+  const Reduction<Rational> reduction(problem);
+  Run result;
+  if (reduction.end() != ReductionEnd::kReduced) {
+    result.verdict.outcome = Outcome::kSingular;
+    result.verdict.reason = Reason(reduction.end());
+    return result;
+  }
+  result = run(reduction.problem(), limits);
+  if (result.verdict.outcome == Outcome::kSolved) {
+    result.f = reduction.Forces(result.f);
+    result.a = Accelerations(problem, result.f);
+  }
+  if (result.ray.size() > 0) result.ray = reduction.Direction(result.ray);
+  return result;
+}
+
+}  // namespace
+
+CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep) {
+  if (Reduction<Rational>::Concerns(problem)) {
+    return OnRemainder<CompleteRun>(
+        problem, [](const ExactProblem& rest, const Limits& of) { return RunComplete(rest, of); }, limits);
+  }
+  CompleteOptions options;
+  options.limits = limits;
+  CompleteDriving<Rational> driving(options);
+  CompleteRun run;
+  Trace<Rational> trace;
+  run.verdict = driving.Run(problem, keep == KeepPath::kYes ? &trace : nullptr);
+  run.path = std::move(trace.pivots);
+  run.f = driving.f();
+  run.a = driving.a();
+  if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
+  run.word = driving.Word();
+  return run;
+}
+
+LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
+  if (Reduction<Rational>::Concerns(problem)) return OnRemainder<LemkeRun>(problem, &RunLemke, limits);
+  LemkeOptions options;
+  options.limits = limits;
+  LemkeAlgorithm<Rational> lemke(options);
+  LemkeRun run;
+  run.verdict = lemke.Run(problem);
+  if (run.verdict.outcome == Outcome::kSolved) {
+    run.f = lemke.f();
+    run.a = lemke.a();
+  } else if (run.verdict.outcome == Outcome::kRay) {
+    run.ray = lemke.ray();
+  }
+  return run;
+}
+
+}  // namespace stiction

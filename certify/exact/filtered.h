@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The path methods of the plane with certified signs: every sign that a step depends on is proved, and every
+// step is that of the run over rationals.
+//
+//   rung            numbers                                    zeros that it knows
+//   double          balls around doubles                       by the sets (solver/problem/enclosure.h)
+//   double-double   balls around double-doubles, 100 bits      besides, accelerations that follow from others
+//                                                              (dependent_rows.h)
+//   exact           rationals                                  all
+//
+// A run that meets a sign which its rung does not tell is left, and begun anew on the next. Nothing is carried
+// from one rung to another, so that each run is a run of the one program that all scalars share. Nondegenerate
+// problems end on the first rung, at one to two times the time of doubles.
+//
+// Statements: `solved`, `cycle`, `ray`, `singular` and `stall` are true of the method in exact arithmetic, on
+// the problem as it is; the forces lie within their ends. A repeated state is a proof where its sets decide its
+// forces. Kinds: bilateral and sliding contacts leave the problem exactly, before it is enclosed (reduction.h);
+// a run is told in the terms of the whole problem, as those of exact.h.
+
+#ifndef STICTION_CERTIFY_EXACT_FILTERED_H_
+#define STICTION_CERTIFY_EXACT_FILTERED_H_
+
+#include <array>
+#include <string_view>
+
+#include "certify/exact/exact.h"
+#include "certify/exact/solve.h"
+#include "corpus/problem_file.h"
+#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+// The methods that are built so, by their names in the table of methods.
+inline constexpr std::array<std::string_view, 3> kEnclosedMethods = {"baraff", "complete", "lemke"};
+
+// One of them over balls: forces and accelerations with their ends, in the middle of them otherwise, as pivots;
+// undecided where a sign was unsure. Its forces are not judged. Lemke's method takes a covering vector of ones.
+// Requires dimension 2, and a rung other than exact. The answer keeps METHOD, which has to outlive it.
+InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
+                          Rung rung, KeepTrace keep = KeepTrace::kNo);
+
+// The rungs that a run is tried on. A suspicion of doubles is better begun on the second: the first seldom
+// tells what rounding did not.
+struct Rungs {
+  Rung first = Rung::kDouble, last = Rung::kExact;
+};
+
+// A verdict of the run over rationals, and the rung that gave it; `undecided` for kUnsureSign where none did.
+struct FilteredVerdict {
+  Verdict verdict;
+  Rung rung = Rung::kExact;
+};
+
+// The published algorithm. Requires dimension 2. A thread keeps the memory of its runs.
+FilteredVerdict RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options,
+                                     const Rungs& rungs = {});
+
+// Complete driving: the counters of the run over rationals, but the end is not believed. The equations of the
+// last word are solved over rationals, and the solution is verified; what that does not give, the run over
+// rationals does. Without a path or a ray. Requires dimension 2.
+struct FilteredComplete {
+  CompleteRun run;
+  Rung rung = Rung::kExact;
+};
+FilteredComplete RunCompleteFiltered(const ExactProblem& problem, const Limits& limits);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_FILTERED_H_

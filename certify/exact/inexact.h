@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers over floating-point numbers, told in doubles; and the published algorithm in space, run again where
+// it does not end solved. For units that define a table of methods, or choose from it.
+
+#ifndef STICTION_CERTIFY_EXACT_INEXACT_H_
+#define STICTION_CERTIFY_EXACT_INEXACT_H_
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "certify/exact/solve.h"
+#include "certify/exact/traced.h"
+#include "corpus/rounded.h"
+#include "solver/problem/long_double.h"
+#include "solver/published/published_space.h"
+
+namespace stiction {
+
+template <class Scalar>
+double BoundOf(const SolveOptions& options) {
+  return options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
+}
+
+template <class Vector>
+Eigen::VectorXd InDoubles(const Vector& values) {
+  return values.template cast<double>();
+}
+
+template <class Scalar>
+Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
+  return Converted<double>(pivot, [](const Scalar& x) { return static_cast<double>(x); });
+}
+
+// Forces of long double are rounded to what is told of them before they are judged.
+template <class Scalar>
+InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem<Scalar>& problem,
+                        double bound) {
+  InexactAnswer result;
+  result.outcome = answer.outcome;
+  result.reason = answer.reason;
+  result.start = answer.start;
+  result.period = answer.period;
+  result.method = answer.method;
+  result.arithmetic = answer.arithmetic;
+  result.law = answer.law;
+  result.f = InDoubles(answer.f);
+  result.a = InDoubles(answer.a);
+  result.ray = InDoubles(answer.ray);
+  result.first_f = InDoubles(answer.first_f);
+  result.errors = answer.errors;
+  result.word = answer.word;
+  result.counters = answer.counters;
+  for (const Pivot<Scalar>& pivot : answer.pivots) result.pivots.push_back(InDoubles(pivot));
+  if (sizeof(Scalar) > sizeof(double)) {
+    const auto doubles = Converted<double>(problem, [](const Scalar& x) { return static_cast<double>(x); });
+    JudgeAnswer(doubles, bound, result);
+  }
+  return result;
+}
+
+// The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
+inline InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
+  Tolerances& t = request.options.tolerances;
+  for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
+  t.loop_grain = std::min(t.loop_grain, 1e-12);
+  request.trace = KeepTrace::kNo;
+  const auto wide = Converted<LongDouble>(problem, [](double x) { return static_cast<LongDouble>(x); });
+  return InDoubles(SolveTraced(wide, request), wide, BoundOf<double>(request.options));
+}
+
+// InputError where the published algorithm in space has no such reading.
+inline void RequireReading(const ExactProblem& problem, const SolveRequest& request) {
+  const bool concerned = problem.dimension == 3 && request.method == "baraff";
+  if (!concerned || PublishedReadsInSpace(request.options.policy)) return;
+  throw InputError(
+      fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
+                  "slip=polygon alone; no other reading of these is built",
+                  PolicyName(request.options.policy)));
+}
+
+// The suspicion of a run of the published algorithm in space: the same problem, more finely.
+inline void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request,
+                            Solution& solution) {
+  InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
+  const Suspicion suspicion = SuspicionOf(first);
+  InexactAnswer again = RunFinely(ran, request);
+  again.pivots = std::move(first.pivots);
+  first = std::move(again);
+  solution.suspected = suspicion;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_INEXACT_H_

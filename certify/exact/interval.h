@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interval: CGAL's interval of doubles as a scalar of the methods, or for a page of its own (cli/live) another
+// that is the same. Included before their definitions, by the units that run over it only.
+//
+// A comparison that the ends do not decide throws UnsureComparison.
+
+#ifndef STICTION_CERTIFY_EXACT_INTERVAL_H_
+#define STICTION_CERTIFY_EXACT_INTERVAL_H_
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#ifdef STICTION_PORTABLE_NUMBERS
+#include "certify/exact/interval_portable.h"
+#else
+#include <CGAL/Interval_nt.h>
+#endif
+
+#include "certify/exact/solve.h"
+#include "corpus/rational.h"
+#include "solver/problem/enclosure.h"
+
+namespace stiction {
+
+#ifdef STICTION_PORTABLE_NUMBERS
+using Interval = PortableInterval;
+using UnsureComparison = PortableInterval::Unsure;
+#else
+using Interval = CGAL::Interval_nt<>;
+using UnsureComparison = CGAL::Uncertain_conversion_exception;
+#endif
+
+template <>
+inline bool IsSurelyZero(const Interval& x) {
+  return x.inf() == 0 && x.sup() == 0;
+}
+
+template <>
+inline constexpr bool kEncloses<Interval> = true;
+
+template <>
+struct Approximation<Interval> {
+  static double Of(const Interval& x) { return (x.inf() + x.sup()) / 2; }
+};
+
+template <>
+struct Unsure<Interval> {
+  static bool TellsSign(const Interval& x) { return x.inf() > 0 || x.sup() < 0 || IsSurelyZero(x); }
+  static bool MayBePositive(const Interval& x) { return x.sup() > 0; }
+  static Interval Earliest(const Interval& gap, const Interval& rate) {
+    const bool tells = gap.inf() > 0 && std::isfinite(gap.inf()) && std::isfinite(rate.sup());
+    return tells ? (Interval(gap.inf()) / Interval(rate.sup())).inf() : 0;
+  }
+  [[noreturn]] static void Refuse() { throw UnsureComparison("a limit that may or may not be the nearest"); }
+};
+
+// The double nearest to x, or the two on either side of it.
+inline Interval Around(const Rational& x) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double nearest = ToDouble(x);
+  if (std::isinf(nearest)) return {-kInfinity, kInfinity};
+  const int side = Sign(Rational(Rational(nearest) - x));
+  return {side > 0 ? std::nextafter(nearest, -kInfinity) : nearest,
+          side < 0 ? std::nextafter(nearest, kInfinity) : nearest};
+}
+
+template <class Vector>
+std::vector<Enclosure> Enclosures(const Vector& values) {
+  std::vector<Enclosure> result;
+  for (const Interval& x : values) result.push_back({x.inf(), x.sup()});
+  return result;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_INTERVAL_H_

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/linear_system.h"
+
+#include <CGAL/Gmpz.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+
+#include "solver/problem/check.h"
+
+namespace stiction {
+
+bool Holds(Relation relation, const Rational& value) {
+  switch (relation) {
+    case Relation::kFree:
+      return true;
+    case Relation::kZero:
+      return value == 0;
+    case Relation::kAtLeastZero:
+      return value >= 0;
+    case Relation::kAtMostZero:
+      return value <= 0;
+  }
+  return false;
+}
+
+namespace {
+
+mpz_class FromCgal(const CGAL::Gmpz& x) { return mpz_class(x.mpz()); }
+
+Rational FromCgal(const CGAL::Quotient<CGAL::Gmpz>& x) {
+  Rational number(FromCgal(x.numerator()), FromCgal(x.denominator()));
+  number.canonicalize();
+  return number;
+}
+
+CGAL::Quadratic_program_options BlandsRule() {
+  CGAL::Quadratic_program_options options;
+  options.set_pricing_strategy(CGAL::QP_BLAND);
+  return options;
+}
+
+CGAL::Comparison_result ToCgal(Relation relation) {
+  if (relation == Relation::kZero) return CGAL::EQUAL;
+  return relation == Relation::kAtLeastZero ? CGAL::LARGER : CGAL::SMALLER;
+}
+
+// Without variables QP_solver is not asked: a row decides by itself.
+std::variant<Point, Combination> SolveWithoutVariables(const LinearSystem& system) {
+  for (std::size_t i = 0; i < system.rows.size(); ++i) {
+    if (Holds(system.rows[i].relation, system.rows[i].constant)) continue;
+    Combination combination(system.rows.size());
+    combination[i] = -sgn(system.rows[i].constant);
+    return combination;
+  }
+  return Point();
+}
+
+}  // namespace
+
+std::variant<Point, Combination> Solve(const LinearSystem& system) {
+  const int variables = static_cast<int>(system.free.size()), rows = static_cast<int>(system.rows.size());
+  if (variables == 0) return SolveWithoutVariables(system);
+  CGAL::Quadratic_program<CGAL::Gmpz> program(CGAL::SMALLER, true, 0, false, 0);
+  for (int i = 0; i < rows; ++i) {
+    const LinearSystem::Row& row = system.rows[i];
+    program.set_r(i, ToCgal(row.relation));
+    program.set_b(i, -CGAL::Gmpz(row.constant.get_mpz_t()));
+    for (int j = 0, column = 0; j < variables; ++j) {
+      const CGAL::Gmpz coefficient(row.coefficients[j].get_mpz_t());
+      program.set_a(column++, i, coefficient);
+      if (system.free[j]) program.set_a(column++, i, -coefficient);
+    }
+  }
+  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), BlandsRule());
+  if (solution.is_infeasible()) {
+    Combination combination;
+    auto lambda = solution.infeasibility_certificate_begin();
+    for (int i = 0; i < rows; ++i, ++lambda) combination.push_back(-FromCgal(*lambda));
+    return combination;
+  }
+  STICTION_CHECK(solution.is_optimal(), "a feasibility program is either infeasible or solved");
+  Point x;
+  auto value = solution.variable_values_begin();
+  for (int j = 0; j < variables; ++j) {
+    x.push_back(FromCgal(*value++));
+    if (system.free[j]) x.back() -= FromCgal(*value++);
+  }
+  return x;
+}
+
+namespace {
+
+// `scale`: by which the row is multiplied, > 0.
+LinearSystem::Row IntegerRow(const RationalRow& rational, mpz_class& scale) {
+  scale = rational.constant.get_den();
+  for (const Rational& x : rational.coefficients) scale = lcm(scale, x.get_den());
+  const auto scaled = [&scale](const Rational& x) { return mpz_class(x.get_num() * (scale / x.get_den())); };
+  LinearSystem::Row row{{}, scaled(rational.constant), rational.relation};
+  for (const Rational& x : rational.coefficients) row.coefficients.push_back(scaled(x));
+  return row;
+}
+
+}  // namespace
+
+std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std::vector<RationalRow>& rows) {
+  LinearSystem system{free, {}};
+  std::vector<mpz_class> scales(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) system.rows.push_back(IntegerRow(rows[i], scales[i]));
+  auto answer = Solve(system);
+  if (Point* x = std::get_if<Point>(&answer)) return std::move(*x);
+  const Combination& combination = std::get<Combination>(answer);
+  Multipliers multipliers;
+  for (std::size_t i = 0; i < rows.size(); ++i) multipliers.values.emplace_back(combination[i] * scales[i]);
+  return multipliers;
+}
+
+// QP_solver is given twice the matrix of x'Dx, below its diagonal: that is M.
+QuadraticEnd Minimize(const QuadraticProgram& program) {
+  const int variables = static_cast<int>(program.c.size());
+  CGAL::Quadratic_program<CGAL::Gmpz> copy(CGAL::SMALLER, true, 0, false, 0);
+  for (int i = 0; i < variables; ++i) {
+    copy.set_c(i, CGAL::Gmpz(program.c[i].get_mpz_t()));
+    for (int j = 0; j <= i; ++j) copy.set_d(i, j, CGAL::Gmpz(program.M[i][j].get_mpz_t()));
+  }
+  const auto solution = CGAL::solve_nonnegative_quadratic_program(copy, CGAL::Gmpz(), BlandsRule());
+  QuadraticEnd end;
+  end.iterations = solution.number_of_iterations();
+  end.bounded = solution.is_optimal();
+  STICTION_CHECK(end.bounded || solution.is_unbounded(), "x >= 0 is never infeasible");
+  if (end.bounded) {
+    auto value = solution.variable_values_begin();
+    for (int j = 0; j < variables; ++j) end.x.push_back(FromCgal(*value++));
+  } else {
+    auto value = solution.unboundedness_certificate_begin();
+    for (int j = 0; j < variables; ++j) end.x.emplace_back(FromCgal(*value++));
+  }
+  return end;
+}
+
+}  // namespace stiction

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of methods over rationals, and all of it. A new exact method is a row here and its run.
+
+#include <algorithm>
+
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/feasibility_nlp.h"
+#include "certify/exact/nearby_words.h"
+#include "certify/exact/qp.h"
+#include "certify/exact/qp_ipopt.h"
+#include "certify/exact/quad.h"
+#include "certify/exact/solve.h"
+#include "certify/exact/space.h"
+#include "corpus/rounded.h"
+#include "solver/problem/reduction.h"
+#include "solver/solve.ipp"
+
+namespace stiction {
+namespace {
+
+using ExactMethod = Method<Rational>;
+using ExactTrace = Trace<Rational>;
+
+constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `auto` leaves a problem open
+constexpr std::int64_t kAutomaticProgramsInSpace = 2000;
+
+// ---- Runs ------------------------------------------------------------------------------------
+
+template <SpaceEngine kEngine>
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
+  return AnswerOf(SolveInSpace(problem, SpaceOptionsOf(options, kEngine), trace), options.law);
+}
+
+// The first solution in the order of the mode words, or that there is none.
+Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  Answer<Rational> answer;
+  if (options.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
+    answer.reason = kStopped;
+    return answer;
+  }
+  EnumerationOptions enumeration;
+  enumeration.first_solution_only = true;
+  enumeration.programs = std::min(options.limits.pivots, kAutomaticPrograms);
+  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  const Enumeration modes = EnumerateModes(problem, enumeration);
+  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  if (!modes.solutions.empty()) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = modes.solutions.front().f;
+  } else if (modes.ProvesNoSolution()) {
+    answer.outcome = Outcome::kNoSolution;
+    answer.reason = "no mode of the contacts has a solution; certify writes the proof";
+  } else if (modes.end == EnumerationEnd::kLimit) {
+    answer.outcome = Outcome::kLimit;
+    answer.reason = "programs";
+  } else {
+    answer.reason = kStopped;
+  }
+  return answer;
+}
+
+// That there is no solution, or nothing.
+Answer<Rational> RunRefutation(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  EnumerationOptions enumeration;
+  enumeration.programs = std::min(options.limits.pivots, kAutomaticProgramsInSpace);
+  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  Answer<Rational> answer;
+  answer.law = options.law;
+  answer.reason = kStopped;
+  if (options.limits.Stopped()) return answer;
+  const Enumeration modes = RefuteInSpace(problem, enumeration);
+  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  if (modes.ProvesNoSolution()) {
+    answer.outcome = Outcome::kNoSolution;
+    answer.reason = "no mode of the contacts has a solution; certify writes the proof";
+  } else if (modes.end == EnumerationEnd::kLimit) {
+    answer.outcome = Outcome::kLimit;
+    answer.reason = "programs";
+  } else if (modes.end == EnumerationEnd::kOpen) {
+    answer.reason = "a word of touching and separated contacts is left that nothing refutes";
+  }
+  return answer;
+}
+
+// Ipopt proposes, exact arithmetic decides.
+Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
+  IpoptProposer proposer;
+  ProposalStatistics statistics;
+  auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
+  Answer<Rational> answer;
+  answer.counters = {
+      {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
+  if (f) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = *std::move(f);
+  } else {
+    answer.reason = "no point that Ipopt proposed led to a solution";
+  }
+  return answer;
+}
+
+// The solution in the cells that the fast method finds over doubles; none where doubles do not hold the
+// problem.
+NearbySolution SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
+  constexpr int kWords = 16;
+  std::vector<double> point;
+  ScaledProblem scaled;
+  try {
+    scaled = MakeScaled(problem);
+    const double unit = ToDouble(scaled.force);
+    for (const double x : Solve(Rounded<double>(problem), "fast", {.limits = limits}).f)
+      point.push_back(x / unit);
+  } catch (const InputError&) {
+    return {};
+  }
+  std::set<ModeWord> tried;
+  return SolveNear(problem, scaled, point, kWords, tried);
+}
+
+// Complete driving where the cells of doubles are none.
+Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  NearbySolution near = SolveNearDoubles(problem, options.limits);
+  Answer<Rational> answer;
+  if (near.f) {
+    answer.outcome = Outcome::kSolved;
+    answer.f = *std::move(near.f);
+  } else {
+    answer = Solve(problem, "complete", options);
+  }
+  answer.counters = {{"words", near.words}, {"fallbacks", !near.f}};
+  return answer;
+}
+
+// In space the modes of its point, solved exactly.
+Answer<Rational> RunFastInSpace(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+  return AnswerOf(SolveNearFast(problem, SpaceOptionsOf(options, SpaceEngine::kComplete)), options.law);
+}
+
+Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
+  QpRun run = SolveQp(problem);
+  Answer<Rational> answer;
+  answer.outcome = run.outcome;
+  answer.f = std::move(run.f);
+  answer.ray = std::move(run.ray);
+  answer.counters = {{"iterations", run.iterations}};
+  return answer;
+}
+
+Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const SolveOptions&, Trace<double>*) {
+  IpoptProposer proposer;
+  const RoundedQpRun run = SolveQpByIpopt(Unrounded(problem), proposer, 1);  // the gate judges
+  Answer<double> answer;
+  answer.outcome = run.outcome;
+  answer.reason = run.reason;
+  if (!run.f.empty()) answer.f = Eigen::Map<const Eigen::VectorXd>(run.f.data(), problem.rows());
+  answer.counters = {{"iterations", run.iterations}};
+  return answer;
+}
+
+// ---- The table ---------------------------------------------------------------------------------
+
+constexpr std::string_view kExactEnd = "a solution, verified; nothing where it finds none";
+
+ExactMethod EnumerateRow() {
+  return {.name = "enumerate",
+          .title = "all words of contact modes, an exact linear program each",
+          .source = "certify/exact/enumerate.h",
+          .ends = "a solution, or that there is none; in space that there is none, or nothing",
+          .automatic = true,
+          .has_path = false,
+          .plane = {&RunEnumeration, true},
+          .space = {&RunRefutation, true}};
+}
+
+ExactMethod IpoptRow() {
+  return {.name = "ipopt",
+          .title = "feasibility problem (17), (18) by Ipopt, its modes solved exactly",
+          .source = "[Baraff94] 5.1; certify/exact/feasibility_nlp.h",
+          .ends = kExactEnd,
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunIpopt, true},
+          .space = {}};
+}
+
+ExactMethod FastRow() {
+  return {.name = "fast",
+          .title = "projected Gauss-Seidel, then block pivoting over doubles; its cells solved exactly",
+          .source = "solver/numeric/fast.h",
+          .ends = kExactEnd,
+          .automatic = true,
+          .has_path = false,
+          .plane = {&RunFastExactly, true, true},
+          .space = {&RunFastInSpace, true}};
+}
+
+constexpr std::string_view kQpTitle = "the quadratic program f'Af / 2 + b'f over f >= 0, frictionless";
+constexpr std::string_view kQpSource = "[Baraff94] 5.1, equation (5); certify/exact/qp.h";
+
+ExactMethod QpRow() {
+  return {.name = "qp",
+          .title = kQpTitle,
+          .source = kQpSource,
+          .ends = "a solution, or a direction that proves that there is none (CGAL)",
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunQp, true},
+          .space = {&RunQp, true}};
+}
+
+Method<double> QpByIpoptRow() {
+  return {.name = "qp",
+          .title = kQpTitle,
+          .source = kQpSource,
+          .ends = "nothing (Ipopt); what is called solved has the residual that is asked for",
+          .automatic = false,
+          .has_path = false,
+          .plane = {&RunQpByIpopt, true},
+          .space = {&RunQpByIpopt, true}};
+}
+
+}  // namespace
+
+template <>
+std::span<const ExactMethod> Methods<Rational>() {
+  static const std::array rows = {
+      CompleteRow<Rational>({&RunOnPolygons<SpaceEngine::kComplete>, true}),
+      LemkeRow<Rational>({&RunOnPolygons<SpaceEngine::kLemke>, true}),
+      FastRow(),
+      EnumerateRow(),
+      QpRow(),
+      IpoptRow(),
+      BaraffRow<Rational>({}),
+  };
+  return rows;
+}
+
+template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template const ExactMethod* FindMethod(std::string_view);
+
+std::span<const Method<double>> MethodsByProcess() {
+  static const std::array rows = {QpByIpoptRow()};
+  return rows;
+}
+
+// ---- All arithmetics ---------------------------------------------------------------------------
+
+namespace {
+
+class FactsList {
+ public:
+  template <class Scalar>
+  void Add(std::span<const Method<Scalar>> methods) {
+    for (const Method<Scalar>& method : methods) {
+      MethodFacts& facts = RowOf(method);
+      for (const int dimension : {2, 3})
+        Mark(facts, dimension, kArithmeticOf<Scalar>, method.IsBuilt(dimension));
+    }
+  }
+
+  // What is decided exactly can be told in floating-point numbers, too.
+  void AddToldExactly() {
+    for (MethodFacts& facts : rows_) {
+      for (const Arithmetic told :
+           {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble, Arithmetic::kQuad})
+        Mark(facts, 2, told, facts.IsBuilt(2, Arithmetic::kExact));
+    }
+  }
+
+  void AddEnclosed(const EnclosedMethod& method) {
+    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
+    Mark(*row, method.dimension, Arithmetic::kInterval, true);
+    Mark(*row, method.dimension, Arithmetic::kFiltered, method.has_rungs);
+  }
+
+  static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
+    facts.built[dimension - 2][static_cast<int>(arithmetic)] |= built;
+  }
+
+  std::vector<MethodFacts> Take() { return std::move(rows_); }
+
+ private:
+  template <class Scalar>
+  MethodFacts& RowOf(const Method<Scalar>& method) {
+    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
+    if (known != rows_.end()) return *known;
+    return rows_.emplace_back(
+        MethodFacts{method.name, method.title, method.source, method.ends, method.has_path, {}});
+  }
+
+  std::vector<MethodFacts> rows_;
+};
+
+std::vector<MethodFacts> MakeFacts() {
+  FactsList list;
+  list.Add(Methods<Rational>());
+  list.AddToldExactly();
+  list.Add(Methods<float>());
+  list.Add(Methods<double>());
+  list.Add(Methods<long double>());
+  list.Add(Methods<Quad>());
+  list.Add(MethodsByProcess());
+  for (const EnclosedMethod& method : EnclosedMethods()) list.AddEnclosed(method);
+  return list.Take();
+}
+
+}  // namespace
+
+const std::vector<MethodFacts>& AllMethods() {
+  static const std::vector<MethodFacts> facts = MakeFacts();
+  return facts;
+}
+
+const MethodFacts* FindMethodFacts(std::string_view name) {
+  const auto& all = AllMethods();
+  const auto row = std::find_if(all.begin(), all.end(), [name](auto& m) { return m.name == name; });
+  return row == all.end() ? nullptr : &*row;
+}
+
+}  // namespace stiction

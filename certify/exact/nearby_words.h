@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words of contact modes near a point of doubles, and their equations solved exactly (feasibility_nlp.h).
+
+#ifndef STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_
+#define STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_
+
+#include <functional>
+#include <optional>
+#include <queue>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "certify/exact/modes.h"
+
+namespace stiction {
+
+// f = force f', where f' solves the problem with A / max abs(A_ij), b / max abs(b_i).
+struct ScaledProblem {
+  std::vector<double> mu, slip;  // by contact
+  std::vector<std::vector<double>> A;
+  std::vector<double> b;
+  Rational force;
+};
+
+// InputError for a friction coefficient beyond the doubles.
+ScaledProblem MakeScaled(const ExactProblem& problem);
+
+struct RankedMode {
+  Mode mode;
+  double broken;  // by how much the point breaks the conditions
+};
+
+// The words made of ranked modes, in the order of the sum of `broken`.
+class WordsByRank {
+ public:
+  // Of the point f of the scaled problem.
+  WordsByRank(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f);
+
+  // Empty after the last.
+  std::optional<ModeWord> Next();
+
+ private:
+  using Entry = std::pair<double, std::vector<int>>;
+
+  void Push(std::vector<int> ranks);
+
+  std::vector<std::vector<RankedMode>> modes_;  // by contact
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
+};
+
+// A solution of the problem in the word, exactly verified. `near`: forces close to the point, of few bits.
+// Where the equations leave forces free they are taken as zero, then as in `near`: inside its word Ipopt's
+// point has room for the others to follow.
+std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord& word,
+                                     const std::vector<Rational>& near);
+
+// What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
+// nothing, as near a point that is not finite. Words in `tried` are passed over, and the others put there.
+struct NearbySolution {
+  std::optional<ExactVector> f;
+  int words = 0;          // whose equations were solved
+  bool is_first = false;  // the solution is in the nearest word
+};
+NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
+                         int words, std::set<ModeWord>& tried);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solutions in space on friction polygons, exact: runs of complete driving and of Lemke's method, again on
+// polygons with more corners, toward a law of the circle. space.h has the laws; here is (21), (22).
+
+#ifndef STICTION_CERTIFY_EXACT_POLYGONS_H_
+#define STICTION_CERTIFY_EXACT_POLYGONS_H_
+
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "certify/exact/properties.h"
+#include "solver/complete/complete.h"
+#include "solver/problem/answer.h"
+#include "solver/solve.h"
+
+namespace stiction {
+
+using RationalPolygons = std::vector<FrictionPolygon<Rational>>;
+
+struct SpaceRun {
+  CompleteVerdict verdict;
+  ExactVector f, a;
+  ExactVector ray;  // of a ray, otherwise empty
+  CellWord word;
+};
+
+// Complete driving over rationals; with `trace`, every linear piece is recorded.
+SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
+                  Trace<Rational>* trace = nullptr);
+
+enum class SpaceEngine { kComplete, kLemke };
+
+struct SpaceOptions {
+  FrictionLaw law = FrictionLaw::kBaraff;
+  SpaceEngine engine = SpaceEngine::kComplete;
+  int sides = 8;         // of every polygon at the start
+  int refinements = 20;  // runs with more corners, at most
+  Limits limits;
+};
+
+struct SpaceSolution {
+  // solved; ray, limit and undecided as the engine ends; undecided if no refinement helped
+  Outcome outcome = Outcome::kUndecided;
+  std::string_view reason;
+  ExactVector f, a;  // where solved
+  ExactVector ray;
+  CellWord word;       // of the last polygons
+  Rational bound = 0;  // Coulomb: c of FindCoulombViolation
+  int refinements = 0;
+  CompleteStatistics statistics;  // of all runs
+};
+
+SpaceOptions SpaceOptionsOf(const SolveOptions& options, SpaceEngine engine);
+
+// As the table of methods tells it.
+Answer<Rational> AnswerOf(SpaceSolution solution, FrictionLaw law);
+
+// One step from a solution on polygons toward the law: whether it is the last. Otherwise the polygons have more
+// corners after it.
+using Toward = std::function<bool(const SpaceRun&, RationalPolygons&, SpaceSolution&)>;
+
+// Requires dimension 3. The trace is that of the last polygons.
+SpaceSolution SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
+                              Trace<Rational>* trace);
+
+// Toward (21), (22), whatever options.law.
+SpaceSolution SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace);
+
+// f solves the problem.
+void Accept(const ExactProblem& problem, const ExactVector& f, SpaceSolution& solution);
+
+// What one contact does; a direction where it slips.
+struct SpaceMode {
+  Law law = Law::kNone;  // kHold, kBreak, kFree, kInside (sticks) or kCorner (slips, fF = mu fN direction)
+  Planar<Rational> direction;
+};
+
+// f with the linear equations of the modes: aN = 0 where there is contact, aF = 0 where it sticks. Unknowns
+// that these leave free take their values from `guess`. Empty if the equations contradict each other.
+std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
+                                      const ExactVector& guess);
+
+// A point of the circle near x / abs(x), from the tangent of half its angle with `bits` binary places.
+Planar<Rational> NearDirection(const Planar<Rational>& x, int bits);
+
+// The friction, or its acceleration, of the contact whose normal is in that row.
+inline Planar<Rational> TangentialOf(const ExactVector& values, int row) {
+  return {values[row + 1], values[row + 2]};
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_POLYGONS_H_

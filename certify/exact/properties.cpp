@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/properties.h"
+
+#include "solver/linear/elimination.ipp"
+
+namespace stiction {
+namespace {
+
+// x with L'x = y for a unit lower triangular L.
+ExactVector SolveTransposed(const ExactMatrix& L, ExactVector y) {
+  for (int i = static_cast<int>(y.size()) - 1; i >= 0; --i) {
+    for (int k = i + 1; k < y.size(); ++k) y[i] -= L(k, i) * y[k];
+  }
+  return y;
+}
+
+ExactVector Zeros(int size) {
+  ExactVector zeros(size);
+  for (int i = 0; i < size; ++i) zeros[i] = 0;
+  return zeros;
+}
+
+ExactMatrix Identity(int size) {
+  ExactMatrix identity(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) identity(i, j) = i == j ? 1 : 0;
+  }
+  return identity;
+}
+
+ExactMatrix SymmetricPart(const ExactMatrix& A) {
+  ExactMatrix S(A.rows(), A.cols());
+  for (int i = 0; i < A.rows(); ++i) {
+    for (int j = 0; j < A.cols(); ++j) S(i, j) = (A(i, j) + A(j, i)) / 2;
+  }
+  return S;
+}
+
+// y with y'Sy < 0 for a Schur complement S whose leading entry, at k, has no legal pivot. Empty if it has.
+std::optional<ExactVector> CurvatureOfSchur(const ExactMatrix& S, int k) {
+  const int size = static_cast<int>(S.rows());
+  ExactVector y = Zeros(size);
+  if (S(k, k) < 0) {
+    y[k] = 1;
+    return y;
+  }
+  if (S(k, k) > 0) return std::nullopt;
+  for (int i = k + 1; i < size; ++i) {
+    if (S(i, k) == 0) continue;
+    y[k] = -(S(i, i) + 1) / (2 * S(i, k));  // y'Sy = 2 y_k S_ik + S_ii = -1
+    y[i] = 1;
+    return y;
+  }
+  return std::nullopt;
+}
+
+// One column of A = L diag(D) L': S becomes the next Schur complement.
+void EliminateColumn(ExactMatrix& S, ExactMatrix& L, int k) {
+  const int size = static_cast<int>(S.rows());
+  if (S(k, k) == 0) return;
+  for (int i = k + 1; i < size; ++i) L(i, k) = S(i, k) / S(k, k);
+  for (int i = k + 1; i < size; ++i) {
+    if (L(i, k) == 0) continue;
+    for (int j = k + 1; j < size; ++j) S(i, j) -= L(i, k) * S(k, j);
+  }
+}
+
+void AddMultiple(ExactMatrix& M, int to, int from, const Rational& factor) {
+  for (int j = 0; j < M.cols(); ++j) {
+    if (M(from, j) != 0) M(to, j) += factor * M(from, j);
+  }
+}
+
+}  // namespace
+
+std::optional<std::pair<int, int>> FindAsymmetry(const ExactMatrix& A) {
+  for (int i = 0; i < A.rows(); ++i) {
+    for (int j = i + 1; j < A.cols(); ++j) {
+      if (A(i, j) != A(j, i)) return std::pair(i, j);
+    }
+  }
+  return std::nullopt;
+}
+
+std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatrix& A) {
+  const int size = static_cast<int>(A.rows());
+  ExactMatrix S = SymmetricPart(A);
+  LdltFactors factors{Identity(size), Zeros(size)};
+  for (int k = 0; k < size; ++k) {
+    if (const auto y = CurvatureOfSchur(S, k)) {
+      NegativeCurvature witness{SolveTransposed(factors.L, *y), 0};
+      for (int i = 0; i < size; ++i) {
+        for (int j = 0; j < size; ++j) witness.value += witness.x[i] * A(i, j) * witness.x[j];
+      }
+      return witness;
+    }
+    factors.D[k] = S(k, k);
+    EliminateColumn(S, factors.L, k);
+  }
+  return factors;
+}
+
+std::variant<LdltFactors, NoCurvature> DecideDefinite(const ExactMatrix& A) {
+  const auto decision = DecideSemidefinite(A);
+  if (const auto* negative = std::get_if<NegativeCurvature>(&decision)) {
+    return NoCurvature{negative->x, negative->value};
+  }
+  const auto& factors = std::get<LdltFactors>(decision);
+  for (int k = 0; k < factors.D.size(); ++k) {
+    if (factors.D[k] == 0) return NoCurvature{SolveTransposed(factors.L, Identity(A.rows()).col(k)), 0};
+  }
+  return factors;
+}
+
+// Row echelon form of [A | b | I]: a row that is zero in A names the obstacle in its last part.
+std::variant<RangePoint, RangeObstacle> DecideRange(const ExactMatrix& A, const ExactVector& b) {
+  const int size = static_cast<int>(b.size());
+  ExactMatrix M(size, 2 * size + 1);
+  M.leftCols(size) = A;
+  M.col(size) = b;
+  M.rightCols(size) = Identity(size);
+  std::vector<int> pivot_column;
+  for (int column = 0; column < size; ++column) {
+    const int rank = static_cast<int>(pivot_column.size());
+    int pivot = rank;
+    while (pivot < size && M(pivot, column) == 0) ++pivot;
+    if (pivot == size) continue;
+    if (pivot != rank) M.row(rank).swap(M.row(pivot));
+    for (int i = 0; i < size; ++i) {
+      if (i != rank && M(i, column) != 0) AddMultiple(M, i, rank, Rational(-M(i, column) / M(rank, column)));
+    }
+    pivot_column.push_back(column);
+  }
+  const int rank = static_cast<int>(pivot_column.size());
+  for (int i = rank; i < size; ++i) {
+    if (M(i, size) != 0) return RangeObstacle{M.row(i).tail(size).transpose(), M(i, size)};
+  }
+  RangePoint point{Zeros(size)};
+  for (int i = 0; i < rank; ++i) point.x[pivot_column[i]] = M(i, size) / M(i, pivot_column[i]);
+  return point;
+}
+
+bool IsSymmetric(const ExactProblem& problem) { return !FindAsymmetry(problem.A); }
+
+bool IsPositiveSemidefinite(const ExactProblem& problem) {
+  return std::holds_alternative<LdltFactors>(DecideSemidefinite(problem.A));
+}
+
+// Without witnesses.
+bool IsInRange(const ExactProblem& problem) {
+  const int size = problem.rows();
+  ExactMatrix M(size, size + 1);
+  M.leftCols(size) = problem.A;
+  M.col(size) = problem.b;
+  Elimination<Rational> elimination;
+  elimination.Assign(M);
+  elimination.Run(size, size, size + 1);
+  return elimination.IsConsistent(size);
+}
+
+bool MeetsAssumptions(const ExactProblem& problem) {
+  return IsSymmetric(problem) && IsPositiveSemidefinite(problem) && IsInRange(problem);
+}
+
+}  // namespace stiction

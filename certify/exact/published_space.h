@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The published algorithm in space over intervals.
+//
+// Intervals   every sign that a step depends on is proved, or the run ends `undecided`. So `solved`, `ray`,
+//             `singular` and `cycle` are statements about the algorithm in exact arithmetic. Forces are
+//             irrational, but not those of a state that remembers nothing: no contact in NCF or turned away, no
+//             resting force, the matrix of C and CF regular. There they are a rational function of the sets, so
+//             the sets of such a state that stand again prove the loop, if all systems in between are regular.
+//             One without such a state ends `undecided`, once rounded states have stood again twice.
+// Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
+//             numbers are rounded or enclosed. Runs are told in the terms of the whole problem, as those of
+//             exact.h: bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
+
+#ifndef STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
+#define STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
+
+#include <vector>
+
+#include "certify/exact/solve.h"
+#include "solver/published/published_space.h"
+
+namespace stiction {
+
+struct IntervalSpaceRun {
+  PublishedSpaceVerdict verdict;
+  std::vector<Enclosure> f, a;
+  std::vector<Enclosure> ray;  // the direction of a ray, otherwise empty
+};
+
+// Requires dimension 3 and PublishedReadsInSpace(options.policy).
+//
+// Double ends around the problem's numbers. Of the tolerances loop_grain alone is read.
+IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/rest.h"
+
+#include <algorithm>
+
+#include "certify/exact/cones.h"
+#include "certify/exact/farkas.h"
+#include "certify/exact/hypothesis.h"
+#include "certify/exact/verify_solution.h"
+#include "solver/linear/elimination.ipp"
+#include "solver/problem/check.h"
+
+namespace stiction {
+namespace {
+
+// The first row of every contact, and the number of rows.
+std::vector<int> FirstRows(const ExactProblem& problem) {
+  std::vector<int> rows = {0};
+  for (const auto& contact : problem.contacts)
+    rows.push_back(rows.back() + (contact.HasFrictionRows() ? problem.dimension : 1));
+  return rows;
+}
+
+// By contact: the number of its group, which is that of a contact in it.
+std::vector<int> GroupOfContacts(const ExactProblem& problem) {
+  const std::vector<int> first = FirstRows(problem);
+  const int count = static_cast<int>(problem.contacts.size());
+  std::vector<int> group(count, -1);
+  for (int seed = 0; seed < count; ++seed) {
+    if (group[seed] >= 0) continue;
+    group[seed] = seed;
+    for (std::vector<int> reached = {seed}; !reached.empty();) {
+      const int i = reached.back();
+      reached.pop_back();
+      for (int j = 0; j < count; ++j) {
+        const int height = first[i + 1] - first[i], width = first[j + 1] - first[j];
+        if (group[j] >= 0 || (problem.A.block(first[i], first[j], height, width).isZero() &&
+                              problem.A.block(first[j], first[i], width, height).isZero()))
+          continue;
+        group[j] = seed;
+        reached.push_back(j);
+      }
+    }
+  }
+  return group;
+}
+
+struct PartAtRest {
+  ExactProblem problem;
+  std::vector<int> rows;  // in the whole problem
+};
+
+PartAtRest PartOf(const ExactProblem& problem, const std::vector<int>& group, int number) {
+  const std::vector<int> first = FirstRows(problem);
+  PartAtRest part;
+  part.problem.dimension = problem.dimension;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (group[i] != number) continue;
+    part.problem.contacts.push_back(problem.contacts[i]);
+    for (int row = first[i]; row < first[i + 1]; ++row) part.rows.push_back(row);
+  }
+  part.problem.A = problem.A(part.rows, part.rows);
+  part.problem.b = problem.b(part.rows);
+  return part;
+}
+
+bool IsRegular(const ExactMatrix& A) {
+  const int size = static_cast<int>(A.rows());
+  Elimination<Rational> elimination;
+  elimination.Assign(A);
+  elimination.Run(size, size, size);
+  return elimination.rank() == size;
+}
+
+struct RestProgram {
+  std::optional<ExactVector> f;  // the edges times x >= 0, with A f + b = 0
+  ExactVector g;                 // if there is none: g.e >= 0 along the edges, where g = -A'y, y'b < 0
+};
+
+RestProgram SolveRest(const ExactProblem& problem, const RationalPolygons& polygons, EdgesOf which) {
+  const std::vector<ConeEdge> edges = MakeEdges(problem, polygons, which);
+  const int rows = problem.rows();
+  std::vector<bool> free;
+  for (const ConeEdge& edge : edges) free.push_back(edge.free);
+  std::vector<RationalRow> system;
+  for (int i = 0; i < rows; ++i) {
+    RationalRow& row = system.emplace_back(RationalRow{{}, problem.b[i]});
+    for (const ConeEdge& edge : edges) row.coefficients.push_back(Along(edge, problem.A, i));
+  }
+  const auto answer = Solve(free, system);
+  if (const Point* x = std::get_if<Point>(&answer)) return {Combined(edges, *x, rows), {}};
+  ExactVector y(rows);
+  for (int i = 0; i < rows; ++i) y[i] = std::get<Multipliers>(answer).values[i];
+  return {std::nullopt, -MakeFarkasVector(problem, y).g};
+}
+
+// f in K with A f + b = 0 by linear programs; empty if there is none, or none is found.
+std::optional<ExactVector> SearchCone(const ExactProblem& problem) {
+  constexpr int kRounds = 8;
+  RationalPolygons polygons = FirstPolygons(problem);
+  for (int round = 0; round < kRounds; ++round) {
+    const RestProgram within = SolveRest(problem, polygons, EdgesOf::kWithinCone);
+    if (within.f) return within.f;
+    if (!FindDualConeViolation(problem, within.g)) return std::nullopt;
+    AddCorners(problem, EdgesOf::kWithinCone, within.g, polygons);
+    const RestProgram around = SolveRest(problem, polygons, EdgesOf::kAroundCone);
+    if (!around.f) return std::nullopt;
+    if (!FindConeViolation(problem, *around.f)) return around.f;
+    AddCorners(problem, EdgesOf::kAroundCone, *around.f, polygons);
+  }
+  return std::nullopt;
+}
+
+std::optional<ExactVector> RestOf(const ExactProblem& problem) {
+  constexpr int kMostRows = 60;
+  if (problem.rows() > kMostRows) return std::nullopt;
+  if (HasSlidingContact(problem)) return std::nullopt;
+  const auto range = DecideRange(problem.A, problem.b);
+  const RangePoint* point = std::get_if<RangePoint>(&range);
+  if (point == nullptr) return std::nullopt;
+  const ExactVector f = -point->x;
+  if (!FindConeViolation(problem, f)) return f;
+  if (IsRegular(problem.A)) return std::nullopt;
+  return SearchCone(problem);
+}
+
+}  // namespace
+
+std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
+                                          const ExactVector& a) {
+  const std::vector<int> group = GroupOfContacts(problem);
+  std::optional<RestingForces> rest;
+  for (int i = 0; i < static_cast<int>(group.size()); ++i) {
+    if (group[i] != i) continue;
+    const PartAtRest part = PartOf(problem, group, i);
+    if (std::all_of(part.rows.begin(), part.rows.end(), [&a](int row) { return a[row] == 0; })) continue;
+    const auto forces = RestOf(part.problem);
+    if (!forces) continue;
+    STICTION_CHECK(!FindConeViolation(part.problem, *forces) && Accelerations(part.problem, *forces).isZero(),
+                   "forces at rest that are none");
+    if (!rest) rest = RestingForces{f, std::vector<bool>(f.size(), false)};
+    for (std::size_t k = 0; k < part.rows.size(); ++k) {
+      rest->f[part.rows[k]] = (*forces)[static_cast<int>(k)];
+      rest->rests[part.rows[k]] = true;
+    }
+  }
+  return rest;
+}
+
+}  // namespace stiction

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rest: solutions under which contacts keep still, where another solution accelerates them.
+//
+// Accelerations need not be unique with friction. Forces with
+//
+//   f in K,  A f + b = 0
+//
+// (K: cones.h) meet Coulomb's law exactly, whatever the dimension: aN = aF = 0. They are sought for every group
+// of contacts that A couples by itself, by an exact linear program, in space over polygons within K, whose
+// corners are added where the programs say; there none may be found though there are some. A group with a
+// sliding contact is left.
+
+#ifndef STICTION_CERTIFY_EXACT_REST_H_
+#define STICTION_CERTIFY_EXACT_REST_H_
+
+#include <optional>
+#include <vector>
+
+#include "certify/exact/properties.h"
+
+namespace stiction {
+
+// Forces of the groups that accelerate and can rest, by row; the others' are as they were.
+struct RestingForces {
+  ExactVector f;
+  std::vector<bool> rests;  // by row: whether its group did not
+};
+
+// a: accelerations under f, zero where they are not known to be anything else. Empty if nothing accelerates
+// that can rest.
+std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
+                                          const ExactVector& a);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_REST_H_

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/solve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "certify/exact/escalate.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/inexact.h"
+#include "certify/exact/interval.h"
+#include "certify/exact/published_space.h"
+#include "certify/exact/quad.h"
+#include "certify/exact/rest.h"
+#include "certify/exact/space.h"
+#include "certify/exact/traced.h"
+#include "certify/exact/verify_solution.h"
+#include "corpus/rounded.h"
+#include "solver/problem/check.h"
+
+namespace stiction {
+namespace {
+
+constexpr int kExactRows = 60, kExactRowsInSpace = 24;  // from which on `auto` solves over doubles
+
+bool IsFloating(Arithmetic arithmetic) {
+  return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
+         arithmetic == Arithmetic::kLongDouble || arithmetic == Arithmetic::kQuad;
+}
+
+// ---- Exact numbers -------------------------------------------------------------------------------
+
+// `auto` prefers, of several solutions, one whose contacts rest. The word is of the one that was found first.
+template <class Scalar>
+bool MayPreferRest(const TracedAnswer<Scalar>& answer, const SolveRequest& request) {
+  return request.method == kAutomatic && request.trace == KeepTrace::kNo && answer.Solved() &&
+         !request.options.limits.Stopped();
+}
+
+void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
+  if (!MayPreferRest(answer, request)) return;
+  auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
+  if (!rest) return;
+  answer.f = std::move(rest->f);
+  answer.a = Accelerations(problem, answer.f);
+  answer.word.clear();
+  answer.moves_elsewhere = true;
+  if (!answer.bound.empty()) answer.bound = ToString(CoulombBound(problem, answer.f).value_or(0));
+}
+
+ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
+  ExactAnswer answer = SolveExactly(problem, request);
+  PreferRest(problem, request, answer);
+  return answer;
+}
+
+// ---- Rest, of rounded forces ---------------------------------------------------------------------
+
+// Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
+ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
+  constexpr double kMoves = 1e-6;
+  Units<double> units;
+  units.Take(problem, answer.f, answer.a);
+  ExactVector moving = ExactVector::Zero(answer.a.size());
+  for (int i = 0; i < moving.size(); ++i) {
+    const bool moves = answer.a_enclosed.empty()
+                           ? std::abs(answer.a[i]) > kMoves * units.acceleration(i)
+                           : answer.a_enclosed[i].low > 0 || answer.a_enclosed[i].high < 0;
+    if (moves) moving[i] = answer.a[i];
+  }
+  return moving;
+}
+
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved.
+void PreferRest(const ContactProblem<double>& rounded, const ExactProblem& problem, const SolveRequest& request,
+                InexactAnswer& answer) {
+  if (!MayPreferRest(answer, request)) return;
+  const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
+  const auto rest = ForcesAtRest(problem, f, Moving(rounded, answer));
+  if (!rest) return;
+  InexactAnswer resting = answer;
+  resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  JudgeAnswer(rounded, BoundOf<double>(request.options), resting);
+  if (!resting.Solved()) return;
+  if (!answer.f_enclosed.empty()) resting.a = answer.a;
+  for (int i = 0; i < static_cast<int>(answer.f_enclosed.size()); ++i) {
+    if (!rest->rests[i]) continue;
+    const Interval around = Around(rest->f[i]);
+    resting.f_enclosed[i] = {around.inf(), around.sup()};
+    resting.a_enclosed[i] = {0, 0};
+    resting.a[i] = 0;
+  }
+  resting.word.clear();
+  resting.moves_elsewhere = true;
+  answer = std::move(resting);
+}
+
+// ---- Floating point ------------------------------------------------------------------------------
+
+// An answer that is only a suspicion: the same problem is run again where that decides more.
+void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
+  const InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
+  const MethodFacts* facts = FindMethodFacts(request.method);
+  const bool is_path = facts != nullptr && facts->has_path;
+  if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
+  if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
+  if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
+  const Suspicion suspicion = SuspicionOf(first);
+  solution.answer = SolveExactly(Unrounded(ran), request);
+  solution.suspected = suspicion;
+}
+
+// What decides exactly, asked for rounded numbers: its forces are rounded, and then judged.
+template <class Scalar>
+TracedAnswer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveRequest& request,
+                                   double bound) {
+  const ExactAnswer exact = SolveExactly(Unrounded(problem), request);
+  TracedAnswer<Scalar> answer;
+  answer.outcome = exact.outcome;
+  answer.reason = exact.reason;
+  answer.method = exact.method;
+  answer.counters = exact.counters;
+  answer.f = exact.f.unaryExpr([](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); });
+  answer.first_f = answer.f;
+  answer.first_f.setZero();
+  JudgeAnswer(problem, bound, answer);
+  return answer;
+}
+
+// The row that runs in a process of its own; null if there is none.
+template <class Scalar>
+const Method<Scalar>* FindProcess(std::string_view name) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    const auto rows = MethodsByProcess();
+    const auto row = std::find_if(rows.begin(), rows.end(), [name](auto& m) { return m.name == name; });
+    if (row != rows.end()) return &*row;
+  }
+  return nullptr;
+}
+
+template <class Scalar>
+TracedAnswer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+  if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
+    return SolveTraced(problem, request);
+  if (const Method<Scalar>* process = FindProcess<Scalar>(request.method))
+    return Traced(SolveBy(*process, problem, request.options), Trace<Scalar>());
+  return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
+}
+
+template <class Scalar>
+Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
+  const ContactProblem<Scalar> rounded = Rounded<Scalar>(problem);
+  Solution solution;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
+      Escalated escalated = SolveEscalating(rounded, request.options);
+      PreferRest(rounded, problem, request, escalated.answer);
+      return {.answer = std::move(escalated.answer), .suspected = std::move(escalated.suspected)};
+    }
+  }
+  solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
+  const auto ran = Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); });
+  Confirm(ran, request, solution);
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, problem, request, *answer);
+  return solution;
+}
+
+// ---- Enclosures ----------------------------------------------------------------------------------
+
+double Middle(const Enclosure& x) { return x.low + (x.high - x.low) / 2; }
+
+Eigen::VectorXd MiddleOf(const std::vector<Enclosure>& values) {
+  Eigen::VectorXd middles(values.size());
+  std::transform(values.begin(), values.end(), middles.begin(), Middle);
+  return middles;
+}
+
+InexactAnswer RunEnclosedInSpace(const ExactProblem& problem, const SolveOptions& options) {
+  IntervalSpaceRun run = RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
+  InexactAnswer answer;
+  answer.outcome = run.verdict.outcome;
+  answer.reason = run.verdict.reason;
+  answer.start = run.verdict.start;
+  answer.period = run.verdict.period;
+  answer.method = "baraff";
+  answer.counters = CountersOf(run.verdict.statistics);
+  answer.counters.push_back({"redirects", run.verdict.redirects});
+  answer.counters.push_back({"breaks", run.verdict.breaks});
+  answer.first_f = Eigen::VectorXd::Zero(problem.rows());
+  answer.f = MiddleOf(run.f);
+  answer.a = MiddleOf(run.a);
+  answer.ray = MiddleOf(run.ray);
+  answer.f_enclosed = std::move(run.f);
+  answer.a_enclosed = std::move(run.a);
+  return answer;
+}
+
+// What enclosures prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
+void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, InexactAnswer& answer) {
+  if (!answer.Solved()) return;
+  const Eigen::VectorXd a = answer.a;
+  JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
+  answer.a = a;
+}
+
+Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
+  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(FindMethodFacts(request.method)->name, problem,
+                                                              request.options, Rung::kDouble, request.trace)
+                                                : RunEnclosedInSpace(problem, request.options);
+  answer.arithmetic = Arithmetic::kInterval;
+  JudgeMiddles(problem, request, answer);
+  return {.answer = std::move(answer)};
+}
+
+// Empty where the rung leaves a sign open, or knows forces too badly to call them a solution.
+std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const SolveRequest& request, Rung rung) {
+  InexactAnswer answer =
+      RunEnclosed(FindMethodFacts(request.method)->name, problem, request.options, rung, request.trace);
+  try {
+    JudgeMiddles(problem, request, answer);
+  } catch (const RangeError&) {
+    return std::nullopt;
+  }
+  answer.arithmetic = Arithmetic::kFiltered;
+  const bool open = answer.outcome == Outcome::kUndecided && !request.options.limits.Stopped();
+  return open ? std::nullopt : std::optional(std::move(answer));
+}
+
+// `auto` is complete driving, and what rationals try besides where that solves nothing.
+Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request) {
+  if (request.method == kAutomatic) {
+    SolveRequest complete = request;
+    complete.method = "complete";
+    Solution solution = SolveFiltered(problem, complete);
+    if (solution.outcome() != Outcome::kSolved)
+      return {.answer = SolveRestingExactly(problem, request), .rung = Rung::kExact};
+    if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
+      PreferRest(problem, request, *exact);
+    } else {
+      PreferRest(Rounded<double>(problem), problem, request, std::get<InexactAnswer>(solution.answer));
+    }
+    return solution;
+  }
+  for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
+    if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer), .rung = rung};
+  }
+  ExactAnswer answer = SolveExactly(problem, request);
+  answer.arithmetic = Arithmetic::kFiltered;
+  return {.answer = std::move(answer), .rung = Rung::kExact};
+}
+
+std::vector<std::string_view> ArithmeticsOf(const MethodFacts& facts, int dimension) {
+  std::vector<std::string_view> names;
+  for (int i = 0; i < kArithmeticCount; ++i) {
+    if (facts.IsBuilt(dimension, static_cast<Arithmetic>(i))) names.push_back(kArithmeticNames[i]);
+  }
+  return names;
+}
+
+std::vector<std::string_view> MethodsOf(int dimension, Arithmetic arithmetic) {
+  std::vector<std::string_view> names;
+  for (const MethodFacts& facts : AllMethods()) {
+    if (facts.IsBuilt(dimension, arithmetic)) names.push_back(facts.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::span<const EnclosedMethod> EnclosedMethods() {
+  static constexpr std::array rows = {EnclosedMethod{"baraff", 2, true}, EnclosedMethod{"complete", 2, true},
+                                      EnclosedMethod{"lemke", 2, true}, EnclosedMethod{"baraff", 3, false}};
+  return rows;
+}
+
+std::optional<Arithmetic> FindArithmetic(std::string_view name) {
+  const auto at = std::find(kArithmeticNames.begin(), kArithmeticNames.end(), name);
+  if (at == kArithmeticNames.end()) return std::nullopt;
+  return static_cast<Arithmetic>(at - kArithmeticNames.begin());
+}
+
+std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic) {
+  const bool filtered = arithmetic == Arithmetic::kFiltered && dimension == 2;
+  const bool any =
+      method == kAutomatic && (IsFloating(arithmetic) || arithmetic == Arithmetic::kExact || filtered);
+  const MethodFacts* facts = FindMethodFacts(method);
+  if (any || (facts != nullptr && facts->IsBuilt(dimension, arithmetic))) return "";
+  const char* where = dimension == 2 ? "the plane" : "space";
+  std::string text =
+      fmt::format("method {} with arithmetic {} in {}: not built", method, Name(arithmetic), where);
+  const auto arithmetics =
+      facts == nullptr ? std::vector<std::string_view>() : ArithmeticsOf(*facts, dimension);
+  if (!arithmetics.empty()) return text + fmt::format("; expected one of {}", fmt::join(arithmetics, ", "));
+  const auto methods = MethodsOf(dimension, arithmetic);
+  if (!methods.empty())
+    return text +
+           fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic), fmt::join(methods, ", "));
+  return text + "; expected one of float, double, long-double, quad, filtered, exact";
+}
+
+ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem) {
+  using enum Arithmetic;
+  const int most = problem.dimension == 2 ? kExactRows : kExactRowsInSpace;
+  if (method == kAutomatic && problem.rows() > most)
+    return {kDouble, fmt::format("{} rows, more than {}: rationals would take long", problem.rows(), most)};
+  if (method == "fast") return {kDouble, "the method is made for doubles"};
+  if (Refusal(method, problem.dimension, kExact).empty())
+    return {kExact, "nothing is lost, and there are few rows"};
+  if (Refusal(method, problem.dimension, kInterval).empty())
+    return {kInterval, "the method takes roots: intervals prove what they decide"};
+  return {kDouble, "the method is built for nothing better"};
+}
+
+Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {
+  RequireReading(problem, request);
+  switch (request.arithmetic) {
+    case Arithmetic::kFloat:
+      return SolveRounded<float>(problem, request);
+    case Arithmetic::kDouble:
+      return SolveRounded<double>(problem, request);
+    case Arithmetic::kLongDouble:
+      return SolveRounded<long double>(problem, request);
+    case Arithmetic::kQuad:
+      return SolveRounded<Quad>(problem, request);
+    case Arithmetic::kInterval:
+      return SolveOverIntervals(problem, request);
+    case Arithmetic::kFiltered:
+      return SolveFiltered(problem, request);
+    default:
+      return {.answer = SolveRestingExactly(problem, request)};
+  }
+}
+
+}  // namespace stiction

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solving a problem file's problem by any method in any arithmetic, both chosen at run time.
+//
+// The table of solver/solve.h is completed here: by exact arithmetic for the path methods, by methods that need
+// CGAL or Ipopt's process, and by intervals. AllMethods() is what programs show and choose from.
+//
+//   inexact   the problem is rounded, and it is the rounded problem that is solved. Where a path method does
+//             not solve it, that is a suspicion: the same rounded problem is run again, exactly, or in space,
+//             where the published algorithm takes roots, over long double with finer tolerances. The answer is
+//             then that of the second run, forces and all; `suspected` says what the first one said.
+//   exact     what is called solved was verified by verify_solution.h.
+
+#ifndef STICTION_CERTIFY_EXACT_SOLVE_H_
+#define STICTION_CERTIFY_EXACT_SOLVE_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "corpus/problem_file.h"
+#include "solver/solve.h"
+
+namespace stiction {
+
+extern template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&,
+                                       Trace<Rational>*);
+
+// A row of the table over all arithmetics.
+struct MethodFacts {
+  std::string_view name, title, source, ends;
+  bool has_path = false;
+  // Whether it is built, by dimension (plane, space) and Arithmetic.
+  std::array<std::array<bool, kArithmeticCount>, 2> built = {};
+
+  bool IsBuilt(int dimension, Arithmetic arithmetic) const {
+    return built[dimension - 2][static_cast<int>(arithmetic)];
+  }
+};
+const std::vector<MethodFacts>& AllMethods();
+// The row of that name; null if there is none.
+const MethodFacts* FindMethodFacts(std::string_view name);
+
+// What runs over doubles in a process of its own.
+std::span<const Method<double>> MethodsByProcess();
+
+// The arithmetic of that name; empty if there is none.
+std::optional<Arithmetic> FindArithmetic(std::string_view name);
+
+// Why a method is not to be had so, and what is; empty if it is.
+std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic);
+
+// Where nobody asks for an arithmetic: exact, unless the method is not built so, or problem and method are of
+// the kind that doubles are for; then double or interval. And why, in words.
+struct ArithmeticChoice {
+  Arithmetic arithmetic = Arithmetic::kExact;
+  std::string why;
+};
+ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem);
+
+enum class KeepTrace { kNo, kYes };
+
+// The reason of an undecided run over enclosures.
+inline constexpr std::string_view kUnsureSign = "a sign is unsure";
+
+struct SolveRequest {
+  std::string method{kAutomatic};
+  Arithmetic arithmetic = Arithmetic::kExact;
+  SolveOptions options = {};
+  KeepTrace trace = KeepTrace::kNo;  // of path methods
+  bool confirm = true;               // whether suspicions are run again
+};
+
+struct Enclosure {
+  double low = 0, high = 0;
+};
+
+// An answer over any arithmetic: Answer<double> stands for all floating-point numbers, those of long double
+// rounded before they are judged; over intervals its vectors are midpoints.
+template <class Scalar>
+struct TracedAnswer : Answer<Scalar> {
+  std::vector<Pivot<Scalar>> pivots;              // where asked for
+  std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
+  bool moves_elsewhere = false;  // f is at rest where another solution is known that accelerates (rest.h)
+};
+using ExactAnswer = TracedAnswer<Rational>;
+using InexactAnswer = TracedAnswer<double>;
+
+// What an inexact run said that was run again.
+struct Suspicion {
+  Outcome outcome = Outcome::kUndecided;
+  std::string reason;
+  std::int64_t start = 0, period = 0;
+  Arithmetic arithmetic = Arithmetic::kDouble;
+  std::optional<Errors<double>> errors;
+  std::vector<Counter> counters;
+};
+inline Suspicion SuspicionOf(const InexactAnswer& answer) {
+  return {answer.outcome,    answer.reason, answer.start,   answer.period,
+          answer.arithmetic, answer.errors, answer.counters};
+}
+
+// A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.
+struct EnclosedMethod {
+  std::string_view name;
+  int dimension;
+  bool has_rungs;
+};
+std::span<const EnclosedMethod> EnclosedMethods();
+
+struct Solution {
+  std::variant<ExactAnswer, InexactAnswer> answer;
+  std::optional<Suspicion> suspected = {};
+  std::optional<Rung> rung = {};  // of a filtered run
+
+  Outcome outcome() const {
+    return std::visit([](const auto& answer) { return answer.outcome; }, answer);
+  }
+};
+
+// Over rationals, whatever arithmetic the request names. What is called solved was verified.
+ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request);
+
+// Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
+// InputError where the published algorithm in space has no such reading.
+Solution SolveIn(const ExactProblem& problem, const SolveRequest& request);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_SOLVE_H_

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/exact/space.h"
+
+#include <algorithm>
+
+#include "certify/exact/verify_solution.h"
+#include "corpus/rounded.h"
+#include "solver/numeric/coulomb.h"
+
+namespace stiction {
+namespace {
+
+// What a point of Newton's method says that every contact does.
+std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector& f, const ExactVector& a) {
+  std::vector<SpaceMode> modes;
+  Rational max_A = 0;
+  for (int i = 0; i < problem.rows(); ++i) max_A = std::max<Rational>(max_A, problem.A(i, i));
+  const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
+  int row = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    SpaceMode mode = {Law::kFree, {Rational(0), Rational(0)}};
+    if (contact.kind == ContactKind::kBilateral) {
+      mode.law = Law::kHold;
+    } else if (f[row] <= r * a[row]) {
+      mode.law = Law::kBreak;
+    } else if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
+      const Planar<Rational> friction = TangentialOf(f, row), slip = TangentialOf(a, row);
+      const Planar<Rational> target = {Rational(friction[0] - r * slip[0]),
+                                       Rational(friction[1] - r * slip[1])};
+      const Rational limit = contact.mu * f[row];
+      mode.law = Dot(target, target) <= limit * limit ? Law::kInside : Law::kCorner;
+      mode.direction = NearDirection(target, 45);
+    }
+    modes.push_back(mode);
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  return modes;
+}
+
+// The word of Newton's method from f, solved exactly.
+std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
+                                          const ExactVector& f) {
+  CoulombOptions options;
+  options.sides = 0;  // from f only
+  CoulombSolver<double> solver(options);
+  const ContactProblem<double>::Vector start = f.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  if (!start.allFinite() || !rounded.A.allFinite() || !rounded.b.allFinite()) return std::nullopt;
+  if (solver.Run(rounded, &start).outcome != Outcome::kSolved) return std::nullopt;
+  const auto exact = [](double x) { return Rational(x); };
+  const ExactVector near = solver.f().unaryExpr(exact);
+  return SolveModes(problem, ModesNear(problem, near, solver.a().unaryExpr(exact)), near);
+}
+
+// Corners opposite to the accelerations of slipping contacts, with `bits` binary places.
+bool RefineAgainst(const ExactProblem& problem, const SpaceRun& run, int bits, RationalPolygons& polygons) {
+  bool added = false;
+  int row = 0;
+  for (std::size_t i = 0; i < run.word.size(); ++i) {
+    const bool slips = run.word[i].law == Law::kCorner || run.word[i].law == Law::kEdge;
+    if (slips) {
+      const Planar<Rational> a = TangentialOf(run.a, row);
+      added = polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
+    }
+    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
+  }
+  return added;
+}
+
+// The same toward Coulomb's law.
+bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, const SpaceRun& run,
+                RationalPolygons& polygons, SpaceSolution& solution) {
+  static const Rational kEnough = 1 - Rational(1, 1 << 20);
+  const auto consider = [&](const ExactVector& f) {
+    const auto bound = CoulombBound(problem, f);
+    if (!bound || (solution.outcome == Outcome::kSolved && *bound <= solution.bound)) return;
+    Accept(problem, f, solution);
+    solution.bound = *bound;
+  };
+  consider(run.f);
+  if (const auto f = NewtonSolution(problem, rounded, run.f)) consider(*f);
+  return solution.bound >= kEnough || !RefineAgainst(problem, run, 4 + 2 * solution.refinements, polygons);
+}
+
+}  // namespace
+
+SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
+  if (options.law == FrictionLaw::kBaraff) return SolveWeakly(problem, options, trace);
+  const ContactProblem<double> rounded = Rounded<double>(problem);
+  const auto toward = [&](const SpaceRun& run, RationalPolygons& polygons, SpaceSolution& solution) {
+    return TryCoulomb(problem, rounded, run, polygons, solution);
+  };
+  return SolveOnPolygons(problem, options, toward, trace);
+}
+
+SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+  SpaceSolution solution;
+  solution.reason = "the modes of the fast method's point are no solution";
+  ContactProblem<double> rounded;
+  try {
+    rounded = Rounded<double>(problem);
+  } catch (const InputError&) {
+    return solution;
+  }
+  const Answer<double> fast =
+      Solve(rounded, "fast", {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides});
+  if (fast.f.size() != problem.rows() || !fast.f.allFinite()) return solution;
+  const ExactVector near = fast.f.unaryExpr([](double x) { return Rational(x); });
+  const auto f = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+  if (!f) return solution;
+  const auto bound = CoulombBound(problem, *f);
+  if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *f).has_value() : !bound || *bound <= 0)
+    return solution;
+  Accept(problem, *f, solution);
+  solution.bound = bound.value_or(0);
+  return solution;
+}
+
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f) {
+  constexpr int kPlaces = 200;
+  if (FindCoulombViolation(problem, f, 0)) return std::nullopt;
+  const ExactVector a = Accelerations(problem, f);
+  Rational least = 1;  // of the squared cosines
+  int row = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    if (contact.kind == ContactKind::kStatic) {
+      const Rational power = Dot(TangentialOf(f, row), TangentialOf(a, row)), limit = contact.mu * f[row];
+      const Rational full = limit * limit * Dot(TangentialOf(a, row), TangentialOf(a, row));
+      if (full != 0) least = std::min<Rational>(least, power * power / full);
+    }
+    row += contact.HasFrictionRows() ? 3 : 1;
+  }
+  if (least == 1) return Rational(1);
+  mpz_class root = (least.get_num() << (2 * kPlaces)) / least.get_den();
+  root = sqrt(root);
+  mpz_class gap = (mpz_class(1) << kPlaces) - root;  // 1 - c, in units of 2^-200
+  const int spare = static_cast<int>(mpz_sizeinbase(gap.get_mpz_t(), 2)) - 8;
+  if (spare > 0) gap = ((gap >> spare) + 1) << spare;
+  Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
+  bound.canonicalize();
+  return bound < 0 ? Rational(0) : bound;
+}
+
+}  // namespace stiction

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solutions in space, exact: of the conditions (21), (22) of [Baraff94], or of Coulomb's law up to a bound.
+//
+// Both begin with an exact solution on friction polygons, of complete driving
+// (solver/complete/complete.h) or of Lemke's method (lemke_space.h): the engine, which runs again on the
+// polygons with more corners.
+//
+//   Baraff    Contacts in a corner, separating or sticking meet (21), (22) as they are. Of one on an edge,
+//             where abs(fF) < mu fN, the edge is replaced by a point u of the circle near fF / abs(fF), and the
+//             word with fF = mu fN u is solved as linear equations. If that breaks a condition, u becomes a
+//             corner of the polygon, and the engine runs again.
+//   Coulomb   The polygon's solution has -fF.aF >= c mu fN abs(aF), c the inner radius of the polygon. Newton's
+//             method in doubles goes on from it (solver/numeric/coulomb.h); its word, with directions of slip
+//             rounded to rational points of the circle, is solved as linear equations, and c measured. If that
+//             fails, corners are added opposite to the accelerations, and the engine runs again.
+//
+// Where b is not in range(A) both engines may end in a ray although there is a solution; then SolveNearFast may
+// find it. A solution of Coulomb's law up to a bound whose contacts slip with abs(fF) = mu fN is one of (21),
+// (22), too.
+//
+// Whatever is returned as solved was verified by verify_solution.h.
+
+#ifndef STICTION_CERTIFY_EXACT_SPACE_H_
+#define STICTION_CERTIFY_EXACT_SPACE_H_
+
+#include <optional>
+
+#include "certify/exact/polygons.h"
+
+namespace stiction {
+
+// Requires dimension 3. The trace is that of the last polygons.
+SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
+                           Trace<Rational>* trace = nullptr);
+
+// The modes of the point in which the fast method ends over doubles (solver/numeric/fast.h), solved exactly:
+// whether or not b is in range(A). undecided where they are no solution, or doubles do not hold the problem.
+SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
+
+// The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
+// condition whatever c.
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_SPACE_H_

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+// The law of this name; of none, `usual`.
+FrictionLaw LawNamed(const std::string& law, FrictionLaw usual, int dimension, const std::string& source,
+                     std::string_view dashes) {
+  if (law.empty()) return usual;
+  if (law != "baraff" && law != "coulomb")
+    throw InputError(fmt::format("{}law: found {}, expected baraff or coulomb", dashes, law));
+  if (dimension == 2)
+    throw InputError(source, "dimension", "2",
+                     fmt::format("3: {}law chooses a law of friction in space", dashes));
+  return law == "coulomb" ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
+}
+
+Arithmetic ArithmeticNamed(const Wanted& wanted) {
+  const auto arithmetic = FindArithmetic(wanted.arithmetic);
+  if (!arithmetic)
+    throw InputError(fmt::format("{}arithmetic: found {}, expected one that 'stiction methods' lists",
+                                 wanted.dashes, wanted.arithmetic));
+  return *arithmetic;
+}
+
+void RequireMethod(const Wanted& wanted) {
+  if (wanted.method != kAutomatic && FindMethodFacts(wanted.method) == nullptr)
+    throw InputError(fmt::format("{}method: found {}, expected one that 'stiction methods' lists",
+                                 wanted.dashes, wanted.method));
+}
+
+void RequirePathMethod(const Wanted& wanted) {
+  std::vector<std::string_view> followed;
+  for (const MethodFacts& facts : AllMethods())
+    if (facts.has_path) followed.push_back(facts.name);
+  if (std::find(followed.begin(), followed.end(), wanted.method) == followed.end())
+    throw InputError(fmt::format("{}method: found {}, expected one with a path: {}", wanted.dashes,
+                                 wanted.method, fmt::join(followed, ", ")));
+}
+
+void RequirePathArithmetic(const Wanted& wanted) {
+  const auto& all = kPathArithmetics;
+  if (std::find(all.begin(), all.end(), wanted.arithmetic) == all.end())
+    throw InputError(fmt::format("{}arithmetic: found {}, expected one of {}", wanted.dashes, wanted.arithmetic,
+                                 fmt::join(all, ", ")));
+}
+
+// All but the arithmetic.
+SolveRequest NamedRequest(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+  SolveRequest request{.method = wanted.method, .options = wanted.options};
+  request.options.policy = ParsePolicy(wanted.policy);
+  const FrictionLaw usual = wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
+  request.options.law = LawNamed(wanted.law, usual, problem.dimension, source, wanted.dashes);
+  if (!AreSides(wanted.options.sides))
+    throw InputError(
+        fmt::format("{}sides: found {}, expected {}", wanted.dashes, wanted.options.sides, kSidesExpected));
+  if (wanted.method != "baraff" && request.options.policy != Policy{})
+    throw InputError(fmt::format("{0}policy {1}: expected {0}method baraff, of which it is a reading",
+                                 wanted.dashes, wanted.policy));
+  return request;
+}
+
+void RequireBuilt(const SolveRequest& request, const ExactProblem& problem, const std::string& source) {
+  const std::string refusal = Refusal(request.method, problem.dimension, request.arithmetic);
+  if (!refusal.empty()) throw InputError(source + ": " + refusal);
+}
+
+}  // namespace
+
+SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+  RequireMethod(wanted);
+  SolveRequest request = NamedRequest(wanted, problem, source);
+  const bool polygon = wanted.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
+  if (problem.dimension == 3 && polygon) request.method = "complete";  // which that reading is
+  request.arithmetic =
+      wanted.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic : ArithmeticNamed(wanted);
+  RequireBuilt(request, problem, source);
+  return request;
+}
+
+SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+  RequirePathMethod(wanted);
+  SolveRequest request = NamedRequest(wanted, problem, source);
+  request.trace = KeepTrace::kYes;
+  if (wanted.law.empty()) request.options.law = FrictionLaw::kBaraff;
+  if (!wanted.arithmetic.empty()) {
+    RequirePathArithmetic(wanted);
+    request.arithmetic = ArithmeticNamed(wanted);
+  } else if (!Refusal(request.method, problem.dimension, Arithmetic::kExact).empty()) {
+    request.arithmetic = Arithmetic::kDouble;
+  }
+  RequireBuilt(request, problem, source);
+  return request;
+}
+
+Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source) {
+  try {
+    return SolveIn(problem, request);
+  } catch (const InputError& error) {
+    throw InputError(source + ": " + error.what());
+  }
+}
+
+// ---- Certificates ----
+
+std::vector<Policy> PoliciesNamed(const std::string& text) {
+  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
+}
+
+Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
+                   const EnumerationOptions& enumeration) {
+  const FrictionLaw law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
+  if (!wanted.law.empty() && wanted.claim != "existence")
+    throw InputError(
+        fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
+                    wanted.dashes, wanted.law, wanted.claim));
+  return CertifyClaim(problem, source, wanted.claim,
+                      {PoliciesNamed(wanted.policy), wanted.limits, enumeration, law});
+}
+
+CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {
+  if (text.size() > kMostBytesOfCertificate)
+    throw InputError(source, "", fmt::format("{} bytes", text.size()),
+                     fmt::format("a certificate of at most {}", kMostBytesOfCertificate));
+  const Json json = ParseJson(text, source);
+  const Json format = json.is_object() ? json.value("format", Json("stiction-problem")) : Json();
+  const bool is_problem = format == "stiction-problem" && !json.contains("claim");
+  if (!is_problem) return CheckCertificate(json, source, digest);
+  CheckReport report;
+  report.reason = fmt::format(
+      "found a problem, expected a certificate; stiction certify {} -o certificate.json writes one of it",
+      source);
+  return report;
+}
+
+}  // namespace stiction

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is asked by names, by the program and from Python: of a solver, of a run that is followed, of a
+// certificate. Whatever the names do not fit is refused here, so that both refuse the same.
+
+#ifndef STICTION_CERTIFY_REQUEST_H_
+#define STICTION_CERTIFY_REQUEST_H_
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/claims/certificate.h"
+#include "certify/claims/claims.h"
+#include "certify/exact/solve.h"
+
+namespace stiction {
+
+// Of `options`, policy and law are set by their names here.
+struct Wanted {
+  std::string method{kAutomatic};
+  std::string arithmetic;  // empty: the usual one
+  std::string policy = "paper";
+  std::string law = "";  // the paper's of method baraff and of runs that are followed, otherwise Coulomb's
+  SolveOptions options = {};
+  std::string_view dashes = "--";  // before the name of an option, where an error tells of it
+};
+
+// Of the friction polygons in space.
+inline constexpr std::string_view kSidesExpected = "a multiple of 4, at least 4";
+inline constexpr bool AreSides(int sides) { return sides >= 4 && sides % 4 == 0; }
+
+// The request, checked against the table of methods. A polygon reading of the published algorithm in space is
+// complete driving. InputError that names what is no name or does not fit the problem of `source`.
+SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+
+// Likewise of a run that is followed step by step: of a method with a path, under no other's name, and by
+// default exact where it is built so, otherwise over doubles.
+SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+// What it can be followed in: not over intervals, which have bounds of the forces in place of forces.
+inline constexpr std::array<std::string_view, 6> kPathArithmetics = {"exact",       "float", "double",
+                                                                     "long-double", "quad",  "filtered"};
+
+// SolveIn, whose InputError then names the source.
+Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source);
+
+// ---- Certificates ----
+
+struct WantedClaim {
+  std::string claim = "existence";
+  std::string policy = "paper";  // or "*"
+  std::string law = "";          // of claim existence in space; empty: Coulomb's
+  Limits limits = {};
+  std::string_view dashes = "--";
+};
+
+// "paper" -> one policy, "*" -> the planar grid. std::invalid_argument for what is neither.
+std::vector<Policy> PoliciesNamed(const std::string& text);
+
+// CertifyClaim of what is asked for.
+Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
+                   const EnumerationOptions& enumeration);
+
+// CheckCertificate of a text, which InputError refuses that is too long for one, or no JSON.
+CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_REQUEST_H_

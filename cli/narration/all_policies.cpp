@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/narration/all_policies.h"
+
+#include <fmt/format.h>
+
+#include "certify/exact/answer_json.h"
+#include "certify/exact/exact.h"
+#include "certify/request.h"
+#include "solver/published/published_space.h"
+
+namespace stiction {
+namespace {
+
+using Outcomes = std::map<std::string, Json>;
+
+template <class End>
+Json OutcomeToJson(const End& end) {
+  Json entry = EndToJson(end);
+  entry.erase("reason");
+  return entry;
+}
+
+Outcomes InPlane(const Limits& limits, const ExactProblem& problem) {
+  Outcomes outcomes;
+  for (const PolicyClass& equal : RunPolicies(problem, GridOf(2), limits)) {
+    for (const Policy& policy : equal.policies) outcomes[PolicyName(policy)] = OutcomeToJson(equal.verdict);
+  }
+  return outcomes;
+}
+
+Outcomes InSpace(SolveRequest request, const ExactProblem& problem, const std::string& source) {
+  request.trace = KeepTrace::kNo;
+  Outcomes outcomes;
+  for (const Policy& policy : GridOf(3)) {
+    request.options.policy = policy;
+    outcomes[PolicyName(policy)] = std::visit([](const auto& answer) { return OutcomeToJson(answer); },
+                                              SolveAsked(problem, request, source).answer);
+  }
+  return outcomes;
+}
+
+}  // namespace
+
+std::vector<Policy> GridOf(int dimension) {
+  if (dimension == 2) return PlanarGrid();
+  std::vector<Policy> grid;
+  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
+    for (Policy policy : PlanarGrid()) {
+      policy.slip = slip;
+      if (PublishedReadsInSpace(policy)) grid.push_back(policy);
+    }
+  }
+  return grid;
+}
+
+std::map<std::string, Json> OutcomesOf(const Wanted& wanted, const ExactProblem& problem,
+                                       const std::string& source) {
+  if (wanted.method != "baraff")
+    throw InputError(fmt::format("all policies: found {0}method {1}, expected {0}method baraff", wanted.dashes,
+                                 wanted.method));
+  const SolveRequest request = PathRequestOf(wanted, problem, source);
+  if (problem.dimension == 2 && request.arithmetic != Arithmetic::kExact)
+    throw InputError(fmt::format("{}arithmetic: found {}, expected exact for all policies in the plane",
+                                 wanted.dashes, wanted.arithmetic));
+  return problem.dimension == 2 ? InPlane(wanted.options.limits, problem) : InSpace(request, problem, source);
+}
+
+}  // namespace stiction

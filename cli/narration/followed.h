@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of a path method, told: for `replay`, for its page, and for the page that runs again in a browser.
+
+#ifndef STICTION_CLI_NARRATION_FOLLOWED_H_
+#define STICTION_CLI_NARRATION_FOLLOWED_H_
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "certify/exact/answer_json.h"
+#include "certify/exact/solve.h"
+#include "cli/narration/outcome_text.h"
+#include "cli/narration/replay_page.h"
+
+namespace stiction {
+
+struct PathOptions {
+  std::string method = "baraff";
+  std::string policy = "paper";  // of the published algorithm
+  Limits limits;
+};
+
+// Requires a path method.
+Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
+                  const Telling& how);
+
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+template <class End>
+std::string EndText(const End& end, bool proved) {
+  Verdict verdict;
+  verdict.outcome = end.outcome;
+  verdict.start = end.start;
+  verdict.period = end.period;
+  verdict.reason = end.reason;
+  if (proved || end.outcome != Outcome::kCycle) return Describe(verdict);
+  return fmt::format("cycle: after rounding, the state after {} drives stands again {} drives later", end.start,
+                     end.period);
+}
+
+// What `replay --json` prints; `initial`: with --step, which tells forces and accelerations before the first
+// step.
+Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,
+                  bool initial);
+
+// What intervals say of a run of the published algorithm in space that does not end solved over floating-point
+// numbers; empty of any other.
+std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request, Outcome outcome);
+
+// "over intervals, proved: cycle: ..."
+std::string OverIntervalsText(const Verdict& verdict);
+
+// A run for the viewer. InputError for one of more steps than a page has room for.
+FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Solution& solution);
+
+// Adds to how it ended what intervals say of it.
+void TellOverIntervals(const Verdict& verdict, FollowedRun& run);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATION_FOLLOWED_H_

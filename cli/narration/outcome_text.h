@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and outcomes, for programs and for people.
+
+#ifndef STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
+#define STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
+
+#include <string>
+
+#include "corpus/json_text.h"
+#include "corpus/rational.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+// Numbers over rationals, for people: as they are, or rounded where they are long.
+enum class FractionText { kFull, kShort };
+// "-2/3". Short: what takes more than twenty characters is the decimal of the double that it is, or, where it
+// is none, six digits behind a ~.
+std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
+std::string Text(double x, FractionText = FractionText::kFull);  // six digits
+
+// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+std::string Describe(const Verdict& verdict);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
