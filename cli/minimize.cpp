@@ -86,8 +86,7 @@ int RunMinimize(const MinimizeVerb& o) {
   const bool in_space = file.problem.dimension == 3;
   if (in_space) RequireForSpace(o, policy);
   const ExactRun run = in_space ? ExactRun() : RunExact(file.problem, published);
-  const Outcome outcome =
-      in_space ? RunIntervalsInSpace(file.problem, published).verdict.outcome : run.verdict.outcome;
+  const Outcome outcome = in_space ? RunIntervalsInSpace(file.problem, published).outcome : run.verdict.outcome;
   const std::string keep = o.keep.empty() ? std::string(Name(outcome)) : o.keep;
   const bool whole_grid = keep.ends_with(":*");
   MinimizeOptions options;

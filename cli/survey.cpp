@@ -218,12 +218,12 @@ std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& con
 }
 
 // One group after the other: a solution of the whole consists of theirs, and there is none if one has none.
-struct ExactAnswer {
+struct GroupsDecided {
   Json certificate;  // of the whole, null if undecided
   std::string method;
 };
-ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
-                           const Limits& limits) {
+GroupsDecided DecideByGroups(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
+                             const Limits& limits) {
   EnumerationOptions options;
   options.programs = kPrograms;
   if (groups.size() == 1) {
@@ -253,7 +253,7 @@ ExactAnswer DecideByGroups(const ExactProblem& problem, const std::vector<std::v
 Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>& groups,
                 const Limits& limits) {
   const Stopwatch watch(CLOCK_MONOTONIC);
-  const ExactAnswer answer = DecideByGroups(problem, groups, limits);
+  const GroupsDecided answer = DecideByGroups(problem, groups, limits);
   Json run = {{"method", answer.method}, {"arithmetic", "exact"}, {"outcome", "undecided"}};
   run["seconds"] = watch.Seconds();
   if (groups.size() > 1) run["groups"] = groups.size();
@@ -307,21 +307,21 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   options.law = FrictionLaw::kCoulomb;
   options.limits = limits;
   const Stopwatch watch(CLOCK_MONOTONIC);
-  const SpaceSolution solution = SolveInSpace(problem, options);
+  const Answer<Rational> solution = SolveInSpace(problem, options);
   Json run = {{"method", "complete"}, {"arithmetic", "exact"}, {"outcome", Name(solution.outcome)}};
   run["seconds"] = watch.Seconds();
   if (!solution.reason.empty()) run["reason"] = solution.reason;
   if (solution.outcome != Outcome::kSolved) return run;
-  if (solution.bound <= 0) {
+  if (*solution.bound <= 0) {
     run["outcome"] = Name(Outcome::kUndecided);
     return run;
   }
-  const Json certificate = CoulombCertificate(problem, solution.f, solution.bound);
+  const Json certificate = CoulombCertificate(problem, solution.f, *solution.bound);
   const CheckReport report = CheckCertificate(certificate, "survey");
   STICTION_CHECK(report.accepted, "a certificate of the survey is rejected: " + report.reason);
   run["certificate"] = report.claim;
-  run["bound"] = ToString(solution.bound);
-  run["cosine gap"] = ToDouble(Rational(1 - solution.bound));
+  run["bound"] = ToString(*solution.bound);
+  run["cosine gap"] = ToDouble(Rational(1 - *solution.bound));
   run["residual"] = VerifiedResidual(problem, solution.f);
   return run;
 }

@@ -36,7 +36,7 @@ template <class Model>
 SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island) {
   if (model.islands[island].rows >= kSparseRows) {
     SceneAnswer answer = solver.Solve(model.SparseProblem(island));
-    if (answer.solved) return answer;
+    if (answer.Solved()) return answer;
   }
   return solver.Solve(model.Problem(island));
 }
@@ -192,10 +192,10 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   }
   failed_ = count;
   for (std::size_t i = count; i-- > 0;) {
-    statistics_.fallbacks += answers[i].fallbacks;
-    statistics_.loose += answers[i].loose;
-    statistics_.sparse += answers[i].sparse;
-    if (!answers[i].solved) failed_ = i;
+    statistics_.fallbacks += ValueOf(answers[i].counters, "fallbacks");
+    statistics_.loose += ValueOf(answers[i].counters, "loose");
+    statistics_.sparse += ValueOf(answers[i].counters, "sparse");
+    if (!answers[i].Solved()) failed_ = i;
     f[i] = std::move(answers[i].f);
   }
   return failed_ == count;

@@ -85,8 +85,8 @@ SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
   SceneAnswer answer;
   fast_.options().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
   if (!Reduction<double>::Concerns(problem)) {
-    answer.solved =
-        TryInTurn(kDenseSteps, problem, answer, [&](const Dense::Vector& f) { return ErrorOf(problem, f); });
+    const auto of = [&](const Dense::Vector& f) { return ErrorOf(problem, f); };
+    if (TryInTurn(kDenseSteps, problem, answer, of)) answer.outcome = Outcome::kSolved;
     return answer;
   }
   const Reduction<double> reduction(problem, ForReduction(fast_.options().tolerances, problem.dimension));
@@ -98,15 +98,16 @@ SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
     return answer;
   answer.f = reduction.Forces(answer.f);
   const double error = ErrorOf(problem, answer.f);
-  answer.solved = error <= kLooseWholeResidual;
-  answer.loose += answer.solved && answer.loose == 0 && error > kWholeResidual;
+  if (!(error <= kLooseWholeResidual)) return answer;
+  answer.outcome = Outcome::kSolved;
+  if (ValueOf(answer.counters, "loose") == 0 && error > kWholeResidual) Add(answer.counters, "loose");
   return answer;
 }
 
 SceneAnswer SceneSolver::SolveAsIs(const Sparse& problem) {
   SceneAnswer answer;
-  answer.solved =
-      TryInTurn(kSparseSteps, problem, answer, [&](const Sparse::Vector& f) { return ErrorOf(problem, f); });
+  const auto of = [&](const Sparse::Vector& f) { return ErrorOf(problem, f); };
+  if (TryInTurn(kSparseSteps, problem, answer, of)) answer.outcome = Outcome::kSolved;
   return answer;
 }
 
@@ -133,7 +134,7 @@ bool SceneSolver::TryInTurn(const Step<Problem> (&steps)[Count], const Problem& 
   }
   if (best.size() == 0) return false;
   answer.f = best;
-  ++answer.loose;
+  Add(answer.counters, "loose");
   return true;
 }
 
@@ -179,14 +180,14 @@ bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
 
 bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
   const FastVerdict verdict = fast_.Run(problem);
-  answer.fallbacks += verdict.statistics.fallbacks;
+  Add(answer.counters, "fallbacks", verdict.statistics.fallbacks);
   answer.f = fast_.f();
   return verdict.outcome == Outcome::kSolved;
 }
 
 bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
   const CoulombVerdict verdict = coulomb_.Run(problem);
-  answer.fallbacks += verdict.statistics.polygons > 0;
+  Add(answer.counters, "fallbacks", verdict.statistics.polygons > 0);
   answer.f = coulomb_.f();
   return verdict.outcome == Outcome::kSolved;
 }
@@ -194,14 +195,14 @@ bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
 bool SceneSolver::SparseProximal(const Sparse& problem, SceneAnswer& answer) {
   const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
   answer.f = proximal_.f();
-  answer.sparse += solved;
+  Add(answer.counters, "sparse", solved);
   return solved;
 }
 
 bool SceneSolver::SparseCoulomb(const Sparse& problem, SceneAnswer& answer) {
   const bool solved = sparse_coulomb_.Run(problem).outcome == Outcome::kSolved;
   answer.f = sparse_coulomb_.f();
-  answer.sparse += solved;
+  Add(answer.counters, "sparse", solved);
   return solved;
 }
 

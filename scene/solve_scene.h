@@ -31,6 +31,7 @@
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
 #include "solver/numeric/proximal.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
@@ -55,13 +56,9 @@ struct SceneSolverOptions {
   CoulombOptions coulomb = WithResidual(1e-7);  // in space
 };
 
-struct SceneAnswer {
-  bool solved = false;
-  ContactProblem<double>::Vector f;  // N; of no meaning if not solved
-  std::int64_t fallbacks = 0;        // runs of complete driving
-  std::int64_t loose = 0;            // solved to kLooseResidual only
-  std::int64_t sparse = 0;           // solved with a sparse A
-};
+// solved or undecided; f is of no meaning if not solved. Counters: fallbacks, runs of complete driving; loose,
+// solved to kLooseResidual only; sparse, solved with a sparse A.
+using SceneAnswer = Answer<double>;
 
 // Reusable. Memory is kept between runs; answers do not depend on earlier ones.
 class SceneSolver {

@@ -7,13 +7,14 @@
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/published_space.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "corpus/input_error.h"
 
 namespace stiction {
 namespace {
 
-FeasibilityAnswer AskIpopt(const ExactProblem& problem) {
+Feasibility AskIpopt(const ExactProblem& problem) {
   ProposalStatistics statistics;
   try {
     thread_local IpoptProposer proposer;
@@ -24,14 +25,21 @@ FeasibilityAnswer AskIpopt(const ExactProblem& problem) {
   }
 }
 
+// A row of the table of methods.
+ExactMethod ByName(const char* method) {
+  return [method](const ExactProblem& problem, const Limits& limits) {
+    return Solve(problem, method, {.limits = limits});
+  };
+}
+
 }  // namespace
 
 ExactMethods::ExactMethods()
     : published(RunExact),
       filtered(RunPublishedFiltered),
-      complete([](const ExactProblem& problem, const Limits& limits) { return RunComplete(problem, limits); }),
+      complete(ByName("complete")),
       complete_filtered(RunCompleteFiltered),
-      lemke(RunLemke),
+      lemke(ByName("lemke")),
       modes([](const ExactProblem& problem) { return EnumerateModes(problem); }),
       is_safe(IsSafeIfSmall),
       ipopt(AskIpopt),

@@ -11,43 +11,39 @@
 #include <string>
 
 #include "corpus/problem_file.h"
+#include "solver/problem/answer.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 
-struct CompleteRun;       // certify/exact/exact.h
-struct Enumeration;       // certify/exact/enumerate.h
-struct ExactRun;          // certify/exact/exact.h
-struct FilteredComplete;  // certify/exact/filtered.h
-struct FilteredVerdict;   // certify/exact/filtered.h
-struct IntervalSpaceRun;  // certify/exact/published_space.h
-struct LemkeRun;          // certify/exact/exact.h
-struct Limits;
+struct Enumeration;  // certify/exact/enumerate.h
+struct ExactRun;     // certify/exact/exact.h
+struct OnRung;       // certify/exact/filtered.h
 struct PublishedOptions;
-struct Rungs;          // certify/exact/filtered.h
-struct SpaceSolution;  // certify/exact/space.h
+struct Rungs;  // certify/exact/filtered.h
 
 // What Ipopt makes of a problem. It proposes, and rationals judge, so that a solution is one; its iterations
 // depend on the machine's libraries.
-struct FeasibilityAnswer {
+struct Feasibility {
   std::string outcome;      // solved; undecided: no start led to a solution; unavailable: it cannot be asked
   std::int64_t starts = 0;  // until it was solved, or all
   double seconds = 0;       // of Ipopt's process
 };
 
+using ExactMethod = std::function<Answer<Rational>(const ExactProblem&, const Limits&)>;
+
 struct ExactMethods {
   ExactMethods();  // those of certify
 
   std::function<ExactRun(const ExactProblem&, const PublishedOptions&)> published;
-  std::function<FilteredVerdict(const ExactProblem&, const PublishedOptions&, const Rungs&)> filtered;
-  std::function<CompleteRun(const ExactProblem&, const Limits&)> complete;
-  std::function<FilteredComplete(const ExactProblem&, const Limits&)> complete_filtered;
-  std::function<LemkeRun(const ExactProblem&, const Limits&)> lemke;
+  std::function<OnRung(const ExactProblem&, const PublishedOptions&, const Rungs&)> filtered;
+  ExactMethod complete, complete_filtered, lemke;
   std::function<Enumeration(const ExactProblem&)> modes;
   std::function<std::optional<bool>(const ExactProblem&)> is_safe;
-  std::function<FeasibilityAnswer(const ExactProblem&)> ipopt;
+  std::function<Feasibility(const ExactProblem&)> ipopt;
   // In space: the published algorithm over intervals, complete driving on polygons until (21), (22) hold.
-  std::function<IntervalSpaceRun(const ExactProblem&, const PublishedOptions&)> published_in_space;
-  std::function<SpaceSolution(const ExactProblem&, const Limits&)> complete_in_space;
+  std::function<Answer<double>(const ExactProblem&, const PublishedOptions&)> published_in_space;
+  ExactMethod complete_in_space;
 };
 
 }  // namespace stiction

@@ -11,6 +11,7 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/published_space.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
@@ -43,12 +44,12 @@ Json FactsOf(const ExactProblem& problem, const ExactRun& run, const Json& grid,
 }
 
 // In space: of a run over intervals; no grid.
-Json FactsInSpace(const ExactProblem& problem, const Verdict& verdict, const std::string& existence) {
+Json FactsInSpace(const ExactProblem& problem, const InexactAnswer& answer, const std::string& existence) {
   return {{"contacts", problem.contacts.size()},
-          {"outcome", Name(verdict.outcome)},
-          {"start", verdict.start},
-          {"period", verdict.period},
-          {"steps", verdict.statistics.steps},
+          {"outcome", Name(answer.outcome)},
+          {"start", answer.start},
+          {"period", answer.period},
+          {"steps", ValueOf(answer.counters, "steps")},
           {"grid", Json::object()},
           {"existence", {{"claim", existence.empty() ? Json() : Json("solution-exists")}}}};
 }
@@ -80,12 +81,12 @@ Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source
   const bool decided = !existence.certificate.is_null();
   Decided result;
   if (decided) result.certificate = Checked(existence.certificate, source);
-  const CompleteRun complete = RunComplete(problem, limits);
+  const ExactAnswer complete = Solve(problem, "complete", {.limits = limits});
   result.facts = {{"claim", decided ? existence.certificate.at("claim") : Json()},
                   {"method", existence.method},
-                  {"pieces", complete.verdict.statistics.pieces},
-                  {"folds", complete.verdict.statistics.folds},
-                  {"descents", complete.verdict.statistics.descents}};
+                  {"pieces", ValueOf(complete.counters, "pieces")},
+                  {"folds", ValueOf(complete.counters, "folds")},
+                  {"descents", ValueOf(complete.counters, "descents")}};
   return result;
 }
 
@@ -138,11 +139,9 @@ struct Unfinished {
 // All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
 // signature.
 void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits) {
-  const CompleteRun complete = found.methods.complete(found.problem, limits);
-  const LemkeRun lemke = found.methods.lemke(found.problem, limits);
-  Answers answers{{{"complete", complete.verdict.outcome, complete.f},
-                   {"baraff", found.run.verdict.outcome, found.run.state.f},
-                   {"lemke", lemke.verdict.outcome, lemke.f}},
+  Answers answers{{found.methods.complete(found.problem, limits),
+                   AnswerBy("baraff", found.run.verdict.outcome, found.run.state.f),
+                   found.methods.lemke(found.problem, limits)},
                   {}};
   if (finding.contacts <= kMostContactsEnumerated) answers.modes = found.methods.modes(found.problem);
   const auto disagreement = FindDisagreement(found.problem, answers);
@@ -204,24 +203,24 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
   Finding finished = finding;
   finished.done = true;
   const PublishedOptions options{ParsePolicy(finding.policy), {}, limits};
-  const Verdict verdict = methods.published_in_space(problem, options).verdict;
+  const InexactAnswer answer = methods.published_in_space(problem, options);
   Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   finished.existence = ExistenceInSpace(problem, finding.signature, limits);
-  facts["found"] = FactsInSpace(problem, verdict, finished.existence);
-  const bool minimize = verdict.outcome != Outcome::kSolved && verdict.outcome != Outcome::kUndecided &&
-                        finding.kind != kDisagreementOfMethods;
+  facts["found"] = FactsInSpace(problem, answer, finished.existence);
+  const bool minimize =
+      !answer.Solved() && answer.outcome != Outcome::kUndecided && finding.kind != kDisagreementOfMethods;
   if (minimize) {
     MinimizeOptions what;
-    what.keep = verdict.outcome;
+    what.keep = answer.outcome;
     what.policies = {options.policy};
-    what.period = verdict.period;
+    what.period = answer.period;
     what.limits = limits;
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;
     finished.minimized = ToJson(Describe(small, finding, options.policy, false, false)).dump();
     finished.minimized_existence = ExistenceInSpace(small, finding.signature, limits);
     facts["minimized"] =
-        FactsInSpace(small, methods.published_in_space(small, options).verdict, finished.minimized_existence);
+        FactsInSpace(small, methods.published_in_space(small, options), finished.minimized_existence);
   }
   finished.facts = facts.dump();
   return cancelled() ? std::nullopt : std::optional(finished);
@@ -242,7 +241,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   CertifyFound(finished, facts, found, limits, cancelled);
   if (!cancelled()) CompareMethods(finished, facts, found, limits);
   if (!cancelled()) {
-    const FeasibilityAnswer answer = methods.ipopt(found.problem);
+    const Feasibility answer = methods.ipopt(found.problem);
     facts["ipopt"] = {{"outcome", answer.outcome}, {"starts", answer.starts}};
   }
   // What methods disagree about is kept as it is.

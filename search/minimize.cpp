@@ -147,9 +147,9 @@ class Minimizer {
 
   std::optional<std::string> LacksInSpace(const ExactProblem& candidate) const {
     for (const Policy& policy : options_.policies) {
-      const Verdict verdict = RunIntervalsInSpace(candidate, {policy, {}, options_.limits}).verdict;
-      if (verdict.outcome != options_.keep) return EndsElsewhere(policy, verdict.outcome);
-      if (options_.period && verdict.period != *options_.period) return "it has another period";
+      const InexactAnswer answer = RunIntervalsInSpace(candidate, {policy, {}, options_.limits});
+      if (answer.outcome != options_.keep) return EndsElsewhere(policy, answer.outcome);
+      if (options_.period && answer.period != *options_.period) return "it has another period";
     }
     return std::nullopt;
   }

@@ -214,7 +214,7 @@ class Search {
     const auto spent = [&] { return ThreadSeconds() - start + seconds_of_ipopt; };
     ExactMethods methods;
     methods.ipopt = [&, ask = methods.ipopt](const ExactProblem& problem) {
-      const FeasibilityAnswer answer = ask(problem);
+      const Feasibility answer = ask(problem);
       seconds_of_ipopt += answer.seconds;
       return answer;
     };

@@ -99,9 +99,9 @@ std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
   return SmallestWord(run.verdict, Period(run.verdict, run.trace.pivots), layout);
 }
 
-std::string CountsSignature(std::size_t contacts, const Verdict& verdict) {
-  if (!IsLoop(verdict.outcome)) return fmt::format("{}-{}c", Name(verdict.outcome), contacts);
-  return fmt::format("{}-{}c-{}d", Name(verdict.outcome), contacts, verdict.period);
+std::string CountsSignature(std::size_t contacts, Outcome outcome, std::int64_t period) {
+  if (!IsLoop(outcome)) return fmt::format("{}-{}c", Name(outcome), contacts);
+  return fmt::format("{}-{}c-{}d", Name(outcome), contacts, period);
 }
 
 namespace {
@@ -152,7 +152,8 @@ template LoopFacts FactsOfLoop(const ExactProblem&, const Verdict&, const std::v
 template <class Scalar>
 std::string Signature(const ExactProblem& problem, const Verdict& verdict,
                       const std::vector<Pivot<Scalar>>& pivots) {
-  if (!IsLoop(verdict.outcome)) return CountsSignature(problem.contacts.size(), verdict);
+  if (!IsLoop(verdict.outcome))
+    return CountsSignature(problem.contacts.size(), verdict.outcome, verdict.period);
   return FactsOf(problem, verdict, pivots, /*always_with_word=*/false).signature;
 }
 

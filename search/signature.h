@@ -44,7 +44,7 @@ template <class Scalar>
 LoopFacts FactsOfLoop(const ExactProblem& problem, const Verdict& verdict,
                       const std::vector<Pivot<Scalar>>& pivots);
 // "cycle-2c-4d", "ray-2c": by counts that a verdict alone gives.
-std::string CountsSignature(std::size_t contacts, const Verdict& verdict);
+std::string CountsSignature(std::size_t contacts, Outcome outcome, std::int64_t period);
 
 }  // namespace stiction
 

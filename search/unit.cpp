@@ -139,8 +139,7 @@ class Collector {
   void RunCertified(std::int64_t index, std::size_t policy, bool audit) {
     const bool exact = campaign_.arithmetic == Arithmetic::kExact;
     const auto [problem, drawn] = Regenerate(index);
-    const FilteredVerdict filtered =
-        Filter(problem, policy, {exact ? Rung::kExact : Rung::kDouble, Rung::kExact});
+    const OnRung filtered = Filter(problem, policy, {exact ? Rung::kExact : Rung::kDouble, Rung::kExact});
     const Verdict& verdict = filtered.verdict;
     Count(policy, drawn, verdict);
     const bool suspected = verdict.outcome != Outcome::kSolved;
@@ -157,17 +156,18 @@ class Collector {
   void RunOverIntervals(std::int64_t index, std::size_t policy, const Verdict& inexact, bool wrong,
                         bool suspected) {
     const auto [problem, drawn] = Regenerate(index);
-    const Verdict verdict = RunInSpace(problem, policy);
-    const Outcome proved = verdict.outcome;
+    const InexactAnswer answer = RunInSpace(problem, policy);
+    const Outcome proved = answer.outcome;
     const Place place = {index, policy, inexact.outcome, drawn};
     CountVerdict(place, proved, suspected);
     CompareInSpace(place, proved, problem);
     if (proved == Outcome::kSolved) {
       FindOfDoubles(place, wrong, problem);
     } else if (proved != Outcome::kUndecided) {
-      Find(place, proved, Name(proved), CountsSignature(task_.contacts, verdict), problem);
+      Find(place, proved, Name(proved), CountsSignature(task_.contacts, proved, answer.period), problem);
     } else if (inexact.outcome == Outcome::kCycle) {
-      Find(place, proved, Name(proved), "undecided-" + CountsSignature(task_.contacts, inexact), problem);
+      Find(place, proved, Name(proved),
+           "undecided-" + CountsSignature(task_.contacts, inexact.outcome, inexact.period), problem);
     }
   }
 
@@ -192,9 +192,9 @@ class Collector {
     return RegenerateDrawn(campaign_, unit_, index);
   }
 
-  Verdict RunInSpace(const ExactProblem& problem, std::size_t policy) {
+  InexactAnswer RunInSpace(const ExactProblem& problem, std::size_t policy) {
     const Spending spending(meter_, &ProcessorTime::exact);
-    return methods_.published_in_space(problem, OptionsOf(policy)).verdict;
+    return methods_.published_in_space(problem, OptionsOf(policy));
   }
 
   ExactRun RunExactly(const ExactProblem& problem, std::size_t policy) {
@@ -219,9 +219,9 @@ class Collector {
            IsOneIn(draw, campaign_.enumerate_every);
   }
 
-  FilteredVerdict Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs) {
+  OnRung Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs) {
     const Spending spending(meter_, &ProcessorTime::filtered);
-    const FilteredVerdict filtered = methods_.filtered(problem, OptionsOf(policy), rungs);
+    const OnRung filtered = methods_.filtered(problem, OptionsOf(policy), rungs);
     const Rung rung = IsUnsure(filtered.verdict) ? Rung::kExact : filtered.rung;
     if (campaign_.arithmetic != Arithmetic::kExact) ++tallies_[policy]->rungs[static_cast<int>(rung)];
     return filtered;
@@ -231,8 +231,7 @@ class Collector {
   }
 
   // The outcome in exact arithmetic: that of certified signs, or of a run over rationals.
-  Outcome Decide(const Place& place, const ExactProblem& problem, const FilteredVerdict& filtered,
-                 bool suspected) {
+  Outcome Decide(const Place& place, const ExactProblem& problem, const OnRung& filtered, bool suspected) {
     const Verdict& verdict = filtered.verdict;
     const bool certified = filtered.rung != Rung::kExact && verdict.outcome != Outcome::kUndecided;
     const bool drawn = !suspected || IsDrawn(DrawOf(place.index));
@@ -243,12 +242,11 @@ class Collector {
   }
 
   // What is not solved, by certified signs: complete driving must solve it.
-  void Confirm(const Place& place, const ExactProblem& problem, const FilteredVerdict& filtered) {
+  void Confirm(const Place& place, const ExactProblem& problem, const OnRung& filtered) {
     const Verdict& verdict = filtered.verdict;
     const Spending spending(meter_, &ProcessorTime::compared);
-    const CompleteRun complete = methods_.complete_filtered(problem, campaign_.limits).run;
-    CompareAnswers(place, verdict.outcome, complete, problem,
-                   {{{"complete", complete.verdict.outcome, complete.f}, {"baraff", verdict.outcome, {}}}, {}});
+    const ExactAnswer complete = methods_.complete_filtered(problem, campaign_.limits);
+    CompareAnswers(place, verdict.outcome, problem, {{complete, AnswerBy("baraff", verdict.outcome)}, {}});
     const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
     const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
     FindUnsolved(place, verdict, run.pivots, problem);
@@ -311,22 +309,21 @@ class Collector {
          fmt::format("filtered, the published algorithm ends {} after {} steps; over rationals {} after {}",
                      Name(filtered.outcome), filtered.statistics.steps, Name(exact.outcome),
                      exact.statistics.steps)},
-        problem, {{{"baraff", exact.outcome, run.state.f}}, {}});
+        problem, {{AnswerBy("baraff", exact.outcome, run.state.f)}, {}});
   }
 
   // Complete driving on polygons ends in a solution of its own law, which is proved; that more corners lead to
   // one of (21), (22) is not.
   void CompareInSpace(const Place& place, Outcome published, const ExactProblem& problem) {
     const Spending spending(meter_, &ProcessorTime::compared);
-    const SpaceSolution complete = methods_.complete_in_space(problem, campaign_.limits);
-    const bool solved = complete.outcome == Outcome::kSolved;
-    const bool wrong = solved && FindWeakViolation(problem, complete.f);
-    CountExistence(complete.outcome, complete.statistics, wrong);
+    const ExactAnswer complete = methods_.complete_in_space(problem, campaign_.limits);
+    const bool wrong = complete.Solved() && FindWeakViolation(problem, complete.f);
+    CountExistence(complete, wrong);
     if (!wrong && complete.outcome != Outcome::kRay) return;
     const std::string what = wrong ? "complete-wrong" : fmt::format("complete-{}", Name(complete.outcome));
     FindDisagreementOfMethods(
         place, published, {what, "complete driving on polygons ended without forces that meet (21) and (22)"},
-        problem, {{{"complete", complete.outcome, complete.f}}, {}});
+        problem, {{AnswerBy("complete", complete.outcome, complete.f)}, {}});
   }
 
   void CountVerdict(const Place& place, Outcome exact, bool suspected) {
@@ -362,32 +359,29 @@ class Collector {
   // asked for, otherwise by lot.
   void Compare(const Place& place, const ExactRun& published, const ExactProblem& problem, bool with_lemke) {
     const Spending spending(meter_, &ProcessorTime::compared);
-    const CompleteRun complete = methods_.complete(problem, campaign_.limits);
-    Answers answers{{{"complete", complete.verdict.outcome, complete.f},
-                     {"baraff", published.verdict.outcome, published.state.f}},
+    Answers answers{{methods_.complete(problem, campaign_.limits),
+                     AnswerBy("baraff", published.verdict.outcome, published.state.f)},
                     {}};
     AgreementTally& tally = result_.record.agreement[task_.contacts];
     const bool promised = PromisesSolution();
     const std::uint64_t draw = DrawOf(place.index);
     if (with_lemke || IsOneIn(draw, campaign_.lemke_every)) {
-      const LemkeRun lemke = methods_.lemke(problem, campaign_.limits);
-      answers.methods.push_back({"lemke", lemke.verdict.outcome, lemke.f});
+      answers.methods.push_back(methods_.lemke(problem, campaign_.limits));
       tally.compared += promised;
     }
     if (task_.contacts <= kMostContactsEnumerated && IsOneIn(draw, campaign_.enumerate_every)) {
       answers.modes = methods_.modes(problem);
       if (promised) CountModes(tally, problem, *answers.modes);
     }
-    CompareAnswers(place, published.verdict.outcome, complete, problem, answers);
+    CompareAnswers(place, published.verdict.outcome, problem, answers);
   }
 
   // The answer of complete driving is the first.
-  void CompareAnswers(const Place& place, Outcome published, const CompleteRun& complete,
-                      const ExactProblem& problem, const Answers& answers) {
+  void CompareAnswers(const Place& place, Outcome published, const ExactProblem& problem,
+                      const Answers& answers) {
     const auto disagreement = FindDisagreement(problem, answers);  // looks at the solution of `complete` first
     if (PromisesSolution())
-      CountExistence(complete.verdict.outcome, complete.verdict.statistics,
-                     disagreement && disagreement->what == "complete-wrong");
+      CountExistence(answers.methods.front(), disagreement && disagreement->what == "complete-wrong");
     if (disagreement) FindDisagreementOfMethods(place, published, *disagreement, problem, answers);
   }
   bool PromisesSolution() const { return Row(task_.generator).other_kind != ContactKind::kSliding; }
@@ -400,14 +394,14 @@ class Collector {
          Json{{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}});
   }
 
-  void CountExistence(Outcome outcome, const CompleteStatistics& s, bool wrong) {
+  void CountExistence(const ExactAnswer& complete, bool wrong) {
     ExistenceTally& tally = result_.record.existence[task_.contacts];
     ++tally.problems;
-    tally.solved += outcome == Outcome::kSolved && !wrong;
-    tally.pieces += s.pieces;
-    tally.with_folds += s.folds > 0;
-    tally.with_descents += s.descents > 0;
-    tally.with_ties += s.ties > 0;
+    tally.solved += complete.Solved() && !wrong;
+    tally.pieces += ValueOf(complete.counters, "pieces");
+    tally.with_folds += ValueOf(complete.counters, "folds") > 0;
+    tally.with_descents += ValueOf(complete.counters, "descents") > 0;
+    tally.with_ties += ValueOf(complete.counters, "ties") > 0;
   }
 
   static void CountModes(AgreementTally& tally, const ExactProblem& problem, const Enumeration& modes) {
@@ -445,7 +439,7 @@ class Collector {
         place, published.verdict.outcome,
         {"safe-give-up", fmt::format("the problem is safe and the run without ties, yet {} gives up {} times",
                                      PolicyName(policy), run.verdict.statistics.give_ups)},
-        problem, {{{"baraff", run.verdict.outcome, run.state.f}}, {}});
+        problem, {{AnswerBy("baraff", run.verdict.outcome, run.state.f)}, {}});
   }
 
   // A signature as the store has it.
@@ -693,7 +687,8 @@ class SpaceKernel final : public SizedKernel {
  private:
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector) {
     algorithm_.options() = {campaign_.policies[policy], {}, campaign_.limits};
-    Verdict verdict = algorithm_.Run(problem_);
+    const PublishedSpaceVerdict end = algorithm_.Run(problem_);
+    Verdict verdict = {end.outcome, end.reason, end.statistics, end.start, end.period};
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
     const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {

@@ -27,13 +27,9 @@ Answer<Scalar> RunBaraffInSpace(const ContactProblem<Scalar>& problem, const Sol
                                 Trace<Scalar>* trace) {
   PublishedInSpace<Scalar> algorithm({options.policy, options.tolerances, options.limits});
   const PublishedSpaceVerdict verdict = algorithm.Run(problem, trace == nullptr ? nullptr : &trace->pivots);
-  auto answer = AnswerOf<Scalar>(static_cast<const Verdict&>(verdict));
-  answer.start = verdict.start;
-  answer.period = verdict.period;
+  auto answer = AnswerOf<Scalar>(verdict);
   answer.f = algorithm.f();
   if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
-  answer.counters.push_back({"redirects", verdict.redirects});
-  answer.counters.push_back({"breaks", verdict.breaks});
   return answer;
 }
 
@@ -53,11 +49,7 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOpt
   proximal.limits = options.limits;
   ProximalNewton<Scalar> solver(proximal);
   SparseContactProblem<Scalar> sparse{problem.dimension, problem.contacts, problem.A.sparseView(), problem.b};
-  const ProximalVerdict verdict = solver.Run(sparse);
-  Answer<Scalar> answer;
-  answer.outcome = verdict.outcome;
-  answer.reason = verdict.reason;
-  answer.counters = {{"points", verdict.points}, {"factorizations", verdict.factorizations}};
+  auto answer = AnswerOf<Scalar>(solver.Run(sparse));
   answer.f = solver.f();
   return answer;
 }

@@ -22,15 +22,6 @@
 
 namespace stiction {
 
-template <class Scalar, class SomeVerdict>
-Answer<Scalar> AnswerOf(const SomeVerdict& verdict) {
-  Answer<Scalar> answer;
-  answer.outcome = verdict.outcome;
-  answer.reason = verdict.reason;
-  answer.counters = CountersOf(verdict.statistics);
-  return answer;
-}
-
 // ---- Runs of path methods in the plane, over any scalar ------------------------------------------
 
 template <class Scalar>
@@ -39,8 +30,6 @@ Answer<Scalar> RunBaraff(const ContactProblem<Scalar>& problem, const SolveOptio
   PublishedAlgorithm<Scalar> algorithm({options.policy, options.tolerances, options.limits});
   const Verdict verdict = algorithm.Run(problem, trace);
   auto answer = AnswerOf<Scalar>(verdict);
-  answer.start = verdict.start;
-  answer.period = verdict.period;
   answer.f = algorithm.state().f;
   if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
   return answer;

@@ -32,7 +32,7 @@ inline std::string FaultOf(const ExactProblem& problem, const ExactAnswer& answe
   const bool weak = answer.law == FrictionLaw::kBaraff;
   const auto violation = problem.dimension == 2 ? FindViolation(problem, answer.f)
                          : weak                 ? FindWeakViolation(problem, answer.f)
-                                : FindCoulombViolation(problem, answer.f, *ParseRational(answer.bound));
+                                                : FindCoulombViolation(problem, answer.f, *answer.bound);
   return violation ? "called solved: " + *violation : "";
 }
 

@@ -21,7 +21,9 @@ Found FindWrongSolution(const ExactProblem& problem, std::string_view method, co
   return Disagreement{fmt::format("{}-wrong", method), fmt::format("{}: {}", method, *violation)};
 }
 
-bool MustSolve(const MethodAnswer& answer) { return answer.method == "complete" || answer.method == "lemke"; }
+bool MustSolve(const Answer<Rational>& answer) {
+  return answer.method == "complete" || answer.method == "lemke";
+}
 
 bool HasKind(const ExactProblem& problem, ContactKind kind) {
   return std::any_of(problem.contacts.begin(), problem.contacts.end(),
@@ -44,7 +46,7 @@ Found CompareWithModes(const ExactProblem& problem, const Answers& answers) {
   if (modes.solutions.empty() && HasSolution(problem))
     return Disagreement{"enumerate-none", fmt::format("all {} refuted prefixes say that no mode has a solution",
                                                       modes.refuted.size())};
-  for (const MethodAnswer& answer : answers.methods) {
+  for (const Answer<Rational>& answer : answers.methods) {
     if (answer.outcome != Outcome::kSolved || IsListed(problem, modes, answer.f)) continue;
     return Disagreement{fmt::format("{}-unlisted", answer.method),
                         fmt::format("the solution of {} stands in none of the {} words that have solutions",
@@ -86,7 +88,7 @@ bool StandsAtLimit(IndexSet set, bool normal, const Rational& f, const Rational&
 }  // namespace
 
 std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const Answers& answers) {
-  for (const MethodAnswer& answer : answers.methods) {
+  for (const Answer<Rational>& answer : answers.methods) {
     if (answer.outcome != Outcome::kSolved) continue;
     if (auto wrong = FindWrongSolution(problem, answer.method, answer.f)) return wrong;
   }
@@ -95,7 +97,7 @@ std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const 
       if (auto wrong = FindWrongSolution(problem, "enumerate", solution.f)) return wrong;
     }
   }
-  for (const MethodAnswer& answer : answers.methods) {
+  for (const Answer<Rational>& answer : answers.methods) {
     if (!MustSolve(answer) || answer.outcome == Outcome::kSolved || !HasSolution(problem)) continue;
     return Disagreement{fmt::format("{}-{}", answer.method, Name(answer.outcome)),
                         fmt::format("{} ended in {}, expected solved", answer.method, Name(answer.outcome))};
@@ -105,9 +107,17 @@ std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const 
   return CheckSigns(problem, *answers.modes);
 }
 
+Answer<Rational> AnswerBy(std::string_view method, Outcome outcome, ExactVector f) {
+  Answer<Rational> answer;
+  answer.method = method;
+  answer.outcome = outcome;
+  answer.f = std::move(f);
+  return answer;
+}
+
 Json AnswersToJson(const Answers& answers) {
   Json json = Json::array();
-  for (const MethodAnswer& answer : answers.methods) {
+  for (const Answer<Rational>& answer : answers.methods) {
     Json entry = {{"method", answer.method}, {"outcome", Name(answer.outcome)}};
     if (answer.outcome == Outcome::kSolved) entry["f"] = VectorToJson(answer.f);
     json.push_back(std::move(entry));

@@ -28,22 +28,16 @@
 
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
-
-// What a method that follows one path has to say.
-struct MethodAnswer {
-  std::string_view method;  // baraff, complete, lemke
-  Outcome outcome = Outcome::kUndecided;
-  ExactVector f;  // if solved
-};
 
 // All modes of more contacts are not tried in a search: 4^n words.
 inline constexpr int kMostContactsEnumerated = 3;
 
 struct Answers {
-  std::vector<MethodAnswer> methods;
-  std::optional<Enumeration> modes;  // where they were tried
+  std::vector<Answer<Rational>> methods;  // that follow one path; of each: method, outcome, f
+  std::optional<Enumeration> modes;       // where they were tried
 };
 
 struct Disagreement {
@@ -57,6 +51,9 @@ struct Disagreement {
 std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const Answers& answers);
 
 Json AnswersToJson(const Answers& answers);
+
+// What is compared of a method, f if it solved.
+Answer<Rational> AnswerBy(std::string_view method, Outcome outcome, ExactVector f = {});
 
 // Solutions of a complete enumeration.
 struct SolutionCount {

@@ -17,8 +17,8 @@ constexpr int kFewRows = 24;
 
 // Of an answer that is solved.
 Existence Solved(const ExactProblem& problem, const Answer<Rational>& answer) {
-  if (answer.bound.empty()) return {SolutionCertificate(problem, answer.f), answer.method};
-  return {CoulombCertificate(problem, answer.f, *ParseRational(answer.bound)), answer.method};
+  if (!answer.bound) return {SolutionCertificate(problem, answer.f), answer.method};
+  return {CoulombCertificate(problem, answer.f, *answer.bound), answer.method};
 }
 
 Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
@@ -26,7 +26,7 @@ Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
     const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits, .law = law});
-    if (answer.Solved() && answer.bound != "0") return Solved(problem, answer);
+    if (answer.Solved() && answer.bound != Rational(0)) return Solved(problem, answer);
   }
   const Enumeration modes = RefuteInSpace(problem, options);
   if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};
@@ -39,9 +39,8 @@ Existence DecideExistence(const ExactProblem& problem, const Limits& limits, con
                           FrictionLaw law) {
   if (problem.dimension == 3) return DecideInSpace(problem, limits, options, law);
   if (problem.rows() <= kFewRows) {
-    const CompleteRun complete = RunCompleteFiltered(problem, limits).run;
-    if (complete.verdict.outcome == Outcome::kSolved)
-      return {SolutionCertificate(problem, complete.f), "complete"};
+    const ExactAnswer answer = RunCompleteFiltered(problem, limits);
+    if (answer.Solved()) return Solved(problem, answer);
   } else {
     const Answer<Rational> answer = Solve(problem, "fast", {.limits = limits});
     if (answer.Solved()) return Solved(problem, answer);

@@ -11,7 +11,7 @@ Json EnclosuresToJson(const std::vector<Enclosure>& values) {
 }
 
 template <class Scalar>
-void AddVectors(const TracedAnswer<Scalar>& answer, Json& json) {
+void AddVectors(const Answer<Scalar>& answer, Json& json) {
   if (answer.f_enclosed.empty()) {
     json["f"] = answer.f.size() > 0 || answer.Solved() ? ListJson(answer.f) : Json(nullptr);
     json["a"] = answer.a.size() > 0 || answer.Solved() ? ListJson(answer.a) : Json(nullptr);
@@ -33,23 +33,26 @@ void AddErrors(const Errors<double>& errors, Json& json) {
 }
 
 template <class Scalar>
-Json AnswerToJson(const TracedAnswer<Scalar>& answer, int dimension) {
+Json AnswerToJson(const Answer<Scalar>& answer, int dimension) {
   Json json = EndToJson(answer);
   if (answer.outcome == Outcome::kCycle && dimension == 3)
     json["evidence"] = answer.arithmetic == Arithmetic::kInterval ? kProofOfSets : kNoProof;
   json["method"] = answer.method;
   json["arithmetic"] = Name(answer.arithmetic);
   if (dimension == 3) json["law"] = Name(answer.law);
-  if (!answer.bound.empty()) json["bound"] = answer.bound;
+  if constexpr (kIsExact<Scalar>) {
+    if (answer.bound) json["bound"] = ToString(*answer.bound);
+  }
   if (!answer.word.empty()) json["word"] = answer.word;
   AddVectors(answer, json);
   if (answer.moves_elsewhere) json["unique_accelerations"] = false;
   if (answer.errors) AddErrors(*answer.errors, json);
   json["statistics"] = CountersToJson(answer.counters);
+  if (answer.rung) json["rung"] = Name(*answer.rung);
   return json;
 }
 
-Json SuspicionToJson(const Suspicion& suspicion) {
+Json SuspicionToJson(const InexactAnswer& suspicion) {
   Json json = EndToJson(suspicion);
   json["arithmetic"] = Name(suspicion.arithmetic);
   if (suspicion.errors) AddErrors(*suspicion.errors, json);
@@ -67,7 +70,6 @@ Json CountersToJson(const std::vector<Counter>& counters) {
 Json SolutionToJson(const Solution& solution, int dimension) {
   Json json =
       std::visit([dimension](const auto& answer) { return AnswerToJson(answer, dimension); }, solution.answer);
-  if (solution.rung) json["rung"] = Name(*solution.rung);
   if (solution.suspected) json["suspected"] = SuspicionToJson(*solution.suspected);
   return json;
 }

@@ -5,7 +5,6 @@
 
 #include "certify/exact/inexact.h"
 #include "certify/exact/quad.h"
-#include "certify/exact/traced.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/problem/row_scale.h"
 
@@ -34,11 +33,7 @@ Answer<double> PolishInSpace(const ContactProblem<double>& problem, const SolveO
   CoulombSolver<Quad> solver(coulomb);
   ContactProblem<Quad>::Vector start = from.cast<Quad>();
   for (int i = 0; i < start.size(); ++i) start[i] = ldexp(start[i], -scale.f[i]);
-  Answer<double> answer;
-  const CoulombVerdict verdict = solver.Run(InQuad(Scaled(problem, scale)), &start);
-  answer.outcome = verdict.outcome;
-  answer.reason = verdict.reason;
-  answer.counters = CountersOf(verdict.statistics);
+  auto answer = AnswerOf<double>(solver.Run(InQuad(Scaled(problem, scale)), &start));
   answer.law = FrictionLaw::kCoulomb;
   answer.f = solver.f().unaryExpr([](const Quad& x) { return static_cast<double>(x); });
   ScaleBy(answer.f, scale.f);
@@ -53,8 +48,7 @@ Answer<double> SolveFinelyInPlane(const ContactProblem<double>& problem, const S
   SolveOptions few = options;
   few.limits.pivots = std::min(options.limits.pivots, QuadSteps(problem));
   const ContactProblem<Quad> fine = InQuad(problem);
-  Answer<double> answer =
-      InDoubles(Traced(Solve(fine, "fast", few), Trace<Quad>()), fine, BoundOf<double>(options));
+  Answer<double> answer = InDoubles(Solve(fine, "fast", few), fine, BoundOf<double>(options));
   answer.arithmetic = Arithmetic::kQuad;
   return answer;
 }
@@ -65,19 +59,17 @@ bool IsBetter(const Answer<double>& x, const Answer<double>& y) {
   return x.errors && (!y.errors || x.errors->Largest() < y.errors->Largest());
 }
 
-Escalated Told(Answer<double> answer) { return {Traced(std::move(answer), Trace<double>())}; }
-
 }  // namespace
 
-Escalated SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options) {
+Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options) {
   const bool in_space = problem.dimension == 3;
   SolveOptions quick = options;
   if (in_space) quick.sides = 0;
   Answer<double> best = in_space ? Solve(problem, "fast", quick) : Solve(problem, kAutomatic, quick);
   const bool is_open = !best.Solved() && best.outcome != Outcome::kNoSolution;
   if (!is_open || options.limits.Stopped() || best.f.size() != problem.rows() || !best.f.allFinite())
-    return Told(std::move(best));
-  const Suspicion suspicion = SuspicionOf(Traced(Answer<double>(best), Trace<double>()));
+    return {.answer = std::move(best)};
+  const Answer<double> doubles = best;
   bool is_fine = false;
   const auto consider = [&](Answer<double> answer, bool fine) {
     if (!IsBetter(answer, best)) return;
@@ -87,8 +79,8 @@ Escalated SolveEscalating(const ContactProblem<double>& problem, const SolveOpti
   if (QuadSteps(problem) > 0)
     consider(in_space ? PolishInSpace(problem, options, best.f) : SolveFinelyInPlane(problem, options), true);
   if (!best.Solved() && in_space) consider(Solve(problem, kAutomatic, options), false);
-  Escalated told = Told(std::move(best));
-  if (is_fine) told.suspected = suspicion;
+  Solution told = {.answer = std::move(best)};
+  if (is_fine) told.suspected = doubles;
   return told;
 }
 

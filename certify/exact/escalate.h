@@ -16,12 +16,8 @@ namespace stiction {
 
 inline constexpr std::int64_t kQuadOperations = 40'000'000;
 
-// The method `auto` over doubles.
-struct Escalated {
-  InexactAnswer answer;
-  std::optional<Suspicion> suspected = {};  // what doubles said, where quad answers
-};
-Escalated SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options);
+// The method `auto` over doubles. `suspected`: what doubles said, where quad answers.
+Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options);
 
 }  // namespace stiction
 

@@ -18,12 +18,7 @@ template class LemkeAlgorithm<Rational>;
 
 namespace {
 
-Verdict VerdictOn(const Remainder<Rational>& remainder) {
-  Verdict verdict;
-  verdict.outcome = Outcome::kSingular;
-  verdict.reason = remainder.Obstacle();
-  return verdict;
-}
+Verdict VerdictOn(const Remainder<Rational>& remainder) { return {Outcome::kSingular, remainder.Obstacle()}; }
 
 // A run on the remainder in the terms of the whole problem.
 ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
@@ -134,66 +129,6 @@ std::vector<std::string> VariableNames(const ExactProblem& problem) {
   std::vector<std::string> names;
   for (int row = 0; row < problem.rows(); ++row) names.push_back(VariableName(layout, row));
   return names;
-}
-
-namespace {
-
-// A run of a method that takes frictionless and static contacts only, on what bilateral and sliding ones leave;
-// forces and accelerations are those of the whole problem, all else is of what remains.
-template <class Run>
-Run OnRemainder(const ExactProblem& problem, Run (*run)(const ExactProblem&, const Limits&),
-                const Limits& limits) {
-  const Reduction<Rational> reduction(problem);
-  Run result;
-  if (reduction.end() != ReductionEnd::kReduced) {
-    result.verdict.outcome = Outcome::kSingular;
-    result.verdict.reason = Reason(reduction.end());
-    return result;
-  }
-  result = run(reduction.problem(), limits);
-  if (result.verdict.outcome == Outcome::kSolved) {
-    result.f = reduction.Forces(result.f);
-    result.a = Accelerations(problem, result.f);
-  }
-  if (result.ray.size() > 0) result.ray = reduction.Direction(result.ray);
-  return result;
-}
-
-}  // namespace
-
-CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep) {
-  if (Reduction<Rational>::Concerns(problem)) {
-    return OnRemainder<CompleteRun>(
-        problem, [](const ExactProblem& rest, const Limits& of) { return RunComplete(rest, of); }, limits);
-  }
-  CompleteOptions options;
-  options.limits = limits;
-  CompleteDriving<Rational> driving(options);
-  CompleteRun run;
-  Trace<Rational> trace;
-  run.verdict = driving.Run(problem, keep == KeepPath::kYes ? &trace : nullptr);
-  run.path = std::move(trace.pivots);
-  run.f = driving.f();
-  run.a = driving.a();
-  if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
-  run.word = driving.Word();
-  return run;
-}
-
-LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits) {
-  if (Reduction<Rational>::Concerns(problem)) return OnRemainder<LemkeRun>(problem, &RunLemke, limits);
-  LemkeOptions options;
-  options.limits = limits;
-  LemkeAlgorithm<Rational> lemke(options);
-  LemkeRun run;
-  run.verdict = lemke.Run(problem);
-  if (run.verdict.outcome == Outcome::kSolved) {
-    run.f = lemke.f();
-    run.a = lemke.a();
-  } else if (run.verdict.outcome == Outcome::kRay) {
-    run.ray = lemke.ray();
-  }
-  return run;
 }
 
 }  // namespace stiction

@@ -49,24 +49,6 @@ struct ExactRun {
 // Requires dimension 2.
 ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options);
 
-// Of any planar problem: forces and accelerations are those of all rows. So is a ray; the word is that
-// of what bilateral and sliding contacts leave, and a path is kept where nothing had to leave.
-struct CompleteRun {
-  CompleteVerdict verdict;
-  std::vector<Pivot<Rational>> path;  // only where asked for
-  ExactVector f, a;
-  ExactVector ray;  // of a ray, otherwise empty
-  std::string word;
-};
-enum class KeepPath { kNo, kYes };
-CompleteRun RunComplete(const ExactProblem& problem, const Limits& limits, KeepPath keep = KeepPath::kNo);
-
-struct LemkeRun {
-  Verdict verdict;
-  ExactVector f, a, ray;
-};
-LemkeRun RunLemke(const ExactProblem& problem, const Limits& limits);
-
 // Policies that take the same steps on a problem. The trace is that of the first of them.
 struct PolicyClass {
   std::vector<Policy> policies;

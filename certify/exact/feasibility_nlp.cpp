@@ -156,7 +156,7 @@ std::optional<ExactVector> IpoptProposer::Search(const ExactProblem& problem, co
     request["options"]["first_start"] = start;
     const auto f = AskForces(request, problem.rows(), options.patience, statistics);
     if (!f) return std::nullopt;
-    NearbySolution near = SolveNear(problem, scaled, *f, options.words, tried);
+    NearbyWords near = SolveNear(problem, scaled, *f, options.words, tried);
     statistics.words += near.words;
     statistics.first_words += near.is_first;
     if (near.f) return std::move(near.f);

@@ -47,8 +47,6 @@ BallAnswer<Number> RunPublished(const BallProblem<Number>& problem, const SolveO
   try {
     const Verdict verdict = algorithm.Run(problem, trace);
     answer = AnswerOf<Ball<Number>>(verdict);
-    answer.start = verdict.start;
-    answer.period = verdict.period;
     if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
   } catch (const UnsureSign&) {
     answer.reason = kUnsureSign;
@@ -180,14 +178,10 @@ std::optional<Verdict> TryPublished(const ExactProblem& problem, const Published
 
 }  // namespace
 
-FilteredVerdict RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options,
-                                     const Rungs& rungs) {
+OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options, const Rungs& rungs) {
   const Remainder<Rational> remainder(problem);
   if (!remainder.Obstacle().empty()) {
-    Verdict verdict;
-    verdict.outcome = Outcome::kSingular;
-    verdict.reason = remainder.Obstacle();
-    return {verdict, Rung::kExact};
+    return {{Outcome::kSingular, remainder.Obstacle()}, Rung::kExact};
   }
   const ExactProblem& remaining = remainder.problem();
   if (rungs.first == Rung::kDouble) {
@@ -199,11 +193,7 @@ FilteredVerdict RunPublishedFiltered(const ExactProblem& problem, const Publishe
     if (const auto verdict = TryPublished<dd_real>(remaining, options, &dependent))
       return {*verdict, Rung::kDoubleDouble};
   }
-  if (rungs.last != Rung::kExact) {
-    Verdict verdict;
-    verdict.reason = kUnsureSign;
-    return {verdict, rungs.last};
-  }
+  if (rungs.last != Rung::kExact) return {{Outcome::kUndecided, kUnsureSign}, rungs.last};
   PublishedAlgorithm<Rational> algorithm(options);
   return {algorithm.Run(remaining), Rung::kExact};
 }
@@ -230,43 +220,50 @@ Mode ModeOf(Cell cell) {
 
 // Empty where a sign is unsure, or the last word has no solution that is verified.
 template <class Number>
-std::optional<CompleteRun> TryComplete(const ExactProblem& problem, const Limits& limits,
+std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits& limits,
                                        DependentRows* dependent) {
   thread_local CompleteDriving<Ball<Number>> driving;
   driving.options().limits = limits;
   driving.KnowDependentRows(dependent);
-  CompleteRun run;
+  ExactAnswer answer;
   try {
-    run.verdict = driving.Run(Converted<Ball<Number>>(problem, &BallAround<Number>));
+    answer = AnswerOf<Rational>(driving.Run(Converted<Ball<Number>>(problem, &BallAround<Number>)));
   } catch (const UnsureSign&) {
     return std::nullopt;
   }
-  if (run.verdict.outcome != Outcome::kSolved) return std::nullopt;
+  if (!answer.Solved()) return std::nullopt;
   ModeWord word;
   for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) word.push_back(ModeOf(driving.CellOf(i)));
   auto f = SolveWord(problem, word, std::vector<Rational>(problem.rows(), 0));
   if (!f) return std::nullopt;
-  run.f = *std::move(f);
-  run.word = driving.Word();
-  return run;
+  answer.f = *std::move(f);
+  answer.word = driving.Word();
+  return answer;
 }
 
 }  // namespace
 
-FilteredComplete RunCompleteFiltered(const ExactProblem& problem, const Limits& limits) {
+ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limits) {
+  const auto exactly = [&] {
+    ExactAnswer answer = Solve(problem, "complete", {.limits = limits});
+    answer.rung = Rung::kExact;
+    return answer;
+  };
   const Remainder<Rational> remainder(problem);
-  if (!remainder.Obstacle().empty()) return {RunComplete(problem, limits), Rung::kExact};
+  if (!remainder.Obstacle().empty()) return exactly();
   Rung rung = Rung::kDouble;
-  auto run = TryComplete<double>(remainder.problem(), limits, nullptr);
-  if (!run) {
+  auto answer = TryComplete<double>(remainder.problem(), limits, nullptr);
+  if (!answer) {
     rung = Rung::kDoubleDouble;
     ExactDependentRows dependent(remainder.problem());
-    run = TryComplete<dd_real>(remainder.problem(), limits, &dependent);
+    answer = TryComplete<dd_real>(remainder.problem(), limits, &dependent);
   }
-  if (!run) return {RunComplete(problem, limits), Rung::kExact};
-  run->f = remainder.Forces(run->f);
-  run->a = remainder.Accelerations(run->f);
-  return {*std::move(run), rung};
+  if (!answer) return exactly();
+  answer->f = remainder.Forces(answer->f);
+  answer->a = remainder.Accelerations(answer->f);
+  answer->method = "complete";
+  answer->rung = rung;
+  return *std::move(answer);
 }
 
 }  // namespace stiction

@@ -47,23 +47,19 @@ struct Rungs {
 };
 
 // A verdict of the run over rationals, and the rung that gave it; `undecided` for kUnsureSign where none did.
-struct FilteredVerdict {
+struct OnRung {
   Verdict verdict;
   Rung rung = Rung::kExact;
 };
 
 // The published algorithm. Requires dimension 2. A thread keeps the memory of its runs.
-FilteredVerdict RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options,
-                                     const Rungs& rungs = {});
+OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options,
+                            const Rungs& rungs = {});
 
 // Complete driving: the counters of the run over rationals, but the end is not believed. The equations of the
 // last word are solved over rationals, and the solution is verified; what that does not give, the run over
 // rationals does. Without a path or a ray. Requires dimension 2.
-struct FilteredComplete {
-  CompleteRun run;
-  Rung rung = Rung::kExact;
-};
-FilteredComplete RunCompleteFiltered(const ExactProblem& problem, const Limits& limits);
+ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limits);
 
 }  // namespace stiction
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "certify/exact/solve.h"
-#include "certify/exact/traced.h"
 #include "corpus/rounded.h"
 #include "solver/problem/long_double.h"
 #include "solver/published/published_space.h"
@@ -35,8 +34,7 @@ Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
 
 // Forces of long double are rounded to what is told of them before they are judged.
 template <class Scalar>
-InexactAnswer InDoubles(const TracedAnswer<Scalar>& answer, const ContactProblem<Scalar>& problem,
-                        double bound) {
+InexactAnswer InDoubles(const Answer<Scalar>& answer, const ContactProblem<Scalar>& problem, double bound) {
   InexactAnswer result;
   result.outcome = answer.outcome;
   result.reason = answer.reason;
@@ -67,7 +65,7 @@ inline InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveReque
   t.loop_grain = std::min(t.loop_grain, 1e-12);
   request.trace = KeepTrace::kNo;
   const auto wide = Converted<LongDouble>(problem, [](double x) { return static_cast<LongDouble>(x); });
-  return InDoubles(SolveTraced(wide, request), wide, BoundOf<double>(request.options));
+  return InDoubles(SolveWithPath(wide, request), wide, BoundOf<double>(request.options));
 }
 
 // InputError where the published algorithm in space has no such reading.
@@ -84,11 +82,9 @@ inline void RequireReading(const ExactProblem& problem, const SolveRequest& requ
 inline void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request,
                             Solution& solution) {
   InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
-  const Suspicion suspicion = SuspicionOf(first);
   InexactAnswer again = RunFinely(ran, request);
   again.pivots = std::move(first.pivots);
-  first = std::move(again);
-  solution.suspected = suspicion;
+  solution.suspected = std::exchange(first, std::move(again));
 }
 
 }  // namespace stiction

@@ -44,29 +44,34 @@ CellWord WordOf(const ExactProblem& problem, const RationalPolygons& polygons, c
 
 }  // namespace
 
-SpaceRun RunLemkeInSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                         Trace<Rational>* trace) {
+OnPolygons RunLemkeInSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
+                           Trace<Rational>* trace) {
   const Remainder<Rational> remainder(problem);
-  SpaceRun run;
+  OnPolygons run;
   if (!remainder.Obstacle().empty()) {
-    run.verdict = {Outcome::kSingular, remainder.Obstacle(), {}};
+    run.answer.outcome = Outcome::kSingular;
+    run.answer.reason = remainder.Obstacle();
+    run.answer.counters = CountersOf(CompleteStatistics());
     return run;
   }
   RationalPolygons kept;
   for (std::size_t i = 0; i < remainder.problem().contacts.size(); ++i)
     kept.push_back(polygons[remainder.ContactOf(static_cast<int>(i))]);
+  run.polygons = std::move(polygons);
   LemkeOptions options;
   options.limits = limits;
   LemkeAlgorithm<Rational> lemke(options);
   const Verdict verdict = lemke.Run(remainder.problem(), kept, trace);
   if (trace != nullptr)
     for (Pivot<Rational>& pivot : trace->pivots) pivot = remainder.Restored(std::move(pivot));
-  run.verdict = {verdict.outcome, verdict.reason, {.pieces = verdict.statistics.pivots}};
-  if (verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(lemke.ray());
+  run.answer.outcome = verdict.outcome;
+  run.answer.reason = verdict.reason;
+  run.answer.counters = CountersOf(CompleteStatistics{.pieces = verdict.statistics.pivots});
+  if (verdict.outcome == Outcome::kRay) run.answer.ray = remainder.Direction(lemke.ray());
   if (verdict.outcome != Outcome::kSolved) return run;
-  run.f = remainder.Forces(lemke.f());
-  run.a = remainder.Accelerations(run.f);
-  run.word = WordOf(problem, polygons, run.f, run.a);
+  run.answer.f = remainder.Forces(lemke.f());
+  run.answer.a = remainder.Accelerations(run.answer.f);
+  run.word = WordOf(problem, run.polygons, run.answer.f, run.answer.a);
   return run;
 }
 

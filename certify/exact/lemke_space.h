@@ -15,8 +15,8 @@ namespace stiction {
 
 // Requires dimension 3 and a polygon per contact. Outcome: solved, ray, limit; singular where bilateral
 // contacts cannot leave. With `trace`, every pivot is recorded.
-SpaceRun RunLemkeInSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                         Trace<Rational>* trace = nullptr);
+OnPolygons RunLemkeInSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
+                           Trace<Rational>* trace = nullptr);
 
 }  // namespace stiction
 

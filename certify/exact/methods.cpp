@@ -29,7 +29,7 @@ constexpr std::int64_t kAutomaticProgramsInSpace = 2000;
 
 template <SpaceEngine kEngine>
 Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
-  return AnswerOf(SolveInSpace(problem, SpaceOptionsOf(options, kEngine), trace), options.law);
+  return SolveInSpace(problem, SpaceOptionsOf(options, kEngine), trace);
 }
 
 // The first solution in the order of the mode words, or that there is none.
@@ -102,7 +102,7 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, Exac
 
 // The solution in the cells that the fast method finds over doubles; none where doubles do not hold the
 // problem.
-NearbySolution SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
+NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
   std::vector<double> point;
   ScaledProblem scaled;
@@ -120,7 +120,7 @@ NearbySolution SolveNearDoubles(const ExactProblem& problem, const Limits& limit
 
 // Complete driving where the cells of doubles are none.
 Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
-  NearbySolution near = SolveNearDoubles(problem, options.limits);
+  NearbyWords near = SolveNearDoubles(problem, options.limits);
   Answer<Rational> answer;
   if (near.f) {
     answer.outcome = Outcome::kSolved;
@@ -134,28 +134,16 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions&
 
 // In space the modes of its point, solved exactly.
 Answer<Rational> RunFastInSpace(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
-  return AnswerOf(SolveNearFast(problem, SpaceOptionsOf(options, SpaceEngine::kComplete)), options.law);
+  return SolveNearFast(problem, SpaceOptionsOf(options, SpaceEngine::kComplete));
 }
 
 Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
-  QpRun run = SolveQp(problem);
-  Answer<Rational> answer;
-  answer.outcome = run.outcome;
-  answer.f = std::move(run.f);
-  answer.ray = std::move(run.ray);
-  answer.counters = {{"iterations", run.iterations}};
-  return answer;
+  return SolveQp(problem);
 }
 
 Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const SolveOptions&, Trace<double>*) {
   IpoptProposer proposer;
-  const RoundedQpRun run = SolveQpByIpopt(Unrounded(problem), proposer, 1);  // the gate judges
-  Answer<double> answer;
-  answer.outcome = run.outcome;
-  answer.reason = run.reason;
-  if (!run.f.empty()) answer.f = Eigen::Map<const Eigen::VectorXd>(run.f.data(), problem.rows());
-  answer.counters = {{"iterations", run.iterations}};
-  return answer;
+  return SolveQpByIpopt(Unrounded(problem), proposer);
 }
 
 // ---- The table ---------------------------------------------------------------------------------

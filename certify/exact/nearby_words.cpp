@@ -198,13 +198,13 @@ std::vector<Rational> Shortened(const std::vector<double>& f, const Rational& un
 
 }  // namespace
 
-NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
-                         int words, std::set<ModeWord>& tried) {
+NearbyWords SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
+                      int words, std::set<ModeWord>& tried) {
   if (static_cast<int>(f.size()) != problem.rows()) return {};  // a run that could not begin
   if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x * kPlaces); })) return {};
   const std::vector<Rational> near = Shortened(f, scaled.force);
   WordsByRank ranked(problem, scaled, f);
-  NearbySolution result;
+  NearbyWords result;
   for (int count = 0; count < words; ++count) {
     const auto word = ranked.Next();
     if (!word) break;

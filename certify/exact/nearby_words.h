@@ -57,13 +57,13 @@ std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord
 
 // What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
 // nothing, as near a point that is not finite. Words in `tried` are passed over, and the others put there.
-struct NearbySolution {
+struct NearbyWords {
   std::optional<ExactVector> f;
   int words = 0;          // whose equations were solved
   bool is_first = false;  // the solution is in the nearest word
 };
-NearbySolution SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
-                         int words, std::set<ModeWord>& tried);
+NearbyWords SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
+                      int words, std::set<ModeWord>& tried);
 
 }  // namespace stiction
 

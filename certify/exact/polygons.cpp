@@ -11,17 +11,16 @@
 
 namespace stiction {
 
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                  Trace<Rational>* trace) {
+OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
+                    Trace<Rational>* trace) {
   CompleteOptions options;
   options.limits = limits;
   CompleteDriving<Rational> driving(options);
-  SpaceRun run;
-  run.verdict = driving.Run(problem, polygons, trace);
-  run.f = driving.f();
-  run.a = driving.a();
-  if (run.verdict.outcome == Outcome::kRay) run.ray = driving.ray();
-  run.word = driving.word();
+  OnPolygons run = {AnswerOf<Rational>(driving.Run(problem, polygons, trace)), driving.word(),
+                    std::move(polygons)};
+  run.answer.f = driving.f();
+  run.answer.a = driving.a();
+  if (run.answer.outcome == Outcome::kRay) run.answer.ray = driving.ray();
   return run;
 }
 
@@ -99,11 +98,11 @@ Planar<Rational> NearDirection(const Planar<Rational>& x, int bits) {
   return point;
 }
 
-void Accept(const ExactProblem& problem, const ExactVector& f, SpaceSolution& solution) {
-  solution.outcome = Outcome::kSolved;
-  solution.reason = {};
-  solution.f = f;
-  solution.a = Accelerations(problem, f);
+void Accept(const ExactProblem& problem, const ExactVector& f, Answer<Rational>& answer) {
+  answer.outcome = Outcome::kSolved;
+  answer.reason.clear();
+  answer.f = f;
+  answer.a = Accelerations(problem, f);
 }
 
 namespace {
@@ -123,27 +122,19 @@ RationalPolygons MakePolygons(const ExactProblem& problem, int sides) {
   return RationalPolygons(problem.contacts.size(), FrictionPolygon<Rational>(sides));
 }
 
-void Add(CompleteStatistics& sum, const CompleteStatistics& part) {
-  sum.pieces += part.pieces;
-  sum.folds += part.folds;
-  sum.descents += part.descents;
-  sum.ties += part.ties;
-  sum.stages += part.stages;
-}
-
 // The modes of a word on polygons; contacts on an edge slip along a point of the circle between its corners.
-std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const RationalPolygons& polygons,
-                               const SpaceRun& run) {
+std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const OnPolygons& run) {
   std::vector<SpaceMode> modes;
   int row = 0;
   for (std::size_t i = 0; i < run.word.size(); ++i) {
     const LawCell& cell = run.word[i];
     SpaceMode mode = {cell.law, {Rational(0), Rational(0)}};
-    if (cell.law == Law::kCorner) mode.direction = polygons[i].corner(cell.side);
+    if (cell.law == Law::kCorner) mode.direction = run.polygons[i].corner(cell.side);
     if (cell.law == Law::kEdge) {
       mode.law = Law::kCorner;
-      const Planar<Rational>&from = polygons[i].corner(cell.side), &to = polygons[i].corner(cell.side + 1);
-      const Planar<Rational> force = TangentialOf(run.f, row);
+      const FrictionPolygon<Rational>& polygon = run.polygons[i];
+      const Planar<Rational>&from = polygon.corner(cell.side), &to = polygon.corner(cell.side + 1);
+      const Planar<Rational> force = TangentialOf(run.answer.f, row);
       mode.direction = Cross(from, force) <= 0 ? from
                        : Cross(force, to) <= 0 ? to
                                                : DirectionBetween(from, to, force);
@@ -164,50 +155,53 @@ bool RefineTowards(const std::vector<SpaceMode>& modes, RationalPolygons& polygo
 }
 
 // One step toward (21), (22): whether it is the last.
-bool TryWeak(const ExactProblem& problem, const SpaceRun& run, RationalPolygons& polygons,
-             SpaceSolution& solution) {
-  if (!FindWeakViolation(problem, run.f)) {
-    Accept(problem, run.f, solution);
+bool TryWeak(const ExactProblem& problem, OnPolygons& run, Answer<Rational>& answer) {
+  if (!FindWeakViolation(problem, run.answer.f)) {
+    Accept(problem, run.answer.f, answer);
     return true;
   }
-  const std::vector<SpaceMode> modes = ModesOf(problem, polygons, run);
-  const auto f = SolveModes(problem, modes, run.f);
+  const std::vector<SpaceMode> modes = ModesOf(problem, run);
+  const auto f = SolveModes(problem, modes, run.answer.f);
   if (f && !FindWeakViolation(problem, *f)) {
-    Accept(problem, *f, solution);
+    Accept(problem, *f, answer);
     return true;
   }
-  solution.reason = "an edge of a polygon could not be replaced by a point of the circle";
-  return !RefineTowards(modes, polygons);
+  answer.reason = "an edge of a polygon could not be replaced by a point of the circle";
+  return !RefineTowards(modes, run.polygons);
 }
 
 }  // namespace
 
-SpaceSolution SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
-                              Trace<Rational>* trace) {
+Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
+                                 Trace<Rational>* trace) {
+  const auto engine = options.engine == SpaceEngine::kLemke ? &RunLemkeInSpace : &RunSpace;
   RationalPolygons polygons = MakePolygons(problem, options.sides);
-  SpaceSolution solution;
-  for (;; ++solution.refinements) {
-    SpaceRun run = options.engine == SpaceEngine::kLemke
-                       ? RunLemkeInSpace(problem, polygons, options.limits, trace)
-                       : RunSpace(problem, polygons, options.limits, trace);
-    Add(solution.statistics, run.verdict.statistics);
-    if (run.verdict.outcome != Outcome::kSolved) {
-      if (solution.outcome == Outcome::kSolved) break;  // a bound that was not improved
-      solution.outcome = run.verdict.outcome;
-      solution.reason = run.verdict.reason;
-      solution.ray = std::move(run.ray);
-      solution.word = std::move(run.word);
+  Answer<Rational> answer;
+  answer.law = options.law;
+  int refinements = 0;
+  for (;; ++refinements) {
+    OnPolygons run = engine(problem, std::move(polygons), options.limits, trace);
+    run.refinements = refinements;
+    for (const Counter& counter : run.answer.counters) Add(answer.counters, counter.name, counter.value);
+    const bool ended = !run.answer.Solved();
+    if (ended && answer.Solved()) break;  // a bound that was not improved
+    answer.word = Name(run.word, 3);
+    if (ended) {
+      answer.outcome = run.answer.outcome;
+      answer.reason = run.answer.reason;
+      answer.ray = std::move(run.answer.ray);
       break;
     }
-    solution.word = run.word;
-    if (toward(run, polygons, solution) || solution.refinements == options.refinements) break;
+    if (toward(run, answer) || refinements == options.refinements) break;
+    polygons = std::move(run.polygons);
   }
-  return solution;
+  answer.counters.push_back({"refinements", refinements});
+  return answer;
 }
 
-SpaceSolution SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
-  const auto toward = [&problem](const SpaceRun& run, RationalPolygons& polygons, SpaceSolution& solution) {
-    return TryWeak(problem, run, polygons, solution);
+Answer<Rational> SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
+  const auto toward = [&problem](OnPolygons& run, Answer<Rational>& answer) {
+    return TryWeak(problem, run, answer);
   };
   return SolveOnPolygons(problem, options, toward, trace);
 }
@@ -219,20 +213,6 @@ SpaceOptions SpaceOptionsOf(const SolveOptions& options, SpaceEngine engine) {
   space.sides = options.sides;
   space.limits = options.limits;
   return space;
-}
-
-Answer<Rational> AnswerOf(SpaceSolution solution, FrictionLaw law) {
-  Answer<Rational> answer;
-  answer.outcome = solution.outcome;
-  answer.reason = solution.reason;
-  answer.law = law;
-  if (answer.Solved()) answer.f = std::move(solution.f);
-  if (answer.Solved() && law == FrictionLaw::kCoulomb) answer.bound = ToString(solution.bound);
-  answer.ray = std::move(solution.ray);
-  answer.word = Name(solution.word, 3);
-  answer.counters = CountersOf(solution.statistics);
-  answer.counters.push_back({"refinements", solution.refinements});
-  return answer;
 }
 
 }  // namespace stiction

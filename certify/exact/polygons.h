@@ -19,16 +19,17 @@ namespace stiction {
 
 using RationalPolygons = std::vector<FrictionPolygon<Rational>>;
 
-struct SpaceRun {
-  CompleteVerdict verdict;
-  ExactVector f, a;
-  ExactVector ray;  // of a ray, otherwise empty
+// A run on polygons, and how they go on from it.
+struct OnPolygons {
+  Answer<Rational> answer;
   CellWord word;
+  RationalPolygons polygons;
+  int refinements = 0;  // before this run
 };
 
 // Complete driving over rationals; with `trace`, every linear piece is recorded.
-SpaceRun RunSpace(const ExactProblem& problem, const RationalPolygons& polygons, const Limits& limits,
-                  Trace<Rational>* trace = nullptr);
+OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
+                    Trace<Rational>* trace = nullptr);
 
 enum class SpaceEngine { kComplete, kLemke };
 
@@ -40,36 +41,22 @@ struct SpaceOptions {
   Limits limits;
 };
 
-struct SpaceSolution {
-  // solved; ray, limit and undecided as the engine ends; undecided if no refinement helped
-  Outcome outcome = Outcome::kUndecided;
-  std::string_view reason;
-  ExactVector f, a;  // where solved
-  ExactVector ray;
-  CellWord word;       // of the last polygons
-  Rational bound = 0;  // Coulomb: c of FindCoulombViolation
-  int refinements = 0;
-  CompleteStatistics statistics;  // of all runs
-};
-
 SpaceOptions SpaceOptionsOf(const SolveOptions& options, SpaceEngine engine);
 
-// As the table of methods tells it.
-Answer<Rational> AnswerOf(SpaceSolution solution, FrictionLaw law);
-
 // One step from a solution on polygons toward the law: whether it is the last. Otherwise the polygons have more
-// corners after it.
-using Toward = std::function<bool(const SpaceRun&, RationalPolygons&, SpaceSolution&)>;
+// corners after it. What the law accepts stands in the answer.
+using Toward = std::function<bool(OnPolygons& run, Answer<Rational>& answer)>;
 
-// Requires dimension 3. The trace is that of the last polygons.
-SpaceSolution SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
-                              Trace<Rational>* trace);
+// Requires dimension 3. solved; ray, limit and undecided as the engine ends; undecided if no refinement helped.
+// Word and trace are those of the last polygons, counters of all runs.
+Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
+                                 Trace<Rational>* trace);
 
 // Toward (21), (22), whatever options.law.
-SpaceSolution SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace);
+Answer<Rational> SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace);
 
 // f solves the problem.
-void Accept(const ExactProblem& problem, const ExactVector& f, SpaceSolution& solution);
+void Accept(const ExactProblem& problem, const ExactVector& f, Answer<Rational>& answer);
 
 // What one contact does; a direction where it slips.
 struct SpaceMode {

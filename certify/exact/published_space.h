@@ -21,16 +21,11 @@
 
 namespace stiction {
 
-struct IntervalSpaceRun {
-  PublishedSpaceVerdict verdict;
-  std::vector<Enclosure> f, a;
-  std::vector<Enclosure> ray;  // the direction of a ray, otherwise empty
-};
-
 // Requires dimension 3 and PublishedReadsInSpace(options.policy).
 //
-// Double ends around the problem's numbers. Of the tolerances loop_grain alone is read.
-IntervalSpaceRun RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
+// Double ends around the problem's numbers; f, a and ray are the midpoints, which nobody has judged. Of the
+// tolerances loop_grain alone is read.
+InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
 
 }  // namespace stiction
 

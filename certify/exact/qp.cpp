@@ -57,11 +57,11 @@ void RequireFrictionless(const ExactProblem& problem) {
 }
 
 // With integers M = p A and c = q b: f = (p / q) x, x where x'Mx / 2 + c'x is least.
-QpRun SolveQp(const ExactProblem& problem) {
+Answer<Rational> SolveQp(const ExactProblem& problem) {
   RequireFrictionless(problem);
   RequireConvex(problem.A);
   const int rows = problem.rows();
-  QpRun run;
+  Answer<Rational> run;
   run.outcome = Outcome::kSolved;
   run.f = ExactVector::Zero(rows);
   run.a = problem.b;
@@ -74,14 +74,18 @@ QpRun SolveQp(const ExactProblem& problem) {
     for (int j = 0; j < rows; ++j) row.push_back(Scaled(problem.A(i, j), p));
   }
   const QuadraticEnd end = Minimize(program);
-  run.iterations = end.iterations;
+  run.counters = {{"iterations", end.iterations}};
   Rational unit(p, q);
   unit.canonicalize();
   ExactVector x(rows);
   for (int i = 0; i < rows; ++i) x[i] = end.bounded ? Rational(unit * end.x[i]) : end.x[i];
   if (!end.bounded) {
     STICTION_CHECK(IsRay(problem, x), "the direction of an unbounded program shows it");
-    return {.outcome = Outcome::kRay, .f = {}, .a = {}, .ray = x, .iterations = end.iterations};
+    run.outcome = Outcome::kRay;
+    run.f.resize(0);
+    run.a.resize(0);
+    run.ray = x;
+    return run;
   }
   STICTION_CHECK(!FindViolation(problem, x), "the least value of the program is a solution");
   run.f = x;

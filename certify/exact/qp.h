@@ -16,22 +16,14 @@
 #ifndef STICTION_CERTIFY_EXACT_QP_H_
 #define STICTION_CERTIFY_EXACT_QP_H_
 
-#include <cstdint>
-
 #include "certify/exact/properties.h"
-#include "solver/problem/solution.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
-struct QpRun {
-  Outcome outcome = Outcome::kUndecided;  // solved or ray
-  ExactVector f, a;                       // where solved
-  ExactVector ray;                        // v, where unbounded
-  std::int64_t iterations = 0;
-};
-
-// InputError: a contact that is not frictionless; A not symmetric, or not positive semidefinite.
-QpRun SolveQp(const ExactProblem& problem);
+// solved, or ray: v. InputError: a contact that is not frictionless; A not symmetric, or not positive
+// semidefinite.
+Answer<Rational> SolveQp(const ExactProblem& problem);
 
 // InputError that names the first contact that is not frictionless.
 void RequireFrictionless(const ExactProblem& problem);

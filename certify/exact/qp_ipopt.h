@@ -5,24 +5,14 @@
 #ifndef STICTION_CERTIFY_EXACT_QP_IPOPT_H_
 #define STICTION_CERTIFY_EXACT_QP_IPOPT_H_
 
-#include <string_view>
-#include <vector>
-
 #include "certify/exact/feasibility_nlp.h"
-#include "solver/problem/solution.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
-struct RoundedQpRun {
-  Outcome outcome = Outcome::kUndecided;  // solved, or undecided: nothing is concluded from Ipopt's failure
-  std::string_view reason;
-  std::vector<double> f, a;  // Ipopt's point and a = A f + b; empty if there was no answer
-  double residual = 0;       // the largest error of f
-  std::int64_t iterations = 0;
-};
-
-// Solved: errors of at most `tolerance`. InputError as for SolveQp, but A is not looked at.
-RoundedQpRun SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt, double tolerance = 1e-6);
+// Ipopt's point; undecided, since nothing is concluded from its failure, and its point is for the gate to judge
+// (solver/solve.h). Without f where there was no answer. InputError as for SolveQp, but A is not looked at.
+Answer<double> SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt);
 
 }  // namespace stiction
 

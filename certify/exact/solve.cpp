@@ -13,7 +13,6 @@
 #include "certify/exact/quad.h"
 #include "certify/exact/rest.h"
 #include "certify/exact/space.h"
-#include "certify/exact/traced.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -32,7 +31,7 @@ bool IsFloating(Arithmetic arithmetic) {
 
 // `auto` prefers, of several solutions, one whose contacts rest. The word is of the one that was found first.
 template <class Scalar>
-bool MayPreferRest(const TracedAnswer<Scalar>& answer, const SolveRequest& request) {
+bool MayPreferRest(const Answer<Scalar>& answer, const SolveRequest& request) {
   return request.method == kAutomatic && request.trace == KeepTrace::kNo && answer.Solved() &&
          !request.options.limits.Stopped();
 }
@@ -45,7 +44,7 @@ void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactA
   answer.a = Accelerations(problem, answer.f);
   answer.word.clear();
   answer.moves_elsewhere = true;
-  if (!answer.bound.empty()) answer.bound = ToString(CoulombBound(problem, answer.f).value_or(0));
+  if (answer.bound) answer.bound = CoulombBound(problem, answer.f).value_or(0);
 }
 
 ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
@@ -105,17 +104,15 @@ void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Sol
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
   if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
   if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
-  const Suspicion suspicion = SuspicionOf(first);
+  solution.suspected = first;
   solution.answer = SolveExactly(Unrounded(ran), request);
-  solution.suspected = suspicion;
 }
 
 // What decides exactly, asked for rounded numbers: its forces are rounded, and then judged.
 template <class Scalar>
-TracedAnswer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveRequest& request,
-                                   double bound) {
+Answer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveRequest& request, double bound) {
   const ExactAnswer exact = SolveExactly(Unrounded(problem), request);
-  TracedAnswer<Scalar> answer;
+  Answer<Scalar> answer;
   answer.outcome = exact.outcome;
   answer.reason = exact.reason;
   answer.method = exact.method;
@@ -139,11 +136,11 @@ const Method<Scalar>* FindProcess(std::string_view name) {
 }
 
 template <class Scalar>
-TracedAnswer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
   if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
-    return SolveTraced(problem, request);
+    return SolveWithPath(problem, request);
   if (const Method<Scalar>* process = FindProcess<Scalar>(request.method))
-    return Traced(SolveBy(*process, problem, request.options), Trace<Scalar>());
+    return SolveBy(*process, problem, request.options);
   return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
 }
 
@@ -153,9 +150,9 @@ Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) 
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
-      Escalated escalated = SolveEscalating(rounded, request.options);
-      PreferRest(rounded, problem, request, escalated.answer);
-      return {.answer = std::move(escalated.answer), .suspected = std::move(escalated.suspected)};
+      solution = SolveEscalating(rounded, request.options);
+      PreferRest(rounded, problem, request, std::get<InexactAnswer>(solution.answer));
+      return solution;
     }
   }
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
@@ -167,34 +164,6 @@ Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) 
 
 // ---- Enclosures ----------------------------------------------------------------------------------
 
-double Middle(const Enclosure& x) { return x.low + (x.high - x.low) / 2; }
-
-Eigen::VectorXd MiddleOf(const std::vector<Enclosure>& values) {
-  Eigen::VectorXd middles(values.size());
-  std::transform(values.begin(), values.end(), middles.begin(), Middle);
-  return middles;
-}
-
-InexactAnswer RunEnclosedInSpace(const ExactProblem& problem, const SolveOptions& options) {
-  IntervalSpaceRun run = RunIntervalsInSpace(problem, {options.policy, options.tolerances, options.limits});
-  InexactAnswer answer;
-  answer.outcome = run.verdict.outcome;
-  answer.reason = run.verdict.reason;
-  answer.start = run.verdict.start;
-  answer.period = run.verdict.period;
-  answer.method = "baraff";
-  answer.counters = CountersOf(run.verdict.statistics);
-  answer.counters.push_back({"redirects", run.verdict.redirects});
-  answer.counters.push_back({"breaks", run.verdict.breaks});
-  answer.first_f = Eigen::VectorXd::Zero(problem.rows());
-  answer.f = MiddleOf(run.f);
-  answer.a = MiddleOf(run.a);
-  answer.ray = MiddleOf(run.ray);
-  answer.f_enclosed = std::move(run.f);
-  answer.a_enclosed = std::move(run.a);
-  return answer;
-}
-
 // What enclosures prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
 void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, InexactAnswer& answer) {
   if (!answer.Solved()) return;
@@ -204,9 +173,11 @@ void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, Inex
 }
 
 Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(FindMethodFacts(request.method)->name, problem,
-                                                              request.options, Rung::kDouble, request.trace)
-                                                : RunEnclosedInSpace(problem, request.options);
+  InexactAnswer answer = problem.dimension == 2
+                             ? RunEnclosed(FindMethodFacts(request.method)->name, problem, request.options,
+                                           Rung::kDouble, request.trace)
+                             : RunIntervalsInSpace(problem, {request.options.policy, request.options.tolerances,
+                                                             request.options.limits});
   answer.arithmetic = Arithmetic::kInterval;
   JudgeMiddles(problem, request, answer);
   return {.answer = std::move(answer)};
@@ -222,6 +193,7 @@ std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const Solv
     return std::nullopt;
   }
   answer.arithmetic = Arithmetic::kFiltered;
+  answer.rung = rung;
   const bool open = answer.outcome == Outcome::kUndecided && !request.options.limits.Stopped();
   return open ? std::nullopt : std::optional(std::move(answer));
 }
@@ -232,8 +204,11 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     SolveRequest complete = request;
     complete.method = "complete";
     Solution solution = SolveFiltered(problem, complete);
-    if (solution.outcome() != Outcome::kSolved)
-      return {.answer = SolveRestingExactly(problem, request), .rung = Rung::kExact};
+    if (solution.outcome() != Outcome::kSolved) {
+      ExactAnswer answer = SolveRestingExactly(problem, request);
+      answer.rung = Rung::kExact;
+      return {.answer = std::move(answer)};
+    }
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
       PreferRest(problem, request, *exact);
     } else {
@@ -242,11 +217,12 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     return solution;
   }
   for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
-    if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer), .rung = rung};
+    if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer)};
   }
   ExactAnswer answer = SolveExactly(problem, request);
   answer.arithmetic = Arithmetic::kFiltered;
-  return {.answer = std::move(answer), .rung = Rung::kExact};
+  answer.rung = Rung::kExact;
+  return {.answer = std::move(answer)};
 }
 
 std::vector<std::string_view> ArithmeticsOf(const MethodFacts& facts, int dimension) {

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -72,34 +73,8 @@ struct SolveRequest {
   bool confirm = true;               // whether suspicions are run again
 };
 
-struct Enclosure {
-  double low = 0, high = 0;
-};
-
-// An answer over any arithmetic: Answer<double> stands for all floating-point numbers, those of long double
-// rounded before they are judged; over intervals its vectors are midpoints.
-template <class Scalar>
-struct TracedAnswer : Answer<Scalar> {
-  std::vector<Pivot<Scalar>> pivots;              // where asked for
-  std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
-  bool moves_elsewhere = false;  // f is at rest where another solution is known that accelerates (rest.h)
-};
-using ExactAnswer = TracedAnswer<Rational>;
-using InexactAnswer = TracedAnswer<double>;
-
-// What an inexact run said that was run again.
-struct Suspicion {
-  Outcome outcome = Outcome::kUndecided;
-  std::string reason;
-  std::int64_t start = 0, period = 0;
-  Arithmetic arithmetic = Arithmetic::kDouble;
-  std::optional<Errors<double>> errors;
-  std::vector<Counter> counters;
-};
-inline Suspicion SuspicionOf(const InexactAnswer& answer) {
-  return {answer.outcome,    answer.reason, answer.start,   answer.period,
-          answer.arithmetic, answer.errors, answer.counters};
-}
+using ExactAnswer = Answer<Rational>;
+using InexactAnswer = Answer<double>;
 
 // A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.
 struct EnclosedMethod {
@@ -111,13 +86,22 @@ std::span<const EnclosedMethod> EnclosedMethods();
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;
-  std::optional<Suspicion> suspected = {};
-  std::optional<Rung> rung = {};  // of a filtered run
+  std::optional<InexactAnswer> suspected = {};  // what an inexact run said that was run again
 
   Outcome outcome() const {
     return std::visit([](const auto& answer) { return answer.outcome; }, answer);
   }
 };
+
+// A run of a method of the table, with its path where that is asked for.
+template <class Scalar>
+Answer<Scalar> SolveWithPath(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+  Trace<Scalar> trace;
+  const bool keep = request.trace == KeepTrace::kYes;
+  Answer<Scalar> answer = Solve(problem, request.method, request.options, keep ? &trace : nullptr);
+  answer.pivots = std::move(trace.pivots);
+  return answer;
+}
 
 // Over rationals, whatever arithmetic the request names. What is called solved was verified.
 ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request);

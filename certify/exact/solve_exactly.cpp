@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "certify/exact/traced.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "solver/problem/check.h"
 
@@ -12,13 +12,13 @@ namespace {
 std::optional<std::string> ViolationOf(const ExactProblem& problem, const Answer<Rational>& answer) {
   if (problem.dimension == 2) return FindViolation(problem, answer.f);
   if (answer.law == FrictionLaw::kBaraff) return FindWeakViolation(problem, answer.f);
-  return FindCoulombViolation(problem, answer.f, *ParseRational(answer.bound));
+  return FindCoulombViolation(problem, answer.f, *answer.bound);
 }
 
 }  // namespace
 
 ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request) {
-  ExactAnswer answer = SolveTraced(problem, request);
+  ExactAnswer answer = SolveWithPath(problem, request);
   if (!answer.Solved()) return answer;
   const auto violation = ViolationOf(problem, answer);
   STICTION_CHECK(!violation, fmt::format("{} calls solved what is not: {}", answer.method, *violation));

@@ -16,12 +16,8 @@ InexactAnswer InPlane(const Sparse& problem, double residual, const SolveOptions
   proximal.aim = residual / 2;
   proximal.limits = options.limits;
   ProximalNewton<double> solver(proximal);
-  const ProximalVerdict verdict = solver.Run(problem);
-  InexactAnswer answer;
+  auto answer = AnswerOf<double>(solver.Run(problem));
   answer.method = "proximal";
-  answer.outcome = verdict.outcome;
-  answer.reason = verdict.reason;
-  answer.counters = {{"points", verdict.points}, {"factorizations", verdict.factorizations}};
   answer.f = solver.f();
   return answer;
 }
@@ -32,12 +28,8 @@ InexactAnswer InSpace(const Sparse& problem, double residual, const SolveOptions
   coulomb.limits = options.limits;
   coulomb.residual = residual / 2;
   CoulombSolver<double, Sparse> solver(coulomb);
-  const CoulombVerdict verdict = solver.Run(problem);
-  InexactAnswer answer;
+  auto answer = AnswerOf<double>(solver.Run(problem));
   answer.method = "fast";
-  answer.outcome = verdict.outcome;
-  answer.reason = verdict.reason;
-  answer.counters = CountersOf(verdict.statistics);
   answer.f = solver.f();
   return answer;
 }

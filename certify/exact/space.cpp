@@ -52,14 +52,14 @@ std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const Con
 }
 
 // Corners opposite to the accelerations of slipping contacts, with `bits` binary places.
-bool RefineAgainst(const ExactProblem& problem, const SpaceRun& run, int bits, RationalPolygons& polygons) {
+bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
   bool added = false;
   int row = 0;
   for (std::size_t i = 0; i < run.word.size(); ++i) {
     const bool slips = run.word[i].law == Law::kCorner || run.word[i].law == Law::kEdge;
     if (slips) {
-      const Planar<Rational> a = TangentialOf(run.a, row);
-      added = polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
+      const Planar<Rational> a = TangentialOf(run.answer.a, row);
+      added = run.polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
     }
     row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
   }
@@ -67,52 +67,56 @@ bool RefineAgainst(const ExactProblem& problem, const SpaceRun& run, int bits, R
 }
 
 // The same toward Coulomb's law.
-bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, const SpaceRun& run,
-                RationalPolygons& polygons, SpaceSolution& solution) {
+bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, OnPolygons& run,
+                Answer<Rational>& answer) {
   static const Rational kEnough = 1 - Rational(1, 1 << 20);
   const auto consider = [&](const ExactVector& f) {
     const auto bound = CoulombBound(problem, f);
-    if (!bound || (solution.outcome == Outcome::kSolved && *bound <= solution.bound)) return;
-    Accept(problem, f, solution);
-    solution.bound = *bound;
+    if (!bound || (answer.Solved() && *bound <= *answer.bound)) return;
+    Accept(problem, f, answer);
+    answer.bound = *bound;
   };
-  consider(run.f);
-  if (const auto f = NewtonSolution(problem, rounded, run.f)) consider(*f);
-  return solution.bound >= kEnough || !RefineAgainst(problem, run, 4 + 2 * solution.refinements, polygons);
+  consider(run.answer.f);
+  if (const auto f = NewtonSolution(problem, rounded, run.answer.f)) consider(*f);
+  return answer.bound >= kEnough || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
 }
 
 }  // namespace
 
-SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
+Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
+                              Trace<Rational>* trace) {
   if (options.law == FrictionLaw::kBaraff) return SolveWeakly(problem, options, trace);
   const ContactProblem<double> rounded = Rounded<double>(problem);
-  const auto toward = [&](const SpaceRun& run, RationalPolygons& polygons, SpaceSolution& solution) {
-    return TryCoulomb(problem, rounded, run, polygons, solution);
+  const auto toward = [&](OnPolygons& run, Answer<Rational>& answer) {
+    return TryCoulomb(problem, rounded, run, answer);
   };
   return SolveOnPolygons(problem, options, toward, trace);
 }
 
-SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
-  SpaceSolution solution;
-  solution.reason = "the modes of the fast method's point are no solution";
+Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+  Answer<Rational> answer;
+  answer.law = options.law;
+  answer.counters = CountersOf(CompleteStatistics());
+  answer.counters.push_back({"refinements", 0});
+  answer.reason = "the modes of the fast method's point are no solution";
   ContactProblem<double> rounded;
   try {
     rounded = Rounded<double>(problem);
   } catch (const InputError&) {
-    return solution;
+    return answer;
   }
   const Answer<double> fast =
       Solve(rounded, "fast", {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides});
-  if (fast.f.size() != problem.rows() || !fast.f.allFinite()) return solution;
+  if (fast.f.size() != problem.rows() || !fast.f.allFinite()) return answer;
   const ExactVector near = fast.f.unaryExpr([](double x) { return Rational(x); });
   const auto f = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
-  if (!f) return solution;
+  if (!f) return answer;
   const auto bound = CoulombBound(problem, *f);
   if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *f).has_value() : !bound || *bound <= 0)
-    return solution;
-  Accept(problem, *f, solution);
-  solution.bound = bound.value_or(0);
-  return solution;
+    return answer;
+  Accept(problem, *f, answer);
+  if (options.law == FrictionLaw::kCoulomb) answer.bound = *bound;
+  return answer;
 }
 
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f) {

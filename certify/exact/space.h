@@ -30,12 +30,12 @@
 namespace stiction {
 
 // Requires dimension 3. The trace is that of the last polygons.
-SpaceSolution SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
-                           Trace<Rational>* trace = nullptr);
+Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
+                              Trace<Rational>* trace = nullptr);
 
 // The modes of the point in which the fast method ends over doubles (solver/numeric/fast.h), solved exactly:
 // whether or not b is in range(A). undecided where they are no solution, or doubles do not hold the problem.
-SpaceSolution SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
+Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
 
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.

@@ -92,21 +92,21 @@ FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Soluti
   return run;
 }
 
-std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
-                                     Outcome outcome) {
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+                                           Outcome outcome) {
   const bool in_space = problem.dimension == 3 && request.method == "baraff";
   if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
     return std::nullopt;
-  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits}).verdict;
+  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits});
 }
 
-std::string OverIntervalsText(const Verdict& verdict) {
-  const bool open = verdict.outcome == Outcome::kUndecided || verdict.outcome == Outcome::kLimit;
-  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(verdict));
+std::string OverIntervalsText(const InexactAnswer& answer) {
+  const bool open = answer.outcome == Outcome::kUndecided || answer.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(answer));
 }
 
-void TellOverIntervals(const Verdict& verdict, FollowedRun& run) {
-  run.end += "; " + OverIntervalsText(verdict);
+void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run) {
+  run.end += "; " + OverIntervalsText(answer);
 }
 
 }  // namespace stiction

@@ -29,12 +29,7 @@ Narration Narrate(const std::string& method, const ProblemFile& file, const Solu
 // "cycle: the state after 3 drives stands again 4 drives later, for ever"
 template <class End>
 std::string EndText(const End& end, bool proved) {
-  Verdict verdict;
-  verdict.outcome = end.outcome;
-  verdict.start = end.start;
-  verdict.period = end.period;
-  verdict.reason = end.reason;
-  if (proved || end.outcome != Outcome::kCycle) return Describe(verdict);
+  if (proved || end.outcome != Outcome::kCycle) return Describe(end);
   return fmt::format("cycle: after rounding, the state after {} drives stands again {} drives later", end.start,
                      end.period);
 }
@@ -46,16 +41,17 @@ Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution&
 
 // What intervals say of a run of the published algorithm in space that does not end solved over floating-point
 // numbers; empty of any other.
-std::optional<Verdict> OverIntervals(const ExactProblem& problem, const SolveRequest& request, Outcome outcome);
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+                                           Outcome outcome);
 
 // "over intervals, proved: cycle: ..."
-std::string OverIntervalsText(const Verdict& verdict);
+std::string OverIntervalsText(const InexactAnswer& answer);
 
 // A run for the viewer. InputError for one of more steps than a page has room for.
 FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Solution& solution);
 
 // Adds to how it ended what intervals say of it.
-void TellOverIntervals(const Verdict& verdict, FollowedRun& run);
+void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run);
 
 }  // namespace stiction
 

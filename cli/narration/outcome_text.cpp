@@ -18,15 +18,15 @@ std::string Text(const Rational& x, FractionText fractions) {
 
 std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
 
-std::string Describe(const Verdict& verdict) {
-  const char* unit = verdict.outcome == Outcome::kCycle ? "drives" : "steps";
-  if (IsLoop(verdict.outcome)) {
-    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(verdict.outcome),
-                       verdict.start, unit, verdict.period, unit);
+std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period) {
+  const char* unit = outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(outcome)) {
+    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(outcome), start,
+                       unit, period, unit);
   }
-  if (verdict.outcome == Outcome::kLimit) return fmt::format("limit: out of {}", verdict.reason);
-  const std::string name(Name(verdict.outcome));
-  return verdict.reason.empty() ? name : fmt::format("{}: {}", name, verdict.reason);
+  if (outcome == Outcome::kLimit) return fmt::format("limit: out of {}", reason);
+  const std::string name(Name(outcome));
+  return reason.empty() ? name : fmt::format("{}: {}", name, reason);
 }
 
 }  // namespace stiction

@@ -13,7 +13,7 @@ std::int64_t Coarse(std::int64_t count) { return std::bit_width(static_cast<std:
 
 template <class Scalar>
 Behaviour BehaviourOf(Trial<Scalar>& trial) {
-  const Verdict& verdict = trial.Published().verdict;
+  const Verdict& verdict = trial.Published();
   const Statistics& s = verdict.statistics;
   const bool loops = IsLoop(verdict.outcome);
   return {static_cast<std::int64_t>(verdict.outcome), loops ? verdict.period : s.drives,

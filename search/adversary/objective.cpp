@@ -64,7 +64,7 @@ constexpr Objective Exactly(const Text& text, F) {
 template <auto kCounter, class Scalar>
 Value OfSolved(Trial<Scalar>& trial) {
   if (!trial.Solves()) return std::nullopt;
-  return static_cast<double>(trial.Published().verdict.statistics.*kCounter);
+  return static_cast<double>(trial.Published().statistics.*kCounter);
 }
 
 // ---- Values ------------------------------------------------------------------------------------
@@ -88,8 +88,8 @@ Value NegativeCondition(const ContactProblem<double>& problem) {
 Value RoundingError(ExactTrial& trial) {
   InexactTrial rounded(Rounded<double>(trial.problem()), trial.policy(), trial.limits());
   if (!trial.Solves() || !rounded.Solves()) return std::nullopt;
-  const auto& exact = trial.Published().f;
-  const auto& inexact = rounded.Published().f;
+  const auto& exact = trial.PublishedForces();
+  const auto& inexact = rounded.PublishedForces();
   Rational largest = 0, apart = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) {
     largest = std::max<Rational>(largest, abs(exact[i]));
@@ -148,9 +148,9 @@ std::span<const Objective> Objectives() {
       OfRuns({"memory", "the longest chain of forces given up, each while the one before rested", "forces"},
              [](auto& t) { return static_cast<double>(LongestMemory(t)); }),
       OfLoops({"period", "drives of a loop's period", "drives"},
-              [](auto& t) { return static_cast<double>(t.Published().verdict.period); }),
+              [](auto& t) { return static_cast<double>(t.Published().period); }),
       OfLoops({"start", "drives before a loop begins", "drives"},
-              [](auto& t) { return static_cast<double>(t.Published().verdict.start); }),
+              [](auto& t) { return static_cast<double>(t.Published().start); }),
       OfRuns({"distance", "how near a run comes to a state that it was in, relative to its forces", "", -1},
              [](auto& t) {
                const Value distance = DistanceToLoop(t);

@@ -162,7 +162,7 @@ std::int64_t LongestMemory(ExactTrial& trial) { return Memory(trial); }
 
 std::optional<double> Margin(ExactTrial& trial) {
   if (!trial.Loops()) return std::nullopt;
-  const std::int64_t start = trial.Published().verdict.start;
+  const std::int64_t start = trial.Published().start;
   const auto& pivots = trial.Steps();
   double margin = 1;
   for (std::size_t k = 0; k < pivots.size(); ++k) {

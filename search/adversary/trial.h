@@ -18,12 +18,6 @@ class Trial {
   using Problem = ContactProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
-  // The published algorithm under one policy.
-  struct PublishedRun {
-    Verdict verdict;
-    Vector f;
-  };
-
   Trial(Problem problem, const Policy& policy, const Limits& limits)
       : problem_(std::move(problem)), policy_(policy), limits_(limits) {}
 
@@ -32,17 +26,22 @@ class Trial {
   const Limits& limits() const { return limits_; }
   int contacts() const { return static_cast<int>(problem_.contacts.size()); }
 
-  const PublishedRun& Published() {
+  // Of the published algorithm under the policy: how it ended, and where.
+  const Verdict& Published() {
     if (!published_) Run(nullptr);
     return *published_;
+  }
+  const Vector& PublishedForces() {
+    Published();
+    return f_;
   }
   // All steps of that run. Most objectives ask for none of them.
   const std::vector<Pivot<Scalar>>& Steps() {
     if (!trace_) Run(&trace_.emplace());
     return trace_->pivots;
   }
-  bool Loops() { return IsLoop(Published().verdict.outcome); }
-  bool Solves() { return Published().verdict.outcome == Outcome::kSolved; }
+  bool Loops() { return IsLoop(Published().outcome); }
+  bool Solves() { return Published().outcome == Outcome::kSolved; }
 
   const CompleteVerdict& Complete() {
     if (!complete_) complete_ = CompleteDriving<Scalar>({{}, limits_}).Run(problem_);
@@ -52,14 +51,15 @@ class Trial {
  private:
   void Run(Trace<Scalar>* trace) {
     PublishedAlgorithm<Scalar> algorithm({policy_, {}, limits_});
-    const Verdict verdict = algorithm.Run(problem_, trace);
-    published_ = PublishedRun{verdict, algorithm.state().f};
+    published_ = algorithm.Run(problem_, trace);
+    f_ = algorithm.state().f;
   }
 
   Problem problem_;
   Policy policy_;
   Limits limits_;
-  std::optional<PublishedRun> published_;
+  std::optional<Verdict> published_;
+  Vector f_;
   std::optional<Trace<Scalar>> trace_;
   std::optional<CompleteVerdict> complete_;
 };

@@ -89,11 +89,7 @@ void ForEachField(S& s, Visit visit) {
   visit("stages", "stages entered", s.stages);
 }
 
-struct CompleteVerdict {
-  Outcome outcome = Outcome::kUndecided;  // solved, ray, limit, undecided
-  std::string_view reason;                // which limit, or why undecided; static text
-  CompleteStatistics statistics;
-};
+using CompleteVerdict = RunEnd<CompleteStatistics>;  // solved, ray, limit, undecided
 
 // Reusable. Memory is kept between runs.
 template <class Scalar, int Rows = Eigen::Dynamic>

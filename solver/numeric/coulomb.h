@@ -80,12 +80,7 @@ void ForEachField(S& s, Visit visit) {
   visit("pieces", "linear pieces of their paths", s.pieces);
 }
 
-struct CoulombVerdict {
-  Outcome outcome = Outcome::kUndecided;  // solved, undecided
-  std::string_view reason;
-  double residual = 0;  // of the best point found
-  CoulombStatistics statistics;
-};
+using CoulombVerdict = RunEnd<CoulombStatistics>;  // solved, undecided
 
 // Reusable. Memory is kept between runs. Problem: a ContactProblem, or a SparseContactProblem, which complete
 // driving does not take: without polygons.

@@ -31,7 +31,6 @@ CoulombVerdict CoulombSolver<Scalar, ProblemType>::Run(const Problem& problem, c
     FromPolygon(factor * options_.sides);
   CoulombVerdict verdict;
   verdict.statistics = statistics_;
-  verdict.residual = static_cast<double>(best_);
   verdict.outcome = Reached() ? Outcome::kSolved : Outcome::kUndecided;
   if (!Reached()) verdict.reason = options_.limits.Stopped() ? kStopped : "the residual is above the tolerance";
   return verdict;

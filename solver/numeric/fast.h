@@ -70,11 +70,7 @@ void ForEachField(S& s, Visit visit) {
   visit("fallbacks", "1 if complete driving was called", s.fallbacks);
 }
 
-struct FastVerdict {
-  Outcome outcome = Outcome::kUndecided;  // solved, limit, undecided
-  std::string_view reason;                // why not solved; static text
-  FastStatistics statistics;
-};
+using FastVerdict = RunEnd<FastStatistics>;  // solved, limit, undecided
 
 // Whether `problem` is of a dimension that the fast method is built for.
 template <class Problem>

@@ -39,12 +39,22 @@ struct ProximalOptions {
   Limits limits = {};  // of which only `stop` is read
 };
 
-struct ProximalVerdict {
-  Outcome outcome = Outcome::kUndecided;  // solved, undecided
-  std::string_view reason;                // why not solved; static text
-  std::int64_t points = 0;                // proximal problems tried
+struct ProximalStatistics {
+  std::int64_t points = 0;
   std::int64_t factorizations = 0;
+
+  bool operator==(const ProximalStatistics&) const = default;
 };
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, ProximalStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("points", "proximal problems tried", s.points);
+  visit("factorizations", "factorizations of their Jacobians", s.factorizations);
+}
+
+using ProximalVerdict = RunEnd<ProximalStatistics>;  // solved, undecided
 
 // Requires a floating-point Scalar.
 template <class Scalar>

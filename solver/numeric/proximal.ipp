@@ -22,7 +22,7 @@ ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
   int idle = 0;
   while (!(best <= Scalar(options_.aim))) {
     const bool is_good = best <= Scalar(options_.residual);
-    if (verdict_.points == options_.points || eps > kHopeless || (is_good && idle == kIdle)) {
+    if (verdict_.statistics.points == options_.points || eps > kHopeless || (is_good && idle == kIdle)) {
       if (is_good) break;
       verdict_.reason = eps > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
@@ -31,7 +31,7 @@ ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
       verdict_.reason = kStopped;
       return verdict_;
     }
-    ++verdict_.points;
+    ++verdict_.statistics.points;
     ++idle;
     Regularize(eps);
     if (!Settle()) {
@@ -173,7 +173,7 @@ bool ProximalNewton<Scalar>::SolveCells() {
   typename Problem::Matrix M(size, size);
   M.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<typename Problem::Matrix> factors(M);
-  ++verdict_.factorizations;
+  ++verdict_.statistics.factorizations;
   if (factors.info() != Eigen::Success) return false;
   const Vector solution = factors.solve(-proximal_.b(unknowns_));
   for (int k = 0; k < size; ++k) {

@@ -58,6 +58,16 @@ inline std::int64_t ValueOf(const std::vector<Counter>& counters, std::string_vi
   return 0;
 }
 
+// Adds to the counter of that name, which begins at zero.
+inline void Add(std::vector<Counter>& counters, std::string_view name, std::int64_t more = 1) {
+  for (Counter& counter : counters) {
+    if (counter.name != name) continue;
+    counter.value += more;
+    return;
+  }
+  counters.push_back({name, more});
+}
+
 // S: what has a table of counters, ForEachField(statistics, visit(name, help, value)).
 template <class S>
 std::vector<Counter> CountersOf(const S& statistics) {
@@ -68,7 +78,13 @@ std::vector<Counter> CountersOf(const S& statistics) {
   return counters;
 }
 
+struct Enclosure {
+  double low = 0, high = 0;
+};
+
 // Rows and contacts are those of the whole problem. Vectors that a method does not have are empty.
+// Answer<double> stands for all inexact numbers: those of long double are rounded before they are judged; over
+// enclosures its vectors are midpoints.
 template <class Scalar>
 struct Answer {
   using Vector = typename ContactProblem<Scalar>::Vector;
@@ -84,14 +100,30 @@ struct Answer {
   Vector ray;      // the direction of a step without limit; impulsive where contacts slide (6)
   Vector first_f;  // before the first step: zero but for bilateral contacts
   std::optional<Errors<double>> errors;  // of f, by the law that the answer is for; not of exact answers
-  std::string bound;  // exact, Coulomb's law in space: proved cosine of fF and -aF, a fraction
-  std::string word;   // the cell of every contact
+  std::optional<Scalar> bound;           // exact, Coulomb's law in space: proved cosine of fF and -aF
+  std::string word;                      // the cell of every contact
   std::vector<Counter> counters;
+  std::vector<Pivot<Scalar>> pivots;              // of path methods, where asked for
+  std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
+  std::optional<Rung> rung;                       // of a filtered run
+  bool moves_elsewhere = false;  // f is at rest where another solution is known that accelerates
 
   bool Solved() const { return outcome == Outcome::kSolved; }
   // The largest error; -1: not measured.
   double residual() const { return errors ? errors->Largest() : -1; }
 };
+
+// Of a run; what it has besides its end is for the caller to add.
+template <class Scalar, class Counters>
+Answer<Scalar> AnswerOf(const RunEnd<Counters>& end) {
+  Answer<Scalar> answer;
+  answer.outcome = end.outcome;
+  answer.reason = end.reason;
+  answer.start = end.start;
+  answer.period = end.period;
+  answer.counters = CountersOf(end.statistics);
+  return answer;
+}
 
 }  // namespace stiction
 

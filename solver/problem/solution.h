@@ -115,14 +115,17 @@ struct Trace {
   SwitchMask consulted = 0;
 };
 
-// How a run ended. start and period: in drives for a cycle, in steps for a stall (readings.md, 2, 3).
-struct Verdict {
+// The end of a run, and its counters. start and period: in drives for a cycle, in steps for a stall
+// (readings.md, 2, 3); zero for methods that have no loops.
+template <class Counters>
+struct RunEnd {
   Outcome outcome = Outcome::kUndecided;
+  std::string_view reason;  // which limit, or why undecided; static text
+  Counters statistics;
   std::int64_t start = 0;
   std::int64_t period = 0;
-  std::string_view reason;  // which limit, or why undecided; static text
-  Statistics statistics;
 };
+using Verdict = RunEnd<Statistics>;
 
 }  // namespace stiction
 

@@ -50,10 +50,23 @@ inline bool PublishedReadsInSpace(const Policy& policy) {
   return policy.file == File::kNo && policy.apex == Apex::kKept && policy.slip != Slip::kPolygon;
 }
 
-struct PublishedSpaceVerdict : Verdict {
-  std::int64_t redirects = 0;  // contacts given up because their recorded direction opposes aF no more
-  std::int64_t breaks = 0;     // scans at which every contact is established by its set, yet (21) fails at one
+struct SpaceStatistics : Statistics {
+  std::int64_t redirects = 0;
+  std::int64_t breaks = 0;
+
+  bool operator==(const SpaceStatistics&) const = default;
 };
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, SpaceStatistics>
+void ForEachField(S& s, Visit visit) {
+  ForEachField<const Statistics>(s, visit);
+  visit("redirects", "contacts given up because their recorded direction opposes aF no more", s.redirects);
+  visit("breaks", "scans at which every contact is established by its set, yet (21) fails at one", s.breaks);
+}
+
+using PublishedSpaceVerdict = RunEnd<SpaceStatistics>;
 
 template <class Scalar>
 using SpaceTrace = std::vector<Pivot<Scalar>>;

@@ -154,7 +154,7 @@ int PublishedInSpace<Scalar>::ScanForViolated() {
   const int violated = pick([this](int row) { return Violated(row); });
   if (violated >= 0 || options_.policy.slip != Slip::kLiteral) return violated;
   const int broken = pick([this](int row) { return OpposesNoMore(row); });
-  verdict_.breaks += broken >= 0;
+  verdict_.statistics.breaks += broken >= 0;
   return broken;
 }
 
@@ -328,7 +328,7 @@ bool PublishedInSpace<Scalar>::TurnsAway(int row) {
   }
   Move(row, IndexSet::kNone);
   given_up_by_turning_[layout_.ContactOf(row)] = true;
-  ++verdict_.redirects;
+  ++verdict_.statistics.redirects;
   return true;
 }
 

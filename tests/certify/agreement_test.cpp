@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -18,16 +19,13 @@ const Limits kLimits = {1000, 10000, 100000};
 // What the methods really say.
 Answers AnswersOf(const ExactProblem& problem) {
   const ExactRun published = RunExact(problem, {Policy{}, {}, kLimits});
-  const CompleteRun complete = RunComplete(problem, kLimits);
-  const LemkeRun lemke = RunLemke(problem, kLimits);
-  return {{{"baraff", published.verdict.outcome, published.state.f},
-           {"complete", complete.verdict.outcome, complete.f},
-           {"lemke", lemke.verdict.outcome, lemke.f}},
+  return {{AnswerBy("baraff", published.verdict.outcome, published.state.f), RunComplete(problem, kLimits),
+           RunLemke(problem, kLimits)},
           EnumerateModes(problem)};
 }
 
-MethodAnswer& Of(Answers& answers, std::string_view method) {
-  for (MethodAnswer& answer : answers.methods) {
+ExactAnswer& Of(Answers& answers, std::string_view method) {
+  for (ExactAnswer& answer : answers.methods) {
     if (answer.method == method) return answer;
   }
   throw std::logic_error("no such method");

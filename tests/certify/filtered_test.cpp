@@ -10,6 +10,7 @@
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -211,13 +212,13 @@ TEST_CASE("filtered: complete driving counts as over rationals, and its forces s
     for (int index = 0; index < Few(60); ++index) {
       const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 5, index);
       CAPTURE(generator.name, index);
-      const CompleteRun exact = RunComplete(problem, {});
-      const auto [run, rung] = RunCompleteFiltered(problem, {});
-      ++decided[static_cast<int>(rung)];
-      CHECK(run.verdict.outcome == exact.verdict.outcome);
-      CHECK(run.verdict.statistics == exact.verdict.statistics);
+      const ExactAnswer exact = RunComplete(problem, {});
+      const ExactAnswer run = RunCompleteFiltered(problem, {});
+      ++decided[static_cast<int>(*run.rung)];
+      CHECK(run.outcome == exact.outcome);
+      CHECK(run.counters == exact.counters);
       CHECK(run.word == exact.word);
-      if (run.verdict.outcome != Outcome::kSolved) continue;
+      if (!run.Solved()) continue;
       CHECK_FALSE(FindViolation(problem, run.f));
       CHECK(run.a == ExactVector(problem.A * run.f + problem.b));
     }
@@ -226,7 +227,7 @@ TEST_CASE("filtered: complete driving counts as over rationals, and its forces s
   CHECK(decided[0] > 0);
   CHECK(decided[1] > 0);
   CHECK(decided[2] < decided[0]);
-  CHECK(RunCompleteFiltered(NoSolution(), {}).run.verdict.outcome == Outcome::kRay);
+  CHECK(RunCompleteFiltered(NoSolution(), {}).outcome == Outcome::kRay);
   CHECK(RunCompleteFiltered(GiveUpProblem(), {}).rung != Rung::kExact);
 }
 

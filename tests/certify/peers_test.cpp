@@ -11,6 +11,7 @@
 #include "corpus/problem_file.h"
 #include "corpus/rational.h"
 #include "corpus/read_problem.h"
+#include "tests/methods.h"
 
 namespace stiction {
 namespace {
@@ -36,8 +37,8 @@ TEST_CASE("peers: answers that a package calls a success violate the law, and th
       CHECK(FindViolation(file.problem, f));
       CHECK(ExactResidual(file.problem, f) > 1e-6);
     }
-    const CompleteRun complete = RunComplete(file.problem, Limits());
-    REQUIRE(complete.verdict.outcome == Outcome::kSolved);
+    const ExactAnswer complete = RunComplete(file.problem, Limits());
+    REQUIRE(complete.outcome == Outcome::kSolved);
     CHECK_FALSE(FindViolation(file.problem, complete.f));
   }
   CHECK(packages.size() == 4);

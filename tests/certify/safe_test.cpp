@@ -15,6 +15,7 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "solver/problem/check.h"
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -439,13 +440,13 @@ TEST_CASE("safe: where no determinant is negative complete driving neither folds
   int weakly = 0, turned = 0;
   for (int seed = 0; seed < 300; ++seed) {
     const ExactProblem problem = Singular(seed, 1 + seed % 3, Rational(6, 1 + seed % 17));
-    const CompleteRun run = RunComplete(problem, {});
-    REQUIRE(run.verdict.outcome == Outcome::kSolved);
-    const auto& s = run.verdict.statistics;
+    const ExactAnswer run = RunComplete(problem, {});
+    REQUIRE(run.Solved());
+    const auto folds = ValueOf(run.counters, "folds"), descents = ValueOf(run.counters, "descents");
     const bool is_weakly_safe = !DecideWeakSafety(problem).negative_word;
     weakly += is_weakly_safe;
-    turned += s.folds + s.descents > 0;
-    if (is_weakly_safe) CHECK((s.folds == 0 && s.descents == 0));
+    turned += folds + descents > 0;
+    if (is_weakly_safe) CHECK((folds == 0 && descents == 0));
   }
   CAPTURE(weakly, turned);
   CHECK((weakly > 30 && turned > 2));

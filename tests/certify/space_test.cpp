@@ -104,20 +104,20 @@ TEST_CASE("space: every problem in range is certified, under either law") {
     CAPTURE(index);
     const ExactProblem problem = RandomInSpace(1 + index % 3, index);
     SpaceOptions options;
-    const SpaceSolution weak = SolveInSpace(problem, options);
+    const ExactAnswer weak = SolveInSpace(problem, options);
     REQUIRE(weak.outcome == Outcome::kSolved);
     CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    refined += weak.refinements > 0;
-    for (const LawCell& cell : weak.word) edges += cell.law == Law::kEdge;
+    refined += ValueOf(weak.counters, "refinements") > 0;
+    edges += static_cast<int>(std::count(weak.word.begin(), weak.word.end(), 'E'));
     options.law = FrictionLaw::kCoulomb;
-    const SpaceSolution strict = SolveInSpace(problem, options);
+    const ExactAnswer strict = SolveInSpace(problem, options);
     REQUIRE(strict.outcome == Outcome::kSolved);
-    CHECK(FindCoulombViolation(problem, strict.f, strict.bound).value_or("") == "");
-    CHECK(strict.bound >= 1 - Rational(1, 1 << 20));
-    const CheckReport report = CheckCertificate(CoulombCertificate(problem, strict.f, strict.bound), "here");
+    CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
+    CHECK(*strict.bound >= 1 - Rational(1, 1 << 20));
+    const CheckReport report = CheckCertificate(CoulombCertificate(problem, strict.f, *strict.bound), "here");
     CHECK(report.reason == "");
-    CHECK(report.facts["bound"] == ToString(strict.bound));
+    CHECK(report.facts["bound"] == ToString(*strict.bound));
   }
   CHECK(edges > 20);
   CHECK(refined < 20);
@@ -129,8 +129,9 @@ TEST_CASE("space: the polygon alone proves its inner radius") {
     const ExactProblem problem = RandomInSpace(1 + index % 2, 1000 + index);
     for (const int sides : {4, 8, 16}) {
       const FrictionPolygon<Rational> polygon(sides);
-      const SpaceRun run = RunSpace(problem, RationalPolygons(problem.contacts.size(), polygon), Limits{});
-      REQUIRE(run.verdict.outcome == Outcome::kSolved);
+      const ExactAnswer run =
+          RunSpace(problem, RationalPolygons(problem.contacts.size(), polygon), Limits{}).answer;
+      REQUIRE(run.outcome == Outcome::kSolved);
       const auto bound = CoulombBound(problem, run.f);
       REQUIRE(bound);
       // Rounded down by at most 1/128 of the distance from one.
@@ -151,7 +152,7 @@ TEST_CASE("lemke in space: the law on polygons, exactly") {
       CHECK(PolygonErrorOf(problem, polygons, lemke.f(), lemke.a()) == 0);
       CHECK(lemke.a() == Accelerations(problem, lemke.f()));
       if (problem.contacts.size() == 1) {
-        const SpaceRun driven = RunSpace(problem, polygons, Limits{});
+        const ExactAnswer driven = RunSpace(problem, polygons, Limits{}).answer;
         CHECK(PolygonErrorOf(problem, polygons, driven.f, driven.a) == 0);
       }
     }
@@ -202,15 +203,15 @@ TEST_CASE("space: with Lemke's method every problem in range is certified, under
     const ExactProblem problem = RandomInSpace(1 + index % 3, index);
     SpaceOptions options;
     options.engine = SpaceEngine::kLemke;
-    const SpaceSolution weak = SolveInSpace(problem, options);
+    const ExactAnswer weak = SolveInSpace(problem, options);
     REQUIRE(weak.outcome == Outcome::kSolved);
     CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    CHECK(weak.statistics.stages == 0);  // of complete driving
+    CHECK(ValueOf(weak.counters, "stages") == 0);  // of complete driving
     options.law = FrictionLaw::kCoulomb;
-    const SpaceSolution strict = SolveInSpace(problem, options);
+    const ExactAnswer strict = SolveInSpace(problem, options);
     REQUIRE(strict.outcome == Outcome::kSolved);
-    CHECK(FindCoulombViolation(problem, strict.f, strict.bound).value_or("") == "");
+    CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
   }
 }
 
@@ -244,15 +245,15 @@ TEST_CASE("space: Lemke's method with contacts of every kind") {
     CAPTURE(index);
     const bool sliding = index % 2 == 1;
     const ExactProblem problem = MixedInSpace(sliding, index);
-    const SpaceSolution solution = SolveInSpace(problem, options);
+    const ExactAnswer solution = SolveInSpace(problem, options);
     if (!sliding) REQUIRE(solution.outcome == Outcome::kSolved);
     if (solution.outcome != Outcome::kSolved) continue;
     slides += sliding;
     CHECK(FindWeakViolation(problem, solution.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, solution.f), "here").accepted);
     const RationalPolygons polygons(3, FrictionPolygon<Rational>(8));
-    const SpaceRun run = RunLemkeInSpace(problem, polygons, Limits{});
-    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    const ExactAnswer run = RunLemkeInSpace(problem, polygons, Limits{}).answer;
+    REQUIRE(run.outcome == Outcome::kSolved);
     CHECK(PolygonErrorOf(problem, polygons, run.f, run.a) == 0);
   }
   CHECK(slides > 10);
@@ -278,7 +279,7 @@ TEST_CASE("space: modes are linear equations, free unknowns as guessed") {
 TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   ExactProblem wedge = OneContact(1, {-1, 0, 0});
   wedge.A = Matrix({{1, -1, 0}, {-1, 1, 0}, {0, 0, 1}});
-  const SpaceSolution stuck = SolveInSpace(wedge, {});
+  const ExactAnswer stuck = SolveInSpace(wedge, {});
   CHECK(stuck.outcome == Outcome::kRay);
   CHECK(stuck.ray.size() == 3);
   SpaceOptions by_lemke;
@@ -288,7 +289,7 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   CHECK(RefuteInSpace(wedge).end == EnumerationEnd::kOpen);
   CHECK(DecideExistence(wedge, {}).certificate.is_null());
   wedge.contacts[0].mu = Rational(1, 2);
-  const SpaceSolution solved = SolveInSpace(wedge, {});
+  const ExactAnswer solved = SolveInSpace(wedge, {});
   REQUIRE(solved.outcome == Outcome::kSolved);
   CHECK(solved.f == Vector({2, 1, 0}));
   CHECK(!DecideExistence(wedge, {}).certificate.is_null());
@@ -372,10 +373,10 @@ TEST_CASE("space: a solution out of range(A) is found near doubles, where paths 
     SpaceOptions options;
     options.law = law;
     CHECK(SolveInSpace(problem, options).outcome == Outcome::kRay);
-    const SpaceSolution near = SolveNearFast(problem, options);
+    const ExactAnswer near = SolveNearFast(problem, options);
     REQUIRE(near.outcome == Outcome::kSolved);
     CHECK(!FindWeakViolation(problem, near.f));
-    CHECK(near.bound > 1 - Rational(1, 1 << 20));
+    CHECK(CoulombBound(problem, near.f).value() > 1 - Rational(1, 1 << 20));
     const Existence existence = DecideExistence(problem, {}, {}, law);
     CHECK(existence.method == "fast");
     CHECK(existence.certificate["claim"] ==
@@ -389,12 +390,13 @@ TEST_CASE("space: altered certificates are rejected") {
   SpaceOptions options;
   options.law = FrictionLaw::kCoulomb;
   ExactProblem problem;
-  SpaceSolution solution;
-  for (int index = 0; solution.bound == 0 || solution.bound == 1; index += 2) {  // the first that slips
+  ExactAnswer solution;
+  for (int index = 0; !solution.bound || *solution.bound == 0 || *solution.bound == 1;
+       index += 2) {  // the first that slips
     problem = RandomInSpace(2, index);
     solution = SolveInSpace(problem, options);
   }
-  const Json good = CoulombCertificate(problem, solution.f, solution.bound);
+  const Json good = CoulombCertificate(problem, solution.f, *solution.bound);
   REQUIRE(CheckCertificate(good, "here").accepted);
   const auto rejects = [&good](auto alter) {
     Json bad = good;

@@ -14,6 +14,7 @@
 #include "corpus/scene_file.h"
 #include "scene/assemble.h"
 #include "solver/problem/reduction.h"
+#include "tests/methods.h"
 
 namespace stiction {
 namespace {
@@ -39,8 +40,8 @@ std::optional<ExactVector> SolveExactly(const ExactProblem& problem) {
   REQUIRE(reduction.end() == ReductionEnd::kReduced);
   ExactVector x(0);
   if (reduction.problem().rows() > 0) {
-    const CompleteRun run = RunComplete(reduction.problem(), Limits());
-    if (run.verdict.outcome != Outcome::kSolved) return std::nullopt;
+    const ExactAnswer run = RunComplete(reduction.problem(), Limits());
+    if (!run.Solved()) return std::nullopt;
     x = run.f;
   }
   const ExactVector f = reduction.Forces(x);

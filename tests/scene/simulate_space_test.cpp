@@ -260,7 +260,7 @@ TEST_CASE("simulate in space: a wall pushed at the top, its A sparse, moves as w
   CHECK(stands.statistics().sparse == stands.statistics().problems);
   for (const auto& body : stands.scene().bodies) CHECK(body.velocity.norm() < 1e-6);
 
-  if (testing::Short()) return;  // a thousand rows, dense
+  if (testing::Short()) return;           // a thousand rows, dense
   scene.bodies.back().force = {6, 1, 0};  // mu m g = 5 N
   AssembleOptions<double> options;
   options.step = 1.0 / 60;
@@ -268,8 +268,8 @@ TEST_CASE("simulate in space: a wall pushed at the top, its A sparse, moves as w
   REQUIRE(model.islands.size() == 1);
   SceneSolver solver;
   const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.SparseProblem(0));
-  REQUIRE(dense.solved);
-  REQUIRE(sparse.solved);
+  REQUIRE(dense.Solved());
+  REQUIRE(sparse.Solved());
   CHECK(std::pair(dense.sparse, sparse.sparse) == std::pair<std::int64_t, std::int64_t>(0, 1));
   const auto p = BodyAccelerations(model, {dense.f}), q = BodyAccelerations(model, {sparse.f});
   for (std::size_t i = 0; i < p.size(); ++i) CHECK((p[i] - q[i]).norm() < 1e-4);

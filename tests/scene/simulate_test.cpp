@@ -156,7 +156,7 @@ TEST_CASE("simulate: f = 0 is taken where it is a solution") {
     for (const int normal : {0, 2, 4}) problem.b[normal] = std::abs(problem.b[normal]);
     if (repeat % 2 == 0) problem.b[2] = 0;
     const SceneAnswer answer = solver.Solve(problem);
-    REQUIRE(answer.solved);
+    REQUIRE(answer.Solved());
     CHECK(answer.f.isZero(0));
   }
 }
@@ -176,7 +176,7 @@ TEST_CASE("simulate: without friction a problem has one answer, in the plane, in
     const SceneAnswer spatial = solver.Solve(problem);
     const SceneAnswer sparse =
         solver.Solve(SparseContactProblem<double>{3, problem.contacts, problem.A.sparseView(), problem.b});
-    REQUIRE((planar.solved && spatial.solved && sparse.solved));
+    REQUIRE((planar.Solved() && spatial.Solved() && sparse.Solved()));
     CHECK(planar.f == spatial.f);
     CHECK((planar.f - sparse.f).norm() < 1e-6 * (1 + planar.f.norm()));
     CHECK(planar.sparse + spatial.sparse == 0);
@@ -475,8 +475,8 @@ TEST_CASE("simulate: a sparse A gives the answers of a dense one, with friction,
     REQUIRE(model.islands.size() == 1);
     SceneSolver solver;
     const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.SparseProblem(0));
-    REQUIRE(dense.solved);
-    REQUIRE(sparse.solved);
+    REQUIRE(dense.Solved());
+    REQUIRE(sparse.Solved());
     CHECK(LargestDifference(model, dense.f, sparse.f) < 1e-6);
     CHECK(LargestDifference(model, dense.f, 0 * dense.f) > 1);
   }

@@ -340,10 +340,10 @@ SolvedInSpace SolveScene(const SceneInSpace<Rational>& scene) {
   for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
     SpaceOptions options;
     options.law = FrictionLaw::kCoulomb;
-    const SpaceSolution solution = SolveInSpace(solved.model.Problem(i), options);
+    const ExactAnswer solution = SolveInSpace(solved.model.Problem(i), options);
     REQUIRE(solution.outcome == Outcome::kSolved);
     solved.f.push_back(solution.f);
-    solved.bound = std::min(solved.bound, solution.bound);
+    solved.bound = std::min(solved.bound, *solution.bound);
   }
   solved.accelerations = BodyAccelerations(solved.model, solved.f);
   return solved;

@@ -21,6 +21,7 @@
 #include "search/signature.h"
 #include "search/unit.h"
 #include "solver/problem/errors.h"
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -87,7 +88,7 @@ std::set<std::string> KindsKept(const UnitResult& result) {
 ExactMethods WithoutSigns() {
   ExactMethods methods;
   methods.filtered = [](const ExactProblem&, const PublishedOptions&, const Rungs& rungs) {
-    FilteredVerdict filtered;
+    OnRung filtered;
     filtered.verdict.reason = kUnsureSign;
     filtered.rung = rungs.last;
     return filtered;
@@ -129,7 +130,7 @@ TEST_CASE("alarms: a filtered run that ends otherwise than over rationals is a g
       std::int64_t decided = 0;
       solvers.exact.filtered = [&](const ExactProblem& problem, const PublishedOptions& options,
                                    const Rungs& rungs) {
-        FilteredVerdict filtered = RunPublishedFiltered(problem, options, rungs);
+        OnRung filtered = RunPublishedFiltered(problem, options, rungs);
         if (filtered.verdict.outcome == Outcome::kUndecided) return filtered;
         ++decided;
         if (outcome) {
@@ -159,9 +160,9 @@ TEST_CASE("alarms: complete driving with certified signs that does not solve a l
   for (const bool ray : {true, false}) {  // or forces that are none
     UnitSolvers solvers;
     solvers.exact.complete_filtered = [ray](const ExactProblem& problem, const Limits& limits) {
-      FilteredComplete filtered = RunCompleteFiltered(problem, limits);
-      if (ray) filtered.run.verdict.outcome = Outcome::kRay;
-      filtered.run.f[0] += 1;
+      ExactAnswer filtered = RunCompleteFiltered(problem, limits);
+      if (ray) filtered.outcome = Outcome::kRay;
+      filtered.f[0] += 1;
       return filtered;
     };
     const UnitResult result = RunWith(campaign, solvers);
@@ -298,9 +299,9 @@ struct WrongMethod {
   ExactMethods methods;
 };
 
-CompleteRun CompleteEndsIn(Outcome outcome, const ExactProblem& problem, const Limits& limits) {
-  CompleteRun run = RunComplete(problem, limits);
-  run.verdict.outcome = outcome;
+ExactAnswer CompleteEndsIn(Outcome outcome, const ExactProblem& problem, const Limits& limits) {
+  ExactAnswer run = RunComplete(problem, limits);
+  run.outcome = outcome;
   return run;
 }
 
@@ -315,19 +316,19 @@ std::vector<WrongMethod> WrongMethods() {
   }
   wrong[2].alarm = "complete-wrong";
   wrong[2].methods.complete = [](const ExactProblem& problem, const Limits& limits) {
-    CompleteRun run = RunComplete(problem, limits);
+    ExactAnswer run = RunComplete(problem, limits);
     run.f[0] -= run.f[0] + Rational(1, 1000);
     return run;
   };
   wrong[3].alarm = "lemke-undecided";
   wrong[3].methods.lemke = [](const ExactProblem& problem, const Limits& limits) {
-    LemkeRun run = RunLemke(problem, limits);
-    run.verdict.outcome = Outcome::kUndecided;
+    ExactAnswer run = RunLemke(problem, limits);
+    run.outcome = Outcome::kUndecided;
     return run;
   };
   wrong[4].alarm = "lemke-wrong";
   wrong[4].methods.lemke = [](const ExactProblem& problem, const Limits& limits) {
-    LemkeRun run = RunLemke(problem, limits);
+    ExactAnswer run = RunLemke(problem, limits);
     run.f[0] = -1;
     return run;
   };
@@ -374,12 +375,12 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
   }
   UnitSolvers missing, wrong, loop, shifted;
   missing.exact.complete_in_space = [](const ExactProblem& problem, const Limits& limits) {
-    SpaceSolution solution = SolveInSpace(problem, {.limits = limits});
+    ExactAnswer solution = SolveInSpace(problem, {.limits = limits});
     solution.outcome = Outcome::kRay;
     return solution;
   };
   wrong.exact.complete_in_space = [](const ExactProblem& problem, const Limits& limits) {
-    SpaceSolution solution = SolveInSpace(problem, {.limits = limits});
+    ExactAnswer solution = SolveInSpace(problem, {.limits = limits});
     solution.f[0] = -1;
     return solution;
   };
@@ -389,14 +390,14 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
     CHECK(KindsKept(result).contains(std::string(kDisagreementOfMethods)));
     CHECK(result.record.existence.at(2).solved == 0);
   }
-  missing.exact.complete_in_space = [](const ExactProblem&, const Limits&) { return SpaceSolution(); };
+  missing.exact.complete_in_space = [](const ExactProblem&, const Limits&) { return ExactAnswer(); };
   const UnitResult open = RunWith(campaign, missing);  // undecided: that enough corners are added is not proved
   CHECK(Met(open, kDisagreementOfMethods) == 0);
   CHECK(open.record.existence.at(2).problems == kTried);
   CHECK(open.record.existence.at(2).solved == 0);
   loop.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
-    IntervalSpaceRun run = RunIntervalsInSpace(problem, options);
-    run.verdict.outcome = Outcome::kCycle;
+    InexactAnswer run = RunIntervalsInSpace(problem, options);
+    run.outcome = Outcome::kCycle;
     return run;
   };
   const UnitResult looping = RunWith(campaign, loop);
@@ -404,8 +405,8 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
   CHECK(Met(looping, "cycle") == kTried);
   UnitSolvers nothing;
   nothing.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
-    IntervalSpaceRun run = RunIntervalsInSpace(problem, options);
-    run.verdict.outcome = Outcome::kUndecided;
+    InexactAnswer run = RunIntervalsInSpace(problem, options);
+    run.outcome = Outcome::kUndecided;
     return run;
   };
   CHECK(OnlyTally(RunWith(campaign, nothing)).misjudged == 0);

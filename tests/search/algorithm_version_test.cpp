@@ -15,6 +15,7 @@
 #include "certify/exact/exact.h"
 #include "corpus/rational.h"
 #include "search/unit.h"
+#include "tests/methods.h"
 
 namespace stiction {
 namespace {
@@ -87,10 +88,9 @@ TraceText CountedRuns(const Record& record) {
 
 // Forces and steps of one problem over rationals, by complete driving and by Lemke's method.
 std::string ExactPaths(const ExactProblem& problem) {
-  const CompleteRun complete = RunComplete(problem, Limits{});
-  const LemkeRun lemke = RunLemke(problem, Limits{});
+  const ExactAnswer complete = RunComplete(problem, Limits{}), lemke = RunLemke(problem, Limits{});
   std::string text =
-      fmt::format("{} {}\n", complete.verdict.statistics.pieces, lemke.verdict.statistics.pivots);
+      fmt::format("{} {}\n", ValueOf(complete.counters, "pieces"), ValueOf(lemke.counters, "pivots"));
   for (const auto* f : {&complete.f, &lemke.f}) {
     for (const Rational& force : *f) text += force.get_str() + " ";
   }

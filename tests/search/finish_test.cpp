@@ -12,6 +12,7 @@
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
 #include "search/signature.h"
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -89,7 +90,7 @@ TEST_CASE("finish: what Ipopt says is written down, and decides nothing") {
   ExactMethods methods;
   methods.ipopt = [](const ExactProblem& problem) {
     CHECK(problem.b == ReferenceProblem().b);
-    return FeasibilityAnswer{"undecided", 20, 0};
+    return Feasibility{"undecided", 20, 0};
   };
   const auto finished = FinishFinding(
       found, {}, [] { return false; }, methods);
@@ -149,12 +150,12 @@ TEST_CASE("finish: of a problem without a solution that is certified") {
 TEST_CASE("finish: methods that contradict each other make it a grave finding, kept as it was found") {
   ExactMethods complete, lemke, modes;
   complete.complete = [](const ExactProblem& problem, const Limits& limits) {
-    CompleteRun run = RunComplete(problem, limits);
-    run.verdict.outcome = Outcome::kRay;
+    ExactAnswer run = RunComplete(problem, limits);
+    run.outcome = Outcome::kRay;
     return run;
   };
   lemke.lemke = [](const ExactProblem& problem, const Limits& limits) {
-    LemkeRun run = RunLemke(problem, limits);
+    ExactAnswer run = RunLemke(problem, limits);
     run.f[0] += 1;
     return run;
   };

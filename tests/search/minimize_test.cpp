@@ -196,12 +196,12 @@ TEST_CASE("minimize: in space what intervals prove is kept, and contacts go with
   larger.b = ExactVector::Constant(more, Rational(7, 3));
   larger.b.segment(1, rows) = 3 * loop.b;
   MinimizeOptions options;
-  REQUIRE(RunIntervalsInSpace(larger, {}).verdict.outcome == Outcome::kCycle);
+  REQUIRE(RunIntervalsInSpace(larger, {}).outcome == Outcome::kCycle);
   const ExactProblem small = Minimize(larger, options).problem;
   CHECK(small.dimension == 3);
   CHECK(small.contacts.size() == 2);
   CHECK(MeetsAssumptions(small));
-  CHECK(RunIntervalsInSpace(small, {}).verdict.outcome == Outcome::kCycle);
+  CHECK(RunIntervalsInSpace(small, {}).outcome == Outcome::kCycle);
   CHECK(SimplicityOf(small) < SimplicityOf(larger));
   options.keep = Outcome::kRay;
   CHECK(Lack(larger, options) == "minimize: under paper it ends in cycle, not in ray");

@@ -375,8 +375,8 @@ TEST_CASE(
   CHECK(small.dimension == 3);
   CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(finished.problem, "found").problem));
   const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished.policy), {}, campaign.limits});
-  CHECK(run.verdict.outcome == Outcome::kCycle);
-  CHECK(finished.signature.ends_with(fmt::format("-{}d", run.verdict.period)));
+  CHECK(run.outcome == Outcome::kCycle);
+  CHECK(finished.signature.ends_with(fmt::format("-{}d", run.period)));
   for (const std::string& solution : {finished.existence, finished.minimized_existence}) {
     const CheckReport report = CheckCertificate(Json::parse(solution), "certificate");
     CHECK(report.accepted);

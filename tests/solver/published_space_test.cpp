@@ -153,8 +153,8 @@ ExactProblem Turning() {
 TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once the sets are full") {
   const Ended ended = Run(Turning(), Reading(Slip::kLiteral));
   CHECK(ended.trace[2].s == Approx(10.0 / 11));
-  CHECK(ended.verdict.breaks == 1);
-  CHECK(ended.verdict.redirects == 0);
+  CHECK(ended.verdict.statistics.breaks == 1);
+  CHECK(ended.verdict.statistics.redirects == 0);
   // To zero, then x until ax = 0, then y until the circle.
   CheckForces(ended, {8.0 / 11, -2.0 / 3, -std::sqrt(92.0) / 33, 10.0 / 11, 0.5, 0});
 }
@@ -164,8 +164,8 @@ TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it a
   CHECK(ended.trace[2].s == Approx(2.0 / 3));
   CHECK(ended.trace[2].limiting == 1);
   CHECK(ended.trace[2].to == IndexSet::kNone);
-  CHECK(ended.verdict.redirects == 1);
-  CHECK(ended.verdict.breaks == 0);
+  CHECK(ended.verdict.statistics.redirects == 1);
+  CHECK(ended.verdict.statistics.breaks == 0);
   CHECK(ended.verdict.statistics.give_ups == 0);
   const double along = -8 / (11 * std::sqrt(5.0));
   CheckForces(ended, {8.0 / 11, 2 * along, along, 10.0 / 11, 0.5, 0});
@@ -182,8 +182,8 @@ TEST_CASE(
                                         {1, 0, 0, -1, 0, 2}},
                                        {-2, -2, 2, 0, 2, 1});
   CHECK(Run(problem, Reading(Slip::kLiteral)).verdict.outcome == Outcome::kRay);
-  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kLiteral)).verdict.outcome == Outcome::kRay);
-  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kRedirect)).verdict.outcome == Outcome::kSolved);
+  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kLiteral)).outcome == Outcome::kRay);
+  CHECK(RunIntervalsInSpace(problem, Reading(Slip::kRedirect)).outcome == Outcome::kSolved);
 }
 
 // Run again in long double where doubles do not solve.
@@ -210,7 +210,7 @@ TEST_CASE("space: both readings loop on a definite problem: a suspicion, over in
     CHECK(again.outcome == Outcome::kCycle);
     CHECK(again.start == verdict.start);
     CHECK(again.period == verdict.period);
-    const PublishedSpaceVerdict proved = RunIntervalsInSpace(problem, Reading(slip)).verdict;
+    const InexactAnswer proved = RunIntervalsInSpace(problem, Reading(slip));
     CHECK(proved.outcome == (slip == Slip::kLiteral ? Outcome::kCycle : Outcome::kUndecided));
     CHECK(proved.period == verdict.period);
   }
@@ -235,17 +235,10 @@ ExactProblem Embedded(const ExactProblem& planar) {
   return problem;
 }
 
-void CheckEqual(const Statistics& found, const Statistics& expected) {
-  Statistics numbers = found;
-  std::vector<std::pair<std::string, std::int64_t>> left, right;
-  ForEachField(numbers,
-               [&](const char* name, const char*, std::int64_t value) { left.emplace_back(name, value); });
-  numbers = expected;
-  ForEachField(numbers,
-               [&](const char* name, const char*, std::int64_t value) { right.emplace_back(name, value); });
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    CAPTURE(left[i].first);
-    CHECK(left[i].second == right[i].second);
+void CheckEqual(const std::vector<Counter>& found, const Statistics& expected) {
+  for (const Counter& counter : CountersOf(expected)) {
+    CAPTURE(counter.name);
+    CHECK(ValueOf(found, counter.name) == counter.value);
   }
 }
 
@@ -274,9 +267,9 @@ bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
   CHECK(ended.verdict.outcome == expected.outcome);
   CHECK(ended.verdict.start == expected.start);
   CHECK(ended.verdict.period == expected.period);
-  CheckEqual(ended.verdict.statistics, expected.statistics);
-  CHECK(ended.verdict.redirects == 0);
-  CHECK(ended.verdict.breaks == 0);
+  CheckEqual(CountersOf(ended.verdict.statistics), expected.statistics);
+  CHECK(ended.verdict.statistics.redirects == 0);
+  CHECK(ended.verdict.statistics.breaks == 0);
   for (int i = 0; i < planar.rows(); ++i)
     CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.state.f[i])).margin(1e-6));
   return true;
@@ -307,13 +300,13 @@ TEST_CASE("space: intervals take the steps of exact arithmetic, bounces too, or 
     const ExactProblem planar = Random<Rational>(GeneratorId::kIntegers, 2 + k % 3, k);
     if (PublishedAlgorithm<double>().Run(As<double>(planar)).statistics.bounces == 0) continue;
     const ExactRun plane = RunExact(planar, {});
-    const PublishedSpaceVerdict verdict = RunIntervalsInSpace(Embedded(planar), {}).verdict;
+    const InexactAnswer verdict = RunIntervalsInSpace(Embedded(planar), {});
     ++bounced;
     if (verdict.outcome == Outcome::kUndecided || PassesThroughSticking(plane.trace)) continue;
     ++decided;
     CAPTURE(k);
     CHECK(verdict.outcome == plane.verdict.outcome);
-    CheckEqual(verdict.statistics, plane.verdict.statistics);
+    CheckEqual(verdict.counters, plane.verdict.statistics);
   }
   CHECK(bounced >= 15);
   CHECK(decided >= bounced / 2);
@@ -337,7 +330,7 @@ TEST_CASE("space: loops of the plane are proved there, where a state remembers n
   for (const CyclingSeed& seed : CyclingSeeds()) {
     const ExactProblem planar = Cycling(seed);
     const ExactRun plane = RunExact(planar, {});
-    const PublishedSpaceVerdict verdict = RunIntervalsInSpace(Embedded(planar), {}).verdict;
+    const InexactAnswer verdict = RunIntervalsInSpace(Embedded(planar), {});
     if (verdict.outcome == Outcome::kUndecided) continue;
     ++proved;
     CHECK(verdict.outcome == Outcome::kCycle);
@@ -374,18 +367,18 @@ TEST_CASE("space: solved means (15), (21), (22), over doubles and over intervals
     const PublishedOptions options{RandomReading(choices), {}, {}};
     CAPTURE(k, PolicyName(options.policy));
     const Ended ended = Run(problem, options);
-    const IntervalSpaceRun enclosed = RunIntervalsInSpace(problem, options);
+    const InexactAnswer enclosed = RunIntervalsInSpace(problem, options);
     if (ended.verdict.outcome == Outcome::kSolved) {
       ++solved;
       CHECK(WeakErrorOf(As<double>(problem), ended.f, ended.a) < 1e-9);
     }
-    if (enclosed.verdict.outcome == Outcome::kUndecided) continue;
+    if (enclosed.outcome == Outcome::kUndecided) continue;
     ++proved;
-    CHECK(enclosed.verdict.outcome == ended.verdict.outcome);
-    CHECK(enclosed.verdict.statistics == ended.verdict.statistics);
+    CHECK(enclosed.outcome == ended.verdict.outcome);
+    CHECK(enclosed.counters == CountersOf(ended.verdict.statistics));
     for (int i = 0; i < problem.rows(); ++i) {
-      CHECK(enclosed.f[i].low <= enclosed.f[i].high);
-      CHECK(ended.f[i] == Approx((enclosed.f[i].low + enclosed.f[i].high) / 2).margin(1e-9));
+      CHECK(enclosed.f_enclosed[i].low <= enclosed.f_enclosed[i].high);
+      CHECK(ended.f[i] == Approx((enclosed.f_enclosed[i].low + enclosed.f_enclosed[i].high) / 2).margin(1e-9));
     }
   }
   CHECK(solved >= 380);
@@ -544,7 +537,7 @@ TEST_CASE("space: of loops that doubles suspect intervals prove some, and deny n
       const Ended ended = Run(problem, Reading(slip));
       if (ended.verdict.outcome != Outcome::kCycle) continue;
       ++suspected;
-      const PublishedSpaceVerdict verdict = RunIntervalsInSpace(problem, Reading(slip)).verdict;
+      const InexactAnswer verdict = RunIntervalsInSpace(problem, Reading(slip));
       CAPTURE(k, static_cast<int>(slip));
       CHECK((verdict.outcome == Outcome::kCycle || verdict.outcome == Outcome::kUndecided));
       if (verdict.outcome != Outcome::kCycle) continue;
@@ -567,18 +560,18 @@ TEST_CASE("space: a sliding contact has friction against its slip, and can have 
   CHECK(run.f[1] == Approx(-9.0 / 14));
   CHECK(run.f[2] == Approx(-12.0 / 14));
   CHECK(run.residual() < 1e-12);
-  const IntervalSpaceRun proved = RunIntervalsInSpace(problem, {});
-  CHECK(proved.verdict.outcome == Outcome::kSolved);
+  const InexactAnswer proved = RunIntervalsInSpace(problem, {});
+  CHECK(proved.outcome == Outcome::kSolved);
   for (int row = 0; row < 3; ++row) {
-    CHECK(proved.f[row].low <= run.f[row] + 1e-12);
-    CHECK(proved.f[row].high >= run.f[row] - 1e-12);
+    CHECK(proved.f_enclosed[row].low <= run.f[row] + 1e-12);
+    CHECK(proved.f_enclosed[row].high >= run.f[row] - 1e-12);
   }
   problem.contacts[0].mu = 4;  // aN = (4 - 24/5) fN - 3
-  const IntervalSpaceRun ray = RunIntervalsInSpace(problem, {});
-  CHECK(ray.verdict.outcome == Outcome::kRay);
+  const InexactAnswer ray = RunIntervalsInSpace(problem, {});
+  CHECK(ray.outcome == Outcome::kRay);
   REQUIRE(ray.ray.size() == 3);
-  CHECK(ray.ray[1].low == Approx(-12.0 / 5));
-  CHECK(ray.ray[2].high == Approx(-16.0 / 5));
+  CHECK(ray.ray[1] == Approx(-12.0 / 5));
+  CHECK(ray.ray[2] == Approx(-16.0 / 5));
 }
 
 TEST_CASE("space: bilateral contacts that no forces hold are singular") {
@@ -586,9 +579,9 @@ TEST_CASE("space: bilateral contacts that no forces hold are singular") {
   for (auto& contact : problem.contacts) contact.kind = ContactKind::kBilateral;
   problem.dimension = 3;
   CHECK(SolveInDoubles(problem, {}).outcome == Outcome::kSingular);
-  const IntervalSpaceRun run = RunIntervalsInSpace(problem, {});
-  CHECK(run.verdict.outcome == Outcome::kSingular);
-  CHECK(run.a[1].low == 3);
+  const InexactAnswer run = RunIntervalsInSpace(problem, {});
+  CHECK(run.outcome == Outcome::kSingular);
+  CHECK(run.a_enclosed[1].low == 3);
 }
 
 TEST_CASE("weak residual: bilateral and sliding contacts") {

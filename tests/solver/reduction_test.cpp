@@ -3,12 +3,14 @@
 
 #include <catch2/catch.hpp>
 
+#include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
 #include "solver/linear/direction.ipp"
 #include "solver/problem/errors.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/published/published.ipp"
+#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction::testing {
@@ -38,8 +40,8 @@ TEST_CASE("4.5: complete driving on the reduction solves problems with bilateral
     const Reduction<Rational> reduction(problem);
     REQUIRE(reduction.end() == ReductionEnd::kReduced);
     with_bilateral += Reduction<Rational>::Concerns(problem);
-    const CompleteRun run = RunComplete(reduction.problem(), {});
-    REQUIRE(run.verdict.outcome == Outcome::kSolved);
+    const ExactAnswer run = RunComplete(reduction.problem(), {});
+    REQUIRE(run.outcome == Outcome::kSolved);
     const ExactVector f = reduction.Forces(run.f);
     const auto violation = FindViolation(problem, f);
     INFO(violation.value_or(""));
@@ -92,13 +94,13 @@ TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where 
     const ExactProblem problem = RandomMixed(seed, true);
     const Reduction<Rational> reduction(problem);
     REQUIRE(reduction.end() == ReductionEnd::kReduced);
-    const CompleteRun run = RunComplete(reduction.problem(), {});
-    if (run.verdict.outcome == Outcome::kSolved) {
+    const ExactAnswer run = RunComplete(reduction.problem(), {});
+    if (run.outcome == Outcome::kSolved) {
       ++solved;
       REQUIRE_FALSE(FindViolation(problem, reduction.Forces(run.f)));
       continue;
     }
-    REQUIRE(run.verdict.outcome == Outcome::kRay);
+    REQUIRE(run.outcome == Outcome::kRay);
     ++rays;
     EnumerationOptions options;
     options.first_solution_only = true;
