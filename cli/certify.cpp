@@ -350,7 +350,7 @@ int RunCheck(const CheckOptions& o) {
 std::vector<AllowedValue> ClaimChoices() {
   std::vector<AllowedValue> choices;
   for (const Claim& claim : AllClaims())
-    choices.push_back({std::string(claim.name), std::string(claim.meaning)});
+    if (claim.certify != nullptr) choices.push_back({std::string(claim.name), std::string(claim.meaning)});
   return choices;
 }
 

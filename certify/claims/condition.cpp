@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/claims/claim.h"
 #include "certify/claims/safe.h"
-#include "certify/claims/witness.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -197,6 +197,22 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
     throw Rejected{"witness", "m = " + ToString(friction) + " and these bounds", "m^2 (u - l)^2 < 4 u l"};
   }
   return {{"condition", ToString(Rational(most / least))}, {"friction", ToString(friction)}};
+}
+
+namespace {
+
+Json ByCondition(const ExactProblem& problem) { return ConditionCertificate(problem).value_or(Json()); }
+void RequireConditionIsSaid(const ExactProblem& problem, const std::string& source) {
+  RequireHandled(problem, source, "safety");
+}
+
+}  // namespace
+
+std::span<const Claim> ConditionClaims() {
+  static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,
+                                            "its condition number alone shows that it is", Alone<ByCondition>,
+                                            RequireConditionIsSaid}};
+  return kClaims;
 }
 
 }  // namespace stiction

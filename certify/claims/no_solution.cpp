@@ -7,7 +7,7 @@
 #include <set>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/witness.h"
+#include "certify/claims/claim.h"
 #include "certify/exact/farkas.h"
 #include "solver/problem/check.h"
 
@@ -67,6 +67,11 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
   }
   RequireCover(problem, prefixes);
   return {{"words", Completions(problem, 0).get_str()}, {"prefixes", prefixes.size()}};
+}
+
+std::span<const Claim> NoSolutionClaims() {
+  static constexpr Claim kClaims[] = {Claim{"no-solution", CheckNoSolution}};
+  return kClaims;
 }
 
 }  // namespace stiction

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "certify/claims/witness.h"
+#include "certify/claims/claim.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 #include "solver/published/published.h"
@@ -245,6 +245,22 @@ Json CheckUnsafe(const ExactProblem& problem, const Json& witness) {
   const Rational value = ReadDeterminant(problem, word, witness["determinant"], "witness.determinant");
   if (value > 0) throw Rejected{"witness.determinant", ToString(value), "a number <= 0"};
   return {{"word", stated}, {"determinant", ToString(value)}};
+}
+
+namespace {
+
+void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source) {
+  RequireHandled(problem, source, "safety");
+}
+
+}  // namespace
+
+std::span<const Claim> SafetyClaims() {
+  static constexpr Claim kClaims[] = {
+      Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
+            Alone<SafetyCertificate>, RequireSafetyIsSaid},
+      Claim{"unsafe", CheckUnsafe}};
+  return kClaims;
 }
 
 }  // namespace stiction

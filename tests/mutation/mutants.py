@@ -276,7 +276,13 @@ bug("bilateral-constant", "x0[determines[i]] = -T(i, kept + count);", "x0[determ
 
 CHECKER = "^program: false_claims|^certify: certificate"
 
-bug = in_file("certify/claims/check_certificate.cpp", CHECKER)
+bug = in_file("certify/claims/solution.cpp", CHECKER)
+bug("claim-coulomb-above-one", "bound <= 0 || bound > 1", "bound <= 0", "coulomb-solution: a bound above 1")
+bug("claim-coulomb-negative", "bound <= 0 || bound > 1", "bound > 1", "coulomb-solution: a bound of zero or less")
+bug("claim-accelerations", 'RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));', "",
+    "solution-exists: any a")
+
+bug = in_file("certify/claims/matrix.cpp", CHECKER)
 bug("claim-symmetric", """throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
                    "A = A'"};""", "", "every A is symmetric")
 bug("claim-not-symmetric", 'if (problem.A(i, j) == problem.A(j, i)) throw Rejected{"witness", "A_ij = A_ji", '
@@ -286,8 +292,6 @@ bug("claim-psd-product", "rest(i, j) -= L(i, k) * rest(j, k)", "rest(i, j) -= L(
     "psd: the product lacks D")
 bug("claim-psd-column", 'RequireEqual(rest(i, k), L(i, k) * D[k], fmt::format("(A - L diag(D) L\')[{}][{}]", i, k));', "",
     "psd: any L and D")
-bug("claim-cycle-dimension", 'if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked '
-    'in the plane"};', "", "cycle: of problems in space, too")
 bug("claim-psd-triangle", 'RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));', "",
     "psd: L of any form")
 bug("claim-not-psd-zero", "curvature >= 0", "curvature > 0", "not-psd: x'Ax = 0 will do")
@@ -303,7 +307,14 @@ bug("claim-not-in-range-kernel", """RequireEqual(image[j], 0, fmt::format("(y'A)
 bug("claim-not-in-range-value", 'RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");',
     "", "not-in-range: any value", context='''RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
   if (product == 0)''')
-bug("claim-h-sliding", "HasSlidingContact(problem)", "false", "h, not-h: sliding contacts, too")
+bug("claim-definite", "D[i] <= 0", "D[i] < 0", "definite: semidefinite is enough")
+bug("claim-not-definite-zero", 'if (x.isZero()) throw Rejected{"witness.x", "0", "another vector"};', "",
+    "not-definite: by x = 0")
+bug("claim-not-definite", "curvature > 0", "curvature > 1", "not-definite: x'Ax up to 1")
+
+bug = in_file("certify/claims/hypothesis.cpp", CHECKER)
+bug("claim-h-sliding", "HasSlidingContact(problem)", "false", "h, not-h: sliding contacts, too",
+    context="if (HasSlidingContact(problem)) {\n    throw Rejected{")
 bug("claim-h-cone", """throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};""", "", "h: any y")
 bug("claim-exists-psd", "RequireFactors(problem, witness);", "", "exists: any A",
     context="RequireFactors(problem, witness);\n  RequireHypothesis(problem, witness);")
@@ -316,10 +327,10 @@ bug("claim-not-h-zero", "product >= 0", "product > 0", "not-h: b'v = 0 will do")
 bug("claim-not-h-value", 'RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");', "",
     "not-h: any value", context='''RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
   if (product >= 0)''')
-bug("claim-coulomb-above-one", "bound <= 0 || bound > 1", "bound <= 0", "coulomb-solution: a bound above 1")
-bug("claim-coulomb-negative", "bound <= 0 || bound > 1", "bound > 1", "coulomb-solution: a bound of zero or less")
-bug("claim-accelerations", 'RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));', "",
-    "solution-exists: any a")
+
+bug = in_file("certify/claims/cycle.cpp", CHECKER)
+bug("claim-cycle-dimension", 'if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked '
+    'in the plane"};', "", "cycle: of problems in space, too")
 bug("claim-cycle-length", 'RequireSame(stated["pivots"].size(), run.trace.pivots.size(), path + ".pivots: number");', "",
     "cycle: any number of steps")
 bug("claim-cycle-start", 'RequireSame(ReadInteger(stated["start"], path + ".start", 0), run.verdict.start, path + ".start");',
@@ -334,19 +345,16 @@ bug("claim-cycle-spelling", "if (PolicyName(policy) != name) throw Rejected{path
     "cycle: a policy has several names")
 bug("claim-cycle-run-twice", "p == 0 && !different.insert(StepsAsText(run, names)).second", "false",
     "cycle: a run counts twice")
-bug("claim-definite", "D[i] <= 0", "D[i] < 0", "definite: semidefinite is enough")
-bug("claim-not-definite-zero", 'if (x.isZero()) throw Rejected{"witness.x", "0", "another vector"};', "",
-    "not-definite: by x = 0")
-bug("claim-not-definite", "curvature > 0", "curvature > 1", "not-definite: x'Ax up to 1")
 bug("claim-counterexample-solution", "RequireSolution(problem, witness);", "", "counterexample: any f",
     context="RequireSolution(problem, witness);\n  return CheckRuns(problem, witness);")
+
+bug = in_file("certify/claims/certificate.cpp", CHECKER)
 bug("certificate-digest", "!digest.empty() && report.digest != digest", "false", "check --problem: any problem")
 bug("certificate-rows", "rows <= kMostRowsOfCertificate", "true", "any number of rows", tests="^program: limits")
 bug("certificate-digits", "digits <= kMostDigitsOfCertificate", "true", "numbers of any length", tests="^program: limits")
 bug("certificate-version", '!certificate["version"].is_number_integer() || certificate["version"] != 1',
     'certificate["version"] != 1', "version 1.0 is read")
 bug("certificate-format", 'certificate["format"] != "stiction-certificate"', "false", "any format is read")
-
 bug = in_file("certify/claims/witness.cpp", "^program: limits")
 bug("work-operations", "operations <= static_cast<double>(kMostOperations)", "true", "any number of operations")
 bug("work-bits", "bits_ <= most_", "true", "operations on numbers of any length")
@@ -575,7 +583,7 @@ bug("exact-stratum-not-counted", "++stratum.exact[static_cast<int>(exact)];", ""
 bug("loop-words-unkept", "!loop.named", "loop.named", "words are kept where the signature has one",
     context="if (!loop.named) result_.record.words")
 bug("grave-when-full", "if (full && !IsGrave(kind)) return;", "if (full) return;", "a full unit drops grave findings")
-bug("wrong-solution-counted", "tally.solved += outcome == Outcome::kSolved && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
+bug("wrong-solution-counted", "tally.solved += complete.Solved() && !wrong;", "tally.solved += outcome == Outcome::kSolved;",
     "wrong solutions are counted as solved")
 bug("certified-undrawn", "!suspected || IsDrawn(DrawOf(place.index))", "!suspected",
     "no certified suspicion is drawn for other methods")

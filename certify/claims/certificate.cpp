@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The format of certificates, and their check: structure to the letter, then the claim from the problem alone.
+
+#include "certify/claims/certificate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "certify/claims/claims.h"
+#include "certify/claims/witness.h"
+#include "corpus/digest.h"
+#include "corpus/exact_number.h"
+
+namespace stiction {
+
+Json VectorToJson(const ExactVector& values) {
+  Json json = Json::array();
+  for (const Rational& value : values) json.push_back(ToString(value));
+  return json;
+}
+
+namespace {
+
+// The check of the claim, which the report names from now on.
+WitnessCheck& ReadClaim(const Json& certificate, CheckReport& report) {
+  RequireKeys(certificate, "certificate", {"claim", "format", "problem", "version", "witness"});
+  if (certificate["format"] != "stiction-certificate") {
+    throw Rejected{"format", Shown(certificate["format"]), "\"stiction-certificate\""};
+  }
+  if (!certificate["version"].is_number_integer() || certificate["version"] != 1) {
+    throw Rejected{"version", Shown(certificate["version"]), "1"};
+  }
+  if (certificate["claim"].is_string()) report.claim = certificate["claim"].get<std::string>();
+  std::vector<std::string_view> names;
+  for (const Claim& claim : AllClaims()) {
+    if (claim.check == nullptr) continue;
+    if (claim.name == report.claim) return *claim.check;
+    names.push_back(claim.name);
+  }
+  std::sort(names.begin(), names.end());
+  throw Rejected{"claim", Shown(certificate["claim"]), fmt::format("one of {}", fmt::join(names, ", "))};
+}
+
+// Before a matrix is made of them. What is no list of contacts is refused where it is read.
+void RequireFewRows(const Json& problem) {
+  if (!problem.is_object() || !problem.contains("contacts") || !problem.contains("dimension")) return;
+  const std::size_t with_friction = problem["dimension"] == 3 ? 3 : 2;
+  std::size_t rows = 0;
+  for (const Json& contact : problem["contacts"])
+    rows += contact.is_object() && contact.contains("mu") ? with_friction : 1;
+  if (rows <= kMostRowsOfCertificate) return;
+  throw Rejected{"problem.contacts", fmt::format("contacts of {} rows", rows),
+                 fmt::format("at most {}", kMostRowsOfCertificate)};
+}
+
+// Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no
+// number, or one that is refused where it is read.
+std::int64_t DigitsOf(std::string_view text) {
+  std::int64_t digits = 0, places = 0, exponent = 0;
+  bool in_fraction = false;
+  if (text.size() > kMostCharactersOfNumber) return 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c >= '0' && c <= '9') {
+      digits += digits > 0 || c != '0';
+      places += in_fraction;
+    } else if (c == '/') {
+      return digits + DigitsOf(text.substr(k + 1));
+    } else if (c == '.') {
+      in_fraction = true;
+    } else if (c == 'e' || c == 'E') {
+      const auto sign = text.substr(k + 1).starts_with('+') ? 2 : 1;
+      const auto end = std::from_chars(text.data() + k + sign, text.data() + text.size(), exponent);
+      if (end.ec != std::errc() || std::abs(exponent) > 10000) return 0;
+      break;
+    } else if (c != '-') {
+      return 0;
+    }
+  }
+  return digits == 0 ? 0 : digits + std::abs(exponent - places);
+}
+
+std::int64_t AllDigits(const Json& json) {
+  if (const auto* text = json.get_ptr<const std::string*>()) return DigitsOf(*text);
+  std::int64_t digits = 0;
+  if (json.is_structured())
+    for (const Json& item : json) digits += AllDigits(item);
+  return digits;
+}
+
+// Before any is read.
+void RequireFewDigits(const Json& certificate) {
+  const std::int64_t digits = AllDigits(certificate["problem"]) + AllDigits(certificate["witness"]);
+  if (digits <= kMostDigitsOfCertificate) return;
+  throw Rejected{"certificate", fmt::format("numbers of {} digits", digits),
+                 fmt::format("at most {} in all", kMostDigitsOfCertificate)};
+}
+
+std::string ReasonOf(const Rejected& rejected) {
+  return rejected.path + ": found " + rejected.found + ", expected " + rejected.expected;
+}
+
+}  // namespace
+
+CheckReport CheckCertificate(const Json& certificate, const std::string& source, const std::string& digest) {
+  CheckReport report;
+  try {
+    WitnessCheck& check = ReadClaim(certificate, report);
+    RequireFewRows(certificate["problem"]);
+    RequireFewDigits(certificate);
+    const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
+    report.digest = ProblemDigest(problem);
+    if (!digest.empty() && report.digest != digest) {
+      throw Rejected{"problem", report.digest, digest + ", the problem that was asked for"};
+    }
+    report.facts = check(problem, certificate["witness"]);
+    report.accepted = true;
+  } catch (const TooDear& rejected) {
+    report.is_too_dear = true;
+    report.reason = ReasonOf(rejected);
+  } catch (const Rejected& rejected) {
+    report.reason = ReasonOf(rejected);
+  } catch (const InputError& error) {
+    report.reason = error.what();
+  }
+  return report;
+}
+
+std::vector<Policy> CertifiedPolicies(const Json& certificate) {
+  std::vector<Policy> policies;
+  for (const Json& run : certificate["witness"]["runs"]) {
+    for (const Json& name : run["policies"]) policies.push_back(ParsePolicy(name.get<std::string>()));
+  }
+  return policies;
+}
+
+}  // namespace stiction

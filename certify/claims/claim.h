@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A claim: what it says, of which problems, and side by side what makes its certificate and what checks it.
+//
+// Each file <name>.cpp of this folder has the claims of one idea, a row for each, and is named in claims.cpp.
+
+#ifndef STICTION_CERTIFY_CLAIMS_CLAIM_H_
+#define STICTION_CERTIFY_CLAIMS_CLAIM_H_
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/claims/witness.h"
+#include "certify/exact/enumerate.h"
+#include "solver/problem/law.h"
+#include "solver/problem/options.h"
+
+namespace stiction {
+
+struct ClaimOptions {
+  std::vector<Policy> policies = {Policy{}};  // of which runs are claimed
+  Limits limits;
+  EnumerationOptions enumeration;
+  FrictionLaw law = FrictionLaw::kCoulomb;  // in space, of `existence`
+};
+
+struct Claim {
+  std::string_view name;
+  WitnessCheck* check = nullptr;  // null where certificates bear other names
+
+  // Of what can be asked for by name; negations come in their place.
+  std::string_view meaning = {};
+  // The certificate of the claim or of its negation; null where nothing that was run shows either.
+  Json (*certify)(const ExactProblem&, const ClaimOptions&) = nullptr;
+  // InputError, by its place in `source`, for a problem of which it is not made.
+  void (*require)(const ExactProblem&, const std::string& source) = [](const ExactProblem&,
+                                                                       const std::string&) {};
+};
+
+// Makers that take the problem alone.
+template <Json (*Make)(const ExactProblem&)>
+Json Alone(const ExactProblem& problem, const ClaimOptions&) {
+  return Make(problem);
+}
+
+// What claims are made of: planar problems; planar problems of frictionless and static contacts, of which alone
+// `what` is said. InputError that names the place in `source` otherwise.
+void RequirePlanar(const ExactProblem& problem, const std::string& source);
+void RequireHandled(const ExactProblem& problem, const std::string& source, const std::string& what);
+
+// ---- Shared by several claims; Rejected for what is not so -------------------------------------
+
+// A x and x'Ax are not too dear.
+void RequireProduct(const ExactProblem& problem, const ExactVector& x);
+void RequireSymmetric(const ExactProblem& problem);
+// witness.f is a solution, and witness.a is A f + b.
+void RequireSolution(const ExactProblem& problem, const Json& witness);
+// D, once A = L diag(D) L' with D >= 0, which is symmetric.
+ExactVector RequireFactors(const ExactProblem& problem, const Json& witness);
+void RequireDefinite(const ExactProblem& problem, const Json& witness);
+
+// A = L diag(D) L', as a witness has it.
+Json FactorsToJson(const LdltFactors& factors);
+// InputError: a claim of symmetric A only, whose symmetric part meets it.
+void RequireSymmetricToClaim(const ExactProblem& problem, const std::string& claim);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_CLAIMS_CLAIM_H_

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// (H), which existence needs of b (certify/exact/hypothesis.h): `h`, `not-h`; and `exists`, theorem 1 of
+// existence.md.
+#include "certify/exact/hypothesis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "certify/claims/certificate.h"
+#include "certify/claims/claim.h"
+
+namespace stiction {
+
+// ---- Making ------------------------------------------------------------------------------------
+
+// Where A is symmetric, A x = b is a proof, and the cheapest.
+Json HypothesisCertificate(const ExactProblem& problem) {
+  if (HasSlidingContact(problem)) {
+    throw InputError("claim h: stated for bilateral, frictionless and static contacts; found a sliding one");
+  }
+  if (IsSymmetric(problem)) {
+    const auto range = DecideRange(problem.A, problem.b);
+    if (const auto* point = std::get_if<RangePoint>(&range)) {
+      return MakeCertificate("h", problem, {{"y", VectorToJson(point->x)}});
+    }
+  }
+  const auto decision = DecideHypothesis(problem);
+  if (const auto* proof = std::get_if<HypothesisProof>(&decision)) {
+    return MakeCertificate("h", problem, {{"y", VectorToJson(proof->y)}});
+  }
+  const auto* obstacle = std::get_if<HypothesisObstacle>(&decision);
+  if (obstacle == nullptr) return nullptr;
+  return MakeCertificate("not-h", problem,
+                         {{"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
+}
+
+Json ExistsCertificate(const ExactProblem& problem) {
+  RequireSymmetricToClaim(problem, "exists");
+  const Json hypothesis = HypothesisCertificate(problem);
+  if (hypothesis.is_null() || hypothesis["claim"] != "h") return nullptr;
+  Json semidefinite = SemidefiniteCertificate(problem);
+  if (semidefinite["claim"] != "psd") return nullptr;
+  Json& witness = semidefinite["witness"];
+  witness.update(hypothesis["witness"]);
+  return MakeCertificate("exists", problem, std::move(witness));
+}
+
+// ---- Checking ----------------------------------------------------------------------------------
+
+namespace {
+
+void RequireCones(const ExactProblem& problem) {
+  if (HasSlidingContact(problem)) {
+    throw Rejected{"problem.contacts", "a sliding contact", "bilateral, frictionless and static ones"};
+  }
+}
+
+void RequireHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireCones(problem);
+  const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
+  RequireProduct(problem, y);
+  if (const auto violation = FindDualConeViolation(problem, DualRest(problem, y))) {
+    throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};
+  }
+}
+
+Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"y"});
+  RequireHypothesis(problem, witness);
+  return Json::object();
+}
+
+// The assumptions of theorem 1 of existence.md, whose conclusion is that a solution exists.
+Json CheckExists(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"D", "L", "y"});
+  RequireFactors(problem, witness);
+  RequireHypothesis(problem, witness);
+  return Json::object();
+}
+
+Json CheckNotHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"v", "value"});
+  RequireCones(problem);
+  const ExactVector v = ReadVector(witness["v"], "witness.v", problem.rows());
+  RequireProduct(problem, v);
+  const ExactVector image = problem.A * v;
+  for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));
+  const Rational product = problem.b.dot(v);
+  if (const auto violation = FindConeViolation(problem, v)) throw Rejected{"witness.v", *violation, "v in K"};
+  RequireEqual(ReadNumber(witness["value"], "witness.value"), product, "witness.value");
+  if (product >= 0) throw Rejected{"witness.value", ToString(product), "b'v < 0"};
+  return Json::object();
+}
+
+// ---- Rows --------------------------------------------------------------------------------------
+
+void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& source) {
+  if (const auto pair = FindAsymmetry(problem.A))
+    throw InputError(source, fmt::format("A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
+                     "a symmetric A: the theorem speaks of no other");
+  const auto sliding = std::find_if(problem.contacts.begin(), problem.contacts.end(),
+                                    [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
+  if (sliding != problem.contacts.end())
+    throw InputError(source, fmt::format("contacts[{}].kind", sliding - problem.contacts.begin()), "sliding",
+                     "bilateral, frictionless or static: with sliding contacts there may be no solution");
+}
+
+}  // namespace
+
+std::span<const Claim> HypothesisClaims() {
+  static constexpr Claim kClaims[] = {
+      Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0",
+            Alone<HypothesisCertificate>},
+      Claim{"not-h", CheckNotHypothesis},
+      Claim{"exists", CheckExists,
+            "psd and h: by a theorem there is a solution, of any size; no forces are given",
+            Alone<ExistsCertificate>, RequireTheoremSpeaksOf}};
+  return kClaims;
+}
+
+}  // namespace stiction

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forces that solve a problem: `solution-exists`, `coulomb-solution`; and `existence`, which is one of these or
+// another answer to whether there are any.
+#include <fmt/format.h>
+
+#include "certify/claims/certificate.h"
+#include "certify/claims/claim.h"
+#include "certify/claims/existence.h"
+#include "certify/exact/hypothesis.h"
+#include "certify/exact/verify_solution.h"
+#include "solver/problem/check.h"
+
+namespace stiction {
+
+// ---- Making ------------------------------------------------------------------------------------
+
+Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
+  STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
+  return MakeCertificate("solution-exists", problem,
+                         {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});
+}
+
+Json CoulombCertificate(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
+  const auto violation = FindCoulombViolation(problem, f, bound);
+  STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
+  return MakeCertificate(
+      "coulomb-solution", problem,
+      {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}, {"bound", ToString(bound)}});
+}
+
+// ---- Checking ----------------------------------------------------------------------------------
+
+namespace {
+
+// witness.f, once witness.a is A f + b.
+ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
+  const ExactVector f = ReadVector(witness["f"], "witness.f", problem.rows());
+  const ExactVector a = ReadVector(witness["a"], "witness.a", problem.rows());
+  RequireProduct(problem, f);
+  const ExactVector answer = Accelerations(problem, f);
+  for (int i = 0; i < problem.rows(); ++i) RequireEqual(a[i], answer[i], fmt::format("witness.a[{}]", i));
+  return f;
+}
+
+}  // namespace
+
+void RequireSolution(const ExactProblem& problem, const Json& witness) {
+  const ExactVector f = ReadForces(problem, witness);
+  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
+  if (violation) throw Rejected{"witness.f", *violation, "a solution"};
+}
+
+namespace {
+
+Json CheckSolution(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "f"});
+  RequireSolution(problem, witness);
+  return Json::object();
+}
+
+Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
+  RequireKeys(witness, "witness", {"a", "bound", "f"});
+  if (problem.dimension != 3) throw Rejected{"problem.dimension", "2", "3: this claim is checked in space"};
+  const Rational bound = ReadNumber(witness["bound"], "witness.bound");
+  if (bound <= 0 || bound > 1) throw Rejected{"witness.bound", ToString(bound), "0 < bound <= 1"};
+  const ExactVector f = ReadForces(problem, witness);
+  if (const auto violation = FindCoulombViolation(problem, f, bound)) {
+    throw Rejected{"witness.f", *violation, "a solution within the bound"};
+  }
+  return {{"bound", ToString(bound)}};
+}
+
+// ---- Rows --------------------------------------------------------------------------------------
+
+void RequireSpace(const ExactProblem& problem, const std::string& source) {
+  if (problem.dimension != 3)
+    throw InputError(source, "dimension", "2", "3: in the plane the claim is solution-exists");
+}
+
+Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
+  return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
+}
+
+bool TheoremSpeaksOf(const ExactProblem& problem) {
+  return IsSymmetric(problem) && !HasSlidingContact(problem);
+}
+
+// Forces, or that there are none; where neither is found, by the theorem.
+Json OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
+  Json found = ExistingUnder(o.law, problem, o);
+  return found.is_null() && TheoremSpeaksOf(problem) ? ExistsCertificate(problem) : found;
+}
+
+Json OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
+  return ExistingUnder(FrictionLaw::kBaraff, problem, o);
+}
+
+// The best bound that was found, or null.
+Json OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
+  return ExistingUnder(FrictionLaw::kCoulomb, problem, o);
+}
+
+}  // namespace
+
+std::span<const Claim> SolutionClaims() {
+  static constexpr Claim kClaims[] = {
+      Claim{"existence", nullptr,
+            "solution-exists, in space by default coulomb-solution (--law), exists or no-solution",
+            OfExistence},
+      Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
+            OfSolution},
+      Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space", OfCoulomb, RequireSpace}};
+  return kClaims;
+}
+
+}  // namespace stiction
