@@ -43,7 +43,7 @@ const ContactProblem<Scalar>& In(const BenchProblem& problem) {
 bool Stands(const ExactProblem& problem, const ExactProblem::Vector& f) { return !FindViolation(problem, f); }
 
 bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>::Vector& f) {
-  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest() <= kWrongAnswer;
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest() <= kWrongAnswer;
 }
 
 template <class Scalar>

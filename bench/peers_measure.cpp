@@ -37,7 +37,7 @@ int GroupOf(const PeerProblem& problem) {
 double ResidualOf(const Contender& contender, const PeerProblem& problem) {
   const Eigen::VectorXd f = contender.Forces();
   if (f.size() != problem.rows()) return kInfinity;
-  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest();
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
 }
 
 // Whether the first problem is solved within so many seconds of processor time, rounded up, by a child.

@@ -125,7 +125,7 @@ int CountWrong(const std::vector<PeerProblem>& problems, Contender& contender) {
   for (std::size_t i = 0; i < problems.size(); ++i) {
     contender.Solve(static_cast<int>(i));
     const Eigen::VectorXd f = contender.Forces();
-    wrong += !(BoundErrors(problems[i], FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest() <= 1e-6);
+    wrong += !(BoundErrors(problems[i], FrictionLaw::kCoulomb, f.cast<long double>()).Largest() <= 1e-6);
   }
   return wrong;
 }

@@ -132,7 +132,7 @@ Answer<double> SolveRegularized(const ContactProblem<double>& problem, const std
 Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::string& method) {
   Answer<double> answer = Solve(problem, method);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return answer;
-  const LongVector a = Recompute(problem, answer.f.cast<LongDouble>());
+  const LongVector a = Recompute(problem, answer.f.cast<long double>());
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   // Forces that press and rest are unknown, as their numbers tell.

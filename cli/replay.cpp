@@ -15,6 +15,7 @@
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
+#include "cli/narration/over_intervals.h"
 #include "cli/narration/problem_text.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
@@ -49,7 +50,7 @@ struct ReplayOptions : Wanted {
 // ---- One policy ------------------------------------------------------------------------------
 
 template <class Scalar>
-std::string WholeEnd(const TracedAnswer<Scalar>& answer, const Solution& solution) {
+std::string WholeEnd(const Answer<Scalar>& answer, const Solution& solution) {
   const bool proved = kIsExact<Scalar>;
   std::string text;
   if (solution.suspected)
@@ -105,7 +106,7 @@ std::string CommandOf(const ReplayOptions& o) {
 
 // The run itself, with what intervals say of it, and beside it complete driving.
 void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
-               const std::optional<Verdict>& over_intervals) {
+               const std::optional<InexactAnswer>& over_intervals) {
   const ProblemFile& file = replay.file;
   std::vector<FollowedRun> runs = {Followed(o.path(), file, solution)};
   if (over_intervals) TellOverIntervals(*over_intervals, runs[0]);

@@ -312,11 +312,6 @@ TallyKey ReadKey(const JsonPlace& place) {
 
 }  // namespace
 
-Tally TallyFromJson(const Json& json) {
-  static const std::string source = "tally";
-  return ReadTally(JsonPlace(json, source, ""));
-}
-
 Record ParseRecord(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");

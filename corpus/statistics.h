@@ -112,7 +112,6 @@ struct Tally {
 };
 
 Json ToJson(const Tally& tally);
-Tally TallyFromJson(const Json& json);  // InputError
 
 // Complete driving on the problems that were given to it, by number of contacts: those that the published
 // algorithm did not solve, audits, and drawn ones.

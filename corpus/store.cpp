@@ -494,10 +494,6 @@ std::vector<Finding> Store::SelectFindings(const std::string& where_and_order) c
   return findings;
 }
 
-std::vector<Finding> Store::Pending() const {
-  return SelectFindings("WHERE done = 0 ORDER BY contacts, unit, idx");
-}
-
 std::vector<Finding> Store::Findings() const { return SelectFindings("ORDER BY signature"); }
 
 Record Store::Total() const {

@@ -122,8 +122,6 @@ class Store {
   void Finish(const Finding& finding, const Work& work = {});
   // What was spent on the findings of a unit that the store holds.
   void AddWork(std::int64_t unit, const Work& work);
-  // Representatives that are not done, fewest contacts first, then by (unit, index).
-  std::vector<Finding> Pending() const;
   // All representatives in the order of signature.
   std::vector<Finding> Findings() const;
   // Sum over all units.

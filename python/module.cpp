@@ -22,6 +22,7 @@
 #include "certify/request.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
+#include "cli/narration/over_intervals.h"
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
 #include "corpus/output_error.h"

@@ -27,10 +27,10 @@ double NoiseOf(const Problem& problem) {
 // The largest error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  const LongVector forces = f.template cast<LongDouble>();
+  const LongVector forces = f.template cast<long double>();
   LongVector a = Recompute(problem, forces);
   const double noise = NoiseOf(problem);
-  for (LongDouble& x : a) x = Abs(x) <= noise ? 0 : x;
+  for (long double& x : a) x = Abs(x) <= noise ? 0 : x;
   return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
 }
 

@@ -692,7 +692,7 @@ class SpaceKernel final : public SizedKernel {
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
     const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {
-      return BoundErrors(problem_, FrictionLaw::kBaraff, f.cast<LongDouble>()).Largest();
+      return BoundErrors(problem_, FrictionLaw::kBaraff, f.cast<long double>()).Largest();
     });
     if (suspected || audit) collector.RunOverIntervals(index, policy, verdict, wrong, suspected);
   }

@@ -194,7 +194,7 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
     return;
   }
   answer.a = problem.A * answer.f + problem.b;
-  const LongVector f = answer.f.template cast<LongDouble>();
+  const LongVector f = answer.f.template cast<long double>();
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
   if constexpr (kIsFloatingPoint<Scalar>) {
     answer.errors = BoundErrors(problem, answer.law, f);

@@ -12,7 +12,6 @@
 
 #include "certify/exact/solve.h"
 #include "corpus/rounded.h"
-#include "solver/problem/long_double.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {
@@ -64,7 +63,7 @@ inline InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveReque
   for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
   t.loop_grain = std::min(t.loop_grain, 1e-12);
   request.trace = KeepTrace::kNo;
-  const auto wide = Converted<LongDouble>(problem, [](double x) { return static_cast<LongDouble>(x); });
+  const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
   return InDoubles(SolveWithPath(wide, request), wide, BoundOf<double>(request.options));
 }
 

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interval: CGAL's interval of doubles as a scalar of the methods, or for a page of its own (cli/live) another
-// that is the same. Included before their definitions, by the units that run over it only.
+// Interval: CGAL's interval of doubles as a scalar of the methods. Included before their definitions, by the
+// units that run over it only.
 //
 // A comparison that the ends do not decide throws UnsureComparison.
 
 #ifndef STICTION_CERTIFY_EXACT_INTERVAL_H_
 #define STICTION_CERTIFY_EXACT_INTERVAL_H_
 
+#include <CGAL/Interval_nt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#ifdef STICTION_PORTABLE_NUMBERS
-#include "certify/exact/interval_portable.h"
-#else
-#include <CGAL/Interval_nt.h>
-#endif
 
 #include "certify/exact/solve.h"
 #include "corpus/rational.h"
@@ -24,13 +20,8 @@
 
 namespace stiction {
 
-#ifdef STICTION_PORTABLE_NUMBERS
-using Interval = PortableInterval;
-using UnsureComparison = PortableInterval::Unsure;
-#else
 using Interval = CGAL::Interval_nt<>;
 using UnsureComparison = CGAL::Uncertain_conversion_exception;
-#endif
 
 template <>
 inline bool IsSurelyZero(const Interval& x) {

@@ -23,7 +23,7 @@ HASHES = ROOT / "reports/web/solver/sources.sha256"
 # Headers alone, and these alone: no other header of this system may come between those of Emscripten.
 HEADERS = {"boost": "/usr/include/boost", "Eigen": "/usr/include/eigen3/Eigen", "nlohmann": "/usr/include/nlohmann",
            "fmt": "/usr/include/fmt"}
-COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-DSTICTION_BOOST_RATIONALS", "-DSTICTION_PORTABLE_NUMBERS",
+COMPILE = ["-std=c++20", "-O2", "-DNDEBUG", "-fno-rtti", "-fwasm-exceptions", "-DSTICTION_BOOST_RATIONALS",
            "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY"]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]

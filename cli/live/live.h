@@ -2,11 +2,9 @@
 // What a page of `replay` asks of the solver that it brings along (reports/web/README.md): run an edited
 // problem.
 //
-// The same sources as the program's, over numbers that are headers alone and behave as the ones of the program:
+// The same sources as the program's, over numbers that are headers alone:
 // no file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
-// irrational, the published algorithm runs over doubles, and what does not end solved again over long double
-// (solver/problem/extended.h) and over intervals (certify/exact/interval_portable.h), as in the program. Built
-// for browsers by build.py.
+// irrational, the published algorithm runs over doubles alone, and says so. Built for browsers by build.py.
 
 #ifndef STICTION_CLI_LIVE_LIVE_H_
 #define STICTION_CLI_LIVE_LIVE_H_
@@ -21,9 +19,6 @@ namespace stiction {
 // is no less.
 inline constexpr Limits kLiveLimits = {.drives = 300, .pivots = 1000, .bits = 2000};
 inline constexpr int kMostLiveRows = 64;
-// In space: from kUpdateFrom unknowns on, directions are updated by sums of doubles that the program takes in
-// pairs, as the registers of its processor do, and a page would take one by one.
-inline constexpr int kMostInSpace = kUpdateFrom - 1;
 
 // Of {"ask": "switches"}: {"switches": the table of the policy in the plane, "in_space": what of it is built
 // there, "limits": {"max-drives", "max-pivots", "max-bits"}}. Of {"ask": "run", "problem": the text of a

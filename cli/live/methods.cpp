@@ -7,7 +7,6 @@
 #include "certify/exact/polygons.h"
 #include "certify/exact/solve.h"
 #include "solver/floating_methods.ipp"
-#include "solver/problem/long_double.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/published/published_space.ipp"
 
@@ -17,13 +16,9 @@ namespace {
 template <SpaceEngine kEngine>
 Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options,
                                Trace<Rational>* trace) {
-  return AnswerOf(SolveWeakly(problem, SpaceOptionsOf(options, kEngine), trace), FrictionLaw::kBaraff);
-}
-
-template <class Scalar>
-std::span<const Method<Scalar>> InSpaceAlone() {
-  static const std::array rows = {BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}, {})};
-  return rows;
+  SpaceOptions space = SpaceOptionsOf(options, kEngine);
+  space.law = FrictionLaw::kBaraff;
+  return SolveWeakly(problem, space, trace);
 }
 
 }  // namespace
@@ -37,18 +32,13 @@ std::span<const Method<Rational>> Methods<Rational>() {
 }
 template <>
 std::span<const Method<double>> Methods<double>() {
-  return InSpaceAlone<double>();
-}
-template <>
-std::span<const Method<LongDouble>> Methods<LongDouble>() {
-  return InSpaceAlone<LongDouble>();
+  static const std::array rows = {BaraffRow<double>({&RunBaraffInSpace<double>}, {})};
+  return rows;
 }
 
 template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
 template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
                               Trace<double>*);
-template Answer<LongDouble> Solve(const ContactProblem<LongDouble>&, std::string_view, const SolveOptions&,
-                                  Trace<LongDouble>*);
 template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
                                 Trace<double>*);
 template void JudgeAnswer(const ContactProblem<double>&, double, Answer<double>&);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "certify/exact/published_space.h"
 #include "cli/narration/narrate_text.h"
 #include "corpus/grouped.h"
 
@@ -90,23 +89,6 @@ FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Soluti
   if (o.method == "baraff" && exact != nullptr)
     run.partings = PartingsOf(file.problem, ParsePolicy(o.policy), o.limits, exact->pivots);
   return run;
-}
-
-std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
-                                           Outcome outcome) {
-  const bool in_space = problem.dimension == 3 && request.method == "baraff";
-  if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
-    return std::nullopt;
-  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits});
-}
-
-std::string OverIntervalsText(const InexactAnswer& answer) {
-  const bool open = answer.outcome == Outcome::kUndecided || answer.outcome == Outcome::kLimit;
-  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(answer));
-}
-
-void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run) {
-  run.end += "; " + OverIntervalsText(answer);
 }
 
 }  // namespace stiction

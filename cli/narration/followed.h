@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 
 #include "certify/exact/answer_json.h"
@@ -39,19 +38,8 @@ std::string EndText(const End& end, bool proved) {
 Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,
                   bool initial);
 
-// What intervals say of a run of the published algorithm in space that does not end solved over floating-point
-// numbers; empty of any other.
-std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
-                                           Outcome outcome);
-
-// "over intervals, proved: cycle: ..."
-std::string OverIntervalsText(const InexactAnswer& answer);
-
 // A run for the viewer. InputError for one of more steps than a page has room for.
 FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Solution& solution);
-
-// Adds to how it ended what intervals say of it.
-void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run);
 
 }  // namespace stiction
 

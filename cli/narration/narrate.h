@@ -28,12 +28,12 @@ struct Narration {
 
 // `file` must outlive the call. Scalar: Rational or double.
 template <class Scalar>
-Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
+Narration NarrateBaraff(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how);
 // In the plane over rationals it is told, too, where the published algorithm gives up at a fold.
 template <class Scalar>
-Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
+Narration NarrateComplete(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how);
 template <class Scalar>
-Narration NarrateLemke(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how);
+Narration NarrateLemke(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how);
 
 }  // namespace stiction
 

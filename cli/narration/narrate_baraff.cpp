@@ -32,7 +32,7 @@ class BaraffNarrator {
   using Step = Pivot<Scalar>;
   using Vector = typename Answer<Scalar>::Vector;
 
-  BaraffNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how)
+  BaraffNarrator(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how)
       : problem_(file.problem), answer_(answer), names_(file.problem), how_(how) {}
 
   Narration Tell() const {
@@ -289,7 +289,7 @@ class BaraffNarrator {
   }
 
   const ExactProblem& problem_;
-  const TracedAnswer<Scalar>& answer_;
+  const Answer<Scalar>& answer_;
   VariableTexts names_;
   Telling how_;
 };
@@ -297,7 +297,7 @@ class BaraffNarrator {
 }  // namespace
 
 template <class Scalar>
-Narration NarrateBaraff(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how) {
+Narration NarrateBaraff(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how) {
   return BaraffNarrator<Scalar>(file, answer, how).Tell();
 }
 

@@ -34,7 +34,7 @@ class CompleteNarrator {
  public:
   using Step = Pivot<Scalar>;
 
-  CompleteNarrator(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how)
+  CompleteNarrator(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how)
       : answer_(answer), names_(file.problem), how_(how) {
     if constexpr (kIsExact<Scalar>) {
       if (!names_.in_space()) published_ = RunExact(file.problem, {}).trace.pivots;
@@ -138,7 +138,7 @@ class CompleteNarrator {
     return json;
   }
 
-  const TracedAnswer<Scalar>& answer_;
+  const Answer<Scalar>& answer_;
   VariableTexts names_;
   Telling how_;
   std::vector<Step> published_;  // the published algorithm, in the plane over rationals
@@ -169,12 +169,12 @@ Json LemkeToldToJson(const Pivot<Scalar>& pivot, const std::string& leaving, Fra
 }  // namespace
 
 template <class Scalar>
-Narration NarrateComplete(const ProblemFile& file, const TracedAnswer<Scalar>& answer, const Telling& how) {
+Narration NarrateComplete(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how) {
   return CompleteNarrator<Scalar>(file, answer, how).Tell();
 }
 
 template <class Scalar>
-Narration NarrateLemke(const ProblemFile&, const TracedAnswer<Scalar>& answer, const Telling& how) {
+Narration NarrateLemke(const ProblemFile&, const Answer<Scalar>& answer, const Telling& how) {
   Narration narration;
   narration.table =
       fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", "pivot", "enters", "leaves", "length", "z0");

@@ -16,27 +16,26 @@
 
 #include "solver/problem/answer.h"
 #include "solver/problem/errors.h"
-#include "solver/problem/long_double.h"
 
 namespace stiction {
 
-using LongVector = Eigen::Matrix<LongDouble, Eigen::Dynamic, 1>;
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 // A f + b.
 template <class Problem>
 LongVector Recompute(const Problem& problem, const LongVector& f) {
-  LongVector a = problem.b.template cast<LongDouble>();
+  LongVector a = problem.b.template cast<long double>();
   ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
-    if (f[j] != 0) a[i] += static_cast<LongDouble>(x) * f[j];
+    if (f[j] != 0) a[i] += static_cast<long double>(x) * f[j];
   });
   return a;
 }
 
 // The problem that is measured, of numbers wider than long double.
 template <class Scalar>
-ContactProblem<LongDouble> InLongDouble(const ContactProblem<Scalar>& problem) {
-  const auto convert = [](const Scalar& x) { return static_cast<LongDouble>(x); };
-  ContactProblem<LongDouble> rounded;
+ContactProblem<long double> InLongDouble(const ContactProblem<Scalar>& problem) {
+  const auto convert = [](const Scalar& x) { return static_cast<long double>(x); };
+  ContactProblem<long double> rounded;
   rounded.dimension = problem.dimension;
   for (const auto& contact : problem.contacts)
     rounded.contacts.push_back(
@@ -50,10 +49,10 @@ ContactProblem<LongDouble> InLongDouble(const ContactProblem<Scalar>& problem) {
 template <class Problem>
 Errors<double> BoundErrors(const Problem& problem, FrictionLaw law, const LongVector& f) {
   constexpr double kSlack = 1 + 1e-12;
-  Units<LongDouble> units;
-  const auto errors =
-      MeasureErrors(problem, law, f, Recompute(problem, f), units, Units<LongDouble>::Rounding(problem.rows()));
-  const auto above = [](const LongDouble& x) { return static_cast<double>(x) * kSlack; };
+  Units<long double> units;
+  const auto errors = MeasureErrors(problem, law, f, Recompute(problem, f), units,
+                                    Units<long double>::Rounding(problem.rows()));
+  const auto above = [](const long double& x) { return static_cast<double>(x) * kSlack; };
   return {above(errors.acceleration),  above(errors.force), above(errors.backward),
           above(errors.amplification), errors.contact,      errors.is_finite};
 }

@@ -120,8 +120,8 @@ struct Trace {
 template <class Counters>
 struct RunEnd {
   Outcome outcome = Outcome::kUndecided;
-  std::string_view reason;  // which limit, or why undecided; static text
-  Counters statistics;
+  std::string_view reason = {};  // which limit, or why undecided; static text
+  Counters statistics = {};
   std::int64_t start = 0;
   std::int64_t period = 0;
 };

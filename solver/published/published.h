@@ -20,7 +20,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "solver/published/step_size.h"
@@ -53,11 +52,6 @@ class PublishedAlgorithm {
   // Runs from f = 0. Requires PublishedHandles(problem). With `trace`, every step is recorded, and the
   // switches that the run consulted.
   Verdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
-
-  // Runs from the forces of `guess`, e.g. the sets in which a run of a problem nearby ended: one entry per row.
-  // Variables whose conditions do not hold with these forces leave their sets, and the forces are solved for
-  // again; where that has no solution, the run starts from f = 0. Work: one factorization, then as the run.
-  Verdict RunFrom(const Problem& problem, std::span<const IndexSet> guess, Trace<Scalar>* trace = nullptr);
 
   // Over enclosures: tells accelerations that are zero where others are, by an equation between the rows of A
   // and of b. Null: none.
@@ -97,8 +91,6 @@ class PublishedAlgorithm {
 
   void Start(const Problem& problem, Trace<Scalar>* trace);
   void Rest();
-  bool Adopt(std::span<const IndexSet> guess);
-  int DropViolated();
   bool Ended() const { return ended_; }
   void End(Outcome outcome, std::string_view reason = {});
 

@@ -41,16 +41,6 @@ Verdict PublishedAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scal
 }
 
 template <class Scalar, int Rows>
-Verdict PublishedAlgorithm<Scalar, Rows>::RunFrom(const Problem& problem, std::span<const IndexSet> guess,
-                                                  Trace<Scalar>* trace) {
-  Start(problem, trace);
-  if (!IsFinite(problem)) End(Outcome::kUndecided, kNotFinite);
-  if (!Ended() && !Adopt(guess)) Rest();
-  ComputeForces();
-  return verdict_;
-}
-
-template <class Scalar, int Rows>
 void PublishedAlgorithm<Scalar, Rows>::ComputeForces() {
   while (!Ended()) {
     if (OuterStateRecurs()) break;
@@ -95,39 +85,6 @@ void PublishedAlgorithm<Scalar, Rows>::Rest() {
   for (int row = 0; row < problem_->rows(); ++row) state_.f[row] = Scalar(0);
   state_.a = problem_->b;
   Reset<IndexSet, Rows>(state_.sets, problem_->rows(), IndexSet::kNone);
-}
-
-// A state that a run could be in: the conditions of all variables in sets hold, all other forces are zero.
-template <class Scalar, int Rows>
-bool PublishedAlgorithm<Scalar, Rows>::Adopt(std::span<const IndexSet> guess) {
-  using System = DirectionSystem<Scalar, Rows>;
-  std::copy(guess.begin(), guess.end(), state_.sets.begin());
-  do {
-    const auto status =
-        direction_.SolveForces(*problem_, SetUnknowns<Scalar, Rows>{*problem_, layout_, state_.sets}, scale_);
-    if (status == System::Status::kInconsistent) return false;
-    state_.f = direction_.df();
-    state_.a = direction_.da();
-  } while (DropViolated() > 0);
-  return true;
-}
-
-// Returns how many variables left C, CF, NC- or NC+, so that forces change.
-template <class Scalar, int Rows>
-int PublishedAlgorithm<Scalar, Rows>::DropViolated() {
-  int left = 0;
-  const auto drop = [&](int row) {
-    left += IsUnknown(state_.sets[row]) || LimitSign(state_.sets[row]) != 0;
-    state_.sets[row] = IndexSet::kNone;
-  };
-  for (int row = 0; row < problem_->rows(); ++row) {
-    if (state_.sets[row] == IndexSet::kNone) continue;
-    const bool normal = layout_.IsNormal(row);
-    if (normal ? NormalHolds(row) : FrictionHolds(row)) continue;
-    drop(row);
-    if (normal && layout_.HasFriction(row)) drop(row + 1);
-  }
-  return left;
 }
 
 template <class Scalar, int Rows>
@@ -388,8 +345,8 @@ bool PublishedAlgorithm<Scalar, Rows>::SurelyDiffers(const Vector& f) const {
   return false;
 }
 
-// Over enclosures: whether the forces, now and in an earlier state of the same sets, are the one solution of the
-// equations of these sets.
+// Over enclosures: whether the forces, now and in an earlier state of the same sets, are the one solution of
+// the equations of these sets.
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::SetsDecideForces(const Vector& earlier) {
   using System = DirectionSystem<Scalar, Rows>;

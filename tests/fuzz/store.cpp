@@ -257,7 +257,7 @@ void ReadTotal(const Store& store) {
 void ReadUnits(const Store& store) {
   const UnitSet units = store.Units();
   for (const std::int64_t unit : {0, 1, 5000}) units.Contains(unit);
-  store.Pending();
+  store.Findings();
 }
 
 bool ReadAll(const Store& store, const StoreFolder& folder) {

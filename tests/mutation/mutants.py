@@ -35,7 +35,7 @@ def in_file(file, likely):
 
 # ---- solver/published --------------------------------------------------------------
 
-PUBLISHED = "^solver: (published|run|warm start|theorem|policies|frictionless)|^program: paths|^certify: policy classes"
+PUBLISHED = "^solver: (published|run|theorem|policies|frictionless)|^program: paths|^certify: policy classes"
 
 bug = in_file("solver/published/published.ipp", PUBLISHED)
 bug("normal-complementarity", "f >= 0 && a >= 0 && (f == 0 || a == 0)", "f >= 0 && a >= 0",
@@ -78,8 +78,6 @@ bug("budget-drives", "verdict_.statistics.drives > limits.drives", "verdict_.sta
     "a budget of drives is one too small")
 bug("budget-pivots", "verdict_.statistics.steps >= limits.pivots", "verdict_.statistics.steps > limits.pivots",
     "a budget of steps is one too large")
-bug("guess-without-forces", "if (status == System::Status::kInconsistent) return false;", "",
-    "a guess without forces is taken over")
 bug("give-up-not-consulted", "if (wants_back && zero != last_step_zero_) Consult(PolicySwitch::kGiveUp);", "",
     "policies are taken to run alike though they give up otherwise")
 bug("overflow-solved", "if (!IsFinite()) return;", "", "infinite forces are called solved")
@@ -196,7 +194,7 @@ bug("back-substitution", "for (int k = i + 1; k < rank_; ++k) x -= M_(i, pivot_c
     "for (int k = i + 2; k < rank_; ++k) x -= M_(i, pivot_column_[k]) * x_[pivot_column_[k]];",
     "an unknown is left out of the equation above")
 
-bug = in_file("solver/linear/direction.ipp", LINEAR + "|^solver: (warm|space)")
+bug = in_file("solver/linear/direction.ipp", LINEAR + "|^solver: space")
 bug("null-vector-parity", "if ((rank - free) % 2 != 0) sign = -sign;", "", "a null vector has the wrong sign")
 bug("forces-inconsistent", "if (!system.IsConsistent(size, scale.rate)) return Status::kInconsistent;", "",
     "forces that do not exist are returned")
@@ -243,22 +241,13 @@ bug("weak-power", "along <= 0 ? Abs(Scalar(force - limit)) : Length(along, Scala
     "Abs(Scalar(force - limit))", "(21) without fF.aF <= 0")
 
 bug = in_file("solver/problem/gate.h", ERRORS)
-bug("rounding-not-bounded", "Units<LongDouble>::Rounding(problem.rows())", "LongDouble(0)",
+bug("rounding-not-bounded", "Units<long double>::Rounding(problem.rows())", "0.0L",
     "the errors are not upper bounds")
 
 bug = in_file("solver/problem/row_scale.h", ERRORS)
 bug("scale-of-contacts", "ExponentOf(largest[uniform ? 0 : groups.ContactOf(i)]) >> 1", "ExponentOf(largest[0]) >> 1",
     "contacts have no units of their own")
 
-bug = in_file("solver/problem/extended.h", "^solver: extended")
-bug("extended-tie", "lost > half || (lost == half && (rest || (kept & 1) != 0))", "lost >= half",
-    "ties are rounded away from zero")
-bug("extended-rest", "big.negative_ == small.negative_ ? one + other : one - other - (rest ? 1 : 0)",
-    "big.negative_ == small.negative_ ? one + other : one - other", "a difference forgets what it has shifted out")
-bug("extended-zero", "sum != 0 && big.negative_", "big.negative_", "x - x is a negative zero")
-bug("extended-subnormal", "std::max(size - 64, kLeastExponent - 63 - e)", "size - 64",
-    "numbers below the normal ones keep their digits")
-bug("extended-root", "rest > root;", "rest >= root;", "a root is rounded up from below its half")
 
 bug = in_file("solver/problem/state.h", "^solver: (step size|run|published|complete)")
 bug("force-tolerance-unit", "scale.force = std::max(Scalar(tolerances.force), least) * f;",
@@ -566,12 +555,6 @@ bug = in_file("certify/exact/dependent_rows.cpp", FILTERED)
 bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << problem_.A.row(i), Rational(0);", "equations between rows of A alone",
     equivalent="of the generators b is in the range of A, where the same equations hold for b")
 
-bug = in_file("certify/exact/interval_portable.h", "^certify: portable intervals")
-bug("portable-sum", "return left <= 0 ? sum : Next(sum);", "return left < 0 ? Next(sum) : sum;", "sums are rounded inward")
-bug("portable-product", "IsTiny(product) || std::fma(x, y, -product) > 0", "std::fma(x, y, -product) > 0",
-    "a product whose rest underflows is taken for exact")
-bug("portable-quotient", "(y > 0 ? left > 0 : left < 0)", "left > 0", "quotients by negative numbers are rounded inward")
-bug("portable-root", "std::fma(-least, least, x.inf_) < 0", "false", "the lower end of a root is rounded up")
 
 # ---- search --------------------------------------------------------------------------
 
@@ -976,9 +959,6 @@ bug = in_file("cli/words.cpp", "^program: replay")
 bug("part-of-a-word", "belongs(text[end])", "false", "drive is found in driven")
 
 bug = in_file("cli/live/live.cpp", "^program: live")
-bug("live-not-again", "if (solution.outcome() != Outcome::kSolved) RunAgainInSpace(rounded, request, solution);", "",
-    "a page does not run suspicions in space again")
-bug("live-not-proved", "TellOverIntervals(*proved, run);", "{}", "a page does not say what intervals prove")
 bug("live-reading", "RequireReading(problem, request);", "", "a page runs readings that are not built in space")
 
 bug = in_file("cli/replay.cpp", "^program: problem")
@@ -1026,6 +1006,7 @@ bug("budgets-of-claims", "wanted.limits", "Limits{}", "certify has the usual bud
 bug("grid-is-no-name", 'text == "*"', "false", "'*' is no policy")
 
 bug = in_file("cli/narration/followed.cpp", PYTHON_TESTS)
+bug = in_file("cli/narration/over_intervals.cpp", PYTHON_TESTS)
 bug("proved-of-solved", "outcome == Outcome::kSolved", "false", "a run that ends solved is run over intervals, too")
 
 bug = in_file("python/module.cpp", PYTHON_TESTS)

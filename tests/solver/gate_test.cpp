@@ -19,7 +19,7 @@ namespace {
 using namespace testing;
 
 double GateOf(const ExactProblem& problem, const Eigen::VectorXd& f) {
-  return BoundErrors(Rounded<double>(problem), FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest();
+  return BoundErrors(Rounded<double>(problem), FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
 }
 
 // Two contacts of a body between two walls that both press: forces (1, 1) along the normals do no work.
@@ -121,7 +121,7 @@ TEST_CASE("gate: whatever mu is, free fall is no solution, and rest is one") {
     ContactProblem<double> problem = As<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-4, 0}));
     problem.contacts[0].mu = mu;
     const auto error = [&problem](double fN, double fF) {
-      const LongVector f = Eigen::Vector2d(fN, fF).cast<LongDouble>();
+      const LongVector f = Eigen::Vector2d(fN, fF).cast<long double>();
       return BoundErrors(problem, FrictionLaw::kCoulomb, f).Largest();
     };
     CHECK(error(0, 0) == Approx(1));        // aN = -4 of 4
@@ -143,7 +143,7 @@ TEST_CASE("gate: forces that only press against each other make no unit larger")
     CHECK((GateOf(Jam(4), Eigen::Vector4d(1 + jam, 1, 1 + jam, 1)) < 1e-6) == (jam < 1e12));
   }
   const Errors<double> errors = BoundErrors(Rounded<double>(Jam(4)), FrictionLaw::kCoulomb,
-                                            Eigen::Vector4d(1e6, 1, 1e6, 1).cast<LongDouble>());
+                                            Eigen::Vector4d(1e6, 1, 1e6, 1).cast<long double>());
   CHECK(errors.amplification > 1e5);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("gate: what it lets pass misses no condition, over rationals") {
         Eigen::VectorXd f = answer.f;  // a solution, and points near it
         for (double& x : f) x += std::ldexp(static_cast<double>(choices.Integer(-k, k)), -4 * k);
         for (const FrictionLaw law : {FrictionLaw::kCoulomb, FrictionLaw::kBaraff}) {
-          const double error = BoundErrors(Rounded<double>(problem), law, f.cast<LongDouble>()).Largest();
+          const double error = BoundErrors(Rounded<double>(problem), law, f.cast<long double>()).Largest();
           if (!(error < 1e3)) continue;
           const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
           const Rational most = Rational(error) * (1 + Rational(1, 1 << 30));
@@ -183,7 +183,7 @@ TEST_CASE("gate: a number that is not finite, and rounding beyond the bound, are
     for (int row = 0; row < 2; ++row) {
       Eigen::VectorXd f = Eigen::Vector2d(2, 0);
       f[row] = bad;
-      CHECK_FALSE(BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<LongDouble>()).Largest() < 1e300);
+      CHECK_FALSE(BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest() < 1e300);
     }
   }
   CHECK(GateOf(Jam(4), Eigen::Vector4d(1e18, 1, 1e18, 1)) > 1e-8);  // 1e18 cancels with an error of a tenth

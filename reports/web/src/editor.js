@@ -24,8 +24,8 @@ const kNumbers =
 const kArithmetic = {
   2: 'It runs over rationals.',
   3: 'In space the forces of the published algorithm are irrational: it runs over rounded numbers, as in the ' +
-      'program, and a loop that it comes to is one of rounded states. What intervals prove of it is said where ' +
-      'it ends. Complete driving, on polygons of friction, runs over rationals.',
+      'program, and a loop that it comes to is one of rounded states: stiction replay says what is proved of it. ' +
+      'Complete driving, on polygons of friction, runs over rationals.',
 };
 
 const button = (text, click, attributes = {}) =>

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/narration/over_intervals.h"
+
+#include <fmt/format.h>
+
+#include "certify/exact/published_space.h"
+#include "cli/narration/outcome_text.h"
+
+namespace stiction {
+
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+                                           Outcome outcome) {
+  const bool in_space = problem.dimension == 3 && request.method == "baraff";
+  if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
+    return std::nullopt;
+  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits});
+}
+
+std::string OverIntervalsText(const InexactAnswer& answer) {
+  const bool open = answer.outcome == Outcome::kUndecided || answer.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(answer));
+}
+
+void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run) {
+  run.end += "; " + OverIntervalsText(answer);
+}
+
+}  // namespace stiction
