@@ -272,6 +272,14 @@ def dearest(program):
     return table(["at its limit", "checker", "processor time, s", "memory, MB"], rows)
 
 
+def mutation(program):
+    """The table of a mutation run, and the sentence below it."""
+    program.show("tests/mutation/mutate.py")
+    done = subprocess.run([sys.executable, ROOT / "tests/mutation/mutate.py"], text=True, capture_output=True)
+    rows, said = re.search(r"\n(\| file .*?)\n\n.*?^([\d.]+ % of .*?)$", done.stdout, re.S | re.M).groups()
+    return f"{rows}\n\n{said}."
+
+
 def shown(value):
     """A fraction of few digits as it is, another as a decimal number."""
     number = Fraction(value)
