@@ -40,7 +40,7 @@ def headline_loop(program):
     runs = policies(program, HEADLINE)
     paper = (runs["paper"]["start"], runs["paper"]["period"])
     rows = [(*loop, number, "yes" if loop == paper else "") for loop, number in recurrences(runs)]
-    return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives stands again so many drives "
+    return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives recurs so many drives "
                  "later:") + "\n\n" + table(["drives before", "drives of a period", "policies", "`paper`"], rows)
 
 

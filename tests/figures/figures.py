@@ -32,7 +32,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from markdown import commands, front_matter
+from markdown import commands, front_matter, prose
 from program import ROOT, Program
 from registry import BLOCKS, DEFINITIONS, DOCUMENTS, MEASURED, MEASUREMENTS, Block
 
@@ -80,7 +80,7 @@ def versions(packages):
 
 
 def measured_file(figure, text, facts):
-    body = f"{figure.what}\n\n{text}\n"
+    body = f"{prose(figure.what)}\n\n{text}\n"
     lines = [f"{key}: {value}" for key, value in (facts | {"digest": digest(body)}).items()]
     return "\n".join(["---", *lines, "---", "", body])
 

@@ -28,6 +28,11 @@ def tracked(*patterns):
     return listed.splitlines()
 
 
+def is_measured(name):
+    """A table that a command made."""
+    return name.startswith("reports/measured/") and not name.endswith("README.md")
+
+
 def files():
     """Of the product, as Git has them."""
     for name in tracked(*PRODUCT):
@@ -93,7 +98,7 @@ def measures(build):
     sources = [name for name in cpp if name.endswith(".cpp")]
     reads_json = sum(any(header in JSON_HEADERS for one in reached(name, own) for header in foreign[one]) for name in sources)
     known = {}
-    words = {name: len(text(name).split()) for name in tracked("*.md")}
+    words = {name: len(text(name).split()) for name in tracked("*.md") if name not in PROOFS and not is_measured(name)}
     yield "lines of the product, peers apart", lines, 59_000
     code = sum(sum(bool(line.strip()) and not line.strip().startswith(("//", "#!", "/*")) for line in text(name).splitlines())
                for name in cpp)
@@ -103,7 +108,7 @@ def measures(build):
     yield "depth of includes", max(depth(name, own, known) for name in cpp), 8
     yield f"sources that read the whole JSON library, of {len(sources)}", reads_json, 80
     yield "longest page of a folder, in lines", max(len(text(name).splitlines()) for name in tracked("*README.md")), 120
-    yield "words of the texts, proofs apart", sum(words.values()) - sum(words[name] for name in PROOFS), 45_000
+    yield "words of the texts, proofs and measured tables apart", sum(words.values()), 45_000
     seconds = build_seconds(build)
     if seconds is not None:
         yield "processor seconds of the program's compilations", round(seconds), 500
