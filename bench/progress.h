@@ -2,9 +2,6 @@
 // How far the program is, on standard error: the parts of a suite, rows of its tables as a rule, and the steps
 // of the one at hand. What takes less than half a second shows nothing. Not for what is being timed: a step
 // calls a clock.
-//
-// A statement `progress::...;` on lines of its own is no part of what a figure was measured with
-// (tests/figures/figures.py).
 
 #ifndef STICTION_BENCH_PROGRESS_H_
 #define STICTION_BENCH_PROGRESS_H_

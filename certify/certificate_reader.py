@@ -3,11 +3,11 @@
 
 What check_certificate.py and check_runs.py have in common: JSON, exact numbers, problems and their digests,
 and the command line. All numbers are fractions.Fraction. Trusted: Python, its json, fractions and hashlib
-modules, and this file, which was written from certify/README.md and shares no code or tables with the C++.
+modules, and this file, which was written from certify/certificates.md and shares no code or tables with the C++.
 
 A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number, MOST_DIGITS
 of all numbers and MOST_ROWS keep reading it from taking memory or time; MOST_OPERATIONS and MOST_WORK keep checking
-it from that (certify/README.md, What a check may cost).
+it from that (certify/certificates.md, What a check may cost).
 """
 
 import argparse

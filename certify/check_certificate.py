@@ -14,7 +14,7 @@ All numbers are fractions.Fraction and all comparisons exact: there is no tolera
 are linear algebra. Those that speak of runs of the published algorithm are checked by check_runs.py, which is
 called from here: `cycle`, and the runs of a `counterexample`.
 
-Trusted: Python, certificate_reader.py, and this file, which was written from certify/README.md and shares no
+Trusted: Python, certificate_reader.py, and this file, which was written from certify/certificates.md and shares no
 code or tables with the C++.
 """
 
@@ -187,7 +187,7 @@ def check_solution(problem, witness):
     return f"{len(problem.contacts)} contacts"
 
 
-# --- Solutions in space (certify/README.md, In space) ----------------------------------
+# --- Solutions in space (certify/certificates.md, In space) ----------------------------------
 
 def weak(limit2, force2, answer2, power):
     """(21), (22), of mu^2 fN^2, fF.fF, aF.aF and fF.aF: the direction of slip is free."""
@@ -230,7 +230,7 @@ def check_coulomb(problem, witness):
     return f"{check_in_space(problem, *forces(problem, witness), coulomb(bound))}, bound {brief(bound)}"
 
 
-# --- Contact modes (certify/README.md, Modes) ----------------------------------------
+# --- Contact modes (certify/certificates.md, Modes) ----------------------------------------
 
 def modes_of(contact, dimension=2):
     if contact.kind == "bilateral":
@@ -345,7 +345,7 @@ def check_no_solution(problem, witness):
     return f"{following[-1]} words, {len(prefixes)} prefixes"
 
 
-# --- Safe and unsafe: determinants of the reduced matrix (certify/README.md) -----------
+# --- Safe and unsafe: determinants of the reduced matrix (certify/certificates.md) -----------
 
 def determinant(M):
     """By Gaussian elimination of a copy of the rows M."""
@@ -487,4 +487,4 @@ CLAIMS = {  # the keys of the witness, and what checks it
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Check stiction certificates in exact rational arithmetic, one line for each.",
-                  f"claims: {', '.join(CLAIMS)};\ncertify/README.md says what they mean.\n"))
+                  f"claims: {', '.join(CLAIMS)};\ncertify/certificates.md says what they mean.\n"))

@@ -446,4 +446,4 @@ CLAIMS = {"cycle": ("runs", check_runs), "counterexample": ("L D f a runs", chec
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Run the published algorithm again, as stiction certificates say that it runs.",
-                  "claims: cycle, and the runs of a counterexample; certify/README.md says what they mean.\n"))
+                  "claims: cycle, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))

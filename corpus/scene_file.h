@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene files: `stiction-scene`, version 1, read and written exactly. README.md of scenes/ has the keys.
+// Scene files: `stiction-scene`, version 1, read and written exactly. formats/scenes.md has the keys.
 //
 // Numbers are those of problem files. A wrong file is an InputError with file, JSON path, what was found and
 // what was expected.

@@ -20,7 +20,7 @@ struct ViewerOrigin {
   std::string digest;   // of the problem (corpus/digest.h)
 };
 
-// `data`: web/README.md has its keys.
+// `data`: web/data.md has its keys.
 std::string ViewerPage(const std::string& title, const Json& data, const ViewerOrigin& origin);
 
 }  // namespace stiction

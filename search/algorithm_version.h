@@ -3,8 +3,8 @@
 //
 // The same problem (seed, unit, index) under the same version takes the same steps and ends the same way, by
 // the published algorithm, complete driving and Lemke's method alike. tests/search/algorithm_version_test.cpp
-// holds traces that were recorded under it. Whoever changes them on purpose raises it: numbers that were
-// counted under another version are stale then (tests/figures/figures.py).
+// holds traces that were recorded under it. Whoever changes them on purpose raises it, so that no
+// store mixes what was computed under both.
 
 #ifndef STICTION_SEARCH_ALGORITHM_VERSION_H_
 #define STICTION_SEARCH_ALGORITHM_VERSION_H_

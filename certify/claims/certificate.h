@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Certificates: `stiction-certificate`, version 1; README.md of this folder describes them.
+// Certificates: `stiction-certificate`, version 1; certify/certificates.md describes them.
 
 #ifndef STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_
 #define STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_

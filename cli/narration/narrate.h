@@ -23,7 +23,7 @@ struct Narration {
   std::string steps;   // directions, forces, accelerations and sets as well
   Json pivots;         // an object for each step
   std::string before;  // how things stand before the first step
-  Json told;           // an object for each step, what a page shows of it (reports/web/README.md)
+  Json told;           // an object for each step, what a page shows of it (reports/web/data.md)
 };
 
 // `file` must outlive the call. Scalar: Rational or double.

@@ -20,7 +20,7 @@ struct FollowedRun {
   std::vector<Parting> partings;
 };
 
-// reports/web/README.md has the keys. `picture`: reports/pictures/problem_picture.h, or null.
+// reports/web/data.md has the keys. `picture`: reports/pictures/problem_picture.h, or null.
 Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vector<FollowedRun>& runs);
 
 }  // namespace stiction

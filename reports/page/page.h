@@ -68,7 +68,7 @@ struct MethodLine {
 std::vector<MethodLine> MethodLines(const ReportContent& content);
 
 // All findings with a representative, in the order of interest, as the script of the page reads them
-// (web/README.md).
+// (web/data.md).
 Json FindingsToJson(const std::vector<Discovery>& discoveries, const std::optional<Since>& since);
 
 // What a finding is in full: its problem in numbers, what happens, commands and files.

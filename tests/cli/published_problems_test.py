@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Problems that others published (corpus/formats/README.md): read, judged and solved as that table says.
+"""Problems that others published (corpus/formats/published.md): read, judged and solved as that table says.
 
 They are no part of this project: STICTION_DATA names the folder that has them.
 """

@@ -5,7 +5,7 @@ import collections
 import json
 import subprocess
 
-from markdown import count, machine, prose, rate, share, spread, table, three
+from markdown import count, prose, rate, share, spread, table, three
 from program import ROOT
 
 PAPER = ("baraff", "paper", "exact")
@@ -113,7 +113,7 @@ def method_times(program):
         rows.append((f"`{key[0]}`, {key[2]}", *(spread(row["us"]) if row else "" for row in found),
                      spread(last["ratio"]) if last else ""))
     head = ["microseconds a problem", *(f"{n} contacts" for n in sizes), f"times `complete`, double, at {sizes[-1]}"]
-    return table(head, rows) + "\n\n" + prose("Median (quartiles)" + machine())
+    return table(head, rows) + "\n\n" + prose("Median (quartiles)")
 
 
 def frictionless(program):
@@ -128,8 +128,7 @@ def frictionless(program):
     return table(["contacts", "problems", "plain Gauss, microseconds", "`baraff`, microseconds", "`baraff` / Gauss",
                   "Lemke / `baraff`", "`fast` / `baraff`", "Ipopt, microseconds", "Ipopt / `baraff`",
                   "CGAL, exact / `baraff`"], rows) + "\n\n" + prose(
-        f"Solved of {problems}: {solved}. Processor time of one thread, BLAS pinned to one; median (quartiles)"
-        + machine())
+        f"Solved of {problems}: {solved}. Processor time of one thread, BLAS pinned to one; median (quartiles)")
 
 
 # ---- Space, and contacts that slide --------------------------------------------------------------------------
@@ -189,7 +188,7 @@ def search_speed(program):
                      spread(row["peer, problems a second"]), spread(row["solved a second"]),
                      spread(row["times as many"]), spread(row["whole search"])) for row in result["lemke"] if "problems" in row])
     return "\n\n".join((rates, mix_in_words(result), beside, prose(
-        "Processor time of one thread, median (least - most) of 5 runs" + machine())))
+        "Processor time of one thread, median (least - most) of 5 runs")))
 
 
 def mix_in_words(result):
@@ -214,7 +213,7 @@ def lanes(program):
                  [(row["what"], three(row["of a problem"]), three(row["most a second"]),
                    three(row["problems a second at most"]), three(row["problems a second"]),
                    f"{row['reached, %']:.0f} %") for row in result["roofline"]])
-    return "\n\n".join((rates, roof, prose(f"{three(result['roofline'][0]['steps'])} steps a problem" + machine())))
+    return "\n\n".join((rates, roof, prose(f"{three(result['roofline'][0]['steps'])} steps a problem")))
 
 
 def growth(program):
@@ -229,7 +228,7 @@ def growth(program):
                             "microseconds a step", "the same afresh", "drives a contact", "pivots a contact",
                             "megabytes", "`complete`: milliseconds", "`fast`: milliseconds", "megabytes"], rows)
                      + "\n\n" + prose(f"Time above 20 contacts like: {power}."))
-    return "\n\n".join(parts) + "\n\n" + prose("One problem a size" + machine())
+    return "\n\n".join(parts) + "\n\n" + prose("One problem a size")
 
 
 def growth_row(points, n):
@@ -263,7 +262,7 @@ def linear_algebra(program):
         kind = tuple(way for way in ways if way in row)
         rows[kind].append((items, size, *(three(row[way]) for way in kind)))
     parts = [table(["microseconds", "size", *kind], sorted(lines)) for kind, lines in rows.items()]
-    return "\n\n".join(parts) + "\n\n" + prose("Processor time, median of 5 runs" + machine())
+    return "\n\n".join(parts) + "\n\n" + prose("Processor time, median of 5 runs")
 
 
 def median_of(values):
@@ -290,14 +289,14 @@ def scene_speed(program):
         result = program.bench("scenes", "--scenes", folder, "--repeat", repeat)
         head = [f"`{folder}`", "minimal", "rows", "problems", "`--full`", "rows", "problems", "ratio"]
         parts.append(table(head, scene_speed_rows(result, "minimal", "full")))
-    return "\n\n".join(parts) + "\n\n" + prose("Frames a second of one thread, median (least - most)" + machine())
+    return "\n\n".join(parts) + "\n\n" + prose("Frames a second of one thread, median (least - most)")
 
 
 def scene_threads(program):
     result = program.bench("scenes", "--repeat", 7, "--threads", 2)
     head = ["scene", "2 threads", "rows", "problems", "1 thread", "rows", "problems", "ratio"]
     return table(head, scene_speed_rows(result, "2 threads", "1 thread")) + "\n\n" + prose(
-        "Frames a second, median (least - most)" + machine())
+        "Frames a second, median (least - most)")
 
 
 # ---- Beside other packages -----------------------------------------------------------------------------------
@@ -339,7 +338,7 @@ def how_measured(result):
         f"Times / that of Eigen's LU of A, compiled for {result['lu']['instructions']}; the row `native` is the same "
         f"LU for {result['lu']['native']}. One thread ({threads}): processor time of all threads "
         f"{clocks['all_threads']:.0f} s, of the one that calls {clocks['one_thread']:.0f} s, wall-clock time "
-        f"{clocks['wall']:.0f} s on a machine that others use{left_out}" + machine())
+        f"{clocks['wall']:.0f} s on a machine that others use{left_out}")
 
 
 def ahead_text(peer):
@@ -451,8 +450,7 @@ def peers_in_short(program):
                 rows.append((group["title"], f"{cells[0]['contacts']} to {cells[-1]['contacts']}", row["name"],
                              f"{three(ratios[0])} to {three(ratios[-1])}", three(max(ratios)),
                              f"{wrong} of {count(tried)}: {share(wrong, tried)}"))
-    return table(["problems", "contacts", "", "time / LU, from fewest to most", "the most", "wrong, 95 %"], rows) + (
-        "\n\n" + prose("Measured" + machine()))
+    return table(["problems", "contacts", "", "time / LU, from fewest to most", "the most", "wrong, 95 %"], rows)
 
 
 PATCHED = (("psd", 6_200_000), ("integers", 6_200_000), ("bodies", 6_200_000), ("scenes", 6_200_000),

@@ -40,7 +40,7 @@ def headline_loop(program):
     runs = policies(program, HEADLINE)
     paper = (runs["paper"]["start"], runs["paper"]["period"])
     rows = [(*loop, number, "yes" if loop == paper else "") for loop, number in recurrences(runs)]
-    return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives stands again so many drives "
+    return prose(f"Of {len(runs)} policies: {ends(runs)}. The state after so many drives recurs so many drives "
                  "later:") + "\n\n" + table(["drives before", "drives of a period", "policies", "`paper`"], rows)
 
 
@@ -270,6 +270,14 @@ def dearest(program):
             name, checker, seconds, megabytes = found.groups()
             rows.append((name.strip(), f"`{checker}`", three(float(seconds)), megabytes))
     return table(["at its limit", "checker", "processor time, s", "memory, MB"], rows)
+
+
+def mutation(program):
+    """The table of a mutation run, and the sentence below it."""
+    program.show("tests/mutation/mutate.py")
+    done = subprocess.run([sys.executable, ROOT / "tests/mutation/mutate.py"], text=True, capture_output=True)
+    rows, said = re.search(r"\n(\| file .*?)\n\n.*?^([\d.]+ % of .*?)$", done.stdout, re.S | re.M).groups()
+    return f"{rows}\n\n{said}."
 
 
 def shown(value):

@@ -3,6 +3,7 @@
 
 Takes the path of the program, and that of the sources, as the other scripts do."""
 
+import argparse
 import re
 import sys
 import tempfile
@@ -14,7 +15,7 @@ import figures  # noqa: E402
 import intervals  # noqa: E402
 import markdown  # noqa: E402
 from program import Program  # noqa: E402
-from registry import DOCUMENTS, FIGURES, Figure  # noqa: E402
+from registry import DOCUMENTS, MEASURED, Block, Measurement, measured_files  # noqa: E402
 
 PROGRAM = sys.argv[1] if len(sys.argv) > 1 else str(figures.ROOT / "build/release/stiction")
 
@@ -24,88 +25,90 @@ def counted(program):
     return "| problems |\n| --- |\n| 17 |"
 
 
-CHEAP = Figure("cheap-one", "README.md", "cheap", counted)
-COSTLY = Figure("costly-one", "README.md", "minutes", counted, ("algorithm", "search/algorithm_version.h"))
-
-
-def block(figure):
-    """As refresh writes it."""
-    return figures.written(figure, figures.made(figure, PROGRAM), PROGRAM)
-
-
-def refused(figure, content):
-    return figures.refused_block(figure, *figures.blocks_of(content)[figure.name], PROGRAM)
+CHEAP = Block("cheap-one", "README.md", counted)
+COSTLY = Measurement("costly-one", "minutes", counted, "What was counted.")
+BESIDE = Measurement("costly-one", "minutes", counted, "What was counted.", ("libode-dev",))
+BLOCK = f"<!-- figures: cheap-one -->\n{figures.block(CHEAP, PROGRAM)}\n<!-- end of figures: cheap-one -->"
+LINK = "[numbers](../reports/measured/costly-one.md)"
 
 
 class Blocks(unittest.TestCase):
+    def refused(self, content):
+        return figures.refused_texts({"README.md": content}, [CHEAP], PROGRAM)
+
     def test_a_block_as_it_was_made_is_not_refused(self):
-        for figure in (CHEAP, COSTLY):
-            self.assertEqual(refused(figure, f"before\n{block(figure)}\nafter"), "")
+        self.assertEqual(list(self.refused(f"before\n{BLOCK}\nafter")), [])
+        self.assertIn("`./run count`", BLOCK)
 
-    def test_a_block_says_its_command_and_its_commit(self):
-        facts, text = figures.blocks_of(block(COSTLY))["costly-one"]
-        self.assertIn("`./run count`", text)
-        self.assertEqual(facts["commit"], figures.commit(PROGRAM))
-
-    def test_a_number_that_was_changed_is_refused(self):
-        for figure in (CHEAP, COSTLY):
-            self.assertNotEqual(refused(figure, block(figure).replace("| 17 |", "| 18 |")), "")
-
-    def test_a_costly_block_is_stale_when_its_sources_have_changed(self):
-        content = block(COSTLY)
-        code = figures.code_digest(COSTLY.sources)
-        self.assertIn("stale", refused(COSTLY, content.replace(f"digest: {code}", "digest: 00000000")))
-
-    def test_a_costly_block_can_be_withdrawn_and_a_cheap_one_cannot(self):
-        for figure, reason in ((COSTLY, ""), (CHEAP, "is not what its commands give now")):
-            text = figures.WITHDRAWN.format(figure.name)
-            self.assertEqual(refused(figure, figures.written(figure, text, PROGRAM)), reason)
-
-    def test_a_program_of_other_sources_makes_no_costly_block(self):
-        with tempfile.TemporaryDirectory() as folder:
-            version = Path(folder) / "program"
-            version.write_text("#!/bin/sh\necho stiction 0.1.0 0123456789ab, GNU 12.2.0\n")
-            version.chmod(0o700)
-            self.assertEqual(figures.commit(str(version)), "0123456")
-            self.assertFalse(figures.built_of_these_sources(COSTLY, str(version)))
-
-    def test_what_tells_how_far_a_suite_is_is_no_part_of_a_digest(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "suite.cpp"
-            file.write_text('#include "bench/suite.h"\n\nint Run() {\n  return Count(7);\n}\n')
-            plain = figures.significant(file)
-            file.write_text('#include "bench/progress.h"\n#include "bench/suite.h"\n\nint Run() {\n'
-                            '  progress::Begin(fmt::format("{} contacts", 7),\n                  7 * problems);\n'
-                            '  fmt::print(stderr, "{} problems\\n", problems);\n  return Count(7);\n}\n')
-            self.assertEqual(figures.significant(file), plain)
-            for line in ("  Done(1);", "  const auto count = progress::Done();", '  fmt::print("a row");'):
-                file.write_text(f'#include "bench/suite.h"\n\nint Run() {{\n{line}\n  return Count(7);\n}}\n')
-                self.assertNotEqual(figures.significant(file), plain)
-
-    def test_comments_and_layout_are_no_part_of_a_digest_and_the_version_is(self):
-        def digest(text):
-            (figures.ROOT / "search/algorithm_version.h").write_text(text)
-            return figures.code_digest(COSTLY.sources), figures.code_digest(["algorithm"])
-
-        with tempfile.TemporaryDirectory() as folder:
-            self.addCleanup(setattr, figures, "ROOT", figures.ROOT)
-            figures.ROOT = Path(folder)
-            (figures.ROOT / "search").mkdir()
-            first = digest("// A comment.\ninline constexpr int kAlgorithmVersion = 1;\n")
-            same = digest("//  Another,\n// longer.\ninline constexpr   int kAlgorithmVersion = 1;\n")
-            self.assertEqual(same, first)
-            second = digest("inline constexpr int kAlgorithmVersion = 2;\n")
-            self.assertTrue(all(a != b for a, b in zip(first, second)))
-
-    def test_what_is_no_block_of_the_registry_is_refused(self):
-        self.assertIn("says cost minutes", refused(CHEAP, block(CHEAP).replace("cost: cheap", "cost: minutes")))
-        unclosed = block(CHEAP).replace("end of figures: cheap-one", "end of figures: other")
-        self.assertEqual(figures.blocks_of(unclosed), {})
+    def test_what_differs_is_missing_or_unknown_is_refused(self):
+        other = BLOCK.replace("cheap-one", "other-one")
+        for content, reason in ((BLOCK.replace("| 17 |", "| 18 |"), "is not what its commands give"),
+                                ("", "is missing"), (f"{BLOCK}\n{other}", "nothing makes the block other-one"),
+                                (f"{BLOCK}\n{BLOCK}", "stands twice"),
+                                (BLOCK.replace("end of figures: cheap-one", "end"), "not closed")):
+            self.assertIn(reason, "\n".join(self.refused(content)), content)
 
     def test_a_block_takes_the_place_of_the_one_before(self):
-        old = block(CHEAP).replace("17", "16")
-        new = figures.replace(f"a\n{old}\nb", CHEAP, figures.made(CHEAP, PROGRAM), PROGRAM)
-        self.assertEqual(new, f"a\n{block(CHEAP)}\nb")
+        new = figures.replaced(f"a\n{BLOCK.replace('17', '16')}\nb", CHEAP, figures.block(CHEAP, PROGRAM))
+        self.assertEqual(new, f"a\n{BLOCK}\nb")
+
+
+class MeasuredFiles(unittest.TestCase):
+    def refused(self, content, figure=COSTLY, texts=(LINK,)):
+        return figures.refused_measurement(figure, content, texts)
+
+    def test_a_file_as_it_was_made_is_not_refused(self):
+        for figure in (COSTLY, BESIDE):
+            self.assertEqual(self.refused(figures.measured(figure, PROGRAM), figure), "")
+
+    def test_a_file_says_what_made_it_and_what_it_is(self):
+        facts, body = markdown.front_matter(figures.measured(BESIDE, PROGRAM))
+        self.assertEqual(list(facts), ["command", "commit", "date", "machine", "peers", "digest"])
+        self.assertEqual((facts["command"], facts["commit"]), ("./run count", figures.commit(PROGRAM)))
+        self.assertRegex(body, r"^What was counted\.\n\n\| problems \|")
+
+    def test_a_text_edited_by_hand_is_refused(self):
+        content = figures.measured(COSTLY, PROGRAM)
+        for word, other in (("| 17 |", "| 18 |"), ("What was", "What is")):
+            self.assertEqual(self.refused(content.replace(word, other)), "was edited by hand")
+
+    def test_a_fact_that_is_missing_is_refused(self):
+        for key in ("command", "commit", "date", "machine", "peers", "digest"):
+            content = re.sub(rf"^{key}: .*\n", "", figures.measured(BESIDE, PROGRAM), flags=re.M)
+            self.assertEqual(self.refused(content, BESIDE), f"does not say its {key}")
+
+    def test_a_file_that_no_text_links_to_is_refused(self):
+        self.assertEqual(self.refused(figures.measured(COSTLY, PROGRAM), texts=["costly-one"]), "is linked from no text")
+
+    def test_a_file_that_nothing_makes_is_refused(self):
+        name = f"{MEASURED}/other.md"
+        files = {name: figures.measured(COSTLY, PROGRAM)}
+        self.assertEqual(list(figures.refused_files(files, [COSTLY], {"README.md": LINK})), [f"{name}: is made by nothing"])
+
+    def test_every_measurement_is_a_file_or_said_to_be_missing(self):
+        listed = measured_files()
+        for one in figures.MEASUREMENTS:
+            there = (figures.ROOT / one.file).exists()
+            self.assertEqual(f"]({one.name}.md)" in listed, there, one.name)
+            self.assertEqual(f"| `{one.name}` |" in listed, not there, one.name)
+
+    def test_a_program_of_no_commit_measures_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "program"
+            program.write_text("#!/bin/sh\necho stiction 0.1.0 0123456789ab-dirty-12345678, GNU 12.2.0\n")
+            program.chmod(0o700)
+            self.assertEqual(figures.commit(str(program)), "0123456-dirty-12345678")
+            options = argparse.Namespace(names=["night"], program=str(program), problems=None)
+            with self.assertRaisesRegex(SystemExit, "was built of no commit"):
+                figures.refresh(options)
+
+    def test_the_first_screen_shows_what_was_measured(self):
+        def code(name):
+            return re.findall(r"^ {4}.*", (figures.ROOT / name).read_text(), re.M)
+
+        sample = code(f"{MEASURED}/first-search.md")
+        self.assertGreater(len(sample), 10)
+        self.assertIn("\n".join(sample), "\n".join(code("README.md")))
 
 
 class LooseFigures(unittest.TestCase):
@@ -118,7 +121,7 @@ class LooseFigures(unittest.TestCase):
             self.assertEqual(self.found(text), [number], text)
 
     def test_blocks_code_and_definitions_are_let_be(self):
-        for text in (block(CHEAP).replace("17", "1,700"), "    ./run search    # 8 s", "`1,234`", "<!-- 1,234 -->",
+        for text in (BLOCK.replace("17", "1,700"), "    ./run search    # 8 s", "`1,234`", "<!-- 1,234 -->",
                      "n = 5 contacts, part 10", "```\n1,234\n```"):
             self.assertEqual(self.found(text), [], text)
 
@@ -155,12 +158,13 @@ class Intervals(unittest.TestCase):
 
 class Figures(unittest.TestCase):
     def test_the_documents_are_there(self):
+        known = [figure.name for figure in [*figures.BLOCKS, *figures.MEASUREMENTS]]
         self.assertGreater(len(DOCUMENTS), 15)
-        self.assertEqual(len({figure.name for figure in FIGURES}), len(FIGURES))
-        self.assertLessEqual({figure.file for figure in FIGURES}, set(DOCUMENTS))
+        self.assertEqual(len(set(known)), len(known))
+        self.assertLessEqual({figure.file for figure in figures.BLOCKS}, set(DOCUMENTS))
 
-    def test_no_block_is_refused_and_no_measured_number_stands_outside(self):
-        self.assertEqual(list(figures.refusals(PROGRAM, FIGURES)), [])
+    def test_nothing_is_refused_and_no_measured_number_stands_outside(self):
+        self.assertEqual(figures.refusals(PROGRAM), [])
 
 
 class Pages(unittest.TestCase):

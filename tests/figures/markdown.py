@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables and numbers in Markdown."""
 
-import os
+import re
 import textwrap
-import time
 
 import intervals
 
@@ -23,17 +22,17 @@ def prose(text):
     return "\n".join(lines).replace("\0", " ")
 
 
-def commands(typed, by=""):
+def commands(typed):
     """The last lines of a block: what made it."""
-    return prose("Made by " + ", ".join(f"`{command}`" for command in typed) + by + ".")
+    return prose("Made by " + ", ".join(f"`{command}`" for command in typed) + ".")
 
 
-def machine():
-    """Of timings: when and on what."""
-    with open("/proc/cpuinfo") as file:
-        models = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
-    load = os.getloadavg()[0]
-    return f"; {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores, {models[0] if models else 'unknown'}, load {load:.1f} at its end"
+def front_matter(content):
+    """The facts in front of a text, and the text."""
+    found = re.match(r"---\n(.*?)\n---\n\n", content, re.S)
+    if not found:
+        return {}, content
+    return dict(line.split(": ", 1) for line in found[1].splitlines() if ": " in line), content[found.end():]
 
 
 def count(number):

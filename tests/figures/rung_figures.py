@@ -4,7 +4,7 @@
 import collections
 import csv
 
-from markdown import count, machine, prose, table
+from markdown import count, prose, table
 
 
 def times(triple):
@@ -28,7 +28,7 @@ def certified(program):
     return "\n\n".join((
         table(head, rows), table([*head[:2], "family", *head[2:]], families),
         table(["search of", "contacts", "problems a second, times those with all suspicions over rationals"], searches),
-        prose("Median (least - most)" + machine())))
+        prose("Median (least - most)")))
 
 
 def quartile(values):
@@ -62,7 +62,7 @@ def ladder(program, *options):
     problems = max(s["problems"] for s in sums.values())
     return table(["method", "arithmetic", "time, times double", "solved", "undecided", "another end", "wrong end",
                   "silently wrong", "out of range", "worst residual"], rows) + "\n\n" + prose(
-        f"{count(problems)} problems; times: median (least - most) of the medians of families" + machine())
+        f"{count(problems)} problems; times: median (least - most) of the medians of families")
 
 
 def trade(program):
@@ -113,4 +113,4 @@ def peers_extremes(program):
                 for name, s in sums.items()]
         parts.append(table(["with friction" if block["name"] == "extremes" else "without friction", "problems", "solved",
                             "silently wrong", "called failures", "crashed, or no answer in time"], rows))
-    return "\n\n".join(parts) + "\n\n" + prose("Judged over rationals, residual at most 1e-6" + machine())
+    return "\n\n".join(parts) + "\n\n" + prose("Judged over rationals, residual at most 1e-6")

@@ -11,7 +11,7 @@ import sqlite3
 import tempfile
 
 from program import ROOT
-from markdown import count, machine, prose, rate, share, table, three
+from markdown import count, prose, rate, share, table, three
 
 SEEDS = (1, 2, 3, 4)
 
@@ -254,7 +254,7 @@ def night(program):
     rows = [night_row(str(round(sample["minutes"])), sample) for sample in measured["samples"]]
     rows.append(night_row(f"{measured['night']['minutes']:.0f}, told", measured["night"]))
     head = ["minutes", "million problems", "groups", "memory, MB", "at most", "store, MB"]
-    return table(head, rows) + "\n\nMeasured" + machine()
+    return table(head, rows)
 
 
 def night_row(minutes, sample):
@@ -274,7 +274,7 @@ def scaling(program):
              three(merge["store"] / 1e6), three(merge["tree_seconds"]), three(merge["tree_path"]))
             for merge in measured["merges"]]
     head = ["shards", "units", "one merge, s", "memory, MB", "store, MB", f"tree of {measured['fan']}, s in all", "one path, s"]
-    return table(head, rows) + "\n\nMeasured" + machine()
+    return table(head, rows)
 
 
 def plan(program):
@@ -297,8 +297,7 @@ def plan(program):
             ("finishing a group, s, of those finished first", three(large["finishing"])),
             ("finishing all of them on one core of each node, minutes",
              three(groups(PLAN["problems"]) * large["finishing"] / PLAN["nodes"] / 60))]
-    return table([f"10^{round(math.log10(PLAN['problems']))} problems, {count(PLAN['nodes'])} nodes, {count(PLAN['shards'])} shards", ""],
-                 rows) + "\n\nTold" + machine()
+    return table([f"10^{round(math.log10(PLAN['problems']))} problems, {count(PLAN['nodes'])} nodes, {count(PLAN['shards'])} shards", ""], rows)
 
 
 def of_a_search(program, problems):

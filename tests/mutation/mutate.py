@@ -5,7 +5,7 @@
 The table of bugs is mutants.py. A copy of the sources is made in which every bug stands beside what it replaces,
 chosen at run time by an environment variable (mutant.h), and the copy is built once. All tests have to pass without
 a bug. Then each bug: the tests that the table expects to catch it, the quickest first, and if none does, all others.
-A test that takes too long, or crashes, has caught it. README.md has the figures.
+A test that takes too long, or crashes, has caught it. reports/measured/mutation.md has the figures.
 
 exit status: 0 if at least 95 % are caught and every survivor has a reason in the table, otherwise 1.
 Python standard library only.
