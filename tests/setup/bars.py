@@ -24,8 +24,7 @@ def files():
     """Of the product, as Git has them."""
     listed = subprocess.run(["git", "ls-files", *PRODUCT], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     for name in listed.splitlines():
-        is_peer = re.match(r"bench/(peer|peers)_", name) or name == "bench/peers.cpp"
-        if name.endswith(CODE) and not is_peer and "/dist/" not in name:
+        if name.endswith(CODE) and not name.startswith("bench/peers/") and "/dist/" not in name:
             yield name
 
 
