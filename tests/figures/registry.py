@@ -25,14 +25,16 @@ class Figure:
 
 
 SEARCH = ("algorithm",)
-METHODS = ("algorithm", "bench/methods.cpp", "bench/method.cpp", "bench/family.cpp", "bench/family.h")
-PEERS = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/peers_problems.cpp",
-         "bench/peers_tables.cpp")
+METHODS = ("algorithm", "bench/methods.cpp", "bench/family.cpp", "bench/family.h")
+WORK = ("algorithm", "bench/studies/work.py")
+PEERS = ("algorithm", "bench/peers/measure_rows.cpp", "bench/peers/rows.cpp", "bench/peers/problems.cpp",
+         "bench/peers/random.cpp")
 JUDGED = ("solver/problem/errors.h", "solver/problem/units.h")
-ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "bench/sources.cpp", "certify/exact/filtered.cpp", *JUDGED)
+ANSWERS = ("algorithm", "bench/rungs.cpp", "bench/dials.cpp", "certify/exact/filtered.cpp", *JUDGED)
 RUNGS = (*ANSWERS, "bench/ladder.cpp")
-SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers_search.cpp", "bench/peak.cpp")
-STRUCTURE = ("algorithm", "bench/peers_measure.cpp", "bench/peers_rows.cpp", "bench/structure.cpp")
+SPEED = ("algorithm", "bench/search_rate.cpp", "bench/peers/lemke.cpp", "bench/peak.cpp")
+STRUCTURE = ("algorithm", "bench/peers/measure_rows.cpp", "bench/peers/rows.cpp", "bench/peers/families.cpp",
+             "bench/structure.cpp")
 
 FIGURES = [
     Figure("first-search", "README.md", "minutes", search.first_search, SEARCH),
@@ -46,7 +48,7 @@ FIGURES = [
     Figure("peers-in-short", "reports/speed.md", "long", bench.peers_in_short, PEERS),
     Figure("corpus", "corpus/README.md", "cheap", corpus.corpus),
     Figure("endless", "search/adversary/frontiers.md", "cheap", corpus.endless),
-    Figure("smallest", "search/adversary/frontiers.md", "minutes", bench.smallest, ("algorithm", "bench/smallest.cpp")),
+    Figure("smallest", "search/adversary/frontiers.md", "minutes", bench.smallest, ("algorithm", "bench/studies/smallest.py")),
     Figure("scenes-in-space", "search/adversary/frontiers.md", "cheap", corpus.scenes_in_space),
     Figure("robust-scenes", "search/adversary/frontiers.md", "cheap", corpus.robust_scenes),
     Figure("longest-runs", "search/adversary/frontiers.md", "cheap", corpus.longest_runs),
@@ -62,9 +64,9 @@ FIGURES = [
     Figure("dearest", "certify/README.md", "minutes", corpus.dearest, ("certify/claims/check_certificate.cpp", "certify/claims/witness.cpp",
            "certify/check_certificate.py", "certify/certificate_reader.py", "tests/certify/limits_test.py")),
     Figure("linear-algebra", "certify/README.md", "minutes", bench.linear_algebra,
-           ("algorithm", "bench/linear_algebra.cpp")),
+           ("algorithm", "bench/studies/linear_algebra.py")),
     Figure("scenes-by-mu", "search/README.md", "long", search.scenes_by_mu, SEARCH),
-    Figure("adversary", "search/README.md", "minutes", bench.adversary, ("algorithm", "bench/adversary.cpp", "search/adversary")),
+    Figure("adversary", "search/README.md", "minutes", bench.adversary, ("algorithm", "bench/studies/adversary.py", "search/adversary")),
     Figure("generators-by-mu", "search/README.md", "minutes", search.generators_by_mu, SEARCH),
     Figure("missed-by-doubles", "search/README.md", "long", search.missed_by_doubles, SEARCH),
     Figure("existence", "search/README.md", "minutes", search.existence, SEARCH),
@@ -73,32 +75,32 @@ FIGURES = [
            ("algorithm", "tests/setup/scaling.py", "corpus/store_merge.cpp")),
     Figure("plan", "search/SCALING.md", "minutes", search.plan, SEARCH),
     Figure("methods-built", "solver/README.md", "cheap", corpus.methods_built),
-    Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers_growth.cpp")),
+    Figure("growth", "solver/README.md", "minutes", bench.growth, ("algorithm", "bench/peers/growth.cpp")),
     Figure("safe-loops", "solver/published/readings.md", "minutes", search.safe_loops, SEARCH),
-    Figure("space", "solver/published/readings.md", "long", bench.space, ("algorithm", "bench/space.cpp")),
-    Figure("patches", "solver/published/mending.md", "long", bench.patches, ("algorithm", "bench/patches.cpp")),
-    Figure("sliding", "solver/published/readings.md", "minutes", bench.sliding, ("algorithm", "bench/sliding.cpp")),
+    Figure("space", "solver/published/readings.md", "long", bench.space, ("algorithm", "bench/studies/space.py")),
+    Figure("patches", "solver/published/mending.md", "long", bench.patches, ("algorithm", "bench/studies/patches.py")),
+    Figure("sliding", "solver/published/readings.md", "minutes", bench.sliding, ("algorithm", "bench/studies/sliding.py")),
     Figure("worst-case", "solver/published/readings.md", "cheap", corpus.worst_case),
     Figure("energy", "scene/README.md", "cheap", scene.energy),
     Figure("halved-steps", "scene/README.md", "cheap", scene.halved_steps),
     Figure("unsolved-in-scenes", "scene/README.md", "long", scene.unsolved_in_scenes,
            ("algorithm", "tests/setup/scene_statistics.py")),
-    Figure("work", "reports/methods.md", "long", bench.work, METHODS),
-    Figure("near-worst-case", "reports/methods.md", "minutes", bench.near_worst_case, METHODS),
-    Figure("folds", "reports/methods.md", "long", bench.folds, METHODS),
-    Figure("starts", "reports/methods.md", "long", bench.starts, METHODS),
+    Figure("work", "reports/methods.md", "long", bench.work, WORK),
+    Figure("near-worst-case", "reports/methods.md", "minutes", bench.near_worst_case, WORK),
+    Figure("folds", "reports/methods.md", "long", bench.folds, WORK),
+    Figure("starts", "reports/methods.md", "long", bench.starts, WORK),
     Figure("method-times", "reports/methods.md", "minutes", bench.method_times, METHODS),
     Figure("frictionless", "reports/methods.md", "minutes", bench.frictionless, METHODS),
     Figure("certified", "reports/arithmetic.md", "minutes", rungs.certified,
-           ("algorithm", "bench/ratios.cpp", "certify/exact/filtered.cpp")),
+           ("algorithm", "bench/studies/ratios.py", "bench/ladder.cpp", "certify/exact/filtered.cpp")),
     Figure("same-tables", "reports/arithmetic.md", "long", rungs.same_tables, ("algorithm", "certify/exact/filtered.cpp")),
     Figure("trade", "reports/arithmetic.md", "minutes", rungs.trade, RUNGS),
     Figure("extremes", "reports/arithmetic.md", "minutes", rungs.extremes, RUNGS),
-    Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/silent.cpp")),
+    Figure("silent", "reports/arithmetic.md", "long", rungs.silent, (*ANSWERS, "bench/gate.cpp")),
     Figure("gate", "reports/arithmetic.md", "long", bench.gate,
-           ("algorithm", "bench/gate.cpp", "bench/gate_before.sh", *JUDGED)),
+           ("algorithm", "bench/gate.cpp", "bench/dials.cpp", *JUDGED)),
     Figure("peers-extremes", "reports/peers.md", "minutes", rungs.peers_extremes,
-           ("algorithm", "bench/peers_rows.cpp", "bench/peers_extremes.cpp", "bench/dials.cpp")),
+           ("algorithm", "bench/peers/rows.cpp", "bench/peers/extremes.cpp", "bench/dials.cpp")),
     Figure("peers", "reports/peers.md", "long", bench.peers, PEERS),
     Figure("structure", "reports/peers.md", "long", bench.structure, STRUCTURE),
     Figure("structure-large", "reports/peers.md", "long", bench.structure_large, STRUCTURE),
