@@ -14,8 +14,9 @@ import study
 
 OPTIMIZERS = ("evolution", "nlopt", "continuation")
 # Objective, generator, contacts, mu, evaluations: about as long each, so what is run exactly has fewer.
-TRIALS = [("steps", "psd", 4, 1, 24000), ("steps-per-contact", "psd", 3, 1, 24000), ("zero-steps", "integers", 4, 1, 24000),
-          ("zero-run", "integers", 4, 1, 24000), ("give-ups", "psd", 4, 1, 24000), ("memory", "psd", 4, 1, 24000),
+TRIALS = [("steps", "psd", 4, 1, 24000), ("steps-per-contact", "psd", 3, 1, 24000),
+          ("zero-steps", "integers", 4, 1, 24000), ("zero-run", "integers", 4, 1, 24000),
+          ("give-ups", "psd", 4, 1, 24000), ("memory", "psd", 4, 1, 24000),
           ("scans", "psd", 4, 1, 24000), ("period", "psd", 3, 1, 24000), ("start", "psd", 3, 1, 24000),
           ("distance", "psd", 2, "1/4", 24000), ("pivot", "psd", 3, 1, 24000), ("bits", "psd", 3, 1, 4000),
           ("condition", "psd", 2, 1, 24000), ("friction", "scenes", 4, 1, 24000), ("rounding", "psd", 3, 1, 4000),
@@ -59,7 +60,8 @@ def main():
             doubled[name] += value >= 2
         rows.append((trial[0], f"{trial[1]} {trial[2]}", evaluations, "-" if random is None else random,
                      *("-" if math.isnan(value) else value for value in gains.values())))
-    study.show(["objective", "problems", "evaluations", "best of random", *(f"gain of {name}" for name in OPTIMIZERS)], rows)
+    head = ["objective", "problems", "evaluations", "best of random", *(f"gain of {name}" for name in OPTIMIZERS)]
+    study.show(head, rows)
     print("At least twice as bad for the solver as random problems:",
           "; ".join(f"{name} in {count} of {len(rows)}" for name, count in doubled.items()))
 

@@ -31,14 +31,15 @@ def certified(lines):
     for (method, contacts, family), by in lines.items():
         if method in ("complete", "baraff"):
             double, filtered, exact = (by[name]["microseconds"] for name in ("double", "filtered", "exact"))
-            yield (f"`{method}`", contacts, f"`{family}`", by["filtered"]["problems"], double[1], filtered[1] / double[1],
-                   exact[1] / double[1], study.share(by["filtered"]["decided_on"][-1], by["filtered"]["problems"]))
+            yield (f"`{method}`", contacts, f"`{family}`", by["filtered"]["problems"], double[1],
+                   filtered[1] / double[1], exact[1] / double[1], study.share(by["filtered"]["decided_on"][-1], by["filtered"]["problems"]))
 
 
 def seconds(generator, contacts, arithmetic, o):
     """Processor time of the same campaign, finishing apart."""
     start = time.process_time()
-    for _ in stiction.search(generator, contacts, problems=o.searched, seed=o.seed, threads=1, finishing=0, arithmetic=arithmetic):
+    for _ in stiction.search(generator, contacts, problems=o.searched, seed=o.seed, threads=1, finishing=0,
+                             arithmetic=arithmetic):
         pass
     return time.process_time() - start
 
@@ -50,7 +51,8 @@ def main():
     rows = []
     for generator in ("conditioned", "near-degenerate"):
         for contacts in o.contacts:
-            pairs = [[seconds(generator, contacts, arithmetic, o) for arithmetic in ("exact", "double")] for _ in range(o.repeat)]
+            pairs = [[seconds(generator, contacts, arithmetic, o) for arithmetic in ("exact", "double")]
+                     for _ in range(o.repeat)]
             rows.append((f"`{generator}`", contacts, study.times([exact / double for exact, double in pairs])))
     study.show(["search of", "contacts", "problems a second, times those over rationals: median (90 %)"], rows)
 

@@ -17,7 +17,8 @@ def options(text, **defaults):
         if value is False:
             parser.add_argument(flag, action="store_true")
         elif isinstance(value, list):
-            parser.add_argument(flag, nargs="+", default=value, type=type(value[0]), help=f"default {' '.join(map(str, value))}")
+            parser.add_argument(flag, nargs="+", default=value, type=type(value[0]),
+                                help=f"default {' '.join(map(str, value))}")
         else:
             parser.add_argument(flag, default=value, type=type(value), help=f"default {value}")
     return parser.parse_args()
@@ -43,7 +44,8 @@ def chunks(problems, size=1000):
     """(first, count) of parts of so many problems; on a terminal it says how far it is."""
     for first in range(0, problems, size):
         if sys.stderr.isatty():
-            print(f"\r\033[K{first:,} of {problems:,}", end="\r\033[K" if first + size >= problems else "", file=sys.stderr)
+            end = "\r\033[K" if first + size >= problems else ""
+            print(f"\r\033[K{first:,} of {problems:,}", end=end, file=sys.stderr, flush=True)
         yield first, min(size, problems - first)
 
 

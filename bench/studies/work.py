@@ -19,7 +19,8 @@ FRICTIONS = ("0", "1/5", "1/2", "1", "2", "5", "10", "mixed")
 # Method and policy, and what it counts; one in so many problems.
 METHODS = {("complete", "paper"): ("pieces", 1), ("baraff", "paper"): ("steps", 1),
            ("baraff", "apex=suspended"): ("steps", 1), ("baraff", "admit=eager,file=yes,apex=suspended"): ("steps", 1),
-           ("lemke", "paper"): ("pivots", 1), ("ipopt", "paper"): ("starts", 10), ("enumerate", "paper"): ("programs", 20)}
+           ("lemke", "paper"): ("pivots", 1), ("ipopt", "paper"): ("starts", 10),
+           ("enumerate", "paper"): ("programs", 20)}
 COMPLETE, BARAFF, IPOPT = ("complete", "paper"), [key for key in METHODS if key[0] == "baraff"], ("ipopt", "paper")
 
 
@@ -79,10 +80,13 @@ def main():
         ipopt = runs[IPOPT]
         needed = np.where(ipopt["outcome"] == "solved", np.minimum(ipopt["starts"], 4), 5)
         starts.append((contacts, len(needed), *(int((needed == k).sum()) for k in range(1, 6))))
-    study.show(["contacts", "method", "policy", "problems", "solved", "not solved", "of these cycles, 95 %", "mean (most)"], work)
+    study.show(["contacts", "method", "policy", "problems", "solved", "not solved", "of these cycles, 95 %",
+                "mean (most)"], work)
+    by_contacts_first = sorted(folds.items(), key=lambda item: item[0].startswith("mu"))
     study.show(["", "problems", "folds, 95 %", "descents, 95 %"],
-               [(name, len(of), *(study.share(int(sum(one)), len(of)) for one in zip(*of))) for name, of in sorted(folds.items(), key=lambda item: item[0].startswith("mu"))])
-    study.show(["policy", "folds and give-ups", "folds only", "give-ups only", "neither", "no folds, mu > 0: as many steps"],
+               [(name, len(of), *(study.share(int(sum(one)), len(of)) for one in zip(*of))) for name, of in by_contacts_first])
+    study.show(["policy", "folds and give-ups", "folds only", "give-ups only", "neither",
+                "no folds, mu > 0: as many steps"],
                [(f"`{policy}`", *(pair[key] for key in ((True, True), (True, False), (False, True), (False, False))),
                  f"{pair['equal']:,} of {pair['plain']:,}") for (_, policy), pair in pairs.items()])
     study.show(["contacts", "problems", "starts: 1", "2", "3", "4 to 20", "none"], starts)

@@ -92,9 +92,11 @@ class Studies(unittest.TestCase):
                 self.assertEqual(row["solved"], row["problems"], row)
         self.assertEqual([row["folds, 95 %"].split()[0] for row in folds if row[""] == "mu = 0"], ["0"])
         for row in pairs:
-            self.assertEqual(sum(whole(row[key]) for key in ("folds and give-ups", "folds only", "give-ups only", "neither")), 48)
+            ends = ("folds and give-ups", "folds only", "give-ups only", "neither")
+            self.assertEqual(sum(whole(row[end]) for end in ends), 48)
         for row in starts:
-            self.assertEqual(sum(whole(row[key]) for key in ("starts: 1", "2", "3", "4 to 20", "none")), whole(row["problems"]))
+            counted = sum(whole(row[key]) for key in ("starts: 1", "2", "3", "4 to 20", "none"))
+            self.assertEqual(counted, whole(row["problems"]))
         exponential, *_ = tables("work", "--generator", "exponential", "--contacts", 3, "--problems", 8)
         self.assertEqual([row["solved"] for row in exponential if row["method"] == "`complete`"], ["8"])
 
