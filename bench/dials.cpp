@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/dials.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 
 #include "bench/structure.h"
 #include "certify/exact/exact.h"
+#include "corpus/input_error.h"
 #include "corpus/rounded.h"
 #include "search/exponential.h"
-#include "search/generators.h"
+#include "search/generators.ipp"
 
 namespace stiction {
 namespace {
@@ -16,204 +20,325 @@ namespace {
 using Matrix = ExactProblem::Matrix;
 using Vector = ExactProblem::Vector;
 
-Rational PowerOfTen(int exponent) {
+// ---- Numbers -------------------------------------------------------------------------------------
+
+// base^exponent.
+Rational Power(int base, int exponent) {
   mpz_class power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned>(std::abs(exponent)));
+  mpz_ui_pow_ui(power.get_mpz_t(), static_cast<unsigned>(base), static_cast<unsigned>(std::abs(exponent)));
   return exponent >= 0 ? Rational(power) : Rational(1, power);
 }
 
-Rational Uniform(int most, Choices& choices) { return choices.Integer(-most, most); }
+Rational Ten(int exponent) { return Power(10, exponent); }
 
-constexpr std::array kFrictionsDrawn = {MuChoice{1, 5}, MuChoice{1, 2}, MuChoice{1, 1}, MuChoice{2, 1}};
+Rational Uniform(int low, int high, Choices& choices) { return choices.Integer(low, high); }
+
+Vector DrawVector(int size, int most, Choices& choices) {
+  Vector vector(size);
+  for (Rational& x : vector) x = Uniform(-most, most, choices);
+  return vector;
+}
+
+Matrix DrawMatrix(int rows, int columns, int most, Choices& choices) {
+  Matrix matrix(rows, columns);
+  for (Rational& x : matrix.reshaped()) x = Uniform(-most, most, choices);
+  return matrix;
+}
+
+Rational DrawFriction(Choices& choices) {
+  constexpr std::array kFrictions = {MuChoice{1, 5}, MuChoice{1, 2}, MuChoice{1, 1}, MuChoice{2, 1}};
+  const MuChoice& mu = kFrictions[choices.Integer(0, kFrictions.size() - 1)];
+  return Rational(mu.numerator, mu.denominator);
+}
+
+// Static contacts, one per mu, without A and b.
+ExactProblem Contacts(int dimension, const std::vector<Rational>& mu) {
+  ExactProblem problem;
+  problem.dimension = dimension;
+  for (const Rational& x : mu) problem.contacts.push_back({ContactKind::kStatic, x, {}});
+  return problem;
+}
 
 // ---- Bodies --------------------------------------------------------------------------------------
 
-// A = J W J', b = J y.
-struct Draft {
+// Rows: the normal of a contact and its tangents, over `length`.
+struct RationalFrame {
+  std::array<int, 9> rows;
+  int length;
+};
+constexpr std::array kFramesOfPlane = {RationalFrame{{1, 0, 0, 1}, 1}, RationalFrame{{3, 4, -4, 3}, 5},
+                                       RationalFrame{{5, 12, -12, 5}, 13}, RationalFrame{{8, 15, -15, 8}, 17}};
+constexpr std::array kFramesOfSpace = {
+    RationalFrame{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 1}, RationalFrame{{1, 2, 2, 2, 1, -2, 2, -2, 1}, 3},
+    RationalFrame{{2, 3, 6, 3, -6, 2, 6, 2, -3}, 7}, RationalFrame{{3, 4, 0, -4, 3, 0, 0, 0, 5}, 5}};
+
+// In any order, with any signs.
+Matrix DrawFrame(int dimension, Choices& choices) {
+  const RationalFrame& drawn = (dimension == 2 ? kFramesOfPlane : kFramesOfSpace)[choices.Integer(0, 3)];
+  const int turn = static_cast<int>(choices.Integer(0, dimension - 1));
+  Matrix frame(dimension, dimension);
+  for (int i = 0; i < dimension; ++i) {
+    const bool flip = choices.Integer(0, 1) == 0;
+    for (int k = 0; k < dimension; ++k) {
+      const int x = drawn.rows[(i + turn) % dimension * dimension + k];
+      frame(i, k) = Rational(flip ? -x : x) / drawn.length;
+    }
+  }
+  return frame;
+}
+
+// What a force along d at the arm r turns.
+Vector Cross(const Vector& r, const Vector& d) {
+  Vector turn(d.size() == 2 ? 1 : 3);
+  if (d.size() == 2) {
+    turn << r[0] * d[1] - r[1] * d[0];
+  } else {
+    turn << r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0];
+  }
+  return turn;
+}
+
+// Inverse masses and inertias W, free accelerations y, contacts J.
+struct Bodies {
+  int dimension, freedoms;  // of one body
   std::vector<Rational> mu;
   Matrix J;
   Vector W, y;
 
-  int contacts() const { return static_cast<int>(mu.size()); }
+  Bodies(int dimension_given, int bodies, int contacts, Choices& choices)
+      : dimension(dimension_given), freedoms(dimension == 2 ? 3 : 6) {
+    J = Matrix::Constant(contacts * dimension, bodies * freedoms, Rational(0));
+    for (int i = 0; i < contacts; ++i) mu.push_back(DrawFriction(choices));
+    W.resize(bodies * freedoms);
+    for (int k = 0; k < bodies; ++k) {
+      const Rational mass = Uniform(1, 4, choices), inertia = mass * Uniform(1, 2, choices);
+      for (int j = 0; j < freedoms; ++j) W[k * freedoms + j] = 1 / (j < dimension ? mass : inertia);
+    }
+    y = DrawVector(bodies * freedoms, 20, choices);
+  }
+
+  int bodies() const { return static_cast<int>(W.size()) / freedoms; }
+
+  // The contact acts on the body at an arm, in the directions of the frame.
+  void Touch(int contact, int body, const Matrix& frame, const Vector& arm) {
+    for (int k = 0; k < dimension; ++k) {
+      const Vector d = frame.row(k).transpose();
+      J.row(contact * dimension + k).segment(body * freedoms, dimension) = d.transpose();
+      J.row(contact * dimension + k).segment(body * freedoms + dimension, freedoms - dimension) =
+          Cross(arm, d).transpose();
+    }
+  }
+  Vector DrawArm(Choices& choices) const { return DrawVector(dimension, 9, choices) / Rational(4); }
+
+  // Of a body with another, or with the ground (-1).
+  void TouchBoth(int contact, int body, int other, const Matrix& frame, Choices& choices) {
+    Touch(contact, body, frame, DrawArm(choices));
+    if (other >= 0) Touch(contact, other, -frame, DrawArm(choices));
+  }
+
+  ExactProblem Problem() const {
+    ExactProblem problem = Contacts(dimension, mu);
+    const Matrix JW = J * W.asDiagonal();
+    problem.A = JW * J.transpose();
+    problem.b = J * y;
+    return problem;
+  }
 };
 
-ExactProblem Made(const Draft& draft) {
-  ExactProblem problem;
-  for (const Rational& mu : draft.mu) problem.contacts.push_back({ContactKind::kStatic, mu, {}});
-  const Matrix JW = draft.J * draft.W.asDiagonal();
-  problem.A = JW * draft.J.transpose();
-  problem.b = draft.J * draft.y;
-  return problem;
-}
-
-// A unit vector with rational components.
-std::array<Rational, 2> DrawDirection(Choices& choices) {
-  constexpr std::array<std::array<int, 3>, 5> kTriples = {
-      {{1, 0, 1}, {3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}}};
-  const auto& triple = kTriples[choices.Integer(0, 4)];
-  std::array<Rational, 2> direction = {Rational(triple[0], triple[2]), Rational(triple[1], triple[2])};
-  if (choices.Integer(0, 1) == 0) std::swap(direction[0], direction[1]);
-  for (Rational& x : direction) {
-    if (choices.Integer(0, 1) == 0) x = -x;
-  }
-  return direction;
-}
-
-// Rows of a contact on a body: its normal and its tangent, with the arm at which it acts.
-void SetRows(int contact, int body, int sign, const std::array<Rational, 2>& normal, Choices& choices,
-             Matrix& J) {
-  const std::array<std::array<Rational, 2>, 2> directions = {{normal, {Rational(-normal[1]), normal[0]}}};
-  const Rational x = Uniform(9, choices) / 4, y = Uniform(9, choices) / 4;
-  for (int r = 0; r < 2; ++r) {
-    const auto& d = directions[r];
-    J(2 * contact + r, 3 * body) = sign * d[0];
-    J(2 * contact + r, 3 * body + 1) = sign * d[1];
-    J(2 * contact + r, 3 * body + 2) = sign * (x * d[1] - y * d[0]);
-  }
-}
-
-// Each contact is of a body with another, or with the ground; as many bodies as contacts, or one fewer.
-Draft DrawBodies(Choices& choices) {
-  Draft draft;
-  const int contacts = static_cast<int>(choices.Integer(2, 4)),
-            bodies = contacts - static_cast<int>(choices.Integer(0, 1));
-  draft.J = Matrix::Constant(2 * contacts, 3 * bodies, Rational(0));
+// As many bodies as contacts, or fewer.
+Bodies DrawBodies(int dimension, int fewest, Choices& choices) {
+  const int contacts = static_cast<int>(choices.Integer(fewest, 4)),
+            bodies = static_cast<int>(choices.Integer(1, contacts));
+  Bodies drawn(dimension, bodies, contacts, choices);
   for (int i = 0; i < contacts; ++i) {
-    const MuChoice& mu = kFrictionsDrawn[choices.Integer(0, kFrictionsDrawn.size() - 1)];
-    draft.mu.push_back(Rational(mu.numerator, mu.denominator));
-    const auto normal = DrawDirection(choices);
     const int body = i < bodies ? i : static_cast<int>(choices.Integer(0, bodies - 1));
-    SetRows(i, body, 1, normal, choices, draft.J);
     const int other = static_cast<int>(choices.Integer(-1, bodies - 1));
-    if (other >= 0 && other != body) SetRows(i, other, -1, normal, choices, draft.J);
+    drawn.TouchBoth(i, body, other == body ? -1 : other, DrawFrame(dimension, choices), choices);
   }
-  draft.W = Vector::Constant(3 * bodies, Rational(1));
-  for (int k = 0; k < bodies; ++k) {
-    const Rational mass = choices.Integer(1, 4);
-    draft.W[3 * k] = draft.W[3 * k + 1] = 1 / mass;
-    draft.W[3 * k + 2] = 1 / (mass * choices.Integer(1, 2));
-  }
-  draft.y = Vector(3 * bodies);
-  for (Rational& y : draft.y) y = Uniform(20, choices);
-  return draft;
+  return drawn;
 }
 
-// Heavy bodies beside light ones.
+// Nothing is turned.
+template <int kDimension>
+ExactProblem Tame(int, Choices& choices) {
+  return DrawBodies(kDimension, 1, choices).Problem();
+}
+
+// The ratio of masses: a light body and a heavy one, each pressed on the ground; every second time they touch.
+template <int kDimension>
+ExactProblem TwoMasses(int setting, Choices& choices) {
+  const int together = static_cast<int>(choices.Integer(0, 1)), heavy = static_cast<int>(choices.Integer(0, 1));
+  Bodies two(kDimension, 2, 2 + together, choices);
+  for (int k = 0; k < 2; ++k) {
+    const Matrix frame = DrawFrame(kDimension, choices);
+    two.TouchBoth(k, k, -1, frame, choices);
+    two.y.segment(k * two.freedoms, kDimension) -= frame.row(0).transpose() * Uniform(0, 40, choices);
+  }
+  if (together == 1) two.TouchBoth(2, 0, 1, DrawFrame(kDimension, choices), choices);
+  two.W.segment(heavy * two.freedoms, two.freedoms) /= Ten(setting);
+  return two.Problem();
+}
+
+// The ratio of masses of several bodies.
 ExactProblem Masses(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  const int bodies = static_cast<int>(draft.W.size()) / 3,
-            heavy = static_cast<int>(choices.Integer(0, bodies - 1));
-  for (int k = 0; k < bodies; ++k) {
+  Bodies bodies = DrawBodies(2, 2, choices);
+  const int heavy = static_cast<int>(choices.Integer(0, bodies.bodies() - 1));
+  for (int k = 0; k < bodies.bodies(); ++k) {
     const bool is_heavy = k == heavy || choices.Integer(0, 1) == 0;
-    if (is_heavy) draft.W.segment(3 * k, 3) /= PowerOfTen(setting);
+    if (is_heavy) bodies.W.segment(3 * k, 3) /= Ten(setting);
   }
-  return Made(draft);
+  return bodies.Problem();
 }
 
-// Arms at which contacts act, beside masses that stay.
-ExactProblem Levers(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  for (int column = 2; column < draft.J.cols(); column += 3) draft.J.col(column) *= PowerOfTen(setting);
-  return Made(draft);
-}
-
-// All masses at once, and so all forces.
+// The unit of mass, and so of all forces.
 ExactProblem Units(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  draft.W *= PowerOfTen(setting);
-  return Made(draft);
+  Bodies bodies = DrawBodies(2, 2, choices);
+  bodies.W *= Ten(setting);
+  return bodies.Problem();
 }
 
-// The second contact is the first, but for so little.
-ExactProblem Parallel(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  draft.J.middleRows(2, 2) = draft.J.middleRows(0, 2) + PowerOfTen(-setting) * draft.J.middleRows(2, 2);
-  return Made(draft);
-}
-
-// So many contacts are the first once more.
-ExactProblem Duplicates(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  const int contacts = draft.contacts(), rows = 2 * contacts;
-  Matrix J(rows + 2 * setting, draft.J.cols());
-  J.topRows(rows) = draft.J;
-  for (int copy = 0; copy < setting; ++copy) {
-    J.middleRows(rows + 2 * copy, 2) = draft.J.topRows(2);
-    draft.mu.push_back(draft.mu.front());
-  }
-  draft.J = J;
-  return Made(draft);
+// Each contact in its own units: D A D, D b, with the same power of two, 2^-k to 2^k, for its rows.
+template <int kDimension>
+ExactProblem ContactUnits(int setting, Choices& choices) {
+  ExactProblem problem = DrawBodies(kDimension, 2, choices).Problem();
+  Vector D(problem.rows());
+  for (int row = 0; row < problem.rows(); row += kDimension)
+    D.segment(row, kDimension).setConstant(Power(2, static_cast<int>(choices.Integer(-setting, setting))));
+  const Matrix DA = D.asDiagonal() * problem.A;
+  problem.A = DA * D.asDiagonal();
+  problem.b = D.cwiseProduct(problem.b).eval();
+  return problem;
 }
 
 constexpr int kNone = -999;  // a setting of friction: none
 
-Rational FrictionOf(int setting) { return setting == kNone ? Rational(0) : PowerOfTen(setting); }
-
+template <int kDimension>
 ExactProblem Friction(int setting, Choices& choices) {
-  Draft draft = DrawBodies(choices);
-  for (Rational& mu : draft.mu) {
-    if (choices.Integer(0, 2) > 0) mu = FrictionOf(setting);
+  Bodies bodies = DrawBodies(kDimension, 1, choices);
+  for (Rational& mu : bodies.mu) {
+    if (choices.Integer(0, 2) > 0) mu = setting == kNone ? Rational(0) : Ten(setting);
   }
-  return Made(draft);
+  return bodies.Problem();
 }
 
-// A body between two walls that nearly face each other: it jams.
+// Arms at which contacts act, beside masses that stay: 10^k m.
+template <int kDimension>
+ExactProblem Levers(int setting, Choices& choices) {
+  Bodies bodies = DrawBodies(kDimension, 1, choices);
+  const int turns = bodies.freedoms - kDimension;
+  for (int k = 0; k < bodies.bodies(); ++k)
+    bodies.J.middleCols(k * bodies.freedoms + kDimension, turns) *= Ten(setting);
+  return bodies.Problem();
+}
+
+// The second contact is the first, but for 10^-k.
+template <int kDimension>
+ExactProblem Parallel(int setting, Choices& choices) {
+  Bodies bodies = DrawBodies(kDimension, 2, choices);
+  const Matrix first = bodies.J.topRows(kDimension);
+  bodies.J.middleRows(kDimension, kDimension) =
+      (first + bodies.J.middleRows(kDimension, kDimension) * Ten(-setting)).eval();
+  return bodies.Problem();
+}
+
+// So many contacts are the first once more.
+ExactProblem Duplicates(int setting, Choices& choices) {
+  Bodies bodies = DrawBodies(2, 2, choices);
+  const Matrix J = bodies.J;
+  bodies.J.resize(J.rows() + 2 * setting, J.cols());
+  bodies.J.topRows(J.rows()) = J;
+  for (int copy = 0; copy < setting; ++copy) {
+    bodies.J.middleRows(J.rows() + 2 * copy, 2) = J.topRows(2);
+    bodies.mu.push_back(bodies.mu.front());
+  }
+  return bodies.Problem();
+}
+
+// ---- Jams ----------------------------------------------------------------------------------------
+
+constexpr int kExactly = 99;  // a setting of what is nearly so: it is so
+
+// 10^-setting.
+Rational Nearly(int setting) { return setting == kExactly ? Rational(0) : Ten(-setting); }
+
+// A = [p z] B [p z]', B = [[e, e/2], [e/2, 1]]: forces along p, which friction allows, do little work, 10^-k,
+// or none. b is that of forces of some Newton, or, where there is work, such that they are about 1 / e.
+template <int kDimension>
+ExactProblem Jam(int setting, Choices& choices) {
+  const int contacts = static_cast<int>(choices.Integer(1, 2)), rows = contacts * kDimension;
+  const Rational e = Nearly(setting);
+  std::vector<Rational> mu;
+  Vector p(rows);
+  for (int i = 0; i < contacts; ++i) {
+    const int press = static_cast<int>(choices.Integer(1, 3));
+    p[i * kDimension] = press;
+    for (int k = 1; k < kDimension; ++k) p[i * kDimension + k] = Uniform(-press, press, choices);
+    mu.push_back(Uniform(kDimension - 1, 4, choices));
+  }
+  Vector z = DrawVector(rows, 3, choices);
+  if (choices.Integer(0, 1) == 0) z = (z - p * Rational(z.dot(p) / p.squaredNorm())).eval();
+  Matrix Q(rows, 2), B(2, 2);
+  Q << p, z;
+  B << e, e / 2, e / 2, 1;
+  ExactProblem problem = Contacts(kDimension, mu);
+  const Matrix QB = Q * B;
+  problem.A = QB * Q.transpose();
+  const bool large = choices.Integer(0, 1) == 0 && e > 0;
+  problem.b = large ? Vector(Q * DrawVector(2, 3, choices))
+                    : Vector(problem.A * DrawVector(rows, 6, choices) / Rational(3));
+  return problem;
+}
+
+// A body between two walls that face each other but for 10^-k: it jams.
+template <int kDimension>
 ExactProblem Wedge(int setting, Choices& choices) {
-  Draft draft;
-  const Rational lean = PowerOfTen(-setting) * choices.Integer(1, 9) / 9;
-  draft.mu = {Rational(choices.Integer(1, 8)) / 4, Rational(choices.Integer(1, 8)) / 4};
-  draft.J = Matrix::Constant(4, 3, Rational(0));
-  SetRows(0, 0, 1, {Rational(1), lean}, choices, draft.J);
-  SetRows(1, 0, 1, {Rational(-1), lean}, choices, draft.J);
-  draft.W = Vector::Constant(3, Rational(1));
-  draft.y = Vector(3);
-  for (Rational& y : draft.y) y = Uniform(20, choices);
-  return Made(draft);
+  const Rational lean = Nearly(setting) * Uniform(1, 9, choices) / 9;
+  Bodies body(kDimension, 1, 2, choices);
+  const int up = kDimension - 1;
+  for (int i = 0; i < 2; ++i) {
+    const Rational side = i == 0 ? 1 : -1;
+    Matrix frame = Matrix::Identity(kDimension, kDimension);
+    frame(0, 0) = side;
+    frame(0, up) = lean;
+    frame(up, 0) = -side * lean;
+    body.Touch(i, 0, frame, body.DrawArm(choices));
+    body.mu[i] = Uniform(1, 8, choices) / 4;
+  }
+  return body.Problem();
 }
 
 // ---- Without bodies ------------------------------------------------------------------------------
 
-Draft DrawMatrix(int contacts, int columns, Choices& choices) {
-  Draft draft;
-  for (int i = 0; i < contacts; ++i) {
-    const MuChoice& mu = kFrictionsDrawn[choices.Integer(0, kFrictionsDrawn.size() - 1)];
-    draft.mu.push_back(Rational(mu.numerator, mu.denominator));
-  }
-  draft.J = Matrix(2 * contacts, columns);
-  for (Rational& x : draft.J.reshaped()) x = Uniform(100, choices);
-  draft.W = Vector::Constant(columns, Rational(1));
-  draft.y = Vector(columns);
-  for (Rational& y : draft.y) y = Uniform(100, choices);
-  return draft;
-}
-
-// Nothing is turned.
-ExactProblem Tame(int, Choices& choices) {
-  const int contacts = static_cast<int>(choices.Integer(1, 4));
-  return Made(DrawMatrix(contacts, 2 * contacts, choices));
+// J of so many columns, integers up to `most`; W = 1.
+Bodies DrawDense(int dimension, int contacts, int columns, int most, Choices& choices) {
+  Bodies dense(dimension, 1, contacts, choices);
+  dense.J = DrawMatrix(dimension * contacts, columns, most, choices);
+  dense.W = Vector::Constant(columns, Rational(1));
+  dense.y = DrawVector(columns, 100, choices);
+  return dense;
 }
 
 // The condition number of A, about.
 ExactProblem Conditioned(int setting, Choices& choices) {
   const int contacts = static_cast<int>(choices.Integer(1, 4)), columns = 2 * contacts;
-  Draft draft = DrawMatrix(contacts, columns, choices);
-  for (int k = 0; k < columns; ++k) draft.W[k] = PowerOfTen(-setting * k / (columns - 1));
-  return Made(draft);
+  Bodies dense = DrawDense(2, contacts, columns, 100, choices);
+  for (int k = 0; k < columns; ++k) dense.W[k] = Ten(-setting * k / (columns - 1));
+  return dense.Problem();
 }
 
-// b is so far from the range of A, and may have no solution.
+// b is 10^-k from the range of A, and there may be no solution.
+template <int kDimension>
 ExactProblem Range(int setting, Choices& choices) {
-  const int contacts = static_cast<int>(choices.Integer(2, 4));
-  ExactProblem problem = Made(DrawMatrix(contacts, contacts, choices));
-  for (Rational& b : problem.b) b += PowerOfTen(-setting) * Uniform(100, choices);
+  const int contacts = static_cast<int>(choices.Integer(1, 4));
+  ExactProblem problem = DrawDense(kDimension, contacts, (kDimension - 1) * contacts, 100, choices).Problem();
+  problem.b += DrawVector(problem.rows(), 100, choices) * Ten(-setting);
   return problem;
 }
 
 // The problem of two contacts on which the published algorithm loops.
 ExactProblem Loop(const Rational& b) {
   constexpr int kA[4][4] = {{7, -2, -6, 0}, {-2, 9, -1, -7}, {-6, -1, 7, 3}, {0, -7, 3, 7}};
-  ExactProblem problem;
-  problem.contacts.assign(2, {ContactKind::kStatic, Rational(1), {}});
+  ExactProblem problem = Contacts(2, {1, 1});
   problem.A.resize(4, 4);
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) problem.A(i, j) = kA[i][j];
@@ -237,72 +362,140 @@ const Rational& BorderOfLoops() {
   return border;
 }
 
-// So far from the border of the problems that loop, on either side.
+// 10^-k from the border of the problems that loop, on either side.
 ExactProblem NearLoops(int setting, Choices& choices) {
-  const Rational away = PowerOfTen(-setting) * choices.Integer(1, 9) / 9;
+  const Rational away = Ten(-setting) * choices.Integer(1, 9) / 9;
   return Loop(choices.Integer(0, 1) == 0 ? Rational(BorderOfLoops() + away) : Rational(BorderOfLoops() - away));
 }
 
+// Paths of 2^n - 1 pivots, of n contacts.
 ExactProblem Exponential(int setting, Choices& choices) {
   ExactProblem problem = ExponentialFamily(setting);
   for (Rational& b : problem.b) b *= choices.Integer(1, 9);
   return problem;
 }
 
-// ---- Blocks --------------------------------------------------------------------------------------
+// ---- Boxes ---------------------------------------------------------------------------------------
 
-ExactProblem StackOfMasses(int setting, Choices& choices) {
-  return Unrounded(StackProblem(4, setting, choices));
+// A cube of 1 kg and 1 m on its four corners, pushed sideways, with friction 10^k: A has rank 6 of 12.
+ExactProblem Cube(int setting, Choices& choices) {
+  Bodies cube(3, 1, 4, choices);
+  Matrix frame(3, 3);
+  frame << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  for (int i = 0; i < 4; ++i) {
+    Vector corner(3);
+    corner << Rational(i % 2 == 0 ? -1 : 1, 2), Rational(i < 2 ? -1 : 1, 2), Rational(-1, 2);
+    cube.Touch(i, 0, frame, corner);
+    cube.mu[i] = Ten(setting);
+  }
+  cube.W << 1, 1, 1, 6, 6, 6;
+  cube.y[2] = -Uniform(1, 20, choices);
+  if (choices.Integer(0, 1) == 0) cube.y.tail(3).setZero();
+  return cube.Problem();
 }
 
-ExactProblem WallOfMasses(int setting, Choices& choices) {
-  return Unrounded(WallProblem(3, 2, setting, choices));
+// Ratios of masses 10^k.
+ExactProblem Stack(int setting, Choices& choices) {
+  return Unrounded(StackProblem(4, {2, true, setting}, choices));
+}
+ExactProblem StackInSpace(int setting, Choices& choices) {
+  return Unrounded(StackProblem(2, {3, true, setting}, choices));
+}
+ExactProblem Wall(int setting, Choices& choices) {
+  return Unrounded(WallProblem(3, 2, {2, true, setting}, choices));
 }
 
-}  // namespace
+// ---- The table -----------------------------------------------------------------------------------
 
-const std::vector<Dial>& Dials() {
+constexpr int kLadder = static_cast<int>(Dials::kLadder), kGate = static_cast<int>(Dials::kGate);
+
+struct Dial {
+  const char* name;
+  std::vector<int> settings;
+  int uses;
+  ExactProblem (*make)(int setting, Choices& choices);
+  bool has_solution = true, is_large = false;
+};
+
+// In the order of the tables.
+const std::vector<Dial>& AllDials() {
+  static const std::vector<int> masses = {0, 2, 4, 6, 8, 12, 16}, units = {0, 4, 10, 26},
+                                jam = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, kExactly};
   static const std::vector<Dial> dials = {
-      {"tame", "nothing", "", {0}, true, &Tame},
-      {"masses", "ratio of masses", "10^k", {0, 2, 4, 8, 12, 16}, true, &Masses},
-      {"levers",
-       "arms of contacts beside masses",
-       "10^k m",
-       {-150, -75, -16, -8, 0, 8, 16, 75, 150},
-       true,
-       &Levers},
-      {"units", "unit of mass", "10^k kg", {-300, -150, 0, 150, 300}, true, &Units},
-      {"conditioned", "condition number of A", "10^k", {0, 8, 16, 32, 100, 300}, true, &Conditioned},
-      {"parallel", "contacts alike but for", "10^-k", {1, 4, 8, 12, 16, 40}, true, &Parallel},
-      {"duplicates", "copies of a contact", "copies", {0, 1, 2, 4}, true, &Duplicates},
-      {"friction", "coefficient of friction", "10^k, -999: none", {kNone, -16, -8, 0, 8, 16}, true, &Friction},
-      {"wedge", "walls that face each other but for", "10^-k", {0, 2, 4, 8, 12, 16}, true, &Wedge},
-      {"range", "distance of b from the range of A", "10^-k", {0, 4, 8, 12, 16, 40}, false, &Range},
-      {"near-loops", "distance from the border of a loop", "10^-k", {1, 4, 8, 12, 16, 30}, true, &NearLoops},
-      {"exponential", "paths of 2^n - 1 pivots", "contacts n", {2, 4, 6, 8, 10}, true, &Exponential},
-      {"stack", "four boxes, ratio of masses", "10^k", {0, 4, 8, 12, 16}, true, &StackOfMasses, true},
-      {"wall",
-       "three courses of bricks, ratio of masses",
-       "10^k",
-       {0, 4, 8, 12, 16},
-       true,
-       &WallOfMasses,
-       true},
+      {"tame", {0}, kLadder | kGate, &Tame<2>},
+      {"masses", {0, 2, 4, 8, 12, 16}, kLadder | kGate, &Masses},
+      {"levers", {-150, -75, -16, -8, 0, 8, 16, 75, 150}, kLadder | kGate, &Levers<2>},
+      {"units", {-300, -150, 0, 150, 300}, kLadder | kGate, &Units},
+      {"conditioned", {0, 8, 16, 32, 100, 300}, kLadder | kGate, &Conditioned},
+      {"parallel", {1, 4, 8, 12, 16, 40}, kLadder | kGate, &Parallel<2>},
+      {"duplicates", {0, 1, 2, 4}, kLadder | kGate, &Duplicates},
+      {"friction", {kNone, -16, -8, 0, 8, 16}, kLadder | kGate, &Friction<2>},
+      {"wedge", {0, 2, 4, 8, 12, 16}, kLadder | kGate, &Wedge<2>},
+      {"range", {0, 4, 8, 12, 16, 40}, kLadder | kGate, &Range<2>, false},
+      {"near-loops", {1, 4, 8, 12, 16, 30}, kLadder, &NearLoops},
+      {"exponential", {2, 4, 6, 8, 10}, kLadder, &Exponential},
+      {"stack", {0, 4, 8, 12, 16}, kLadder | kGate, &Stack, true, true},
+      {"wall", {0, 4, 8, 12, 16}, kLadder, &Wall, true, true},
+      {"two-masses", masses, kGate, &TwoMasses<2>},
+      {"contact-units", units, kGate, &ContactUnits<2>},
+      {"jam", jam, kGate, &Jam<2>},
+      {"space-tame", {0}, kGate, &Tame<3>},
+      {"space-two-masses", masses, kGate, &TwoMasses<3>},
+      {"space-levers", {-8, -4, 4, 8}, kGate, &Levers<3>},
+      {"space-contact-units", units, kGate, &ContactUnits<3>},
+      {"space-friction", {-16, -8, 0, 4, 8, 16}, kGate, &Friction<3>},
+      {"space-parallel", {1, 4, 8, 12, 16}, kGate, &Parallel<3>},
+      {"space-jam", jam, kGate, &Jam<3>},
+      {"space-wedge", {0, 2, 4, 8, 12, 16, kExactly}, kGate, &Wedge<3>},
+      {"space-range", {0, 4, 8, 12, 16}, kGate, &Range<3>, false},
+      {"space-cube", {-8, -1, 0, 1, 4, 7, 9, 12, 16}, kGate, &Cube},
+      {"space-stack", {0, 4, 8, 16}, kGate, &StackInSpace, true, true},
   };
   return dials;
 }
 
-const Dial* FindDial(const std::string& name) {
-  const auto& dials = Dials();
-  const auto dial = std::find_if(dials.begin(), dials.end(), [&name](auto& d) { return d.name == name; });
-  return dial == dials.end() ? nullptr : &*dial;
+Source SourceOf(const Dial& dial, int setting) {
+  const auto place = static_cast<std::uint64_t>(&dial - AllDials().data());
+  const std::uint64_t stream = (place << 32) ^ static_cast<std::uint64_t>(setting + 4096);
+  return {dial.name, setting, dial.has_solution, dial.is_large,
+          [&dial, setting, stream](std::uint64_t seed, std::int64_t index) {
+            Choices choices(ProblemSeed(seed, stream, static_cast<std::uint64_t>(index)));
+            return dial.make(setting, choices);
+          }};
 }
 
-ExactProblem MakeDialProblem(const Dial& dial, int setting, std::uint64_t seed, std::int64_t index) {
-  const auto place = static_cast<std::uint64_t>(&dial - Dials().data());
-  Choices choices(ProblemSeed(seed, (place << 32) ^ static_cast<std::uint64_t>(setting + 4096),
-                              static_cast<std::uint64_t>(index)));
-  return dial.make(setting, choices);
+}  // namespace
+
+std::vector<Source> DialSources(Dials which, const std::vector<std::string>& families) {
+  std::vector<std::string_view> names;
+  std::vector<Source> sources;
+  for (const Dial& dial : AllDials()) {
+    if ((dial.uses & static_cast<int>(which)) == 0) continue;
+    names.push_back(dial.name);
+    if (!families.empty() && std::find(families.begin(), families.end(), dial.name) == families.end()) continue;
+    for (const int setting : dial.settings) sources.push_back(SourceOf(dial, setting));
+  }
+  for (const std::string& name : families) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("--families: found '{}', expected one of {}", name, fmt::join(names, ", ")));
+  }
+  return sources;
+}
+
+std::vector<Source> GeneratorSources(const std::vector<int>& sizes) {
+  std::vector<Source> sources;
+  for (const GeneratorRow& row : Generators()) {
+    if (!row.IsPlain()) continue;
+    for (const int contacts : sizes)
+      sources.push_back({std::string(row.name), contacts, true, false,
+                         [id = row.id, contacts](std::uint64_t seed, std::int64_t index) {
+                           Choices choices(ProblemSeed(seed, 100 + contacts, index));
+                           ExactProblem problem;
+                           Generate<Rational, Eigen::Dynamic>(id, contacts, kDefaultPalette, choices, problem);
+                           return problem;
+                         }});
+  }
+  return sources;
 }
 
 }  // namespace stiction

@@ -1,37 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dials: families of planar problems, each with one number that is turned until arithmetic gives way.
+// Sources of problems: dials, families with one number that is turned until arithmetic gives way, and the
+// generators of the search.
 //
 // All are drawn over rationals: A = J W J' with W > 0 diagonal, hence positive semidefinite, and b = J y in its
-// range, but where the dial says otherwise. J is that of bodies with three degrees of freedom each, which touch
-// in points or rest on the ground, where the dial does not say what it is. A setting is an exponent of ten
-// unless `unit` says what it is.
+// range, but where the dial says otherwise. J is that of bodies which touch each other or rest on the ground,
+// with one to four contacts as a rule. All numbers come from integers that are drawn, so that they are the same
+// on every machine.
 
 #ifndef STICTION_BENCH_DIALS_H_
 #define STICTION_BENCH_DIALS_H_
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "corpus/problem_file.h"
-#include "search/choices.h"
 
 namespace stiction {
 
-struct Dial {
-  std::string name, title, unit;
-  std::vector<int> settings;
-  bool has_solution = true;  // by what is said above
-  ExactProblem (*make)(int setting, Choices& choices);
-  bool is_large = false;  // takes long over rationals
+// A dial at a setting, an exponent of ten as a rule, or a generator at a number of contacts.
+struct Source {
+  std::string family;
+  int setting = 0;
+  bool has_solution = true;  // that there is one is known
+  bool is_large = false;     // takes long over rationals
+  std::function<ExactProblem(std::uint64_t seed, std::int64_t index)> make;
 };
 
-// In the order of the tables.
-const std::vector<Dial>& Dials();
-// Null if none has this name.
-const Dial* FindDial(const std::string& name);
+// kLadder: of the plane, for every arithmetic. kGate: in space too, and more where what is solved is in doubt.
+enum class Dials { kLadder = 1, kGate = 2 };
 
-// Problem `index` of a dial at a setting: a function of its arguments.
-ExactProblem MakeDialProblem(const Dial& dial, int setting, std::uint64_t seed, std::int64_t index);
+// The dials that are named, all if none is, at all their settings. InputError names one that is not known.
+std::vector<Source> DialSources(Dials which, const std::vector<std::string>& families);
+
+// All generators of static contacts of the plane, at each of the sizes.
+std::vector<Source> GeneratorSources(const std::vector<int>& sizes);
 
 }  // namespace stiction
 

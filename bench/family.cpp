@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/family.h"
 
+#include <array>
 #include <cstdlib>
 #include <vector>
 
@@ -9,7 +10,8 @@
 namespace stiction {
 namespace {
 
-constexpr int kMixed = kFrictionClasses - 1;
+constexpr std::array<MuChoice, 7> kFrictions = {{{0, 1}, {1, 5}, {1, 2}, {1, 1}, {2, 1}, {5, 1}, {10, 1}}};
+constexpr int kMixed = kFrictions.size();
 constexpr int kEntry = 1000, kFree = 1000000;
 
 Rational ToRational(MuChoice mu) {
@@ -58,18 +60,13 @@ ExactProblem Generated(GeneratorId generator, int contacts, int friction, Choice
 
 }  // namespace
 
-std::string FrictionName(int friction) {
-  return friction == kMixed ? "mixed" : ToString(ToRational(kFrictions[friction]));
-}
-
 BenchProblem MakeBenchProblem(std::optional<GeneratorId> generator, int contacts, std::uint64_t seed,
                               std::int64_t index) {
   Choices choices(ProblemSeed(seed, contacts, index));
   BenchProblem problem;
-  problem.friction = static_cast<int>(index % kFrictionClasses);
-  problem.exact = generator ? Generated(*generator, contacts, problem.friction, choices)
-                            : Definite(contacts, problem.friction, choices);
-  for (const auto& contact : problem.exact.contacts) problem.rough &= contact.mu > 0;
+  const int friction = static_cast<int>(index % (kMixed + 1));
+  problem.exact =
+      generator ? Generated(*generator, contacts, friction, choices) : Definite(contacts, friction, choices);
   problem.rounded = Rounded<double>(problem.exact);
   return problem;
 }
@@ -80,7 +77,6 @@ BenchProblem MakeFrictionless(int contacts, std::uint64_t seed, std::int64_t ind
   problem.exact.contacts.assign(contacts, {ContactKind::kFrictionless, 0, {}});
   DrawDefinite(contacts, 1, choices, problem.exact);
   problem.rounded = Rounded<double>(problem.exact);
-  problem.rough = false;
   return problem;
 }
 

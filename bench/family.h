@@ -8,33 +8,23 @@
 // can be compared on, too, with the same friction.
 //
 // Friction: problem `index` is of class index mod 8, so that every class is as frequent: classes 0 to 6 have
-// kFrictions[class] at all contacts, in class 7 (mixed) every contact draws one of them; a generator draws one
-// for all contacts in half of class 7.
+// 0, 1/5, 1/2, 1, 2, 5 and 10 at all contacts, in class 7 every contact draws one of them; a generator draws
+// one for all contacts in half of class 7.
 
 #ifndef STICTION_BENCH_FAMILY_H_
 #define STICTION_BENCH_FAMILY_H_
 
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "corpus/problem_file.h"
 #include "search/generators.h"
 
 namespace stiction {
 
-inline constexpr std::array<MuChoice, 7> kFrictions = {
-    {{0, 1}, {1, 5}, {1, 2}, {1, 1}, {2, 1}, {5, 1}, {10, 1}}};
-inline constexpr int kFrictionClasses = 8;
-// "0", "1/5", ..., "mixed".
-std::string FrictionName(int friction);
-
 struct BenchProblem {
   ExactProblem exact;
   ContactProblem<double> rounded;  // each number of `exact` to the nearest double
-  int friction = 0;                // class
-  bool rough = true;               // all contacts have mu > 0
 };
 
 // A function of its arguments. Without a generator: the family above; `contacts` is then not bounded.

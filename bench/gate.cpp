@@ -1,35 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench --suite gate: of what is called solved over inexact numbers, how much misses a condition by more than
-// the stated bound (none may), and how much is left undecided?
+// bench --suite gate, silent: of what is called solved, how much misses a condition by more than the stated
+// bound (none may), and how much is left undecided?
 //
-// Problems are those of gate_dials.h, so many at each setting of each dial, and a fifth as many of large ones.
-// Every method runs in every inexact arithmetic that it is built for in the dimension but intervals, with
-// limits that are counted, and nothing runs again to confirm it. Answers called solved are judged over
-// rationals (certify/exact/judge.h) on the problem that the arithmetic was given: rounded to float, or to
-// double for all others.
+// gate    along dials (dials.h) in the plane and in space, so many problems at each setting, and a fifth as
+// many
+//         of large ones: every method in every inexact arithmetic that it is built for but intervals
+// silent  so many problems in all, one from each dial and generator of the plane in turn, large ones in one
+// round
+//         of a hundred; each is given to one method, the methods in turn, in every arithmetic, rationals too.
+//         Threads take the rounds as they come: the counts do not depend on them.
+//
+// Limits are counted, and nothing runs again to confirm it. Answers called solved are judged over rationals
+// (certify/exact/judge.h) on the problem that the arithmetic was given: as it is for rationals, rounded to
+// float, or to double for all others.
 //
 //   refused    a number of the problem is not one of the arithmetic's; not a run
 //   runs       all others; each ends in one of the outcomes below
 //   solved     called so
-//   wrong      of these: a condition of the law that the answer names is missed by more than kSolvedResidual,
-//              times 1 + 2^-30, in units of what acts there; or forces are missing
+//   wrong      a condition of the law that a solved answer names is missed by more than kSolvedResidual, times
+//              1 + 2^-30, in units of what acts there, or at all by rationals; or forces are missing; or
+//              rationals find no solution where there is one
 //   undecided  called so: no answer
 //   other      ray, cycle, stall, singular, limit, no-solution
 //
-// A problem is a function of seed, dial, setting and index. Exit 1 where one answer is wrong.
+// A problem is a function of seed, source and index. Exit 1 where one answer is wrong.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "bench/gate_dials.h"
+#include "bench/dials.h"
 #include "bench/progress.h"
 #include "bench/rungs.h"
 #include "bench/suite.h"
@@ -37,11 +47,12 @@
 #include "certify/exact/judge.h"
 #include "certify/exact/solve.h"
 #include "corpus/exit_code.h"
+#include "corpus/intervals.h"
 
 namespace stiction {
 namespace {
 
-constexpr std::int64_t kLargeFraction = 5;
+constexpr std::int64_t kLargeFraction = 5, kLargeEvery = 100;
 constexpr std::int64_t kMostSteps = 2000;  // drives, pivots
 constexpr std::size_t kExamples = 50;
 
@@ -52,11 +63,11 @@ struct GateRow {
   Arithmetic arithmetic;
 };
 
-std::vector<GateRow> GateRows(int dimension) {
-  using enum Arithmetic;
+std::vector<GateRow> GateRows(int dimension, std::initializer_list<std::string_view> methods,
+                              std::initializer_list<Arithmetic> arithmetics) {
   std::vector<GateRow> rows;
-  for (const std::string_view method : {"auto", "fast", "complete", "lemke", "baraff", "proximal"}) {
-    for (const Arithmetic arithmetic : {kFloat, kDouble, kLongDouble, kQuad, kFiltered})
+  for (const std::string_view method : methods) {
+    for (const Arithmetic arithmetic : arithmetics)
       if (Refusal(method, dimension, arithmetic).empty()) rows.push_back({method, arithmetic});
   }
   return rows;
@@ -64,6 +75,7 @@ std::vector<GateRow> GateRows(int dimension) {
 
 // What the arithmetic is given; null where it does not hold a number.
 const ExactProblem* GivenTo(Arithmetic arithmetic, const RungProblem& problem) {
+  if (arithmetic == Arithmetic::kExact) return &problem.exact();
   const bool narrow = arithmetic == Arithmetic::kFloat;
   const bool holds = narrow ? problem.in_float().has_value() : problem.in_double().has_value();
   return holds ? &problem.Given(narrow ? Arithmetic::kFloat : Arithmetic::kDouble) : nullptr;
@@ -120,11 +132,6 @@ struct GateCell {
   GateCounts counts;
 };
 
-struct GateRun {
-  std::vector<GateCell> cells;
-  Json wrong = Json::array();
-};
-
 Json WrongJson(const GateCell& cell, std::int64_t index, const std::string& miss, const ExactProblem& given) {
   return {{"dial", cell.source->family},    {"setting", cell.source->setting},         {"index", index},
           {"method", cell.row.method},      {"arithmetic", Name(cell.row.arithmetic)}, {"miss", miss},
@@ -139,36 +146,18 @@ void RunOne(const RungProblem& problem, std::int64_t index, GateCell& cell, Json
     return;
   }
   const Solution solution = SolveIn(*given, RequestOf(cell.row));
-  ++cell.counts.outcomes[static_cast<int>(solution.outcome())];
-  if (solution.outcome() != Outcome::kSolved) return;
-  const auto miss = MissOf(*given, cell.row.arithmetic, solution);
+  const Outcome outcome = solution.outcome();
+  ++cell.counts.outcomes[static_cast<int>(outcome)];
+  std::optional<std::string> miss;
+  if (outcome == Outcome::kSolved) {
+    miss = MissOf(*given, cell.row.arithmetic, solution);
+  } else if (outcome == Outcome::kNoSolution && cell.row.arithmetic == Arithmetic::kExact &&
+             cell.source->has_solution) {
+    miss = "there is a solution";
+  }
   if (!miss) return;
   ++cell.counts.wrong;
   if (wrong.size() < kExamples) wrong.push_back(WrongJson(cell, index, *miss, *given));
-}
-
-void RunSource(const Source& source, std::int64_t problems, std::uint64_t seed, GateRun& run) {
-  const int dimension = source.make(seed, 0).dimension;
-  std::vector<GateCell> cells;
-  for (const GateRow& row : GateRows(dimension)) cells.push_back({&source, dimension, row, {}});
-  for (std::int64_t index = 0; index < problems; ++index) {
-    const RungProblem problem(source.make(seed, index));
-    for (GateCell& cell : cells) RunOne(problem, index, cell, run.wrong);
-    progress::Done();
-  }
-  run.cells.insert(run.cells.end(), cells.begin(), cells.end());
-}
-
-GateRun RunGate(const std::vector<Source>& sources, std::int64_t problems, std::uint64_t seed) {
-  GateRun run;
-  progress::Expect(sources.size());
-  for (const Source& source : sources) {
-    const std::int64_t some = source.is_large ? std::max<std::int64_t>(1, problems / kLargeFraction) : problems;
-    progress::Begin(fmt::format("{} at {}", source.family, source.setting), some);
-    RunSource(source, some, seed, run);
-  }
-  progress::Clear();
-  return run;
 }
 
 // ---- Tables --------------------------------------------------------------------------------------
@@ -180,26 +169,28 @@ double Percent(std::int64_t part, std::int64_t of) {
 Json TableRow(const std::string& key, const std::string& name, const GateCounts& counts) {
   const std::int64_t runs = counts.Runs(), solved = counts.Of(Outcome::kSolved),
                      undecided = counts.Of(Outcome::kUndecided);
+  const auto most = static_cast<double>(std::max<std::int64_t>(runs, 1));
   return {{key, name},
           {"runs", runs},
           {"solved", solved},
           {"wrong", counts.wrong},
+          {"wrong in a million, at most", 1e6 * CountInterval(counts.wrong).high / most},
           {"undecided %", Percent(undecided, runs)},
           {"other %", Percent(runs - solved - undecided, runs)},
           {"refused", counts.refused}};
 }
 
 // Cells of the same name together, in the order in which the names come.
-BenchTable TableBy(const std::string& key, const GateRun& run,
+BenchTable TableBy(const std::string& key, const std::vector<GateCell>& cells,
                    const std::function<std::string(const GateCell&)>& name_of) {
   std::vector<std::pair<std::string, GateCounts>> sums;
-  for (const GateCell& cell : run.cells) {
+  for (const GateCell& cell : cells) {
     const std::string name = name_of(cell);
     auto sum = std::find_if(sums.begin(), sums.end(), [&name](auto& s) { return s.first == name; });
     if (sum == sums.end()) sum = sums.insert(sums.end(), {name, {}});
     sum->second.Add(cell.counts);
   }
-  BenchTable table{"gate-by-" + key, "By " + key, Json::array()};
+  BenchTable table{"by-" + key, "By " + key, Json::array()};
   for (const auto& [name, counts] : sums) table.rows.push_back(TableRow(key, name, counts));
   return table;
 }
@@ -218,39 +209,142 @@ Json CellJson(const GateCell& cell) {
   return json;
 }
 
-void PrintForPeople(const GateRun& run, const GateCounts& all) {
-  Print(TableBy("dial", run, [](const GateCell& cell) { return cell.source->family; }));
-  Print(TableBy("method", run, [](const GateCell& cell) {
-    return fmt::format("{}, {}", cell.row.method, cell.dimension == 2 ? "plane" : "space");
-  }));
-  Print(
-      TableBy("arithmetic", run, [](const GateCell& cell) { return std::string(Name(cell.row.arithmetic)); }));
-  for (const Json& wrong : run.wrong)
-    fmt::print("{} at {}, index {}: {} over {}: {}\n", wrong["dial"].get<std::string>(),
-               wrong["setting"].get<int>(), wrong["index"].get<std::int64_t>(),
-               wrong["method"].get<std::string>(), wrong["arithmetic"].get<std::string>(),
-               wrong["miss"].get<std::string>());
-  fmt::print("\n{} runs, {} called solved, {} of them wrong\n", all.Runs(), all.Of(Outcome::kSolved),
-             all.wrong);
+// Cells, wrong answers and tables by what is asked; exit code.
+int Report(const BenchOptions& o, const std::vector<GateCell>& cells, const Json& wrong,
+           const std::vector<BenchTable>& tables) {
+  GateCounts all;
+  Json json = Json::array();
+  for (const GateCell& cell : cells) {
+    all.Add(cell.counts);
+    json.push_back(CellJson(cell));
+  }
+  progress::Clear();
+  if (o.json) {
+    std::cout << JsonText({{"cells", json}, {"wrong", wrong}}) << "\n";
+  } else {
+    for (const BenchTable& table : tables) Print(table);
+    for (const Json& one : wrong)
+      fmt::print("{} at {}, index {}: {} over {}: {}\n", one["dial"].get<std::string>(),
+                 one["setting"].get<int>(), one["index"].get<std::int64_t>(), one["method"].get<std::string>(),
+                 one["arithmetic"].get<std::string>(), one["miss"].get<std::string>());
+    fmt::print("\n{} runs, {} called solved, {} of them wrong\n", all.Runs(), all.Of(Outcome::kSolved),
+               all.wrong);
+  }
+  return all.wrong == 0 ? kExitDone : kExitNotSo;
+}
+
+std::string MethodOf(const GateCell& cell) {
+  return fmt::format("{}, {}", cell.row.method, cell.dimension == 2 ? "plane" : "space");
+}
+std::string ArithmeticOf(const GateCell& cell) { return std::string(Name(cell.row.arithmetic)); }
+
+// ---- One method a problem, in threads ------------------------------------------------------------
+
+// Rows, counted over all sources, and wrong answers; each by its place among all problems.
+struct SilentCounts {
+  std::vector<std::vector<GateCell>> methods;  // rows of each method
+  std::map<std::int64_t, Json> wrong;
+
+  void Add(const SilentCounts& more) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      for (std::size_t i = 0; i < methods[m].size(); ++i) methods[m][i].counts.Add(more.methods[m][i].counts);
+    }
+    wrong.insert(more.wrong.begin(), more.wrong.end());
+  }
+};
+
+SilentCounts NoneOf(const Source& any) {
+  using enum Arithmetic;
+  SilentCounts counts;
+  for (const std::string_view method : {"complete", "lemke", "fast", "baraff"}) {
+    auto& cells = counts.methods.emplace_back();
+    for (const GateRow& row : GateRows(2, {method}, {kFloat, kDouble, kLongDouble, kQuad, kFiltered, kExact}))
+      cells.push_back({&any, 2, row, {}});
+  }
+  return counts;
+}
+
+// The rounds that `next` gives, of the first `problems` problems.
+void RunRounds(const std::vector<Source>& sources, std::int64_t problems, std::uint64_t seed,
+               std::atomic<std::int64_t>& next, SilentCounts& counts) {
+  const std::int64_t large = std::count_if(sources.begin(), sources.end(), std::mem_fn(&Source::is_large));
+  const std::int64_t others = std::ssize(sources) - large;
+  for (;;) {
+    const std::int64_t round = next++;
+    std::int64_t place = round * others + (round + kLargeEvery - 1) / kLargeEvery * large;
+    if (place >= problems) return;
+    for (const Source& source : sources) {
+      const std::int64_t every = source.is_large ? kLargeEvery : 1;
+      if (round % every != 0 || place >= problems) continue;
+      const RungProblem problem(source.make(seed, round));
+      Json wrong = Json::array();
+      for (GateCell& cell : counts.methods[static_cast<std::size_t>(round / every) % counts.methods.size()]) {
+        cell.source = &source;
+        RunOne(problem, round, cell, wrong);
+      }
+      if (!wrong.empty()) counts.wrong[place] = wrong.front();
+      ++place;
+      progress::Done();
+    }
+  }
 }
 
 }  // namespace
 
+int BenchSilent(const BenchOptions& o) {
+  std::vector<Source> sources = DialSources(Dials::kLadder, o.families);
+  if (o.families.empty()) {
+    for (Source& source : GeneratorSources({1, 2, 3, 4})) sources.push_back(std::move(source));
+  }
+  const std::int64_t problems = o.problems.value_or(20000);
+  std::vector<SilentCounts> parts(o.threads, NoneOf(sources.front()));
+  std::atomic<std::int64_t> next{0};
+  progress::Expect(1);
+  progress::Begin("problems", problems);
+  {
+    std::vector<std::jthread> running;
+    for (SilentCounts& part : parts)
+      running.emplace_back([&] { RunRounds(sources, problems, o.seed, next, part); });
+  }
+  for (int thread = 1; thread < o.threads; ++thread) parts[0].Add(parts[thread]);
+  std::vector<GateCell> cells;
+  for (const auto& method : parts[0].methods) cells.insert(cells.end(), method.begin(), method.end());
+  Json wrong = Json::array();
+  for (const auto& [place, one] : parts[0].wrong) {
+    if (wrong.size() < kExamples) wrong.push_back(one);
+  }
+  const Source all{.family = "all", .make = {}};
+  for (GateCell& cell : cells) cell.source = &all;
+  return Report(o, cells, wrong, {TableBy("method and arithmetic", cells, [](const GateCell& cell) {
+                  return fmt::format("{} {}", cell.row.method, ArithmeticOf(cell));
+                })});
+}
+
 int BenchGate(const BenchOptions& o) {
-  const std::vector<Source> sources = GateSources(o.families);
-  const GateRun run = RunGate(sources, o.problems.value_or(25), o.seed);
-  GateCounts all;
-  Json cells = Json::array();
-  for (const GateCell& cell : run.cells) {
-    all.Add(cell.counts);
-    cells.push_back(CellJson(cell));
+  using enum Arithmetic;
+  const std::vector<Source> sources = DialSources(Dials::kGate, o.families);
+  const std::int64_t asked = o.problems.value_or(25);
+  std::vector<GateCell> cells;
+  Json wrong = Json::array();
+  progress::Expect(sources.size());
+  for (const Source& source : sources) {
+    const std::int64_t problems = source.is_large ? std::max<std::int64_t>(1, asked / kLargeFraction) : asked;
+    progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
+    const int dimension = source.make(o.seed, 0).dimension;
+    std::vector<GateCell> of_source;
+    for (const GateRow& row : GateRows(dimension, {"auto", "fast", "complete", "lemke", "baraff", "proximal"},
+                                       {kFloat, kDouble, kLongDouble, kQuad, kFiltered}))
+      of_source.push_back({&source, dimension, row, {}});
+    for (std::int64_t index = 0; index < problems; ++index) {
+      const RungProblem problem(source.make(o.seed, index));
+      for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);
+      progress::Done();
+    }
+    cells.insert(cells.end(), of_source.begin(), of_source.end());
   }
-  if (o.json) {
-    std::cout << JsonText({{"cells", cells}, {"wrong", run.wrong}}) << "\n";
-  } else {
-    PrintForPeople(run, all);
-  }
-  return all.wrong == 0 ? kExitDone : kExitNotSo;
+  return Report(o, cells, wrong,
+                {TableBy("dial", cells, [](const GateCell& cell) { return cell.source->family; }),
+                 TableBy("method", cells, MethodOf), TableBy("arithmetic", cells, ArithmeticOf)});
 }
 
 }  // namespace stiction

@@ -17,20 +17,6 @@ Spread SpreadOf(std::vector<double> values) {
   return {values.front(), values[values.size() / 2], values.back()};
 }
 
-Average AverageOf(const std::vector<std::int64_t>& values) {
-  Average average;
-  for (const std::int64_t value : values) {
-    average.mean += static_cast<double>(value);
-    average.most = std::max(average.most, value);
-  }
-  if (!values.empty()) average.mean /= static_cast<double>(values.size());
-  return average;
-}
-
-void Contingency::Count(bool first, bool second) {
-  ++(first ? (second ? both : first_only) : (second ? second_only : neither));
-}
-
 std::optional<std::string> FindMismatch(std::span<const NamedMeasure> measures) {
   const NamedMeasure* solves = nullptr;
   const NamedMeasure* refutes = nullptr;

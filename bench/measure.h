@@ -4,7 +4,6 @@
 #ifndef STICTION_BENCH_MEASURE_H_
 #define STICTION_BENCH_MEASURE_H_
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,15 +13,10 @@
 
 namespace stiction {
 
-// A field that a method does not have is zero.
 struct Measure {
   Outcome outcome = Outcome::kUndecided;
-  bool wrong = false;     // solved, it says, and verification refuses the answer
-  bool refutes = false;   // exact, and says that there is no solution, or meets a ray
-  std::int64_t work = 0;  // steps, pieces, pivots, linear programs, starts: what the method counts
-  std::int64_t folds = 0;
-  std::int64_t descents = 0;
-  std::int64_t give_ups = 0;
+  bool wrong = false;          // solved, it says, and verification refuses the answer
+  bool refutes = false;        // exact, and says that there is no solution, or meets a ray
   double seconds = 0;          // without the verification of the answer
   double library_seconds = 0;  // part of it: in Ipopt's process
 
@@ -41,20 +35,6 @@ struct Spread {
 };
 // Zeros if there are none.
 Spread SpreadOf(std::vector<double> values);
-
-// Zeros if there are none.
-struct Average {
-  double mean = 0;
-  std::int64_t most = 0;
-};
-Average AverageOf(const std::vector<std::int64_t>& values);
-
-// Two properties of the same problems.
-struct Contingency {
-  std::int64_t both = 0, first_only = 0, second_only = 0, neither = 0;
-
-  void Count(bool first, bool second);
-};
 
 // What cannot be true of the measures of one problem: an exact answer that is wrong, or one method that refutes
 // what another has solved. Empty if there is nothing.

@@ -1,224 +1,271 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suite `methods`: every method on the same problems. Counts, outcomes and times. Suite `frictionless`: its
-// last table, to 150 contacts.
+// bench --suite methods, frictionless: times of every method on the same problems (family.h). bench --suite
+// work counts what they do.
 //
-// Counts are those of exact runs. Methods take turns at blocks of problems; times are compared problem by
-// problem. method.h says what a time is, and how answers are verified.
-//
-// Determinism   all tables but the times, on one machine; Ipopt's starts and outcomes depend on its libraries.
+// Every answer is verified: exact ones by FindViolation, doubles by the gate, both outside the time taken. A
+// time is one call of an algorithm that keeps its memory between calls, for any number of contacts, with the
+// forces copied out: the less of wall-clock time and processor time, since a busy machine interrupts what takes
+// longer than its time slices. Methods take turns at blocks of problems; times are compared problem by problem.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <functional>
 #include <iostream>
+#include <memory>
 
-#include "bench/method.h"
+#include "bench/family.h"
+#include "bench/measure.h"
 #include "bench/one_thread.h"
+#include "bench/plain_gauss.h"
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
+#include "certify/exact/enumerate.h"
+#include "certify/exact/exact.h"
+#include "certify/exact/feasibility_nlp.h"
+#include "certify/exact/linear_system.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
+#include "corpus/stopwatch.h"
+#include "solver/numeric/fast.h"
+#include "solver/problem/gate.h"
 
 namespace stiction {
 namespace {
 
-constexpr int kBlock = 64;  // problems, before the next method has its turn
+constexpr double kWrongAnswer = 1e-6;  // error (solver/problem/errors.h)
+
+// ---- Methods -------------------------------------------------------------------------------------
+
+struct BenchMethod {
+  std::string name, reading, arithmetic;  // policy, cover or formulation
+  int one_in = 1;                         // of so many problems it is given one
+  int most_contacts = kMostOfAnySuite;
+  std::function<Measure(const BenchProblem&)> run;
+
+  std::string Title() const { return name + " " + (reading.empty() ? "" : "(" + reading + ") ") + arithmetic; }
+};
+
+template <class Scalar>
+constexpr const char* kArithmetic = kIsExact<Scalar> ? "exact" : "double";
+
+const ExactProblem& In(const BenchProblem& problem, const Rational*) { return problem.exact; }
+const ContactProblem<double>& In(const BenchProblem& problem, const double*) { return problem.rounded; }
+
+bool Stands(const ExactProblem& problem, const ExactProblem::Vector& f) { return !FindViolation(problem, f); }
+
+bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>::Vector& f) {
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest() <= kWrongAnswer;
+}
+
+template <class Scalar>
+struct BenchAnswer {
+  Outcome outcome = Outcome::kUndecided;
+  typename ContactProblem<Scalar>::Vector f = {};  // if solved
+  double library_seconds = 0;                      // in another process
+};
+
+// call(problem) returns a BenchAnswer.
+template <class Scalar, class Call>
+std::function<Measure(const BenchProblem&)> Timed(Call call) {
+  return [call](const BenchProblem& problem) mutable {
+    const auto& data = In(problem, static_cast<const Scalar*>(nullptr));
+    const Stopwatch watch;
+    const BenchAnswer<Scalar> answer = call(data);
+    Measure measure{.outcome = answer.outcome, .library_seconds = answer.library_seconds};
+    measure.seconds = watch.Seconds() + answer.library_seconds;
+    if (answer.outcome == Outcome::kSolved) measure.wrong = !Stands(data, answer.f);
+    measure.refutes =
+        kIsExact<Scalar> && (answer.outcome == Outcome::kRay || answer.outcome == Outcome::kNoSolution);
+    return measure;
+  };
+}
+
+const auto& ForcesOf(const auto& solver) {
+  if constexpr (requires { solver.state().f; }) {
+    return solver.state().f;
+  } else {
+    return solver.f();
+  }
+}
+
+// An algorithm that keeps its memory between calls.
+template <class Scalar, class Solver>
+BenchMethod Kept(const std::string& name, const std::string& reading, Solver solver) {
+  return {.name = name,
+          .reading = reading,
+          .arithmetic = kArithmetic<Scalar>,
+          .run = Timed<Scalar>([solver](const auto& data) mutable {
+            const Outcome outcome = solver.Run(data).outcome;
+            return BenchAnswer<Scalar>{outcome, ForcesOf(solver)};
+          })};
+}
+
+template <class Scalar>
+BenchMethod Published(const std::string& policy) {
+  return Kept<Scalar>("baraff", policy, PublishedAlgorithm<Scalar>({ParsePolicy(policy), {}, {}}));
+}
+template <class Scalar>
+BenchMethod Complete() {
+  return Kept<Scalar>("complete", "", CompleteDriving<Scalar>());
+}
+template <class Scalar>
+BenchMethod Lemke(Cover cover) {
+  return Kept<Scalar>("lemke", cover == Cover::kOnes ? "ones" : "units",
+                      LemkeAlgorithm<Scalar>({cover, {}, {}}));
+}
+
+BenchMethod Enumerate() {
+  return {.name = "enumerate",
+          .reading = "",
+          .arithmetic = "exact",
+          .one_in = 20,
+          .most_contacts = 4,
+          .run = Timed<Rational>([](const auto& data) {
+            EnumerationOptions options;
+            options.first_solution_only = true;
+            const Enumeration modes = EnumerateModes(data, options);
+            BenchAnswer<Rational> answer;
+            if (modes.ProvesNoSolution()) answer.outcome = Outcome::kNoSolution;
+            if (!modes.solutions.empty()) answer = {Outcome::kSolved, modes.solutions.front().f};
+            return answer;
+          })};
+}
+
+// The processor time of another process; wall-clock time if it is gone.
+clockid_t ClockOf(pid_t process) {
+  clockid_t clock;
+  return clock_getcpuclockid(process, &clock) == 0 ? clock : CLOCK_MONOTONIC;
+}
+
+// Solved: an exact solution came out of one of its points.
+BenchMethod Ipopt(Formulation formulation, int one_in) {
+  const auto proposer = std::make_shared<IpoptProposer>();
+  return {.name = "ipopt",
+          .reading = formulation == Formulation::kNonlinear ? "(17), (18)" : "(5)",
+          .arithmetic = "exact",
+          .one_in = one_in,
+          .run = Timed<Rational>([proposer, formulation](const auto& data) {
+            ProposalStatistics statistics;
+            ProposalOptions options;
+            options.formulation = formulation;
+            const Stopwatch watch(ClockOf(proposer->process_id()));
+            const auto f = proposer->ProposeSolution(data, options, statistics);
+            BenchAnswer<Rational> answer;
+            if (f) answer = {Outcome::kSolved, *f};
+            answer.library_seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
+            return answer;
+          })};
+}
+
+// The linear system of all contacts, whose forces may pull: a unit of time, and no method.
+BenchMethod Gauss() {
+  return {.name = "gauss",
+          .reading = "plain loops",
+          .arithmetic = "double",
+          .run = [gauss = PlainGauss()](const BenchProblem& problem) mutable {
+            const Stopwatch watch;
+            gauss.Solve(problem.rounded.A, problem.rounded.b);
+            return Measure{.seconds = watch.Seconds()};
+          }};
+}
+
+// CGAL's QP_solver, exact, on a problem over integers; without the proof that A is definite.
+BenchMethod ExactQuadratic() {
+  return {.name = "qp",
+          .reading = "",
+          .arithmetic = "exact",
+          .run = Timed<Rational>([](const auto& problem) {
+            QuadraticProgram program;
+            for (int i = 0; i < problem.rows(); ++i) {
+              program.c.push_back(problem.b[i].get_num());
+              auto& row = program.M.emplace_back();
+              for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j).get_num());
+            }
+            const QuadraticEnd end = Minimize(program);
+            BenchAnswer<Rational> answer;
+            if (end.bounded)
+              answer = {Outcome::kSolved, Eigen::Map<const ExactProblem::Vector>(end.x.data(), problem.rows())};
+            return answer;
+          })};
+}
+
+// The first is the unit of times. Starts Ipopt's process: InputError if it cannot be run.
+std::vector<BenchMethod> MethodsWithFriction() {
+  return {Complete<double>(),
+          Complete<Rational>(),
+          Published<Rational>("paper"),
+          Published<Rational>("apex=suspended"),
+          Published<Rational>("admit=eager,file=yes,apex=suspended"),
+          Lemke<Rational>(Cover::kOnes),
+          Lemke<Rational>(Cover::kUnits),
+          Ipopt(Formulation::kNonlinear, 10),
+          Published<double>("paper"),
+          Lemke<double>(Cover::kUnits),
+          Enumerate()};
+}
+
+// Section 4, and beside it elimination of A f = -b, Lemke's method, the fast method, and the quadratic program
+// by Ipopt over doubles and by CGAL exactly.
+std::vector<BenchMethod> MethodsWithoutFriction() {
+  return {Gauss(),
+          Published<double>("paper"),
+          Lemke<double>(Cover::kUnits),
+          Kept<double>("fast", "", FastSolver<double>()),
+          Ipopt(Formulation::kQuadratic, 1),
+          ExactQuadratic()};
+}
 
 // ---- Measuring -----------------------------------------------------------------------------------
 
 // Problems of one size. A method that is given fewer has the first ones.
 struct Sample {
   int contacts = 0;
-  std::int64_t problems = 0;
-  std::vector<int> friction;  // class, by problem
-  std::vector<bool> rough;
   std::vector<std::vector<Measure>> measures;  // by method, problem
-  std::vector<std::string> mismatches;
 };
 
-// All classes of friction are as frequent in what a method is given.
-std::int64_t ProblemsOf(const BenchMethod& method, const Sample& sample) {
-  if (method.most_contacts > 0 && sample.contacts > method.most_contacts) return 0;
-  const std::int64_t part = (sample.problems + method.one_in - 1) / method.one_in;
-  const std::int64_t classes = kFrictionClasses;
-  return std::min(sample.problems, (part + classes - 1) / classes * classes);
-}
-
-void AddMismatches(const std::vector<BenchMethod>& methods, Sample& sample) {
-  for (std::size_t i = 0; i < sample.friction.size(); ++i) {
-    std::vector<NamedMeasure> measures;
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      if (i < sample.measures[m].size())
-        measures.push_back({methods[m].Title(), methods[m].exact(), sample.measures[m][i]});
-    }
-    const auto mismatch = FindMismatch(measures);
-    if (mismatch)
-      sample.mismatches.push_back(fmt::format("{} contacts, problem {}: {}", sample.contacts, i, *mismatch));
-  }
-}
-
-// make(index) returns a BenchProblem.
+// make(index) returns a BenchProblem. What cannot be true is added to `mismatches`.
 template <class Make>
-Sample Measured(std::vector<BenchMethod>& methods, int contacts, std::int64_t problems, Make make) {
-  progress::Begin(fmt::format("runs at {} contacts", contacts),
-                  static_cast<std::int64_t>(methods.size()) * problems);
-  Sample sample{contacts, problems, {}, {}, {}, {}};
+Sample Measured(std::vector<BenchMethod>& methods, int contacts, std::int64_t problems, Make make,
+                std::vector<std::string>& mismatches) {
+  constexpr int kBlock = 64;  // problems, before the next method has its turn
+  progress::Begin(fmt::format("runs at {} contacts", contacts), std::ssize(methods) * problems);
+  Sample sample{contacts, {}};
   sample.measures.resize(methods.size());
   for (std::int64_t first = 0; first < problems; first += kBlock) {
     const std::int64_t end = std::min(problems, first + kBlock);
     std::vector<BenchProblem> block;
-    for (std::int64_t i = first; i < end; ++i) {
-      block.push_back(make(i));
-      sample.friction.push_back(block.back().friction);
-      sample.rough.push_back(block.back().rough);
-    }
+    for (std::int64_t i = first; i < end; ++i) block.push_back(make(i));
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      const std::int64_t last = std::min(end, ProblemsOf(methods[m], sample));
+      const BenchMethod& method = methods[m];
+      const std::int64_t part = (problems + method.one_in - 1) / method.one_in;
+      const std::int64_t last = contacts > method.most_contacts ? 0 : std::min(end, part);
       for (std::int64_t i = first; i < last; ++i)
-        sample.measures[m].push_back(methods[m].run(block[i - first]));
+        sample.measures[m].push_back(method.run(block[static_cast<std::size_t>(i - first)]));
       progress::Done(end - first);
     }
   }
-  AddMismatches(methods, sample);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(problems); ++i) {
+    std::vector<NamedMeasure> of_problem;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (i < sample.measures[m].size())
+        of_problem.push_back({methods[m].Title(), methods[m].arithmetic == "exact", sample.measures[m][i]});
+    }
+    if (const auto mismatch = FindMismatch(of_problem))
+      mismatches.push_back(fmt::format("{} contacts, problem {}: {}", contacts, i, *mismatch));
+  }
   progress::Clear();
   return sample;
 }
 
 // ---- Tables --------------------------------------------------------------------------------------
 
-double Percent(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
 Json Cell(const Quartiles& q) { return {q.low, q.median, q.high}; }
-
-std::int64_t MostPieces(int contacts) { return (std::int64_t{1} << (2 * contacts)) - 1; }
 
 std::int64_t SolvedOf(const std::vector<Measure>& measures) {
   return std::count_if(measures.begin(), measures.end(), [](const Measure& m) { return m.Solved(); });
-}
-
-bool IsWrong(const Measure& measure) { return measure.wrong; }
-
-Average WorkOf(const std::vector<Measure>& measures) {
-  std::vector<std::int64_t> work;
-  for (const Measure& m : measures) {
-    if (m.Solved()) work.push_back(m.work);
-  }
-  return AverageOf(work);
-}
-
-// How runs end that are not solved; what is wrong is counted apart.
-Json OtherEnds(const std::vector<Measure>& measures) {
-  Json ends = Json::object();
-  for (const Measure& m : measures) {
-    if (m.outcome == Outcome::kSolved) continue;
-    const std::string name(Name(m.outcome));
-    ends[name] = ends.value(name, 0) + 1;
-  }
-  return ends;
-}
-
-BenchTable RunTable(const std::vector<BenchMethod>& methods, const std::vector<Sample>& samples) {
-  BenchTable table{"runs", "how runs end; what they count, mean and most, over what is solved"};
-  for (const Sample& sample : samples) {
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      const std::vector<Measure>& measures = sample.measures[m];
-      if (measures.empty()) continue;
-      const Average work = WorkOf(measures);
-      table.rows.push_back({{"contacts", sample.contacts},
-                            {"method", methods[m].name},
-                            {"reading", methods[m].reading},
-                            {"arithmetic", methods[m].arithmetic},
-                            {"problems", measures.size()},
-                            {"solved", SolvedOf(measures)},
-                            {"wrong", std::count_if(measures.begin(), measures.end(), IsWrong)},
-                            {"not solved", OtherEnds(measures)},
-                            {"counts", methods[m].counts},
-                            {"mean", work.mean},
-                            {"most", work.most},
-                            {"bound", m == kComplete ? Json(MostPieces(sample.contacts)) : Json()}});
-    }
-  }
-  return table;
-}
-
-// Counts over complete driving's measures.
-struct FoldCount {
-  std::int64_t problems = 0, folds = 0, descents = 0;
-
-  void Count(const Measure& m) {
-    ++problems;
-    folds += m.folds > 0;
-    descents += m.descents > 0;
-  }
-  Json AddTo(Json row) const {
-    row.update({{"problems", problems},
-                {"folds", folds},
-                {"folds %", Percent(folds, problems)},
-                {"descents", descents},
-                {"descents %", Percent(descents, problems)}});
-    return row;
-  }
-};
-
-BenchTable FoldTable(const std::vector<Sample>& samples) {
-  BenchTable table{"folds", "problems on which complete driving folds, and descends"};
-  for (const Sample& sample : samples) {
-    FoldCount count;
-    for (const Measure& m : sample.measures[kComplete]) count.Count(m);
-    table.rows.push_back(count.AddTo({{"contacts", sample.contacts}}));
-  }
-  return table;
-}
-
-BenchTable FrictionTable(const std::vector<Sample>& samples) {
-  BenchTable table{"friction", "the same by friction coefficient, all sizes"};
-  std::array<FoldCount, kFrictionClasses> counts;
-  for (const Sample& sample : samples) {
-    for (std::size_t i = 0; i < sample.friction.size(); ++i)
-      counts[sample.friction[i]].Count(sample.measures[kComplete][i]);
-  }
-  for (int c = 0; c < kFrictionClasses; ++c) table.rows.push_back(counts[c].AddTo({{"mu", FrictionName(c)}}));
-  return table;
-}
-
-// Folds of complete driving against give-ups of one reading of the published algorithm.
-Json GiveUpRow(const BenchMethod& method, int place, const std::vector<Sample>& samples) {
-  Contingency count;
-  std::int64_t plain = 0, equal = 0;
-  std::vector<std::int64_t> pieces, steps;  // where there are folds and both solve
-  for (const Sample& sample : samples) {
-    for (std::size_t i = 0; i < sample.friction.size(); ++i) {
-      const Measure& complete = sample.measures[kComplete][i];
-      const Measure& published = sample.measures[place][i];
-      count.Count(complete.folds > 0, published.give_ups > 0);
-      if (complete.folds > 0 && complete.Solved() && published.Solved()) {
-        pieces.push_back(complete.work);
-        steps.push_back(published.work);
-      }
-      if (complete.folds > 0 || !sample.rough[i]) continue;
-      ++plain;
-      equal += published.Solved() && published.work == complete.work;
-    }
-  }
-  return {{"policy", method.reading},
-          {"both", count.both},
-          {"folds only", count.first_only},
-          {"give-ups only", count.second_only},
-          {"neither", count.neither},
-          {"no folds, mu > 0", plain},
-          {"as many steps", equal},
-          {"pieces if folds", AverageOf(pieces).mean},
-          {"steps if folds", AverageOf(steps).mean}};
-}
-
-BenchTable GiveUpTable(const std::vector<BenchMethod>& methods, const std::vector<Sample>& samples) {
-  BenchTable table{"give-ups", "folds of complete driving against give-ups of the published algorithm"};
-  for (const int place : kPublished) table.rows.push_back(GiveUpRow(methods[place], place, samples));
-  return table;
 }
 
 Quartiles Microseconds(const std::vector<Measure>& measures, double Measure::*seconds = &Measure::seconds) {
@@ -241,32 +288,19 @@ BenchTable TimeTable(const std::vector<BenchMethod>& methods, const std::vector<
                    "microseconds a problem, and times that of complete driving over doubles: quartiles"};
   for (const Sample& sample : samples) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      if (sample.measures[m].empty()) continue;
-      table.rows.push_back({{"contacts", sample.contacts},
-                            {"method", methods[m].name},
-                            {"reading", methods[m].reading},
-                            {"arithmetic", methods[m].arithmetic},
-                            {"problems", sample.measures[m].size()},
-                            {"us", Cell(Microseconds(sample.measures[m]))},
-                            {"ratio", Cell(RatioOf(sample.measures[m], sample.measures[kCompleteDouble]))}});
+      const std::vector<Measure>& measures = sample.measures[m];
+      if (measures.empty()) continue;
+      table.rows.push_back(
+          {{"contacts", sample.contacts},
+           {"method", methods[m].name},
+           {"reading", methods[m].reading},
+           {"arithmetic", methods[m].arithmetic},
+           {"problems", measures.size()},
+           {"solved", SolvedOf(measures)},
+           {"wrong", std::count_if(measures.begin(), measures.end(), std::mem_fn(&Measure::wrong))},
+           {"us", Cell(Microseconds(measures))},
+           {"ratio", Cell(RatioOf(measures, sample.measures[0]))}});
     }
-  }
-  return table;
-}
-
-BenchTable StartTable(const std::vector<Sample>& samples) {
-  BenchTable table{"starts", "starts that Ipopt needed; none: no solution from its twenty"};
-  for (const Sample& sample : samples) {
-    std::int64_t one = 0, two = 0, three = 0, more = 0, none = 0;
-    for (const Measure& m : sample.measures[kIpopt])
-      ++(!m.Solved() ? none : m.work == 1 ? one : m.work == 2 ? two : m.work == 3 ? three : more);
-    table.rows.push_back({{"contacts", sample.contacts},
-                          {"problems", sample.measures[kIpopt].size()},
-                          {"1", one},
-                          {"2", two},
-                          {"3", three},
-                          {"4 to 20", more},
-                          {"none", none}});
   }
   return table;
 }
@@ -277,12 +311,12 @@ BenchTable FrictionlessTable(const std::vector<Sample>& samples) {
       "without friction, microseconds: plain Gauss on A f = -b, section 4, Lemke, fast, inside Ipopt "
       "program (5), and the program exactly by CGAL (qp)"};
   for (const Sample& sample : samples) {
-    const auto& gauss = sample.measures[kGauss];
-    const auto& baraff = sample.measures[kBaraffDouble];
-    const auto& lemke = sample.measures[kLemkeDouble];
-    const auto& fast = sample.measures[kFastDouble];
-    const auto& program = sample.measures[kQuadratic];
-    const auto& exact = sample.measures[kExactQuadratic];
+    const auto& gauss = sample.measures[0];
+    const auto& baraff = sample.measures[1];
+    const auto& lemke = sample.measures[2];
+    const auto& fast = sample.measures[3];
+    const auto& program = sample.measures[4];
+    const auto& exact = sample.measures[5];
     table.rows.push_back({{"contacts", sample.contacts},
                           {"problems", baraff.size()},
                           {"baraff solved", SolvedOf(baraff)},
@@ -303,52 +337,18 @@ BenchTable FrictionlessTable(const std::vector<Sample>& samples) {
   return table;
 }
 
-// ---- Output ------------------------------------------------------------------------------------
-
-Json ToJson(const BenchOptions& options, std::int64_t problems, const std::vector<BenchTable>& tables,
-            const std::vector<std::string>& mismatches) {
-  Json json = {{"suite", options.suite},
-               {"seed", options.seed},
-               {"generator", options.generator ? Row(*options.generator).name : "definite"},
-               {"problems", problems},
-               {"one_thread", ThreadsJson()}};
-  for (const BenchTable& table : tables) json[table.name] = table.rows;
-  json["mismatches"] = mismatches;
-  return json;
-}
-
-// ---- The suite -----------------------------------------------------------------------------------
-
-// Exact arithmetic makes many contacts slow to solve and to verify.
-std::int64_t FrictionlessProblems(int contacts) {
-  return contacts <= 12 ? 48 : contacts <= 25 ? 24 : contacts <= 50 ? 8 : 4;
-}
-
-std::vector<Sample> MeasureFrictionless(const std::vector<int>& sizes, std::int64_t problems,
-                                        std::uint64_t seed) {
-  std::vector<BenchMethod> methods = FrictionlessMethods();
-  std::vector<Sample> samples;
-  for (const int n : sizes) {
-    samples.push_back(Measured(methods, n, std::min(problems, FrictionlessProblems(n)),
-                               [&](std::int64_t index) { return MakeFrictionless(n, seed, index); }));
-  }
-  return samples;
-}
-
-std::vector<std::string> MismatchesOf(const std::vector<Sample>& samples) {
-  std::vector<std::string> mismatches;
-  for (const Sample& sample : samples)
-    mismatches.insert(mismatches.end(), sample.mismatches.begin(), sample.mismatches.end());
-  return mismatches;
-}
-
-int Report(const BenchOptions& options, std::int64_t problems, const std::vector<BenchTable>& tables,
-           const std::vector<std::string>& mismatches) {
+int Report(const BenchOptions& options, const BenchTable& table, const std::vector<std::string>& mismatches) {
   if (options.json) {
-    std::cout << JsonText(ToJson(options, problems, tables, mismatches)) << "\n";
+    std::cout << JsonText({{"suite", options.suite},
+                           {"seed", options.seed},
+                           {"generator", options.generator ? Row(*options.generator).name : "definite"},
+                           {"one_thread", ThreadsJson()},
+                           {table.name, table.rows},
+                           {"mismatches", mismatches}})
+              << "\n";
   } else {
     fmt::print("{}\n", ThreadsText());
-    for (const BenchTable& table : tables) Print(table);
+    Print(table);
     fmt::print("\n{} mismatches\n", mismatches.size());
     for (const std::string& mismatch : mismatches) fmt::print("{}\n", mismatch);
   }
@@ -359,33 +359,36 @@ int Report(const BenchOptions& options, std::int64_t problems, const std::vector
 
 int BenchMethods(const BenchOptions& options) {
   const std::int64_t problems = options.problems.value_or(800);
-  std::vector<int> contacts = options.contacts;
-  if (contacts.empty()) contacts = {2, 3, 4, 5, 6};
-  progress::Expect(contacts.size() + 5);
-  std::vector<BenchMethod> methods = BenchedMethods();
+  const std::vector<int> contacts =
+      options.contacts.empty() ? std::vector<int>{2, 3, 4, 5, 6} : options.contacts;
+  progress::Expect(contacts.size());
+  std::vector<BenchMethod> methods = MethodsWithFriction();
   std::vector<Sample> samples;
+  std::vector<std::string> mismatches;
   for (const int n : contacts) {
-    samples.push_back(Measured(methods, n, problems, [&](std::int64_t index) {
+    const auto make = [&](std::int64_t index) {
       return MakeBenchProblem(options.generator, n, options.seed, index);
-    }));
+    };
+    samples.push_back(Measured(methods, n, problems, make, mismatches));
   }
-  const std::vector<Sample> smooth = MeasureFrictionless({3, 6, 12, 25, 50}, problems, options.seed);
-  std::vector<std::string> mismatches = MismatchesOf(samples);
-  for (const std::string& mismatch : MismatchesOf(smooth)) mismatches.push_back(mismatch);
-  return Report(
-      options, problems,
-      {RunTable(methods, samples), FoldTable(samples), FrictionTable(samples), GiveUpTable(methods, samples),
-       TimeTable(methods, samples), StartTable(samples), FrictionlessTable(smooth)},
-      mismatches);
+  return Report(options, TimeTable(methods, samples), mismatches);
 }
 
 int BenchFrictionless(const BenchOptions& options) {
-  const std::int64_t problems = options.problems.value_or(48);
-  std::vector<int> sizes = options.contacts;
-  if (sizes.empty()) sizes = {3, 6, 12, 25, 50, 100, 150};
+  const std::vector<int> sizes =
+      options.contacts.empty() ? std::vector<int>{3, 6, 12, 25, 50, 100, 150} : options.contacts;
   progress::Expect(sizes.size());
-  const std::vector<Sample> samples = MeasureFrictionless(sizes, problems, options.seed);
-  return Report(options, problems, {FrictionlessTable(samples)}, MismatchesOf(samples));
+  std::vector<BenchMethod> methods = MethodsWithoutFriction();
+  std::vector<Sample> samples;
+  std::vector<std::string> mismatches;
+  for (const int n : sizes) {
+    // Exact arithmetic makes many contacts slow to solve and to verify.
+    const std::int64_t most = n <= 12 ? 48 : n <= 25 ? 24 : n <= 50 ? 8 : 4;
+    samples.push_back(Measured(
+        methods, n, std::min(options.problems.value_or(48), most),
+        [&](std::int64_t index) { return MakeFrictionless(n, options.seed, index); }, mismatches));
+  }
+  return Report(options, FrictionlessTable(samples), mismatches);
 }
 
 }  // namespace stiction

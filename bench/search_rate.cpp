@@ -2,13 +2,11 @@
 // bench --suite search: problems a second of a search, what its time goes to, and how far the limit is.
 //
 // Rates     of one thread, a second of its processor time: generation, solving over doubles, classification,
-// exact
-//           runs of suspicions. By generator and number of contacts; of two contacts by instruction set; of a
-//           campaign that names nothing, one round of its schedule, without finishing.
+//           exact runs of suspicions. By generator and number of contacts; of two contacts by instruction set;
+//           of a campaign that names nothing, one round of its schedule, without finishing.
 // Threads   one and two over the same units, in wall-clock time.
 // Roofline  operations of one problem, counted, beside the most that one core can do of them in the best
 //           instruction set: each kind alone, as if all else were free.
-// Lemke     Siconos's on the same problems in the same run, by stiction-peers (peers_search.cpp).
 
 #include <fmt/format.h>
 
@@ -26,6 +24,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
 #include "corpus/stopwatch.h"
+#include "corpus/work.h"
 #include "search/batch/batch.h"
 #include "search/generators.ipp"
 #include "search/unit.h"
@@ -104,7 +103,7 @@ Campaign DefaultMix(const BenchOptions& o) {
 
 struct MixRun {
   std::int64_t problems = 0;
-  ProcessorTime time;
+  Work work;
   double wall = 0, processor = 0;  // s
 };
 
@@ -120,9 +119,7 @@ MixRun RunMix(const Campaign& campaign, int threads) {
     for (std::int64_t unit = next++; unit < units; unit = next++) {
       const UnitResult result = runner.Run(unit);
       part.problems += result.problems;
-      auto of_unit = PartsOf(result.time);
-      auto value = of_unit.begin();
-      ForEachPart(part.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
+      part.work.Add({{}, result.time});
     }
     part.processor = OwnSeconds() - start;
   };
@@ -136,28 +133,20 @@ MixRun RunMix(const Campaign& campaign, int threads) {
   for (const MixRun& part : parts) {
     all.problems += part.problems;
     all.processor += part.processor;
-    auto of_part = PartsOf(part.time);
-    auto value = of_part.begin();
-    ForEachPart(all.time, [&](const char*, const char*, std::int64_t& sum) { sum += *value++; });
+    all.work.Add(part.work);
   }
   progress::Done();
   return all;
-}
-
-Json SplitJson(const ProcessorTime& time) {
-  Json split = Json::object();
-  const double all = static_cast<double>(std::max<std::int64_t>(1, time.Total()));
-  ForEachPart(time, [&](const char* name, const char*, std::int64_t part) {
-    split[name] = static_cast<double>(part) / all;
-  });
-  return split;
 }
 
 Json MixRow(const char* generators, const MixRun& run) {
   Json row = {{"generators", generators},
               {"problems", run.problems},
               {"problems a second", static_cast<double>(run.problems) / run.processor}};
-  row.update(SplitJson(run.time));
+  const double all = static_cast<double>(std::max<std::int64_t>(1, run.work.time.Total()));
+  ForEachPart(run.work.time, [&](const char* name, const char*, std::int64_t part) {
+    row[name] = static_cast<double>(part) / all;
+  });
   return row;
 }
 
@@ -235,19 +224,6 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
   return table;
 }
 
-// ---- Siconos ---------------------------------------------------------------------------------
-
-BenchTable AskLemke(const BenchOptions& o) {
-  BenchTable table{
-      "lemke",
-      "Siconos's Lemke and the published algorithm on the same problems of integers: times as many solved",
-      Json::array()};
-  BenchOptions asked = o;
-  std::erase_if(asked.contacts, [](int contacts) { return contacts < 2 || contacts > 5; });
-  if (!asked.contacts.empty() || o.contacts.empty()) table.rows = AskPeers(asked, "search").at("rows");
-  return table;
-}
-
 }  // namespace
 
 int BenchSearch(const BenchOptions& o) {
@@ -267,7 +243,6 @@ int BenchSearch(const BenchOptions& o) {
   if (!o.generator) {
     for (BenchTable& table : MeasureMix(o)) take(std::move(table));
     take(MeasureRoofline(o));
-    take(AskLemke(o));
   }
   if (o.json) {
     Json json = Json::object();

@@ -36,7 +36,10 @@ int BecomeBench(const BenchCommand& o) {
 
 void AddBench(CommandLine& program) {
   auto [verb, o] = program.Add("bench", kBenchPurpose, BecomeBench);
-  verb.footer = "Its words are read by the program stiction-bench, which stands beside this one.";
+  verb.footer =
+      "Its words are read by the program stiction-bench, which stands beside this one. Questions that are "
+      "asked "
+      "once are studies in Python, in the folder bench/studies of the sources: ./run bench --suite NAME.";
   verb.rest = &o.words;
   AddBenchWords(verb, o.meant);
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "bench/one_thread.h"
@@ -19,51 +20,12 @@ namespace {
 
 using namespace stiction;
 
-auto FunctionOf(SuiteId id) -> int (*)(const BenchOptions&) {
-  switch (id) {
-    case SuiteId::kAdversary:
-      return BenchAdversary;
-    case SuiteId::kPatches:
-      return BenchPatches;
-    case SuiteId::kSearch:
-      return BenchSearch;
-    case SuiteId::kTrade:
-      return BenchTrade;
-    case SuiteId::kExtremes:
-      return BenchExtremes;
-    case SuiteId::kSilent:
-      return BenchSilent;
-    case SuiteId::kGate:
-      return BenchGate;
-    case SuiteId::kRatios:
-      return BenchRatios;
-    case SuiteId::kMethods:
-      return BenchMethods;
-    case SuiteId::kFrictionless:
-      return BenchFrictionless;
-    case SuiteId::kPeers:
-      return BenchPeers;
-    case SuiteId::kRandom:
-      return BenchRandom;
-    case SuiteId::kStructure:
-      return BenchStructure;
-    case SuiteId::kPeersExtremes:
-      return BenchPeersExtremes;
-    case SuiteId::kGrowth:
-      return BenchGrowth;
-    case SuiteId::kLinearAlgebra:
-      return BenchLinearAlgebra;
-    case SuiteId::kSpace:
-      return BenchSpace;
-    case SuiteId::kSliding:
-      return BenchSliding;
-    case SuiteId::kSmallest:
-      return BenchSmallest;
-    case SuiteId::kScenes:
-      return BenchScenes;
-  }
-  return nullptr;
-}
+// By the name of a suite that stiction-bench measures itself.
+const std::map<std::string_view, int (*)(const BenchOptions&)> kFunctions = {
+    {"search", BenchSearch},     {"trade", BenchTrade},
+    {"extremes", BenchExtremes}, {"silent", BenchSilent},
+    {"gate", BenchGate},         {"methods", BenchMethods},
+    {"scenes", BenchScenes},     {"frictionless", BenchFrictionless}};
 
 int RunBench(const BenchWords& words) {
   const BenchOptions o = words.Options();
@@ -75,12 +37,12 @@ int RunBench(const BenchWords& words) {
                                    most, o.suite, o.generator ? " with a generator" : ""));
     }
   }
-  if (o.generator && !Row(*o.generator).IsPlain() && suite->id != SuiteId::kSearch) {
+  if (o.generator && !Row(*o.generator).IsPlain() && o.suite != "search") {
     throw InputError(
         fmt::format("bench: --generator: found {}, expected one of static contacts of the plane for suite {}",
                     Row(*o.generator).name, o.suite));
   }
-  return FunctionOf(suite->id)(o);
+  return suite->tables.empty() ? kFunctions.at(suite->name)(o) : BenchPeers(o, suite->tables);
 }
 
 // The words are those of the verb, which the program stands for.

@@ -25,10 +25,14 @@
 #include "cli/narration/over_intervals.h"
 #include "corpus/atomic_file.h"
 #include "corpus/digest.h"
+#include "corpus/intervals.h"
 #include "corpus/output_error.h"
 #include "corpus/read_problem.h"
+#include "corpus/stopwatch.h"
 #include "python/search.h"
 #include "python/signals.h"
+#include "search/campaign.h"
+#include "search/generators.h"
 
 namespace stiction {
 namespace {
@@ -225,6 +229,61 @@ py::object SolveProblem(const PythonProblem& problem, const std::string& method,
   }));
 }
 
+// How a method ends on each of several problems: by problem.
+struct Ends {
+  std::vector<std::string> outcomes;
+  std::vector<double> seconds;                                // of processor time, of the call alone
+  std::map<std::string, std::vector<std::int64_t>> counters;  // 0 where a run has none of this name
+};
+
+py::tuple SolveProblems(const std::vector<const PythonProblem*>& problems, const std::string& method,
+                        const std::string& arithmetic, const std::string& policy, const std::string& law,
+                        int sides, const Numbers& numbers) {
+  Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
+  wanted.options.sides = sides;
+  SetNumbers(wanted.options.limits, numbers);
+  const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
+    Ends all;
+    for (const PythonProblem* problem : problems) {
+      if (*stop) break;
+      SolveRequest request = RequestOf(wanted, problem->file.problem, kSource);
+      request.options.limits.stop = stop;
+      const Stopwatch watch;
+      const Solution solution = SolveAsked(problem->file.problem, request, kSource);
+      all.seconds.push_back(watch.Seconds());
+      all.outcomes.emplace_back(Name(solution.outcome()));
+      for (const Counter& counter :
+           std::visit([](const auto& answer) { return answer.counters; }, solution.answer)) {
+        auto& column = all.counters[std::string(counter.name)];
+        column.resize(problems.size());
+        column[all.outcomes.size() - 1] = counter.value;
+      }
+    }
+    return all;
+  });
+  return py::make_tuple(ends.outcomes, ends.seconds, ends.counters);
+}
+
+// Problems of the one generator and number of contacts that a campaign names, from the number `first` on. They
+// are those of the search's generators, by seeds of their own: (seed, contacts, number).
+std::vector<PythonProblem> DrawProblems(const std::string& campaign_text, std::int64_t count,
+                                        std::int64_t first) {
+  const Campaign campaign = ParseCampaign(campaign_text, "draw");
+  RequireConsistent(campaign);
+  const GeneratorId generator = campaign.generators.at(0);
+  const int contacts = campaign.contacts.at(0);
+  std::vector<PythonProblem> problems;
+  for (std::int64_t index = first; index < first + count; ++index) {
+    Choices choices(
+        ProblemSeed(campaign.seed, static_cast<std::uint64_t>(contacts), static_cast<std::uint64_t>(index)));
+    ProblemFile file;
+    file.name = fmt::format("{}-{}-{}", Row(generator).name, contacts, index);
+    Generate<Rational, Eigen::Dynamic>(generator, contacts, SurroundingsOf(campaign), choices, file.problem);
+    problems.emplace_back(std::move(file));
+  }
+  return problems;
+}
+
 Wanted WantedPath(const std::string& policy, const std::string& method, const std::string& arithmetic,
                   int sides, const Numbers& numbers) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .dashes = ""};
@@ -349,6 +408,12 @@ PYBIND11_MODULE(_stiction, module) {
         return kinds;
       });
   module.def("solve", &SolveProblem);
+  module.def("solve_all", &SolveProblems);
+  module.def("draw", &DrawProblems);
+  module.def("interval", [](std::int64_t count, std::optional<std::int64_t> of) {
+    const Interval interval = of ? ShareInterval(count, *of) : CountInterval(count);
+    return std::make_pair(interval.low, interval.high);
+  });
   module.def("replay", &ReplayProblem);
   module.def("ends", &EndsOfProblem);
   module.def("certify", &CertifyProblem);

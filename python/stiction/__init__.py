@@ -15,13 +15,13 @@ except ImportError as error:
         raise  # it is there, and cannot be loaded: by another interpreter, or without a library
     raise ImportError(f"stiction: found no compiled module in {_Path(__file__).parent}, expected a build: "
                       "'./run python' makes one and starts Python, 'pip install .' installs one") from None
-from ._campaigns import Best, Finding, Store, search
-from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve
+from ._campaigns import Best, Finding, Store, draw, interval, search
+from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve, solve_all
 from ._problem import Problem, load
 from ._stiction import __version__
 
 __all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Store", "certify", "check",
-           "ends", "load", "replay", "search", "solve"]  # and __version__
+           "draw", "ends", "interval", "load", "replay", "search", "solve", "solve_all"]  # and __version__
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

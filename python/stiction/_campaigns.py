@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _stiction
 from ._given import Path, exact_text, integer, listed, path_text, real, shortened
 from ._methods import Certificate
-from ._problem import Problem, parsed
+from ._problem import Problem, parsed, wrapped
 
 _TEXTS = frozenset(("generator", "policy", "method", "arithmetic", "inexact_outcome", "exact_outcome", "friction",
                     "or_more", "counted", "signature", "kind", "outcome", "state", "whole_grid", "every_policy_loops",
@@ -175,6 +175,24 @@ def _campaign(campaign: Path | Mapping[str, Any] | None, changes: Mapping[str, A
     if "contacts" in fields:
         fields["contacts"] = [integer("contacts", x) for x in fields["contacts"]]
     return json.dumps(fields)
+
+
+def draw(generator: str, contacts: int, count: int, seed: int = 1, *, mu: Any = None, first: int = 0) -> list[Problem]:
+    """Problems of a generator that `stiction search --help` describes, without a search: those of the numbers `first`
+    to `first + count - 1`. Each is a function of generator, contacts, mu, seed and its number."""
+    text = _campaign(None, {"generators": generator, "contacts": contacts, "mu": mu, "seed": seed})
+    for name, value in (("count", count), ("first", first)):
+        if integer(name, value) < 0:
+            raise ValueError(f"draw: {name}: found {value}, expected a number of at least 0")
+    return [wrapped(problem) for problem in _stiction.draw(text, count, first)]
+
+
+def interval(count: int, of: int | None = None) -> tuple[float, float]:
+    """The exact interval at 95 % of a share, found `count` times in `of` trials; without `of`, of an expected number of
+    events of which `count` were seen. What the program prints in brackets."""
+    if integer("count", count) < 0 or (of is not None and integer("of", of) < max(count, 1)):
+        raise ValueError(f"interval: found {count} of {of}, expected 0 or more of at least as many")
+    return _stiction.interval(count, of)
 
 
 def search(generator: str | Sequence[str] | None = None, contacts: int | Sequence[int] | None = None,

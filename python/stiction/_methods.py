@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _stiction
 from ._given import Number, Vector, integer, real, require_text, shortened
@@ -179,6 +180,22 @@ def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: 
                                    pivot_tolerance=pivot_tolerance, loop_grain=loop_grain))
     return Answer(said["outcome"], said["method"], said["arithmetic"], said.get("reason", ""),
                   said.get("statistics", {}), said)
+
+
+def solve_all(problems: Sequence[Problem], method: str = "auto", arithmetic: str = "", policy: str = "paper", *,
+              law: str = "", sides: int = 8, max_drives: int | None = None, max_pivots: int | None = None,
+              max_bits: int | None = None) -> dict[str, NDArray[Any]]:
+    """How a method ends on each of many problems, in one call: columns with a number for each problem.
+
+    `outcome`, `seconds` of processor time, and the counters of the method by name, as `solve` has them in
+    `statistics`. Forces are not kept: `solve` gives those of one. Ctrl-C as in `solve`.
+    """
+    require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
+    outcomes, seconds, counters = _stiction.solve_all(
+        [compiled(problem, "solve_all") for problem in problems], method, arithmetic, policy, law,
+        integer("sides", sides), _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+    return {"outcome": np.array(outcomes, dtype=str), "seconds": np.array(seconds, dtype=np.float64),
+            **{name: np.array(column, dtype=np.int64) for name, column in counters.items()}}
 
 
 def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, arithmetic: str = "",

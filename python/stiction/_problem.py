@@ -136,15 +136,17 @@ def load(path: Path) -> Problem:
     if ":" not in file:  # STORE:FINDING
         with open(file, "rb"):  # OSError where it cannot be opened
             pass
-    problem = Problem.__new__(Problem)
-    problem._problem = _stiction.Problem.read(file)
-    return problem
+    return wrapped(_stiction.Problem.read(file))
 
 
 def parsed(text: str, source: str) -> Problem:
     """The problem of a problem file's text."""
+    return wrapped(_stiction.Problem.parse(text, source))
+
+
+def wrapped(compiled_problem: _stiction.Problem) -> Problem:
     problem = Problem.__new__(Problem)
-    problem._problem = _stiction.Problem.parse(text, source)
+    problem._problem = compiled_problem
     return problem
 
 

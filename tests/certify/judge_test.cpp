@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/gate_dials.h"
+#include "bench/dials.h"
 #include "certify/exact/solve.h"
 #include "corpus/rounded.h"
 #include "tests/judge.h"
@@ -234,7 +234,7 @@ TEST_CASE("judge: nothing is no solution of what nearly jams") {
 
 TEST_CASE("judge: of problems of the dials of the gate, nothing that is called solved is refused") {
   int solved = 0;
-  for (const Source& source : GateSources({})) {
+  for (const Source& source : DialSources(Dials::kGate, {})) {
     if (source.is_large) continue;
     const ExactProblem problem = source.make(/*seed=*/7, /*index=*/0);
     for (const std::string method : {"auto", "fast", "complete", "lemke", "baraff"}) {

@@ -1,101 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of the benchmark: the methods side by side, readings in space, sliding contacts, timings."""
+"""Figures of the benchmark: the methods side by side, studies, timings, other packages."""
 
 import collections
-import json
-import subprocess
 
 from markdown import count, prose, rate, share, spread, table, three
-from program import ROOT
 
-PAPER = ("baraff", "paper", "exact")
-EXACT = ("complete", "", "exact")
-ONES, UNITS = ("lemke", "ones", "exact"), ("lemke", "units", "exact")
+EXACT, PAPER, UNITS = ("complete", "", "exact"), ("baraff", "paper", "exact"), ("lemke", "units", "exact")
 
 
-def methods(program, *options):
-    return program.bench("methods", *options)
-
-
-def runs_of(result):
-    """contacts -> (method, reading, arithmetic) -> row."""
-    by_contacts = collections.defaultdict(dict)
-    for row in result["runs"]:
-        by_contacts[row["contacts"]][row["method"], row["reading"], row["arithmetic"]] = row
-    return by_contacts
-
-
-def mean_most(row):
-    return f"{three(row['mean'])} ({row['most']})"
-
-
-def unsolved(row):
-    return ", ".join(f"{number} {outcome}" for outcome, number in row["not solved"].items()) or "0"
-
-
-def solved_by_all(result):
-    """What each method solved, in words."""
-    sums = collections.defaultdict(lambda: [0, 0, 0])
-    for row in result["runs"]:
-        key = f"`{row['method']}` {row['arithmetic']}" + (f" ({row['reading']})" if row["reading"] else "")
-        sums[key] = [a + b for a, b in zip(sums[key], (row["solved"], row["problems"], row["wrong"]))]
-    parts = [f"{key} {count(solved)} of {count(problems)}" for key, (solved, problems, _) in sums.items()]
-    wrong = sum(wrong for _, _, wrong in sums.values())
-    return prose(f"Solved: {'; '.join(parts)}. Wrong answers: {wrong}. Methods that contradict each other: "
-                 f"{len(result['mismatches'])}.")
-
-
-def work_table(result, bound, head):
-    rows = []
-    for contacts, row in sorted(runs_of(result).items()):
-        paper = row[PAPER]
-        loops = paper["not solved"].get("cycle", 0)
-        rows.append((contacts, mean_most(row[EXACT]), count(bound(contacts)), mean_most(paper), unsolved(paper),
-                     share(loops, paper["problems"]), mean_most(row[ONES]), mean_most(row[UNITS])))
-    return table(["contacts", "pieces of `complete`", head, "steps of `baraff`, `paper`", "not solved",
-                  "of these cycles, 95 %", "pivots of `lemke`, ones", "units"], rows) + "\n\n" + solved_by_all(result)
+def work_blocks(program):
+    return program.study("work", "--problems", program.size(1200))
 
 
 def work(program):
-    result = methods(program, "--problems", program.size(1200))
-    return work_table(result, lambda n: 4 ** n - 1, "bound 4^n - 1")
+    blocks = work_blocks(program)
+    return "\n\n".join((blocks[0], blocks[-1]))
 
 
 def near_worst_case(program):
-    result = methods(program, "--generator", "exponential", "--contacts", 2, 4, 6, "--problems", program.size(400))
-    return work_table(result, lambda n: 2 ** n - 1, "2^n - 1")
+    blocks = program.study("work", "--generator", "exponential", "--contacts", 2, 4, 6, "--problems", program.size(400))
+    return "\n\n".join((blocks[0], blocks[-1]))
 
 
 def folds(program):
-    """Where complete driving folds and descends; folds against give-ups."""
-    result = methods(program, "--problems", program.size(1200))
-
-    def part(rows, key, head):
-        return table([head, "problems", "folds, 95 %", "descents, 95 %"],
-                     [(row[key], count(row["problems"]), share(row["folds"], row["problems"]),
-                       share(row["descents"], row["problems"])) for row in rows])
-
-    return "\n\n".join((part(result["folds"], "contacts", "contacts"), part(result["friction"], "mu", "mu"),
-                         give_ups(result["give-ups"])))
-
-
-def give_ups(policies):
-    """Folds of complete driving against give-ups of the published algorithm."""
-    ends = ("both", "folds only", "give-ups only", "neither")
-    rows = [(f"`{row['policy']}`", *(count(row[key]) for key in ends),
-             f"{count(row['as many steps'])} of {count(row['no folds, mu > 0'])}", three(row["pieces if folds"]),
-             three(row["steps if folds"])) for row in policies]
-    return table(["policy", *ends, "no folds, mu > 0: as many steps",
-                  "mean steps where both solve a problem with folds: `complete`", "`baraff`"], rows)
+    return "\n\n".join(work_blocks(program)[1:3])
 
 
 def starts(program):
-    result = methods(program, "--problems", program.size(1200))
-    columns = ("1", "2", "3", "4 to 20", "none")
-    rows = [(row["contacts"], row["problems"], *(row[key] for key in columns)) for row in result["starts"]]
-    problems, first, none = (sum(row[key] for row in result["starts"]) for key in ("problems", "1", "none"))
-    return table(["contacts", "problems", *columns], rows) + "\n\n" + prose(
-        f"The first start is enough for {share(first, problems)}, no start for {share(none, problems)} (95 %).")
+    return work_blocks(program)[3]
 
 
 TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "units", "double"),
@@ -103,7 +35,7 @@ TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "u
 
 
 def method_times(program):
-    result = methods(program)
+    result = program.bench("methods")
     cells = {(row["contacts"], row["method"], row["reading"], row["arithmetic"]): row for row in result["times"]}
     sizes = sorted({row["contacts"] for row in result["times"]})
     rows = []
@@ -131,45 +63,34 @@ def frictionless(program):
         f"Solved of {problems}: {solved}. Processor time of one thread, BLAS pinned to one; median (quartiles)")
 
 
-# ---- Space, and contacts that slide --------------------------------------------------------------------------
-
-SLIPS = {"paper": "literal", "slip=redirect": "redirect", "slip=polygon": "polygon"}
+# ---- Studies -------------------------------------------------------------------------------------------------
 
 
-def space_row(first, row):
-    loops = row["recurs"] + row["approaches"]
-    slip = SLIPS[row["policy"]]
-    return (first, slip, count(row["solved"]), f"{row['recurs']} + {row['approaches']}",
-            share(loops, row["problems"]), row["proved loop"], row["refuted"], row["ray"], row["proved ray"],
-            count(row["breaks (21)"]) if slip == "literal" else "",
-            count(row["redirects"]) if slip == "redirect" else "",
-            f"{three(row['steps, mean'])} ({row['most']})", count(row["unsure"]),
-            f"{count(row['on an edge'])} ({count(row['refined'])})" if slip == "polygon" else "")
+def study(name, *words):
+    """A block that is what a study prints."""
+    return lambda program: "\n\n".join(program.study(name, *words))
+
+
+smallest = study("smallest", "--entries", 3)
+linear_algebra = study("linear-algebra")
 
 
 def space(program):
-    result = program.bench("space", "--problems", program.size(20_000))
-    head = ["`slip`", "solved", "loops", "share, 95 %", "loops proved", "left again", "rays", "rays proved", "breaks", "redirects",
-            "steps, mean (most)", "unsure", "edges (corners)"]
-    sizes = [space_row(f"{row['family']}, {row['contacts']}", row) for row in result["sizes"]]
-    friction = [space_row(f"mu = {row['mu']}", row) for row in result["friction"] if row["policy"] in SLIPS]
-    rest = sum(row[key] for row in result["sizes"] for key in ("limit", "singular", "undecided", "differ", "wrong"))
-    problems = result["problems"]
-    return "\n\n".join((
-        prose(f"{count(problems)} problems of each family and number of contacts, and by friction, all sizes together. "
-              f"Ended otherwise, wrong, or otherwise over intervals: {rest}."),
-        table(["family, contacts", *head], sizes), table(["friction", *head], friction)))
+    return "\n\n".join(program.study("space", "--problems", program.size(20_000)))
 
 
 def sliding(program):
-    result = program.bench("sliding", "--generator", "integers", "--problems", program.size(1_000_000))
-    rows = [(f"{row['contacts']}, {row['sliding']}", count(row["solved"]), count(row["ray"]), row["singular"],
-             row["cycle"], rate(row["cycle"], result["problems"]), f"{row['with a solution']}, {row['without']}",
-             row["every policy"]) for row in result["rows"]]
-    return table(["contacts, sliding", "solved", "ray", "singular", "cycles", "in a million, 95 %",
-                  "with a solution, without", "under every policy"], rows) + "\n\n" + prose(
-        f"{count(result['problems'])} problems a row. Suspicions refuted exactly: "
-        f"{sum(row['refuted'] for row in result['rows'])}. Cycles that doubles take for solutions are not counted.")
+    return "\n\n".join(program.study("sliding", "--generator", "integers", "--problems", program.size(300_000)))
+
+
+def patches(program):
+    return "\n\n".join(program.study("patches", "--problems", program.size(100_000)))
+
+
+def adversary(program):
+    """With seeds that nothing was tuned on."""
+    return "\n\n".join(f"Seed {seed}:\n\n" + "\n\n".join(program.study("adversary", "--seed", seed))
+                       for seed in (201, 202, 203))
 
 
 # ---- Timings -------------------------------------------------------------------------------------------------
@@ -186,7 +107,8 @@ def search_speed(program):
                     "times as many", "whole search, problems a second"],
                    [(row["contacts"], row["peer"], f"{row['wrong of the peer']:,} of {row['problems']:,}",
                      spread(row["peer, problems a second"]), spread(row["solved a second"]),
-                     spread(row["times as many"]), spread(row["whole search"])) for row in result["lemke"] if "problems" in row])
+                     spread(row["times as many"]), spread(row["whole search"])) for row in program.bench("lemke")["tables"][0]["rows"]
+                    if "problems" in row])
     return "\n\n".join((rates, mix_in_words(result), beside, prose(
         "Processor time of one thread, median (least - most) of 5 runs")))
 
@@ -249,20 +171,6 @@ def growth_row(points, n):
             cell("published", lambda point: point["counts"]["drives"] / n),
             cell("published", lambda point: point["counts"]["pivots"] / n), cell("published", megabytes),
             cell("complete", milliseconds), cell("fast", milliseconds), cell("fast", megabytes))
-
-
-def linear_algebra(program):
-    result = program.bench("linear-algebra", "--problems", 20)
-    ways = list(dict.fromkeys(row["way"] for row in result))
-    cells = collections.defaultdict(dict)
-    for row in result:
-        cells[row["items"], row["size"]][row["way"]] = row["median"]
-    rows = collections.defaultdict(list)
-    for (items, size), row in cells.items():
-        kind = tuple(way for way in ways if way in row)
-        rows[kind].append((items, size, *(three(row[way]) for way in kind)))
-    parts = [table(["microseconds", "size", *kind], sorted(lines)) for kind, lines in rows.items()]
-    return "\n\n".join(parts) + "\n\n" + prose("Processor time, median of 5 runs")
 
 
 def median_of(values):
@@ -453,97 +361,22 @@ def peers_in_short(program):
     return table(["problems", "contacts", "", "time / LU, from fewest to most", "the most", "wrong, 95 %"], rows)
 
 
-PATCHED = (("psd", 6_200_000), ("integers", 6_200_000), ("bodies", 6_200_000), ("scenes", 6_200_000),
-           ("conditioned", 200_000))  # 10^8 of four sizes; runs over rationals take their time with the last
-
-
-def patches(program):
-    """Failures in a million problems of each way to change the published algorithm, by generator and size."""
-    ways = ("first", "previous", "second", "fold", "lemke", "complete")
-    rows = []
-    for generator, problems in PATCHED:
-        result = program.bench("patches", "--generator", generator, "--problems", program.size(problems))
-        rows += [(f"`{row['generator']}`", row["contacts"], count(row["problems"]), row["gives up"],
-                  *(row[way] for way in ways)) for row in result["rows"]]
-    return table(["generator", "contacts", "problems", "give up", "`give-up=first`", "`previous`", "`second`",
-                  "fold", "Lemke at a give-up", "`complete`"], rows)
-
-
-def smallest(program):
-    result = program.bench("smallest", "--entries", 3, "--exact")
-    return table(["entries at most", "matrices", "problems", "loops of `paper`", "no force direction", "none of these, nor solved", "the smallest loop", "the smallest under every policy"],
-                 [(row["K"], count(row["matrices"]), count(row["problems"]), count(row["loops of paper"]), count(row["singular"]), count(row["neither"]), row["smallest"],
-                   row["under every policy"]) for row in result["rows"]])
-
-
-OPTIMIZERS = ("evolution", "nlopt", "continuation")
-SEEDS = (201, 202, 203)
-
-
-def gain(cell):
-    return float("inf") if cell == "inf" else 0 if cell == "-" else cell
-
-
-def gain_text(cell):
-    return cell if isinstance(cell, str) else f"{cell:.3g}"
-
-
-def adversary(program):
-    """The optimizers beside random problems, with seeds that nothing was tuned on."""
-    results = [{row["objective"]: row for row in program.bench("adversary", "--seed", seed)} for seed in SEEDS]
-    rows = [(name, row["problems"], count(row["evaluations"]),
-             *(", ".join(gain_text(result[name][f"{optimizer} gain"]) for result in results) for optimizer in OPTIMIZERS))
-            for name, row in results[0].items()]
-
-    def doubled(optimizers):
-        return ", ".join(str(sum(max(gain(row[f"{one} gain"]) for one in optimizers) >= 2 for row in result.values()))
-                         for result in results)
-
-    return "\n\n".join((
-        table(["objective", "problems", "evaluations", *(f"gain of {optimizer}" for optimizer in OPTIMIZERS)], rows),
-        prose(f"Of {len(rows)} objectives, by seed, at least twice as bad as random problems: {doubled(OPTIMIZERS[:1])} by "
-              f"evolution, {doubled(OPTIMIZERS[1:2])} by NLopt, {doubled(OPTIMIZERS[2:])} by continuation, "
-              f"{doubled(OPTIMIZERS[:2])} by evolution or NLopt, {doubled(OPTIMIZERS)} by any.")))
-
-
-def gate_sums(cells, keys):
+def gate_table(cells, keys):
     sums = collections.defaultdict(collections.Counter)
     for cell in cells:
-        sums[tuple(cell[key] for key in keys)].update({name: cell[name] for name in (
-            "runs", "solved", "wrong", "undecided")})
-    return sums
-
-
-def gate_table(cells, before, keys):
-    """Today's runs, and what they were called, each after what cceb0e3 called the same."""
-    then, now = gate_sums(before, keys), gate_sums(cells, keys)
-    rows = []
-    for key, s in now.items():
-        pairs = []
-        for name in ("solved", "wrong", "undecided"):
-            shares = [f"{100 * sums[key][name] / sums[key]['runs']:.1f}" if sums[key]["runs"] else "-"
-                      for sums in (then, now)]
-            pairs += [count(then[key]["wrong"]), count(s["wrong"])] if name == "wrong" else shares
-        rows.append((*(f"`{name}`" for name in key), count(s["runs"]), *pairs))
-    columns = ["runs", "solved then, %", "now, %", "wrong then", "now", "undecided then, %", "now, %"]
-    return table([*keys, *columns], rows)
+        sums[tuple(cell[key] for key in keys)].update({name: cell[name] for name in ("runs", "solved", "wrong", "undecided")})
+    rows = [(*(f"`{name}`" for name in key), count(s["runs"]), f"{100 * s['solved'] / max(s['runs'], 1):.1f}",
+             count(s["wrong"]), f"{100 * s['undecided'] / max(s['runs'], 1):.1f}") for key, s in sums.items()]
+    return table([*keys, "runs", "solved, %", "wrong", "undecided, %"], rows)
 
 
 def gate(program):
-    """What is called solved over inexact numbers, by dial and by method and arithmetic, plane and space apart; before
-    there was one gate, and now."""
-    words = ("--problems", program.size(60), "--seed", 6)
-    cells = program.bench("gate", *words)["cells"]
-    script = "bench/gate_before.sh"
-    program.show(f"{script} build/gate-before {' '.join(map(str, words))}")
-    done = subprocess.run([ROOT / script, ROOT / "build/gate-before", *map(str, words), "--json"], text=True,
-                          stdout=subprocess.PIPE)
-    before = json.loads(done.stdout)["cells"]  # exit 1: some are wrong
-    parts = [gate_table(cells, before, ["dial"])]
+    """What is called solved over inexact numbers, by dial and by method and arithmetic, plane and space apart."""
+    cells = program.bench("gate", "--problems", program.size(60), "--seed", 6)["cells"]
+    parts = [gate_table(cells, ["dial"])]
     for dimension, where in ((2, "plane"), (3, "space")):
-        chosen, then = ([cell for cell in some if cell["dimension"] == dimension] for some in (cells, before))
-        parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n"
-                     + gate_table(chosen, then, ["method", "arithmetic"]))
+        chosen = [cell for cell in cells if cell["dimension"] == dimension]
+        parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n" + gate_table(chosen, ["method", "arithmetic"]))
     solved, wrong = (sum(cell[key] for cell in cells) for key in ("solved", "wrong"))
     return "\n\n".join(parts) + "\n\n" + prose(
-        f"Of {count(solved)} answers called solved now {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")
+        f"Of {count(solved)} answers called solved {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")

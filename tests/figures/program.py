@@ -47,6 +47,19 @@ class Program:
             Program.measured[words] = self.json(*words, shown=False)
         return Program.measured[words]
 
+    def study(self, name, *words):
+        """What a study in Python prints, block by block; measured once in a process."""
+        words = tuple(map(str, words))
+        self.show("./run " + self.typed(("bench", "--suite", name, *words)))
+        if (name, words) not in Program.measured:
+            package = Path(self.path).parent / "python/package"
+            done = subprocess.run([sys.executable, ROOT / f"bench/studies/{name.replace('-', '_')}.py", *words], cwd=ROOT,
+                                  text=True, capture_output=True, env={**os.environ, "PYTHONPATH": str(package)})
+            if done.returncode:
+                sys.exit(f"{name}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+            Program.measured[name, words] = done.stdout.strip().split("\n\n")
+        return Program.measured[name, words]
+
     def script(self, file, *words):
         """A script of this checkout, which takes the path of the program first."""
         self.show(f"{file} build/release/stiction " + self.typed(words))

@@ -4,31 +4,11 @@
 import collections
 import csv
 
-from markdown import count, prose, table
-
-
-def times(triple):
-    """2.1 (1.3 - 4.0)"""
-    return f"{triple[1]:.2f} ({triple[0]:.2f} - {triple[2]:.2f})" if triple else ""
+from markdown import count, prose, rate, table
 
 
 def certified(program):
-    result = program.bench("ratios")
-    rows, families = [], []
-    for line in result["certified"]:
-        row = (f"`{line['method']}`", line["contacts"], line["problems"], times(line["certified / double"]),
-               times(line["exact / double"]), line["needed rationals"])
-        if line["family"] == "all":
-            rows.append(row)
-        else:
-            families.append((row[0], row[1], line["family"], *row[2:]))
-    searches = [(f"`{line['generator']}`", line["contacts"], times(line["times as many as over rationals"]))
-                for line in result["searches"]]
-    head = ["method", "contacts", "problems", "certified, times doubles", "rationals, times doubles", "needed rationals, 95 %"]
-    return "\n\n".join((
-        table(head, rows), table([*head[:2], "family", *head[2:]], families),
-        table(["search of", "contacts", "problems a second, times those with all suspicions over rationals"], searches),
-        prose("Median (least - most)")))
+    return "\n\n".join((*program.study("ratios"), prose("Medians")))
 
 
 def quartile(values):
@@ -74,11 +54,14 @@ def extremes(program):
 
 
 def silent(program):
-    result = program.bench("silent", "--problems", program.size(10_000_000), "--seed", 6, "--threads", 2)
-    rows = [(f"`{row['row']}`", count(row["problems"]), count(row["solved"]), count(row["undecided"]),
-             count(row["other"]), count(row["silent"]), f"{row['at most in a million']:.2g}") for row in result["rows"]]
+    cells = program.bench("silent", "--problems", program.size(10_000_000), "--seed", 6, "--threads", 2)["cells"]
+    rows = []
+    for cell in cells:
+        other = cell["runs"] - cell["solved"] - cell["undecided"]
+        rows.append((f"`{cell['method']} {cell['arithmetic']}`", count(cell["runs"]), count(cell["solved"]),
+                     count(cell["undecided"]), count(other), count(cell["wrong"]), rate(cell["wrong"], cell["runs"])))
     return table(["method and arithmetic", "problems", "solved", "undecided", "another end", "silently wrong",
-                  "at most in a million, 95 %"], rows)
+                  "in a million, 95 %"], rows)
 
 
 def same_tables(program):

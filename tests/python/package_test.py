@@ -292,6 +292,43 @@ class Documented(unittest.TestCase):
         self.assertEqual(members(stub), compiled(stiction._stiction))
 
 
+class Many(unittest.TestCase):
+    def test_each_problem_ends_as_it_does_alone(self):
+        problems = [*stiction.draw("bodies", 3, 40), stiction.load(LOOP)]
+        for method, arithmetic, policy in (("baraff", "exact", "paper"), ("baraff", "filtered", "apex=suspended"),
+                                           ("complete", "double", "paper"), ("auto", "", "paper")):
+            with self.subTest(method=method, arithmetic=arithmetic, policy=policy):
+                ends = stiction.solve_all(problems, method, arithmetic, policy)
+                alone = [stiction.solve(problem, method, arithmetic, policy) for problem in problems]
+                self.assertEqual(list(ends["outcome"]), [answer.outcome for answer in alone])
+                counters = set(ends) - {"outcome", "seconds"}
+                self.assertEqual(counters, {name for answer in alone for name in answer.statistics})
+                for name in counters:
+                    self.assertEqual(list(ends[name]), [answer.statistics.get(name, 0) for answer in alone], name)
+                self.assertTrue((ends["seconds"] > 0).all() and ends["seconds"].sum() < 60)
+        self.assertIn("cycle", stiction.solve_all(problems, "baraff")["outcome"])
+        self.assertEqual(len(stiction.solve_all([])["outcome"]), 0)
+
+    def test_problems_of_a_generator_are_functions_of_what_is_asked_for(self):
+        problems = stiction.draw("conditioned", 2, 5, 3, mu="1/3")
+        self.assertEqual(problems, stiction.draw("conditioned", 2, 5, 3, mu="1/3"))
+        self.assertEqual(problems[2:4], stiction.draw("conditioned", 2, 2, 3, mu="1/3", first=2))
+        self.assertEqual(len({*problems, *stiction.draw("conditioned", 2, 5, 4, mu="1/3"), *stiction.draw("psd", 2, 5, 3)}), 15)
+        self.assertEqual({mu for problem in problems for mu in problem.mu}, {Fraction(1, 3)})
+        self.assertEqual([problem.dimension for problem in stiction.draw("space", 2, 3)], [3] * 3)
+        self.assertIn("sliding", stiction.draw("sliding", 3, 1)[0].kinds)
+        for problem in problems:
+            self.assertEqual(stiction.certify(problem, "symmetric").kind, "symmetric")
+
+    def test_intervals_are_those_that_the_program_prints(self):
+        low, high = stiction.interval(0, 1000)
+        self.assertEqual(low, 0)
+        self.assertAlmostEqual((1 - high) ** 1000, 0.025, places=9)
+        self.assertAlmostEqual(np.exp(-stiction.interval(0)[1]), 0.025, places=9)
+        low, high = stiction.interval(3, 10)
+        self.assertTrue(0.06 < low < 0.07 and 0.65 < high < 0.66)
+
+
 class Redundant(unittest.TestCase):
     def test_fast_solves_bilateral_rows_that_depend_on_others(self):
         """b in the range of A, held contacts among others: there is a solution, and no method calls it singular."""

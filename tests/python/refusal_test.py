@@ -122,6 +122,17 @@ class Refused(unittest.TestCase):
                 self.refuses(TypeError, f"{call.__name__}: problem: found .*, expected a stiction.Problem", call, thing)
         self.refuses(TypeError, "check: problem: found 1", stiction.check, 1, "{}")
 
+    def test_many(self):
+        self.refuses(TypeError, "solve_all: problem: found None", stiction.solve_all, [None])
+        self.refuses(ValueError, "method: found guess", stiction.solve_all, [stiction.load(LOOP)], "guess")
+        self.refuses(ValueError, "max_drives: found 0", stiction.solve_all, [stiction.load(LOOP)], max_drives=0)
+        self.refuses(ValueError, "found .none., expected one of integers", stiction.draw, "none", 2, 1)
+        self.refuses(ValueError, "contacts.*9", stiction.draw, "psd", 9, 1)
+        self.refuses(ValueError, "count: found -1", stiction.draw, "psd", 2, -1)
+        self.refuses(TypeError, "first: found 1.5", stiction.draw, "psd", 2, 1, first=1.5)
+        self.refuses(ValueError, "found 3 of 2", stiction.interval, 3, 2)
+        self.refuses(ValueError, "found -1 of None", stiction.interval, -1)
+
     def test_certificates(self):
         problem = stiction.load(LOOP)
         self.refuses(TypeError, "certificate: found 3, expected text", stiction.check, problem, 3)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The problems of `stiction bench --suite methods` and `structure`, and its statistics by hand.
+// The problems of `stiction bench --suite methods`, its dials and buildings, and its statistics by hand.
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "bench/counted.h"
+#include "bench/dials.h"
 #include "bench/family.h"
 #include "bench/measure.h"
 #include "bench/one_thread.h"
@@ -56,21 +58,18 @@ TEST_CASE("bench: the family is positive definite, and four normals of five are 
 }
 
 TEST_CASE("bench: every class of friction has its coefficients, for the family and for a generator") {
+  const std::vector<Rational> classes = {0, Rational(1, 5), Rational(1, 2), 1, 2, 5, 10};
   for (const auto generator : {std::optional<GeneratorId>(), std::optional(GeneratorId::kBodies)}) {
+    std::set<Rational> mixed;
     for (int index = 0; index < 80; ++index) {
-      const BenchProblem problem = MakeBenchProblem(generator, 3, 1, index);
-      CHECK(problem.friction == index % 8);
-      bool rough = true;
-      for (const auto& contact : problem.exact.contacts) {
+      for (const auto& contact : MakeBenchProblem(generator, 3, 1, index).exact.contacts) {
         CHECK(contact.kind == ContactKind::kStatic);
-        if (index % 8 < 7) CHECK(ToString(contact.mu) == FrictionName(index % 8));
-        rough &= contact.mu != 0;
+        if (index % 8 < 7) CHECK(contact.mu == classes[index % 8]);
+        if (index % 8 == 7) mixed.insert(contact.mu);
       }
-      CHECK(problem.rough == rough);
     }
+    CHECK(mixed.size() > 4);
   }
-  CHECK(FrictionName(1) == "1/5");
-  CHECK(FrictionName(7) == "mixed");
 }
 
 TEST_CASE("bench: a problem is a function of its arguments, and of each of them") {
@@ -101,7 +100,7 @@ TEST_CASE("bench: no folds without friction, some with much of it") {
   CHECK(folds_with_much > 5);
 }
 
-TEST_CASE("bench: quartiles and averages by hand") {
+TEST_CASE("bench: quartiles by hand") {
   const Quartiles q = QuartilesOf({7, 1, 3, 5, 9, 2, 8, 4});  // sorted 1 2 3 4 5 7 8 9
   CHECK(q.low == 3);
   CHECK(q.median == 5);
@@ -112,19 +111,6 @@ TEST_CASE("bench: quartiles and averages by hand") {
   CHECK(SpreadOf({}).most == 0);
   const Quartiles one = QuartilesOf({4});
   CHECK((one.low == 4 && one.median == 4 && one.high == 4 && one.ninety == 4));
-  CHECK(AverageOf({1, 2, 6}).mean == 3);
-  CHECK(AverageOf({1, 2, 6}).most == 6);
-  CHECK(AverageOf({}).mean == 0);
-}
-
-TEST_CASE("bench: a contingency counts every pair once") {
-  Contingency count;
-  count.Count(true, true);
-  count.Count(true, false);
-  count.Count(true, false);
-  count.Count(false, true);
-  for (int i = 0; i < 4; ++i) count.Count(false, false);
-  CHECK((count.both == 1 && count.first_only == 2 && count.second_only == 1 && count.neither == 4));
 }
 
 TEST_CASE("bench: methods mismatch if one refutes what another has solved, or if an exact answer is wrong") {
@@ -156,58 +142,67 @@ bool IsInRange(const ContactProblem<double>& problem) {
   return rest.lpNorm<Eigen::Infinity>() <= 1e-6 * problem.b.lpNorm<Eigen::Infinity>();
 }
 
-bool IsOfItsFamily(const StructuredFamily& family, const ContactProblem<double>& problem) {
-  const auto kind = family.friction ? ContactKind::kStatic : ContactKind::kFrictionless;
-  bool is = problem.dimension == family.dimension;
-  is &= problem.rows() == RowCount(problem.contacts, problem.dimension);
-  for (const auto& contact : problem.contacts)
-    is &= contact.kind == kind && (contact.mu > 0) == family.friction;
-  return is;
+bool IsSymmetric(const ContactProblem<double>& problem) {
+  return (problem.A - problem.A.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * problem.A.maxCoeff();
 }
 
-const StructuredFamily& Find(const std::vector<StructuredFamily>& families, const std::string& name) {
-  const auto found =
-      std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.name == name; });
-  REQUIRE(found != families.end());
-  return *found;
-}
-
-TEST_CASE("bench: problems of a family with structure are of one size, symmetric, b in the range of A") {
-  for (const StructuredFamily& family : StructuredFamilies(STICTION_SCENES)) {
-    if (family.name.find("wall-in-space") != std::string::npos || family.name == "large/brick-wall") continue;
-    CAPTURE(family.name);
-    const auto problems = family.make(2, 1);
-    REQUIRE(problems.size() == 2);
-    for (const auto& problem : problems) {
-      CHECK(problem.rows() == problems[0].rows());
-      CHECK(IsOfItsFamily(family, problem));
-      CHECK((problem.A - problem.A.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * problem.A.maxCoeff());
-      CHECK(IsInRange(problem));
+TEST_CASE("bench: buildings are of their size, symmetric, b in the range of A, with friction or without") {
+  for (const bool friction : {true, false}) {
+    for (const int dimension : {2, 3}) {
+      const Building building = {dimension, friction, 2};
+      const int rows = friction ? dimension : 1, faces = dimension == 2 ? 2 : 4;
+      Choices choices(7);
+      const auto stack = StackProblem(3, building, choices), wall = WallProblem(3, 2, building, choices);
+      CHECK(stack.rows() == 3 * faces * rows);
+      CHECK(wall.rows() > stack.rows());
+      for (const auto& problem : {stack, wall}) {
+        CHECK(problem.dimension == dimension);
+        CHECK((IsSymmetric(problem) && IsInRange(problem)));
+        for (const auto& contact : problem.contacts) CHECK((contact.mu > 0) == friction);
+      }
     }
   }
+  Choices choices(7);
+  const auto channel = ChannelProblem(4, {2, true, 0}, choices);
+  CHECK(channel.contacts.size() == 8);  // floor or disc below, and a wall
+  CHECK((IsSymmetric(channel) && IsInRange(channel)));
 }
 
-TEST_CASE("bench: the wall of the corpus is one problem of 344 contacts in every frame") {
-  const auto families = StructuredFamilies(STICTION_SCENES);
-  const auto problems = Find(families, "large/brick-wall").make(3, 1);
-  REQUIRE(problems.size() == 3);
-  for (const auto& problem : problems) CHECK(problem.contacts.size() == 344);
-}
-
-TEST_CASE("bench: masses of a family differ as much as its title says, and the seed draws them") {
-  const auto families = StructuredFamilies(STICTION_SCENES);
-  const auto spread = [](const ContactProblem<double>& problem) {
-    return problem.A.diagonal().maxCoeff() / problem.A.diagonal().minCoeff();
+TEST_CASE("bench: masses of a building differ as much as is asked for, and the seed draws them") {
+  const auto most = [](int decades) {
+    double spread = 0;
+    for (int seed = 0; seed < 5; ++seed) {
+      Choices choices(seed);
+      const Eigen::VectorXd diagonal = StackProblem(10, {2, true, decades}, choices).A.diagonal();
+      spread = std::max(spread, diagonal.maxCoeff() / diagonal.minCoeff());
+    }
+    return spread;
   };
-  for (const auto& problem : Find(families, "stack-10").make(5, 1)) CHECK(spread(problem) < 10);
-  double most = 0;
-  for (const auto& problem : Find(families, "stack-10-masses").make(5, 1))
-    most = std::max(most, spread(problem));
-  CHECK(most > 1e3);
-  CHECK(most < 1e5);
-  const auto& stack = Find(families, "stack-10-masses");
-  CHECK(stack.make(2, 1)[1].A == stack.make(2, 1)[1].A);
-  CHECK(stack.make(2, 1)[1].A != stack.make(2, 2)[1].A);
+  CHECK(most(0) < 10);
+  CHECK(most(4) > 1e3);
+  CHECK(most(4) < 1e5);
+  const auto with_seed = [](int seed) {
+    Choices choices(seed);
+    return StackProblem(10, {2, true, 4}, choices).A;
+  };
+  CHECK(with_seed(1) == with_seed(1));
+  CHECK(with_seed(1) != with_seed(2));
+}
+
+TEST_CASE("bench: a dial is a function of its arguments, of its dimension, and semidefinite over rationals") {
+  for (const Dials which : {Dials::kLadder, Dials::kGate}) {
+    for (const Source& source : DialSources(which, {})) {
+      if (source.is_large) continue;
+      CAPTURE(source.family, source.setting);
+      const ExactProblem problem = source.make(3, 1);
+      CHECK(ProblemToJson(problem) == ProblemToJson(source.make(3, 1)));
+      CHECK(problem.dimension == (source.family.rfind("space-", 0) == 0 ? 3 : 2));
+      CHECK(problem.rows() == RowCount(problem.contacts, problem.dimension));
+      CHECK(std::holds_alternative<LdltFactors>(DecideSemidefinite(problem.A)));
+    }
+  }
+  CHECK(DialSources(Dials::kLadder, {"tame", "stack"}).size() == 6);
+  CHECK_THROWS_WITH(DialSources(Dials::kLadder, {"jam"}), Catch::Contains("found 'jam'"));
 }
 
 TEST_CASE("bench: a double that counts ends as a double does, and counts") {

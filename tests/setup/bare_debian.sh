@@ -72,7 +72,7 @@ readonly package_jobs=(
   'python3 /usr/share/stiction/certify/check_certificate.py report/findings/*.certificate.json >/dev/null'
   'stiction replay /usr/share/stiction/corpus/two-contact-cycle.json --step | tail -n 1'
   'stiction solve /usr/share/stiction/corpus/two-contact-cycle.json --method ipopt | head -n 1'
-  'stiction bench --suite smallest --entries 2 --json >/dev/null'
+  'stiction bench --suite gate --families tame --json >/dev/null'
   'stiction records >/dev/null && test -e report/frontiers.csv'
   'test -e /usr/share/man/man1/stiction.1.gz && test -e /usr/share/man/man1/stiction-bench.1.gz'
   'apt-get install -qq -y --no-install-recommends ./libstiction-dev_*.deb g++ cmake ninja-build >/dev/null'

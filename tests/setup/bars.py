@@ -36,8 +36,7 @@ def is_measured(name):
 def files():
     """Of the product, as Git has them."""
     for name in tracked(*PRODUCT):
-        is_peer = re.match(r"bench/(peer|peers)_", name) or name == "bench/peers.cpp"
-        if name.endswith(CODE) and not is_peer and "/dist/" not in name:
+        if name.endswith(CODE) and not name.startswith("bench/peers/") and "/dist/" not in name:
             yield name
 
 

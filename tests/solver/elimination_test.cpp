@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "bench/plain_rational.h"
 #include "solver/complete/complete.ipp"
 #include "solver/published/published.ipp"
+#include "tests/solver/plain_rational.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contenders of the peers' table: one solver each, of stiction or of a package that was found at build time.
+
+#ifndef STICTION_BENCH_PEERS_CONTENDER_H_
+#define STICTION_BENCH_PEERS_CONTENDER_H_
+
+#include <memory>
+#include <vector>
+
+#include "solver/problem/problem.h"
+
+namespace stiction {
+
+using PeerProblem = ContactProblem<double>;
+
+// Problems of one size at a time.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  // Brings the problems into the contender's form; not timed. They outlive the contender.
+  virtual void Load(const std::vector<PeerProblem>& problems) = 0;
+  // Solves problem `index`; timed. Returns whether the contender claims success. What the contender destroys
+  // of its data is restored here.
+  virtual bool Solve(int index) = 0;
+  // Forces of the last call of Solve; not timed.
+  virtual Eigen::VectorXd Forces() const = 0;
+};
+
+// Dantzig's pivoting with an updated factorization, the descendant of [Baraff94]. `friction`: by the friction
+// index of these libraries, which is not Coulomb's law; `cfm`: dantzig.h. Null where the package is
+// missing.
+std::unique_ptr<Contender> MakeOde(bool friction, double cfm);  // libode-dev
+std::unique_ptr<Contender> MakeDart(bool friction);             // libdart-external-odelcpsolver-dev
+std::unique_ptr<Contender> MakeBullet(bool friction);           // libbullet-dev
+// libsiconos-numerics-dev
+enum class SiconosMethod {
+  kLcpLemke,
+  kFriction2dNsgs,
+  kFriction2dLemke,
+  kPlanarLcp,  // Lemke's method on the complementarity problem of planar friction, made beforehand
+  kFriction3dNsgs,
+  kFriction3dNewton,
+  kFriction3dHybrid,  // Newton's method from where extragradient steps end
+};
+std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
+
+}  // namespace stiction
+
+#endif  // STICTION_BENCH_PEERS_CONTENDER_H_

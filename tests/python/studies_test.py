@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The studies of bench/studies, at small size: their tables say what can be known of them otherwise.
+
+    studies_test.py STICTION SOURCES"""
+
+import itertools
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import stiction
+
+SOURCES = Path(sys.argv[2])
+
+
+def tables(name, *words, code=0):
+    """Rows of each table, by the heads of its columns."""
+    done = subprocess.run([sys.executable, SOURCES / "bench/studies" / f"{name}.py", *map(str, words)], text=True,
+                          capture_output=True, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    if done.returncode != code:
+        raise AssertionError(f"{name}: exit {done.returncode}\n{done.stderr}")
+    found = []
+    for block in done.stdout.split("\n\n"):
+        lines = [line[2:-2].split(" | ") for line in block.splitlines() if line.startswith("|")]
+        if lines:
+            found.append([dict(zip(lines[0], cells, strict=True)) for cells in lines[2:]])
+    return found
+
+
+def whole(text):
+    return int(text.replace(",", ""))
+
+
+class Studies(unittest.TestCase):
+    def test_all_have_a_test_here(self):
+        studies = {file.stem for file in (SOURCES / "bench/studies").glob("*.py")} - {"study"}
+        self.assertEqual(studies, {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")} - {
+            "all_have_a_test_here", "what_they_ask_for_is_refused_by_name"})
+
+    def test_what_they_ask_for_is_refused_by_name(self):
+        done = subprocess.run([sys.executable, SOURCES / "bench/studies/patches.py", "--generator", "none"], text=True,
+                              capture_output=True, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+        self.assertIn('found "none", expected one of integers', done.stderr)
+
+    def test_smallest(self):
+        """Counted again: definite by leading minors, up to tangents reversed; b with a negative normal."""
+        def determinant(M):
+            if not M:
+                return 1
+            return sum((-1) ** j * M[0][j] * determinant([row[:j] + row[j + 1:] for row in M[1:]])
+                       for j in range(len(M)) if M[0][j])
+
+        (row,), = tables("smallest", "--entries", 1)
+        matrices = 0
+        for n1f1, n2f2, *rest in itertools.product((0, 1), (0, 1), *[(-1, 0, 1)] * 4):
+            A = [[1, n1f1, rest[0], rest[1]], [n1f1, 1, rest[2], rest[3]], [rest[0], rest[2], 1, n2f2],
+                 [rest[1], rest[3], n2f2, 1]]
+            matrices += all(determinant([line[:k] for line in A[:k]]) > 0 for k in range(1, 5))
+        self.assertEqual((row["matrices"], row["problems"]), (str(matrices), str(matrices * (3 ** 4 - 4 * 9))))
+        self.assertEqual((row["loops of `paper`"], row["the smallest loop"]), ("0", "-"))
+
+    def test_sliding(self):
+        rows, = tables("sliding", "--generator", "integers", "--contacts", 1, 2, "--problems", 1500)
+        self.assertEqual([row["contacts, sliding"] for row in rows], ["1, 1", "2, 1", "2, 2"])
+        for row in rows:
+            ends = [whole(row[end]) for end in ("solved", "ray", "singular", "stall", "limit", "undecided", "cycle")]
+            self.assertEqual(sum(ends), 1500)
+            self.assertGreater(whole(row["ray"]), 0)
+            self.assertLessEqual(sum(map(int, row["with a solution, without"].split(","))), whole(row["cycle"]))
+
+    def test_patches(self):
+        rows, = tables("patches", "--generator", "bodies", "--contacts", 3, "--problems", 1500)
+        rates = {name: float(rows[0][name].split()[0].replace(",", "")) for name in (
+            "give up", "folds", "`give-up=first`", "fold", "Lemke at a give-up", "`complete`")}
+        self.assertEqual((rates["Lemke at a give-up"], rates["`complete`"]), (0, 0))
+        self.assertLess(rates["`give-up=first`"], 1e4 * rates["give up"])
+        self.assertLess(rates["fold"], 1e4 * rates["folds"])
+        self.assertGreater(rates["fold"], 0)
+        problems = stiction.draw("bodies", 3, 1500)
+        folds = (stiction.solve_all(problems, "complete", "exact")["folds"] > 0).sum()
+        self.assertAlmostEqual(rates["folds"], folds / 15, delta=0.01)
+
+    def test_work(self):
+        runs, folds, pairs, starts = tables("work", "--contacts", 2, 3, "--problems", 24)
+        for row in runs:
+            ended = row["not solved"].split(", ") if row["not solved"] != "0" else []
+            self.assertEqual(whole(row["solved"]) + sum(int(end.split()[0]) for end in ended), whole(row["problems"]))
+            if row["method"] != "`baraff`" and row["method"] != "`ipopt`":
+                self.assertEqual(row["solved"], row["problems"], row)
+        self.assertEqual([row["folds, 95 %"].split()[0] for row in folds if row[""] == "mu = 0"], ["0"])
+        for row in pairs:
+            ends = ("folds and give-ups", "folds only", "give-ups only", "neither")
+            self.assertEqual(sum(whole(row[end]) for end in ends), 48)
+        for row in starts:
+            counted = sum(whole(row[key]) for key in ("starts: 1", "2", "3", "4 to 20", "none"))
+            self.assertEqual(counted, whole(row["problems"]))
+        exponential, *_ = tables("work", "--generator", "exponential", "--contacts", 3, "--problems", 8)
+        self.assertEqual([row["solved"] for row in exponential if row["method"] == "`complete`"], ["8"])
+
+    def test_space(self):
+        sizes, friction = tables("space", "--contacts", 1, 3, "--problems", 20)
+        self.assertEqual([row["family, contacts"] for row in sizes],
+                         [name for name in ("definite, 1", "definite, 3", "one body, 3") for _ in range(3)])
+        ends = ("solved", "recurs", "nearer", "left again", "ray", "otherwise")
+        for rows, count in ((sizes, 20), (friction, 12)):
+            for row in rows:
+                self.assertEqual(sum(whole(row[end]) for end in ends), count, row)
+                self.assertEqual(row["differ"], "0")
+                if row["`slip`"] == "polygon":
+                    self.assertEqual(row["solved"], str(count))
+
+    def test_adversary(self):
+        rows, = tables("adversary", "--objective", "steps", "friction", "--problems", 400)
+        self.assertEqual([row["objective"] for row in rows], ["steps", "friction"])
+        self.assertGreater(float(rows[0]["best of random"]), 4)
+        for name in ("evolution", "nlopt", "continuation"):
+            self.assertGreater(float(rows[0][f"gain of {name}"]), 0.3)
+
+    def test_ratios(self):
+        runs, searches = tables("ratios", "--contacts", 2, "--problems", 3, "--searched", 200, "--repeat", 1)
+        self.assertEqual({row["method"] for row in runs}, {"`complete`", "`baraff`"})
+        for row in runs:
+            self.assertGreater(float(row["rationals, times doubles"].replace(",", "")), 1)
+        self.assertEqual([row["search of"] for row in searches], ["`conditioned`", "`near-degenerate`"])
+
+    def test_linear_algebra(self):
+        systems, runs = tables("linear_algebra", "--contacts", 2, "--sizes", 3, 8, "--problems", 5)
+        self.assertEqual([row["rows"] for row in systems], ["3", "8", "3", "8"])
+        self.assertEqual(len(runs), 4)
+        for row in systems + runs:
+            for median, most in (cell[:-1].split(" (") for name, cell in row.items() if cell.endswith(")")):
+                self.assertLessEqual(0, float(median.replace(",", "")))
+                self.assertLessEqual(float(median.replace(",", "")), float(most.replace(",", "")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

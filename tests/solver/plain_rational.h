@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rational of whose integers nothing is said (Fractions): the solver's templates then eliminate over
+// fractions.
+
+#ifndef STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
+#define STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
+
+#include "corpus/problem_file.h"
+
+namespace stiction {
+
+struct PlainRational : Rational {
+  using Rational::Rational;
+  PlainRational() = default;
+  PlainRational(const Rational& x) : Rational(x) {}
+};
+
+inline ContactProblem<PlainRational> Plain(const ExactProblem& problem) {
+  ContactProblem<PlainRational> plain;
+  for (const auto& contact : problem.contacts) plain.contacts.push_back({contact.kind, contact.mu, {}});
+  plain.A = problem.A.cast<PlainRational>();
+  plain.b = problem.b.cast<PlainRational>();
+  return plain;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
