@@ -24,7 +24,7 @@
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
 #include "bench/rungs.h"
-#include "certify/exact/exact.h"
+#include "certify/exact/solve.h"
 #include "corpus/atomic_file.h"
 #include "corpus/json_text.h"
 #include "corpus/problem_file.h"
