@@ -20,7 +20,6 @@
 #ifndef STICTION_CERTIFY_EXACT_FILTERED_H_
 #define STICTION_CERTIFY_EXACT_FILTERED_H_
 
-#include <array>
 #include <string_view>
 
 #include "certify/exact/exact.h"
@@ -31,12 +30,10 @@
 
 namespace stiction {
 
-// The methods that are built so, by their names in the table of methods.
-inline constexpr std::array<std::string_view, 3> kEnclosedMethods = {"baraff", "complete", "lemke"};
-
-// One of them over balls: forces and accelerations with their ends, in the middle of them otherwise, as pivots;
-// undecided where a sign was unsure. Its forces are not judged. Lemke's method takes a covering vector of ones.
-// Requires dimension 2, and a rung other than exact. The answer keeps METHOD, which has to outlive it.
+// A method of EnclosedMethods that has rungs, over balls: forces and accelerations with their ends, in the
+// middle of them otherwise, as pivots; undecided where a sign was unsure. Its forces are not judged. Lemke's
+// method takes a covering vector of ones. Requires dimension 2, and a rung other than exact. The answer keeps
+// METHOD, which has to outlive it.
 InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
                           Rung rung, KeepTrace keep = KeepTrace::kNo);
 
