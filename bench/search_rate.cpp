@@ -101,19 +101,19 @@ Campaign DefaultMix(const BenchOptions& o) {
   return campaign;
 }
 
-struct MixRun {
+struct Mix {
   std::int64_t problems = 0;
   Work work;
   double wall = 0, processor = 0;  // s
 };
 
 // One round of the schedule, whose units the threads share.
-MixRun RunMix(const Campaign& campaign, int threads) {
+Mix RunMix(const Campaign& campaign, int threads) {
   const auto units = static_cast<std::int64_t>(Schedule(campaign).size());
   progress::Begin(fmt::format("a round of units, threads: {}", threads), 1);
   std::atomic<std::int64_t> next = 0;
-  std::vector<MixRun> parts(static_cast<std::size_t>(threads));
-  const auto work = [&](MixRun& part) {
+  std::vector<Mix> parts(static_cast<std::size_t>(threads));
+  const auto work = [&](Mix& part) {
     const double start = OwnSeconds();
     UnitRunner runner(campaign);
     for (std::int64_t unit = next++; unit < units; unit = next++) {
@@ -128,9 +128,9 @@ MixRun RunMix(const Campaign& campaign, int threads) {
     std::vector<std::jthread> others;
     for (int k = 0; k < threads; ++k) others.emplace_back(work, std::ref(parts[static_cast<std::size_t>(k)]));
   }
-  MixRun all;
+  Mix all;
   all.wall = ReadSeconds(CLOCK_MONOTONIC) - start;
-  for (const MixRun& part : parts) {
+  for (const Mix& part : parts) {
     all.problems += part.problems;
     all.processor += part.processor;
     all.work.Add(part.work);
@@ -139,7 +139,7 @@ MixRun RunMix(const Campaign& campaign, int threads) {
   return all;
 }
 
-Json MixRow(const char* generators, const MixRun& run) {
+Json MixRow(const char* generators, const Mix& run) {
   Json row = {{"generators", generators},
               {"problems", run.problems},
               {"problems a second", static_cast<double>(run.problems) / run.processor}};
@@ -152,7 +152,7 @@ Json MixRow(const char* generators, const MixRun& run) {
 
 std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
   const Campaign campaign = DefaultMix(o);
-  const MixRun one = RunMix(campaign, 1), two = RunMix(campaign, 2);
+  const Mix one = RunMix(campaign, 1), two = RunMix(campaign, 2);
   BenchTable mix{"mix",
                  "A campaign that names nothing, without finishing, and integers at two contacts: shares of "
                  "the processor time",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "certify/claims/claims.h"
 #include "corpus/json_text.h"
 
 namespace stiction {

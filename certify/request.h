@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/claims.h"
+#include "certify/exact/enumerate.h"
 #include "certify/exact/solve.h"
 
 namespace stiction {
