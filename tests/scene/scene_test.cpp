@@ -40,7 +40,7 @@ std::optional<ExactVector> SolveExactly(const ExactProblem& problem) {
   REQUIRE(reduction.end() == ReductionEnd::kReduced);
   ExactVector x(0);
   if (reduction.problem().rows() > 0) {
-    const ExactAnswer run = RunComplete(reduction.problem(), Limits());
+    const ExactAnswer run = testing::RunComplete(reduction.problem(), Limits());
     if (!run.Solved()) return std::nullopt;
     x = run.f;
   }
