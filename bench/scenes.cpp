@@ -90,7 +90,7 @@ Json ShownRow(const Json& row, const Ways& ways) {
   for (const Way& way : ways) {
     const Json& measured = row[way.name];
     const bool failed = measured.contains("failure");
-    shown[way.name] = failed ? measured["failure"] : spread(measured["frames_a_second"]);
+    shown[way.name] = failed ? Json("-") : spread(measured["frames_a_second"]);
     for (const char* name : {"rows", "problems"})
       shown[fmt::format("{}, {}", name, way.name)] = failed ? Json("-") : measured[name];
   }
@@ -126,8 +126,12 @@ int BenchScenes(const BenchOptions& o) {
   progress::Clear();
   if (o.json) {
     std::cout << JsonText(rows) << "\n";
-  } else {
-    Print(table);
+    return kExitDone;
+  }
+  Print(table);
+  for (const Json& row : rows) {
+    if (row[ways[0].name].contains("failure"))
+      fmt::print("{}: {}\n", row["scene"].get<std::string>(), row[ways[0].name]["failure"].get<std::string>());
   }
   return kExitDone;
 }

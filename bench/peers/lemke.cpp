@@ -15,6 +15,7 @@
 #include "bench/measure.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
+#include "bench/table.h"
 #include "corpus/input_error.h"
 #include "corpus/stopwatch.h"
 #include "search/batch/batch.h"
@@ -173,12 +174,20 @@ Json Row(const char* name, SiconosMethod method, int contacts, const PeersOption
 
 Json MeasureLemke(const PeersOptions& o) {
   Json rows = Json::array();
+  BenchTable measured{"lemke",
+                      "Siconos's Lemke and the published algorithm on the same problems of integers: times as "
+                      "many solved"};
   progress::Begin("beside Lemke",
                   2 * (o.contacts.empty() ? 3 : static_cast<int>(o.contacts.size())) * (kRuns + 1));
   for (const int contacts : o.contacts.empty() ? std::vector<int>{2, 3, 5} : o.contacts) {
     rows.push_back(Row("Siconos Lemke, LCP", SiconosMethod::kPlanarLcp, contacts, o));
     rows.push_back(Row("Siconos Lemke, fc2d", SiconosMethod::kFriction2dLemke, contacts, o));
   }
+  progress::Clear();
+  for (const Json& row : rows) {
+    if (row.contains("problems")) measured.rows.push_back(row);
+  }
+  if (!o.json) Print(measured);
   return {{"name", "lemke"}, {"rows", rows}};
 }
 
