@@ -90,14 +90,13 @@ Html Again(const std::vector<std::filesystem::path>& files) {
           Tag("pre")(Tag("code")(commands + " -o again")));
 }
 
-Html Files(const std::vector<std::filesystem::path>& files, const std::vector<FigureTable>& figures,
-           bool records) {
+Html Files(const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures, bool records) {
   const auto row = [](const std::string& file, const char* meaning) {
     return Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   };
   Html list;
   for (const auto& file : files) list += row(BenchName(file), "as bench wrote it");
-  for (const FigureTable& figure : figures)
+  for (const Table& figure : figures)
     list += row("figures/" + figure.name + ".csv", "the numbers that the figure draws");
   if (records) list += row("frontiers.csv", "the records, exactly, and what drew the random problems");
   list += row("SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check");
@@ -121,8 +120,7 @@ std::string BenchName(const std::filesystem::path& file) {
 }
 
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
-                         const std::vector<std::filesystem::path>& files,
-                         const std::vector<FigureTable>& figures) {
+                         const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   const bool records = !frontiers.empty();
   const Json data = {{"figures", FiguresToJson(figures)}, {"findings", Json::array()}};

@@ -180,7 +180,7 @@ Html Results(const ReportContent& content) {
          FindingsSection(content.discoveries, content.since) + end;
 }
 
-Json PageData(const ReportContent& content, const std::vector<FigureTable>& figures) {
+Json PageData(const ReportContent& content, const std::vector<Table>& figures) {
   return {{"figures", FiguresToJson(figures)},
           {"findings", FindingsToJson(content.discoveries, content.since)}};
 }
@@ -234,7 +234,7 @@ Html AgainSection(const ReportContent& content) {
                           "alone.</p>\n"));
 }
 
-std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {
+std::string Page(const ReportContent& content, const std::vector<Table>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   const bool random = content.Objective().empty();
   return FilledTemplate(

@@ -11,7 +11,6 @@
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/intervals.h"
 #include "reports/page/page.h"
 
 namespace stiction {
@@ -124,36 +123,31 @@ std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
 // ---- Tables --------------------------------------------------------------------------------------
 
 Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
-  Table table("Rungs on " + family,
-              {{"method", "", false},
-               {"arithmetic", "", false},
-               {"microseconds", "median of the settings' medians"},
-               {"problems", "that its numbers hold"},
-               {"solved"},
-               {"undecided"},
-               {"other", "other ends: a loop, a ray, no direction"},
-               {"wrong",
-                "silently wrong, or, of the published algorithm, another end than over rationals; below: the "
-                "share, with its interval at 95 %"},
-               {"silent",
-                "called solved within errors that it does not keep, or without a solution where there "
-                "is one"},
-               {"worst residual", "of what is called solved, over rationals"}});
+  Table table{
+      "rungs",
+      "Rungs on " + family,
+      {{"method", "", kText},
+       {"arithmetic", "", kText},
+       {"microseconds", "median of the settings' medians"},
+       {"problems", "that its numbers hold"},
+       {"solved"},
+       {"undecided"},
+       {"other", "other ends: a loop, a ray, no direction"},
+       {"wrong",
+        "silently wrong, or, of the published algorithm, another end than over rationals; below: the share, "
+        "with its interval at 95 %"},
+       {"silent",
+        "called solved within errors that it does not keep, or without a solution where there is one"},
+       {"worst residual", "of what is called solved, over rationals"}},
+      {},
+      {},
+      2};
   for (const RungSum& sum : sums) {
-    const Html share = Tag("small")(ShareText(sum.wrong, sum.asked));
-    table.AddRow({{Text(sum.method)},
-                  {Text(sum.arithmetic)},
-                  {Text(sum.microseconds.empty() ? "" : fmt::format("{:.3g}", sum.Median()))},
-                  {Text(Grouped(sum.asked))},
-                  {Text(Grouped(sum.solved))},
-                  {Text(Grouped(sum.undecided))},
-                  {Text(Grouped(sum.other))},
-                  {Text(Grouped(sum.wrong)) + share},
-                  {Text(Grouped(sum.silent))},
-                  {Text(fmt::format("{:.0e}", sum.worst))}},
-                 2);
+    table.Add({sum.method, sum.arithmetic, sum.microseconds.empty() ? TableCell() : sum.Median(), sum.asked,
+               sum.solved, sum.undecided, sum.other, ShareOf(sum.wrong, sum.asked), sum.silent,
+               fmt::format("{:.0e}", sum.worst)});
   }
-  return table.Done();
+  return ToHtml(table);
 }
 
 // In the order of the file.
@@ -212,18 +206,17 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
   return lines;
 }
 
-FigureTable RungsFigure(const std::vector<RungLine>& lines) {
-  FigureTable figure{
-      "rungs",
-      {"family", "method", "arithmetic", "microseconds", "lost", "asked", "solved", "wrong", "undecided"}};
+Table RungsFigure(const std::vector<RungLine>& lines) {
+  Table table{"rungs", "",
+              Columns("family* method* arithmetic* microseconds lost asked solved wrong undecided")};
   for (const auto& [family, sums] : Families(lines)) {
     for (const RungSum& sum : sums) {
       if (sum.microseconds.empty() || sum.asked == 0) continue;
-      figure.rows.push_back({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked,
-                             sum.solved, sum.wrong, sum.undecided});
+      table.Add({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked, sum.solved,
+                 sum.wrong, sum.undecided});
     }
   }
-  return figure;
+  return table;
 }
 
 Html RungsSection(const std::vector<RungLine>& lines) {

@@ -28,7 +28,7 @@ struct RungLine {
 std::vector<RungLine> ReadRungs(const std::filesystem::path& file);
 
 // Time and lost answers of each method over each arithmetic (figures.h).
-FigureTable RungsFigure(const std::vector<RungLine>& lines);
+Table RungsFigure(const std::vector<RungLine>& lines);
 // Without lines it says what measures them.
 Html RungsSection(const std::vector<RungLine>& lines);
 

@@ -2,98 +2,52 @@
 #include "reports/papers/latex.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "corpus/counts.h"
-#include "corpus/grouped.h"
 #include "corpus/intervals.h"
-#include "reports/html/html.h"
+#include "reports/tables/campaign_tables.h"
 
 namespace stiction {
 namespace {
 
-using LatexRow = std::vector<std::string>;
+const By kBySize = {"policy", "contacts"};
 
-// A table that may go over pages: the first `names` columns to the left, the others to the right.
-std::string LatexTable(const std::string& caption, const std::string& label, const LatexRow& header,
-                       std::size_t names, const std::vector<LatexRow>& rows) {
-  std::string columns = std::string(names, 'l') + std::string(header.size() - names, 'r');
-  std::string text = fmt::format(
-      "% Written by stiction; needs booktabs and "
-      "longtable.\n\\begin{{longtable}}{{{0}}}\n\\caption{{{1}}}\\label{{{2}}}\\\\\n"
-      "\\toprule\n{3} \\\\\n\\midrule\n\\endfirsthead\n\\toprule\n{3} \\\\\n\\midrule\n\\endhead\n",
-      columns, caption, label, fmt::join(header, " & "));
-  for (const LatexRow& row : rows) text += fmt::format("{} \\\\\n", fmt::join(row, " & "));
-  return text + "\\bottomrule\n\\end{longtable}\n";
+Table PaperLoops(const Record& record) {
+  Table table =
+      Select(FailuresTable(record, {"generator", "contacts", "policy", "arithmetic"}),
+             {{"generator"},
+              {"policy"},
+              {"arithmetic"},
+              {"contacts"},
+              {"runs"},
+              {"#loops"},
+              {"loops", "in a million [95 %]"}},
+             "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
+             "intervals at 95 % (Garwood). They are lower bounds where runs were not all repeated exactly.");
+  table.name = "loops";
+  return table;
 }
 
-// "550 [480, 627]" in which no bracket is an option.
-std::string Rate(std::int64_t count, std::int64_t runs) { return LatexText(RateText(count, runs)); }
-std::string Share(std::int64_t count, std::int64_t of) { return LatexText(ShareText(count, of)); }
-
-std::string LoopsTable(const Record& record) {
-  std::vector<LatexRow> rows;
-  for (const auto& [key, counts] : CountBy(record, [](const TallyKey& key) { return key; })) {
-    rows.push_back({LatexText(key.generator), LatexText(key.policy), LatexText(key.arithmetic),
-                    Grouped(key.contacts), Grouped(counts.runs), Grouped(counts.Loops()),
-                    Rate(counts.Loops(), counts.runs)});
-  }
-  return LatexTable(
-      "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
-      "intervals at "
-      "95\\,\\% (Garwood). They are lower bounds where runs were not all repeated exactly.",
-      "tab:stiction-loops",
-      {"generator", "policy", "arithmetic", "contacts", "runs", "loops", "in a million {[95\\,\\%]}"}, 3,
-      rows);
-}
-
-// By policy and contacts, over all generators.
-std::pair<std::string, int> BySize(const TallyKey& key) { return {key.policy, key.contacts}; }
-
-std::string ContactsTable(const Record& record) {
-  std::vector<LatexRow> rows;
-  for (const auto& [key, size] : MergeBy(record, &BySize)) {
-    Counts counts;
-    counts.Add(size);
-    rows.push_back({LatexText(key.first), Grouped(key.second), Grouped(counts.runs),
-                    Mean(size.sums.steps, counts.runs), Share(size.with_zero_steps, counts.runs),
-                    Share(size.with_give_ups, counts.runs), Rate(counts.Loops(), counts.runs)});
-  }
-  return LatexTable(
-      "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length "
-      "zero, and "
-      "with something given up, as shares with exact intervals at 95\\,\\% (Clopper and Pearson); loops "
-      "confirmed "
-      "exactly, in a million runs (Garwood).",
-      "tab:stiction-contacts",
-      {"policy", "contacts", "runs", "steps", "with zero steps", "with give-ups", "loops"}, 1, rows);
-}
-
-std::string MethodsTable(const Record& record) {
-  std::vector<LatexRow> rows;
-  for (const auto& [contacts, existence] : record.existence) {
-    const auto found = record.agreement.find(contacts);
-    const AgreementTally agreement = found == record.agreement.end() ? AgreementTally{} : found->second;
-    rows.push_back({Grouped(contacts), Grouped(existence.problems), Grouped(existence.solved),
-                    Grouped(existence.with_folds), Grouped(existence.with_descents),
-                    Grouped(agreement.compared), Grouped(agreement.enumerated),
-                    Grouped(agreement.disagreements)});
-  }
-  return LatexTable(
-      "Complete driving on the problems that were given to it, and methods held against each other (published "
-      "algorithm, complete driving, Lemke's method; all contact modes tried of some), by number of contacts. "
-      "Each "
-      "solution was verified exactly.",
-      "tab:stiction-methods",
-      {"contacts", "given", "solved", "with folds", "with descents", "compared", "all modes", "disagreements"},
-      0, rows);
+Table PaperMethods(const Record& record) {
+  Table table =
+      Select(AgreementTable(record),
+             {{"contacts"},
+              {"problems", "given"},
+              {"solved"},
+              {"with_folds"},
+              {"with_descents"},
+              {"compared"},
+              {"enumerated", "all modes"},
+              {"disagreements"}},
+             "Complete driving on the problems that were given to it, and methods held against each other "
+             "(published algorithm, complete driving, Lemke's method; all contact modes tried of some), by "
+             "number of contacts. Each solution was verified exactly.");
+  table.name = "methods";
+  return table;
 }
 
 // ---- Figures: columns of numbers, and what draws them ----
@@ -104,10 +58,8 @@ struct LoopCurves {
   std::map<std::string, std::map<int, std::pair<std::int64_t, std::int64_t>>> curves;  // loops, runs
 
   explicit LoopCurves(const Record& record) {
-    const auto by = [](const TallyKey& key) { return std::tuple(key.policy, key.generator, key.contacts); };
-    for (const auto& [key, counts] : CountBy(record, by)) {
-      const auto& [policy, generator, contacts] = key;
-      if (policy == "paper") curves[generator][contacts] = {counts.Loops(), counts.runs};
+    for (const Group& g : Groups(record, {"policy", "generator", "contacts"})) {
+      if (g.Text(0) == "paper") curves[g.Text(1)][g.Number(2)] = {g.counts.Loops(), g.counts.runs};
     }
     std::erase_if(curves, [](const auto& curve) {
       return std::all_of(curve.second.begin(), curve.second.end(),
@@ -169,38 +121,32 @@ std::string LoopFigure(const LoopCurves& figure) {
 }
 
 // Rows by steps; for each number of contacts the share of its runs.
-std::string StepData(const Record& record) {
-  const auto sizes = MergeBy(record, &BySize);
+std::string StepData(const std::vector<Group>& sizes) {
   std::string text = "steps";
-  for (const auto& [key, size] : sizes) {
-    if (key.first == "paper") text += fmt::format(" c{}", key.second);
-  }
+  for (const Group& size : sizes) text += fmt::format(" c{}", size.Number(1));
   text += "\n";
   for (int steps = 0; steps < Tally::kBins; ++steps) {
     text += std::to_string(steps);
-    for (const auto& [key, size] : sizes) {
-      if (key.first != "paper") continue;
-      text +=
-          size.problems == 0
-              ? " nan"
-              : fmt::format(" {:.9g}", static_cast<double>(size.steps[steps]) / static_cast<double>(size.problems));
+    for (const auto& [key, tally, counts, stratum] : sizes) {
+      text += counts.runs == 0 ? " nan"
+                               : fmt::format(" {:.9g}", static_cast<double>(tally.steps[steps]) /
+                                                            static_cast<double>(counts.runs));
     }
     text += "\n";
   }
   return text;
 }
 
-std::string StepFigure(const Record& record) {
+std::string StepFigure(const std::vector<Group>& sizes) {
   std::string text =
       FigureHead(fmt::format("xlabel={{steps of a run ({} stands for more, too)}}, ylabel={{share of the "
                              "runs}}, legend pos=outer north east, "
                              "no markers, const plot",
                              Tally::kBins - 1));
-  for (const auto& [key, size] : MergeBy(record, &BySize)) {
-    if (key.first != "paper") continue;
+  for (const Group& size : sizes) {
     text += fmt::format(
         "\\addplot table[x=steps, y=c{0}] {{\\stictiondata/steps.dat}};\n\\addlegendentry{{{0} {1}}}\n",
-        key.second, key.second == 1 ? "contact" : "contacts");
+        size.Number(1), size.Number(1) == 1 ? "contact" : "contacts");
   }
   return text + "\\end{axis}\n\\end{tikzpicture}\n";
 }
@@ -235,62 +181,19 @@ no mark.}}\end{{figure}}
 
 }  // namespace
 
-std::string LatexText(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        escaped += "\\textbackslash{}";
-        break;
-      case '~':
-        escaped += "\\textasciitilde{}";
-        break;
-      case '^':
-        escaped += "\\textasciicircum{}";
-        break;
-      case '<':
-        escaped += "\\textless{}";
-        break;
-      case '>':
-        escaped += "\\textgreater{}";
-        break;
-      case '"':
-        escaped += "{''}";
-        break;
-      case '[':
-        escaped += "{[}";
-        break;  // behind \\ it would be a length
-      case ']':
-        escaped += "{]}";
-        break;
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        escaped += '\\';
-        escaped += c;
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    }
-  }
-  return escaped;
-}
-
 std::map<std::string, std::string> LatexFiles(const Store& store) {
   const Record record = store.Total();
   const LoopCurves curves(record);
+  std::vector<Group> sizes = Groups(record, kBySize);
+  std::erase_if(sizes, [](const Group& size) { return size.Text(0) != "paper"; });
   return {{"latex/report.tex", Document(store.identity())},
-          {"latex/loops.tex", LoopsTable(record)},
-          {"latex/contacts.tex", ContactsTable(record)},
-          {"latex/methods.tex", MethodsTable(record)},
+          {"latex/loops.tex", ToLatex(PaperLoops(record))},
+          {"latex/contacts.tex", ToLatex(ContactsTable(record))},
+          {"latex/methods.tex", ToLatex(PaperMethods(record))},
           {"latex/loops.dat", LoopData(curves)},
-          {"latex/steps.dat", StepData(record)},
+          {"latex/steps.dat", StepData(sizes)},
           {"latex/figure-loops.tex", LoopFigure(curves)},
-          {"latex/figure-steps.tex", StepFigure(record)}};
+          {"latex/figure-steps.tex", StepFigure(sizes)}};
 }
 
 std::string Citation(const Store& store) {

@@ -9,8 +9,6 @@
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/json_text.h"
-#include "reports/tables/csv.h"
 
 namespace stiction {
 namespace {
@@ -22,24 +20,6 @@ std::size_t ColumnOf(const std::vector<std::string>& columns, const std::string&
   if (at == columns.end())
     throw InputError(fmt::format("{}:1: found no column {}, expected findings.csv of a report", source, name));
   return static_cast<std::size_t>(at - columns.begin());
-}
-
-struct Changes {
-  std::int64_t fresh = 0, finished = 0, more = 0, gone = 0;
-};
-
-Changes CountChanges(const Since& since, const std::vector<Discovery>& discoveries) {
-  Changes changes;
-  std::size_t known = 0;
-  for (const Discovery& discovery : discoveries) {
-    const std::string_view change = since.ChangeOf(discovery);
-    changes.fresh += change == "new";
-    changes.finished += change == "finished";
-    changes.more += change == "more";
-    known += since.earlier.count(discovery.signature);
-  }
-  changes.gone = static_cast<std::int64_t>(since.earlier.size() - known);
-  return changes;
 }
 
 }  // namespace
@@ -74,39 +54,36 @@ Since ReadSince(const std::filesystem::path& report) {
   return since;
 }
 
-std::string SinceCsv(const Since& since, const std::vector<Discovery>& discoveries) {
-  Csv csv;
-  for (const char* column : {"signature", "change", "count_before", "count", "state_before", "state"})
-    csv.Add(column);
-  csv.EndRow();
+Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries) {
+  Table table{"since", "", Columns("signature* change* count_before count state_before* state*")};
   std::set<std::string> present;
   for (const Discovery& discovery : discoveries) {
     present.insert(discovery.signature);
     const std::string_view change = since.ChangeOf(discovery);
     if (change.empty()) continue;
-    const auto before = since.earlier.find(discovery.signature);
-    const bool known = before != since.earlier.end();
-    csv.Add(discovery.signature).Add(change).Add(known ? before->second.met : 0).Add(discovery.met);
-    csv.Add(known ? before->second.state : "").Add(StateOf(discovery)).EndRow();
+    const auto found = since.earlier.find(discovery.signature);
+    const Since::Line before = found == since.earlier.end() ? Since::Line() : found->second;
+    table.Add({discovery.signature, change, before.met, discovery.met, before.state, StateOf(discovery)});
   }
   for (const auto& [signature, line] : since.earlier) {
     if (present.count(signature) > 0) continue;
-    csv.Add(signature).Add("gone").Add(line.met).Add(std::int64_t{0}).Add(line.state).Add("").EndRow();
+    table.Add({signature, "gone", line.met, 0, line.state, ""});
   }
-  return csv.text();
+  return table;
 }
 
 Html SinceText(const Since& since, const std::vector<Discovery>& discoveries) {
-  const Changes changes = CountChanges(since, discoveries);
+  std::map<std::string, std::int64_t> changes;
+  for (const Table::Row& row : SinceTable(since, discoveries).rows) ++changes[Shown(row.cells[1])];
   std::string text = fmt::format(
       "Since the earlier report: {} new, {} finished that were not, and {} met more often, of {} groups; it "
       "had {}.",
-      Grouped(changes.fresh), Grouped(changes.finished), Grouped(changes.more),
+      Grouped(changes["new"]), Grouped(changes["finished"]), Grouped(changes["more"]),
       Grouped(static_cast<std::int64_t>(discoveries.size())),
       Grouped(static_cast<std::int64_t>(since.earlier.size())));
-  if (changes.gone > 0)
+  if (changes["gone"] > 0)
     text += fmt::format(" {} of those are not here: the earlier report is of another store.",
-                        Grouped(changes.gone));
+                        Grouped(changes["gone"]));
   return Tag("p", {{"class", "since"}})(Text(text) +
                                         Html(" Each is in <a href=\"since.csv\"><code>since.csv</code></a>.")) +
          Html("\n");
