@@ -213,25 +213,6 @@ std::string RowName(const TallyKey& key) {
   return name;
 }
 
-std::string LoopTable(const Comparison& c) {
-  Table table{"loops",
-              "",
-              {{"policy", "", kText},
-               {"generator, contacts", "", kText},
-               {"loops A"},
-               {"in a million runs"},
-               {"loops B"},
-               {"in a million runs"},
-               {"p"}}};
-  table.keys = 2;
-  for (const ComparedRate& rate : c.rates) {
-    if (rate.measure != "loops" || !rate.friction.empty()) continue;
-    table.Add({rate.key.policy, RowName(rate.key), rate.a.count, RateOf(rate.a.count, rate.a.of), rate.b.count,
-               RateOf(rate.b.count, rate.b.of), rate.adjusted ? PText(*rate.adjusted) : ""});
-  }
-  return TextByPolicy(table, "Policy {}:");
-}
-
 // The number of steps that a share of the runs do not exceed; "63+" for the last bin.
 std::string Quantile(const ComparedSteps::Bins& bins, double share) {
   double all = 0, up_to = 0;
@@ -258,16 +239,7 @@ std::string StepTable(const Comparison& c) {
   for (const ComparedRate& rate : c.rates) {
     if (rate.measure.starts_with("steps-above") && rate.adjusted) p[rate.key] = PText(*rate.adjusted);
   }
-  const char* quantiles = "25/50/75/99 %";
-  Table table{"steps",
-              "",
-              {{"policy", "", kText},
-               {"generator, contacts", "", kText},
-               {"mean A"},
-               {quantiles},
-               {"mean B"},
-               {quantiles},
-               {"p"}}};
+  Table table{"steps", "", Columns("policy* generator,_contacts* mean_A 25/50/75/99_% mean_B 25/50/75/99_% p")};
   table.keys = 2;
   for (const ComparedSteps& steps : c.steps) {
     const auto a = StepCells(steps.a, steps.sum_a), b = StepCells(steps.b, steps.sum_b);
@@ -330,8 +302,32 @@ std::string ComparisonText(const Comparison& c, const std::string& file_a, const
   text += "\n" + Heading("What is more than noise") + NoiseText(c) + Paragraph(AboutTests(), 0);
   for (const std::string& only : {OnlyIn(c.only_a, "A"), OnlyIn(c.only_b, "B")})
     text += only.empty() ? "" : Paragraph(only, 0);
-  text += "\n" + Heading("Loops, confirmed exactly") + LoopTable(c);
+  text += "\n" + Heading("Loops, confirmed exactly") +
+          TextByPolicy(Select(ComparedLoopsTable(c),
+                              "policy generator,_contacts #A=loops_A A=in_a_million_runs #B=loops_B "
+                              "B=in_a_million_runs p",
+                              ""),
+                       "Policy {}:");
   return text + "\n" + Heading("Steps of a run: mean and quantiles") + StepTable(c);
+}
+
+Table ComparedLoopsTable(const Comparison& comparison) {
+  Table table{"loops",
+              "Loops, confirmed exactly",
+              {{"policy", "", kText},
+               {"generator, contacts", "", kText},
+               {"A", "runs that loop; below: in a million runs, with the exact interval at 95 %"},
+               {"B", "likewise"},
+               {"p", "corrected; nothing where no difference is possible"}},
+              {},
+              {},
+              2};
+  for (const auto& [key, friction, measure, meaning, a, b, p, adjusted] : comparison.rates) {
+    if (measure != "loops" || !friction.empty()) continue;
+    table.Add({key.policy, RowName(key), RateOf(a.count, a.of), RateOf(b.count, b.of),
+               adjusted ? PText(*adjusted) : ""});
+  }
+  return table;
 }
 
 Table ComparisonTable(const Comparison& comparison) {

@@ -65,7 +65,9 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
 std::string ComparisonText(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
 // A row per rate that was compared.
 Table ComparisonTable(const Comparison& comparison);
-// The same, with what differs by design, and what one alone has.
+// Loops by policy, generator and contacts, for people.
+Table ComparedLoopsTable(const Comparison& comparison);
+// Every rate, with what differs by design, and what one alone has.
 Json ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
 Table ComparisonStepsTable(const Comparison& comparison);

@@ -77,40 +77,24 @@ Html NoiseSection(const Comparison& comparison) {
 
 constexpr const char* kMadeBy = "stiction report A B -o DIR";
 
-// The cells of a table as they stand in its file.
+// The cells of a table as they stand in its file: as text.
 Json FileCells(const Table& table) {
-  std::vector<std::vector<std::string>> rows = ReadCsv(ToCsv(table), table.name);
-  const std::vector<std::string> columns = rows.front();
-  rows.erase(rows.begin());
-  return {{"columns", columns}, {"rows", rows}};
-}
-
-Html LoopRates(const Comparison& comparison) {
-  Table table{"loops",
-              "Loops, confirmed exactly",
-              {{"generator, contacts", "", kText},
-               {"A", "runs that loop, of how many, share and its exact interval at 95 %"},
-               {"B", "likewise"},
-               {"p corrected", "nothing where no difference is possible"}}};
-  for (const ComparedRate& rate : comparison.rates) {
-    if (rate.measure != "loops" || !rate.friction.empty()) continue;
-    table.Add(
-        {NameOf(rate.key), CountCell(rate.a), CountCell(rate.b), rate.adjusted ? PText(*rate.adjusted) : ""});
+  Json json = ToJson(table);
+  for (Json& row : json["rows"]) {
+    for (Json& cell : row)
+      cell = cell.is_null() ? "" : cell.is_string() ? cell.get<std::string>() : cell.dump();
   }
-  return ToHtml(table);
+  return json;
 }
 
 Html FilesBeside() {
   return Section("files", "Files beside this page",
-                 Html("<ul>\n"
-                      "<li><a href=\"comparison.csv\"><code>comparison.csv</code></a>: a row per rate, "
-                      "also those that are noise</li>\n"
-                      "<li><a href=\"comparison_steps.csv\"><code>comparison_steps.csv</code></a>: runs of A "
-                      "and of B by their steps</li>\n"
-                      "<li><a href=\"comparison.txt\"><code>comparison.txt</code></a>: what the program "
-                      "prints</li>\n"
-                      "<li><a href=\"SHA256SUMS\"><code>SHA256SUMS</code></a>: the SHA-256 of every file of "
-                      "this folder, for sha256sum --check</li>\n</ul>\n"));
+                 Html("<ul>\n<li><a href=\"comparison.csv\"><code>comparison.csv</code></a>: a row per rate, "
+                      "also those that are noise</li>\n<li><a "
+                      "href=\"comparison_steps.csv\"><code>comparison_steps.csv</code></a>: runs of A and of B "
+                      "by their steps</li>\n<li><a href=\"comparison.txt\"><code>comparison.txt</code></a>: "
+                      "what the program prints</li>\n<li><a href=\"SHA256SUMS\"><code>SHA256SUMS</code></a>: "
+                      "the SHA-256 of every file of this folder, for sha256sum --check</li>\n</ul>\n"));
 }
 
 // The command that makes the page again, where the stores lie as they did.
@@ -131,7 +115,7 @@ std::string ComparisonPage(const Comparison& comparison, const std::string& file
           "place on it: where none was seen, a dotted line reaches up to the end of the interval, below "
           "which the rate lies.",
           kMadeBy, "") +
-      Html("<h3>Loops</h3>\n") + LoopRates(comparison);
+      Html("<h3>Loops</h3>\n") + ToHtml(ComparedLoopsTable(comparison));
   const Html steps =
       FigurePlace("comparison_steps",
                   "Runs by their steps, as shares of all runs of each campaign, on a logarithmic scale; "

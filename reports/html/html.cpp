@@ -101,11 +101,6 @@ Html Tag::Void() const {
   return html;
 }
 
-std::string Document(const Html& head, const Html& body) {
-  const Html page = Tag("html", {{"lang", "en"}})(Html("\n") + head + body + Html("\n"));
-  return "<!DOCTYPE html>\n" + page.markup() + "\n";
-}
-
 std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, decimals); }
 
 std::string Significant(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }

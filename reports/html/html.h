@@ -60,9 +60,6 @@ struct Tag {
   std::string open_;  // "<name attributes", not closed yet
 };
 
-// A page that needs nothing else.
-std::string Document(const Html& head, const Html& body);
-
 // ---- Numbers for pictures ----
 
 std::string Fixed(double x, int decimals = 1);

@@ -140,12 +140,10 @@ Html MethodsSection(const ReportContent& content) {
       Html(
           "<p>Each was asked about problems of its own: the published algorithm ran on all, and exactly where "
           "doubles were suspicious; complete driving got what the published algorithm did not solve, audits, "
-          "and "
-          "a sample; Lemke’s method a sample of these, where solved means that no method contradicts another. "
-          "The same problems for all are the finished findings, in the last rows: what the published algorithm "
-          "makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a "
-          "certificate "
-          "says that there is one. A solution counts only if it is verified; over doubles, if its "
+          "and a sample; Lemke’s method a sample of these, where solved means that no method contradicts "
+          "another. The same problems for all are the finished findings, in the last rows: what the published "
+          "algorithm makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a "
+          "certificate says that there is one. A solution counts only if it is verified; over doubles, if its "
           "errors are at most 1e-6.</p>\n") +
           FigurePlace("methods",
                       "Share of the problems that each method solved, of those that it was asked about, "
@@ -162,35 +160,17 @@ Html ExistenceSection(const Record& total) {
       "existence", "Existence and agreement",
       Html("<p>Every problem here, those with sliding contacts apart, has a symmetric positive semidefinite A "
            "and b in its range. So it has a solution, for every mu: a theorem, in the plane and in space. "
-           "Complete "
-           "driving looks for it wherever the published algorithm does not solve, and on problems that are "
-           "audited or drawn; the solution is verified exactly:</p>\n") +
+           "Complete driving looks for it wherever the published algorithm does not solve, and on problems "
+           "that are audited or drawn; the solution is verified exactly:</p>\n") +
           FigurePlace("driving",
                       "Share of the paths of complete driving with folds, with descents, and with ties, by "
                       "number of contacts; lines: exact intervals at 95 %.") +
-          ToHtml(Select(table,
-                        {{"contacts"},
-                         {"problems"},
-                         {"solved"},
-                         {"not solved"},
-                         {"pieces"},
-                         {"with_folds"},
-                         {"with_descents"},
-                         {"with_ties"}},
+          ToHtml(Select(table, "contacts problems solved not_solved pieces with_folds with_descents with_ties",
                         "Complete driving on the problems that were given to it, by number of contacts")) +
           Html("<h3>Do the methods agree?</h3>\n") + Tag("p")(verdict) + Html("\n") +
           ToHtml(Select(table,
-                        {{"contacts"},
-                         {"compared"},
-                         {"enumerated"},
-                         {"disagreements"},
-                         {"continua"},
-                         {"regular"},
-                         {"signs_not_one"},
-                         {"safety_decided"},
-                         {"safe"},
-                         {"safe_gave_up"},
-                         {"safe_gave_up_no_ties"}},
+                        "contacts compared enumerated disagreements continua regular signs_not_one "
+                        "safety_decided safe safe_gave_up safe_gave_up_no_ties",
                         "Methods held against each other, by number of contacts")) +
           Html("<h3>How many solutions</h3>\n<p>Regular problems by the number of their solutions (in rows: "
                "contacts), which is odd where A is definite:</p>\n") +

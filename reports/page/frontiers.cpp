@@ -74,10 +74,9 @@ Html Records(const std::vector<FrontierLine>& lines) {
   if (lines.empty()) return {};
   return Html(
              "<p>How bad it can get, whatever campaign found it: the records that stand beside the program, "
-             "and "
-             "are no part of a store. Each is an exact problem with its "
-             "certificate; <code>stiction records --check</code> computes every value anew. Exact values, "
-             "and what drew the random problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
+             "and are no part of a store. Each is an exact problem with its certificate; <code>stiction "
+             "records --check</code> computes every value anew. Exact values, and what drew the random "
+             "problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
          FigurePlace(
              "frontiers",
              "From the best of random problems, an open ring, to the worst that is known, a dot; a dot without "

@@ -21,22 +21,16 @@ namespace {
 
 constexpr char kMeasuredLead[] =
     "<p>Users trade speed for accuracy: how long each method takes for a friction problem over each "
-    "arithmetic, and "
-    "how often its answer is none. Measured by <code>stiction bench</code>, on families of problems with a "
-    "dial "
-    "from ordinary to extreme.</p>";
+    "arithmetic, and how often its answer is none. Measured by <code>stiction bench</code>, on families of "
+    "problems with a dial from ordinary to extreme.</p>";
 
 constexpr char kHowMeasured[] =
     "<p><strong>Method.</strong> All methods, over all arithmetics, are asked the same problems of a family at "
-    "each "
-    "setting of its dial. <em>Silent</em> is what is called solved within errors that, computed over "
-    "rationals, "
-    "it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the published "
-    "algorithm another end than over rationals; <em>undecided</em> what says itself that it is no answer. "
-    "Problems "
-    "whose numbers an arithmetic cannot hold are not asked of it. Times are those of the machine that "
-    "measured, "
-    "medians of the settings’ medians.</p>";
+    "each setting of its dial. <em>Silent</em> is what is called solved within errors that, computed over "
+    "rationals, it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the "
+    "published algorithm another end than over rationals; <em>undecided</em> what says itself that it is no "
+    "answer. Problems whose numbers an arithmetic cannot hold are not asked of it. Times are those of the "
+    "machine that measured, medians of the settings’ medians.</p>";
 
 // Of all rows of a kind of arithmetic.
 struct Runs {

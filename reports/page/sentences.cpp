@@ -79,9 +79,8 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   if (finished == 0) return Html();
   return Sentence(
       found + minimized > 0 ? "Not a matter of one policy." : "The policy matters.",
-      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, "
-                  "and {} as they were found, loop under every policy that stiction "
-                  "distinguishes; the smallest has {}.",
+      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, and {} as they "
+                  "were found, loop under every policy that stiction distinguishes; the smallest has {}.",
                   Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
 }
 
@@ -146,8 +145,7 @@ Html FoundSentences(const ReportContent& content) {
                                            AgreementSentence(content.total) + LyingSentence(sums)) +
          Html(
              "\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by "
-             "Clopper and "
-             "Pearson.</p>\n");
+             "Clopper and Pearson.</p>\n");
 }
 
 }  // namespace stiction

@@ -19,30 +19,27 @@ const By kBySize = {"policy", "contacts"};
 Table PaperLoops(const Record& record) {
   Table table =
       Select(FailuresTable(record, {"generator", "contacts", "policy", "arithmetic"}),
-             {{"generator"},
-              {"policy"},
-              {"arithmetic"},
-              {"contacts"},
-              {"runs"},
-              {"#loops"},
-              {"loops", "in a million [95 %]"}},
+             "generator policy arithmetic contacts runs #loops loops=in_a_million_[95_%]",
              "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
              "intervals at 95 % (Garwood). They are lower bounds where runs were not all repeated exactly.");
   table.name = "loops";
   return table;
 }
 
+Table PaperContacts(const Record& record) {
+  return Select(
+      ContactsTable(record, kBySize),
+      "policy contacts runs steps with_zero_steps with_give_ups=with_give-ups loops",
+      "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length "
+      "zero, and with something given up, as shares with exact intervals at 95 % (Clopper and Pearson); "
+      "loops confirmed exactly, in a million runs (Garwood).");
+}
+
 Table PaperMethods(const Record& record) {
   Table table =
       Select(AgreementTable(record),
-             {{"contacts"},
-              {"problems", "given"},
-              {"solved"},
-              {"with_folds"},
-              {"with_descents"},
-              {"compared"},
-              {"enumerated", "all modes"},
-              {"disagreements"}},
+             "contacts problems=given solved #with_folds #with_descents compared enumerated=all_modes "
+             "disagreements",
              "Complete driving on the problems that were given to it, and methods held against each other "
              "(published algorithm, complete driving, Lemke's method; all contact modes tried of some), by "
              "number of contacts. Each solution was verified exactly.");
@@ -52,44 +49,42 @@ Table PaperMethods(const Record& record) {
 
 // ---- Figures: columns of numbers, and what draws them ----
 
-// Rows by contacts; for each generator that has loops a rate in a million and how far its interval reaches; nan
-// where there is no run or no loop, which a logarithmic axis cannot show.
-struct LoopCurves {
-  std::map<std::string, std::map<int, std::pair<std::int64_t, std::int64_t>>> curves;  // loops, runs
+// Loops of runs, by generators that have loops, and contacts.
+using LoopCurves = std::map<std::string, std::map<int, Ratio>>;
 
-  explicit LoopCurves(const Record& record) {
-    for (const Group& g : Groups(record, {"policy", "generator", "contacts"})) {
-      if (g.Text(0) == "paper") curves[g.Text(1)][g.Number(2)] = {g.counts.Loops(), g.counts.runs};
-    }
-    std::erase_if(curves, [](const auto& curve) {
-      return std::all_of(curve.second.begin(), curve.second.end(),
-                         [](const auto& size) { return size.second.first == 0; });
-    });
+LoopCurves LoopCurvesOf(const Record& record) {
+  LoopCurves curves;
+  std::set<std::string> with_loops;
+  for (const Group& g : Groups(record, {"policy", "generator", "contacts"})) {
+    if (g.Text(0) != "paper") continue;
+    curves[g.Text(1)][g.Number(2)] = RateOf(g.counts.Loops(), g.counts.runs);
+    if (g.counts.Loops() > 0) with_loops.insert(g.Text(1));
   }
-  std::set<int> Contacts() const {
-    std::set<int> all;
-    for (const auto& [generator, sizes] : curves) {
-      for (const auto& [contacts, counts] : sizes) all.insert(contacts);
-    }
-    return all;
-  }
-};
+  std::erase_if(curves, [&](const auto& curve) { return !with_loops.contains(curve.first); });
+  return curves;
+}
 
-std::string LoopData(const LoopCurves& figure) {
+// Rows by contacts: a rate in a million and how far its interval reaches; nan where there is no run or no loop,
+// which a logarithmic axis cannot show.
+std::string LoopData(const LoopCurves& curves) {
   std::string text = "contacts";
-  for (std::size_t i = 1; i <= figure.curves.size(); ++i) text += fmt::format(" g{0} g{0}minus g{0}plus", i);
+  std::set<int> all;
+  for (const auto& [generator, sizes] : curves) {
+    for (const auto& [contacts, rate] : sizes) all.insert(contacts);
+  }
+  for (std::size_t i = 1; i <= curves.size(); ++i) text += fmt::format(" g{0} g{0}minus g{0}plus", i);
   text += "\n";
-  for (const int contacts : figure.Contacts()) {
+  for (const int contacts : all) {
     text += std::to_string(contacts);
-    for (const auto& [generator, sizes] : figure.curves) {
+    for (const auto& [generator, sizes] : curves) {
       const auto found = sizes.find(contacts);
-      if (found == sizes.end() || found->second.first == 0) {
+      if (found == sizes.end() || found->second.count == 0) {
         text += " nan nan nan";
         continue;
       }
-      const auto [loops, runs] = found->second;
-      const double scale = 1e6 / static_cast<double>(runs), count = static_cast<double>(loops);
-      const Interval interval = CountInterval(loops);
+      const Ratio& rate = found->second;
+      const double scale = 1e6 / static_cast<double>(rate.of), count = static_cast<double>(rate.count);
+      const Interval interval = CountInterval(rate.count);
       text += fmt::format(" {:.9g} {:.9g} {:.9g}", scale * count, scale * (count - interval.low),
                           scale * (interval.high - count));
     }
@@ -106,12 +101,12 @@ std::string FigureHead(const std::string& axis) {
       axis);
 }
 
-std::string LoopFigure(const LoopCurves& figure) {
+std::string LoopFigure(const LoopCurves& curves) {
   std::string text = FigureHead(
       "ymode=log, xlabel={contacts}, ylabel={loops in a million runs}, xtick=data, unbounded coords=discard, "
       "legend pos=outer north east, error bars/y dir=both, error bars/y explicit");
   std::size_t i = 0;
-  for (const auto& [generator, sizes] : figure.curves) {
+  for (const auto& [generator, sizes] : curves) {
     text += fmt::format(
         "\\addplot+[error bars/.cd, y dir=both, y explicit] table[x=contacts, y=g{0}, y error minus=g{0}minus, "
         "y error plus=g{0}plus] {{\\stictiondata/loops.dat}};\n\\addlegendentry{{{1}}}\n",
@@ -140,8 +135,7 @@ std::string StepData(const std::vector<Group>& sizes) {
 std::string StepFigure(const std::vector<Group>& sizes) {
   std::string text =
       FigureHead(fmt::format("xlabel={{steps of a run ({} stands for more, too)}}, ylabel={{share of the "
-                             "runs}}, legend pos=outer north east, "
-                             "no markers, const plot",
+                             "runs}}, legend pos=outer north east, no markers, const plot",
                              Tally::kBins - 1));
   for (const Group& size : sizes) {
     text += fmt::format(
@@ -183,12 +177,12 @@ no mark.}}\end{{figure}}
 
 std::map<std::string, std::string> LatexFiles(const Store& store) {
   const Record record = store.Total();
-  const LoopCurves curves(record);
+  const LoopCurves curves = LoopCurvesOf(record);
   std::vector<Group> sizes = Groups(record, kBySize);
   std::erase_if(sizes, [](const Group& size) { return size.Text(0) != "paper"; });
   return {{"latex/report.tex", Document(store.identity())},
           {"latex/loops.tex", ToLatex(PaperLoops(record))},
-          {"latex/contacts.tex", ToLatex(ContactsTable(record))},
+          {"latex/contacts.tex", ToLatex(PaperContacts(record))},
           {"latex/methods.tex", ToLatex(PaperMethods(record))},
           {"latex/loops.dat", LoopData(curves)},
           {"latex/steps.dat", StepData(sizes)},

@@ -50,10 +50,6 @@ TableCell RateIfAny(std::int64_t count, std::int64_t of, bool heat = true) {
   return {RateOf(count, of), "", heat ? Heat(count, of) : ""};
 }
 
-TableCell PercentIfAny(std::int64_t count, std::int64_t of) {
-  return {count, count == 0 ? "" : Percent(count, of)};
-}
-
 // What must be zero.
 TableCell Exception(std::int64_t count) { return {count, "", count == 0 ? "" : "h5"}; }
 
@@ -210,21 +206,18 @@ Table TrustFigure(const Record& record) {
 }
 
 Table PivotingFigure(const Record& record) {
-  const By by = {"generator", "policy", "contacts"};
-  Table table = Keyed("pivoting", "", by, {{"a step of length zero"}, {"a variable given up"}});
-  for (const Group& g : Groups(record, by)) {
-    const Tally& t = g.tally;
-    table.Add(Behind(g, {ShareOf(t.with_zero_steps, t.problems), ShareOf(t.with_give_ups, t.problems)}));
-  }
+  Table table = Select(ContactsTable(record, {"generator", "policy", "contacts"}),
+                       "generator policy contacts with_zero_steps=a_step_of_length_zero "
+                       "with_give_ups=a_variable_given_up",
+                       "");
+  table.name = "pivoting";
   return Melted(table, kShareParts);
 }
 
 Table DrivingFigure(const Record& record) {
-  Table table{"driving", "", Columns("contacts folds descents ties")};
-  for (const auto& [contacts, t] : record.existence) {
-    table.Add({contacts, ShareOf(t.with_folds, t.problems), ShareOf(t.with_descents, t.problems),
-               ShareOf(t.with_ties, t.problems)});
-  }
+  Table table =
+      Select(AgreementTable(record), "contacts with_folds=folds with_descents=descents with_ties=ties", "");
+  table.name = "driving";
   return Melted(table, kShareParts);
 }
 
@@ -275,11 +268,11 @@ Table AgreementTable(const Record& record) {
        {"safe_gave_up_no_ties", "of these, without any tie: a disagreement", false, "without ties"}}};
   const auto add = [&table](const TableCell& contacts, const ExistenceTally& e, const AgreementTally& a) {
     table.Add({contacts, e.problems, e.solved, Exception(e.problems - e.solved), MeanOf(e.pieces, e.problems),
-               PercentIfAny(e.with_folds, e.problems), PercentIfAny(e.with_descents, e.problems),
-               PercentIfAny(e.with_ties, e.problems), a.compared, a.enumerated, Exception(a.disagreements),
-               PercentIfAny(a.continua, a.enumerated), PercentIfAny(a.regular, a.enumerated),
-               Exception(a.signs_not_one), a.safety_decided, PercentIfAny(a.safe, a.safety_decided),
-               a.safe_gave_up, Exception(a.safe_gave_up_no_ties)});
+               ShareOf(e.with_folds, e.problems), ShareOf(e.with_descents, e.problems),
+               ShareOf(e.with_ties, e.problems), a.compared, a.enumerated, Exception(a.disagreements),
+               ShareOf(a.continua, a.enumerated), ShareOf(a.regular, a.enumerated), Exception(a.signs_not_one),
+               a.safety_decided, ShareOf(a.safe, a.safety_decided), a.safe_gave_up,
+               Exception(a.safe_gave_up_no_ties)});
   };
   for (const auto& [contacts, existence] : record.existence) {
     const auto found = record.agreement.find(contacts);
@@ -474,15 +467,8 @@ Table PivotsTable(const Record& record) {
   return table;
 }
 
-Table ContactsTable(const Record& record) {
-  const By by = {"policy", "contacts"};
-  Table table = Keyed("contacts",
-                      "Runs by number of contacts, all generators together: steps in the mean; runs with a "
-                      "step of length zero, "
-                      "and with something given up, as shares with exact intervals at 95 % (Clopper and "
-                      "Pearson); loops confirmed "
-                      "exactly, in a million runs (Garwood).",
-                      by, Columns("runs steps with_zero_steps with_give-ups loops"));
+Table ContactsTable(const Record& record, const By& by) {
+  Table table = Keyed("contacts", "", by, Columns("runs steps with_zero_steps with_give_ups loops"));
   for (const Group& g : Groups(record, by)) {
     const Counts& c = g.counts;
     table.Add(Behind(g, {c.runs, MeanOf(g.tally.sums.steps, c.runs), ShareOf(c.with_zero_steps, c.runs),

@@ -71,8 +71,8 @@ Table SuspicionsTable(const Record& record);
 Table TrustTable(const Record& record);
 // Counters of a run: mean and maximum.
 Table PivotsTable(const Record& record);
-// What runs were like, by policy and contacts: steps, zero steps, give-ups, loops.
-Table ContactsTable(const Record& record);
+// What runs were like: steps, zero steps, give-ups, loops.
+Table ContactsTable(const Record& record, const By& by);
 
 // Those that a report and a data package write as NAME.csv, and Python has.
 std::vector<Table> CampaignTables(const Record& record, const std::vector<Discovery>& discoveries);

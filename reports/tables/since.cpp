@@ -3,27 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <set>
 
-#include "corpus/input_error.h"
 #include "corpus/input_file.h"
 
 namespace stiction {
-namespace {
-
-// Of the columns, one that must be there.
-std::size_t ColumnOf(const std::vector<std::string>& columns, const std::string& name,
-                     const std::string& source) {
-  const auto at = std::find(columns.begin(), columns.end(), name);
-  if (at == columns.end())
-    throw InputError(fmt::format("{}:1: found no column {}, expected findings.csv of a report", source, name));
-  return static_cast<std::size_t>(at - columns.begin());
-}
-
-}  // namespace
-
 std::string_view StateOf(const Discovery& discovery) {
   return discovery.representative == nullptr ? "counted" : discovery.Finished() ? "finished" : "pending";
 }
@@ -37,20 +21,12 @@ std::string_view Since::ChangeOf(const Discovery& discovery) const {
 
 Since ReadSince(const std::filesystem::path& report) {
   const std::filesystem::path file = std::filesystem::is_directory(report) ? report / "findings.csv" : report;
-  const std::string source = file.string();
-  const auto rows = ReadCsv(ReadText(file), source);
-  const std::vector<std::string> columns = rows.empty() ? std::vector<std::string>() : rows.front();
-  const std::size_t signature = ColumnOf(columns, "signature", source),
-                    count = ColumnOf(columns, "count", source), state = ColumnOf(columns, "state", source);
+  const CsvReader rows(ReadText(file), file.string(), "findings.csv of a report");
+  for (const char* column : {"signature", "count", "state"})
+    rows.IndexOf(column);  // also where there is no row
   Since since;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const std::string& text = rows[i][count];
-    Since::Line line{rows[i][state], 0};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line.met);
-    if (error != std::errc() || end != text.data() + text.size() || line.met < 0)
-      throw InputError(fmt::format("{}: row {}: count: found '{}', expected a count", source, i + 1, text));
-    since.earlier[rows[i][signature]] = line;
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    since.earlier[rows.Text(i, "signature")] = {rows.Text(i, "state"), rows.Count(i, "count")};
   return since;
 }
 

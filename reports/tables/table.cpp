@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
@@ -29,15 +30,18 @@ std::vector<std::string> Split(const std::string& names, char at = ',') {
   return parts;
 }
 
+std::string Spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string HeadOf(const Column& column) {
-  std::string head = column.head.empty() ? column.name.substr(0, column.name.find(",,")) : column.head;
-  if (column.head.empty()) std::replace(head.begin(), head.end(), '_', ' ');
-  return head;
+  return column.head.empty() ? Spaced(column.name.substr(0, column.name.find(",,"))) : column.head;
 }
 
 std::size_t IndexOf(const Table& table, const std::string& name) {
   const auto at = std::find_if(table.columns.begin(), table.columns.end(), [&name](const Column& column) {
-    return HeadOf(column) == name || column.name == name;
+    return column.name == name || HeadOf(column) == Spaced(name);
   });
   STICTION_CHECK(at != table.columns.end(), fmt::format("table {} has no column {}", table.name, name));
   return static_cast<std::size_t>(at - table.columns.begin());
@@ -124,9 +128,9 @@ bool IsZero(const TableCell& cell) {
 Html PageContent(const TableCell& cell) {
   if (const auto* html = As<Html>(cell)) return *html;
   const auto* const ratio = As<Ratio>(cell);
-  Html content = ratio != nullptr && ratio->kind != Ratio::kMean
-                     ? Text(Grouped(ratio->count)) + Tag("small")(Shown(cell))
-                     : Text(Shown(cell));
+  const bool counted = ratio != nullptr && ratio->kind != Ratio::kMean;
+  Html content = Text(counted ? Grouped(ratio->count) : Shown(cell));
+  if (counted && ratio->of > 0) content += Tag("small")(Shown(cell));
   if (!cell.below.empty()) content += Tag("small")(cell.below);
   return content;
 }
@@ -193,15 +197,14 @@ bool NaturalLess(const std::string& left, const std::string& right) {
   return left < right;
 }
 
-Table Select(const Table& table, const std::vector<Chosen>& columns, const std::string& caption) {
-  Table selected{table.name, caption.empty() ? table.caption : caption,
-                 {},         std::vector<Table::Row>(table.rows.size()),
-                 {},         0};
-  for (const auto& [name, head] : columns) {
-    const bool counts = name.starts_with('#');
-    const std::size_t at = IndexOf(table, counts ? name.substr(1) : name);
+Table Select(const Table& table, const std::string& columns, const std::string& caption) {
+  Table selected{table.name, caption, {}, std::vector<Table::Row>(table.rows.size()), {}, 0};
+  for (const std::string& chosen : Split(columns, ' ')) {
+    const std::size_t equals = std::min(chosen.find('='), chosen.size());
+    const bool counts = chosen[0] == '#';
+    const std::size_t at = IndexOf(table, chosen.substr(counts, equals - counts));
     selected.columns.push_back(table.columns[at]);
-    if (!head.empty()) selected.columns.back().head = head;
+    if (equals < chosen.size()) selected.columns.back().head = Spaced(chosen.substr(equals + 1));
     const auto cell_of = [&](const std::vector<TableCell>& cells) {
       return counts ? TableCell(As<Ratio>(cells[at])->count) : cells[at];
     };
@@ -393,20 +396,19 @@ std::string ToLatex(const Table& table) {
   }
   return fmt::format(
       "% Written by stiction; needs booktabs and longtable.\n\\begin{{longtable}}{{{0}}}\n"
-      "\\caption{{{1}}}\\label{{tab:stiction-{2}}}\\\\\n\\toprule\n{3} "
-      "\\\\\n\\midrule\n\\endfirsthead\n\\toprule\n"
-      "{3} \\\\\n\\midrule\n\\endhead\n{4}\\bottomrule\n\\end{{longtable}}\n",
+      "\\caption{{{1}}}\\label{{tab:stiction-{2}}}\\\\\n\\toprule\n{3} \\\\\n\\midrule\n\\endfirsthead\n"
+      "\\toprule\n{3} \\\\\n\\midrule\n\\endhead\n{4}\\bottomrule\n\\end{{longtable}}\n",
       columns, LatexText(table.caption), table.name, head, rows);
 }
 
-std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::string& source) {
-  std::vector<std::vector<std::string>> rows;
+CsvReader::CsvReader(std::string_view text, std::string source, std::string written_by)
+    : source_(std::move(source)), written_by_(std::move(written_by)) {
+  std::vector<std::vector<std::string>>& rows = rows_;
   std::vector<std::string> row(1);
   bool quoted = false;
   const auto end_row = [&] {
     if (!rows.empty() && row.size() != rows.front().size())
-      throw InputError(fmt::format("{}: row {}: found {} cells, expected {}", source, rows.size() + 1,
-                                   row.size(), rows.front().size()));
+      Refuse(rows.size() - 1, fmt::format("found {} cells, expected {}", row.size(), rows.front().size()));
     rows.push_back(std::exchange(row, std::vector<std::string>(1)));
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -423,10 +425,45 @@ std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::
       row.back() += c;
     }
   }
-  if (quoted)
-    throw InputError(fmt::format("{}: row {}: found a quotation that does not end", source, rows.size() + 1));
+  if (quoted) Refuse(rows.size() - 1, "found a quotation that does not end");
   if (row.size() > 1 || !row.back().empty()) end_row();
-  return rows;
+  if (rows.empty()) return;
+  names_ = std::move(rows.front());
+  rows.erase(rows.begin());
+}
+
+void CsvReader::Refuse(std::size_t row, const std::string& what) const {
+  throw InputError(fmt::format("{}: row {}: {}", source_, row + 2, what));
+}
+
+std::size_t CsvReader::IndexOf(const std::string& column) const {
+  const auto at = std::find(names_.begin(), names_.end(), column);
+  if (at == names_.end())
+    throw InputError(fmt::format("{}:1: found no column {}, expected {}", source_, column, written_by_));
+  return static_cast<std::size_t>(at - names_.begin());
+}
+
+const std::string& CsvReader::Text(std::size_t row, const std::string& column) const {
+  return rows_[row][IndexOf(column)];
+}
+
+std::optional<double> CsvReader::Measure(std::size_t row, const std::string& column) const {
+  const std::string& text = Text(row, column);
+  if (text.empty()) return std::nullopt;
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x) || x < 0)
+    Refuse(row, fmt::format("{}: found '{}', expected a number, or nothing", column, text));
+  return x;
+}
+
+std::int64_t CsvReader::Count(std::size_t row, const std::string& column) const {
+  const std::string& text = Text(row, column);
+  std::int64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 0)
+    Refuse(row, fmt::format("{}: found '{}', expected a count", column, text));
+  return count;
 }
 
 }  // namespace stiction

@@ -8,13 +8,13 @@
 #ifndef STICTION_REPORTS_TABLES_TABLE_H_
 #define STICTION_REPORTS_TABLES_TABLE_H_
 
-#include <concepts>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -43,20 +43,19 @@ struct TableCell {
   std::string below = {}, style = {};  // on a page: what stands small below it; classes
 
   TableCell() = default;
-  TableCell(std::string_view text, std::string small = "", std::string classes = "")
-      : value(std::string(text)), below(std::move(small)), style(std::move(classes)) {}
-  TableCell(const std::string& text, std::string small = "", std::string classes = "")
-      : TableCell(std::string_view(text), std::move(small), std::move(classes)) {}
-  TableCell(const char* text, std::string small = "", std::string classes = "")
-      : TableCell(std::string_view(text), std::move(small), std::move(classes)) {}
-  template <std::integral Integer>
-  TableCell(Integer n, std::string small = "", std::string classes = "")
-      : value(static_cast<std::int64_t>(n)), below(std::move(small)), style(std::move(classes)) {}
-  TableCell(bool yes) : TableCell(yes ? "yes" : "no") {}
-  TableCell(double x) : value(x) {}
-  TableCell(const Ratio& ratio, std::string small = "", std::string classes = "")
-      : value(ratio), below(std::move(small)), style(std::move(classes)) {}
-  TableCell(Html html, std::string classes = "") : value(std::move(html)), style(std::move(classes)) {}
+  template <class Value>
+  TableCell(const Value& x, std::string small = "", std::string classes = "")
+      : below(std::move(small)), style(std::move(classes)) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      value = std::string(x ? "yes" : "no");
+    } else if constexpr (std::is_integral_v<Value>) {
+      value = static_cast<std::int64_t>(x);
+    } else if constexpr (std::is_convertible_v<Value, std::string_view>) {
+      value = std::string(std::string_view(x));
+    } else {
+      value = x;
+    }
+  }
   template <class Value>
   TableCell(const std::optional<Value>& x) : TableCell(x ? TableCell(*x) : TableCell()) {}
 };
@@ -91,8 +90,8 @@ struct Table {
   void TotalIsLast();  // the last row becomes the total
 };
 
-// Of a text of names, "signature* starts": texts have a star. "found_@" stands for a column per outcome,
-// "sum_#" for one per counter of a run.
+// Of a text of names, "signature* starts": those of texts have a star. "found_@" stands for a column per
+// outcome, "sum_#" for one per counter of a run.
 std::vector<Column> Columns(const std::string& names);
 
 // ---- Tables of tables ----
@@ -101,12 +100,9 @@ double RoundedTo(int digits, double x);
 // Numbers by value, before words.
 bool NaturalLess(const std::string& left, const std::string& right);
 
-struct Chosen {
-  std::string name;  // "#loops": the count of the ratio `loops`
-  std::string head = {};
-};
-// In the order of `columns`; a caption that is empty stays that of the table.
-Table Select(const Table& table, const std::vector<Chosen>& columns, const std::string& caption = "");
+// The columns that a text names, in its order, "problems=given #loops": with another head, and the counts of a
+// ratio.
+Table Select(const Table& table, const std::string& columns, const std::string& caption);
 // A table per text of a column, without that column.
 std::map<std::string, Table> SplitBy(const Table& table, const std::string& column);
 // The keys but `across` down, the values of `across` across; of a pair that has no row `missing`.
@@ -135,9 +131,24 @@ std::string LatexText(std::string_view text);
 // A table of booktabs that may go over pages.
 std::string ToLatex(const Table& table);
 
-// The rows of a CSV text, the line of names first. InputError that names the row of an open quotation, and of a
-// number of cells other than that of the names.
-std::vector<std::vector<std::string>> ReadCsv(std::string_view text, const std::string& source);
+// A CSV text with a line of names. InputError names the row of what is not as expected.
+class CsvReader {
+ public:
+  // `written_by`: what writes such a file.
+  CsvReader(std::string_view text, std::string source, std::string written_by);
+
+  std::size_t size() const { return rows_.size(); }
+  std::size_t IndexOf(const std::string& column) const;
+  const std::string& Text(std::size_t row, const std::string& column) const;
+  std::int64_t Count(std::size_t row, const std::string& column) const;
+  std::optional<double> Measure(std::size_t row, const std::string& column) const;  // nothing, or not negative
+  [[noreturn]] void Refuse(std::size_t row, const std::string& what) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> rows_;
+  std::string source_, written_by_;
+};
 
 }  // namespace stiction
 

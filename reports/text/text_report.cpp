@@ -103,9 +103,7 @@ std::string LoopsText(const StoreTotals& t) {
 
 // How the algorithm fails, in exact arithmetic.
 std::string FailuresTable(const StoreTotals& t) {
-  Table table{"failures",
-              "",
-              {{"in exact arithmetic", "", kText}, {"outcome", "", kText}, {"runs"}, {"in a million [95 %]"}}};
+  Table table{"failures", "", Columns("in_exact_arithmetic* outcome* runs in_a_million_[95_%]")};
   table.keys = 2;
   for (int i = 0; i < kOutcomeCount; ++i) {
     const std::string name(kOutcomeNames[i]);
@@ -134,8 +132,7 @@ std::string ExistenceText(const StoreTotals& t) {
     const std::int64_t missed = e.problems - e.solved;
     text +=
         Paragraph(fmt::format("{}: of {} given to complete driving {} solved, each solution verified exactly "
-                              "({} with folds, where the "
-                              "published algorithm gives up).",
+                              "({} with folds, where the published algorithm gives up).",
                               missed == 0 ? "Complete driving never failed"
                                           : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
                               Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
@@ -222,11 +219,10 @@ std::string SimplestText(const StoreTotals& t) {
 std::string FailuresByPolicy(const Record& record, const By& names, const char* title) {
   By by = names;
   by.insert(by.begin(), "policy");
-  std::vector<Chosen> columns;
-  for (const std::string& name : by) columns.push_back({name, name == "friction" ? "mu" : ""});
-  columns.insert(columns.end(),
-                 {{"runs"}, {"#loops"}, {"loops", "in a million [95 %]"}, {"#singular"}, {"#ray", "rays"}});
-  return TextByPolicy(Select(FailuresTable(record, by), columns), title);
+  std::string columns;
+  for (const std::string& name : by) columns += name == "friction" ? "friction=mu " : name + " ";
+  columns += "runs #loops loops=in_a_million_[95_%] #singular #ray=rays";
+  return TextByPolicy(Select(FailuresTable(record, by), columns, ""), title);
 }
 
 // A, b and mu, if they fit.
@@ -285,7 +281,7 @@ std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
       fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "group"), Verb(all, "is", "are")));
   std::stable_sort(unknown.begin(), unknown.end(),
                    [](const auto& left, const auto& right) { return left.second > right.second; });
-  Table table{"new", "", {{"signature", "", kText}, {"runs"}}};
+  Table table{"new", "", Columns("signature* runs")};
   for (std::size_t i = 0; i < std::min(kShown, unknown.size()); ++i)
     table.Add({unknown[i].first, unknown[i].second});
   if (unknown.size() > kShown) text += Paragraph(fmt::format("The {} that were met most often:", kShown));

@@ -37,7 +37,6 @@ RungLine Measured(const std::string& arithmetic, std::int64_t wrong, std::int64_
   return {.family = "masses",
           .method = "complete",
           .arithmetic = arithmetic,
-          .setting = 8,
           .problems = 25,
           .solved = 24,
           .undecided = 0,

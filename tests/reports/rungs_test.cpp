@@ -48,11 +48,11 @@ TEST_CASE("rungs: a line of every column") {
 TEST_CASE("rungs: a file that is none of bench is refused by its place") {
   CHECK_THROWS_WITH(Read(""), Contains("found no line"));
   CHECK_THROWS_WITH(Read("family,setting\nmasses,8\n"), Contains(":1: found no column method"));
-  CHECK_THROWS_WITH(Read(kHead + "masses,8\n"), Contains(":2: found 2 cells, expected 25"));
+  CHECK_THROWS_WITH(Read(kHead + "masses,8\n"), Contains("row 2: found 2 cells, expected 25"));
   CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,x,3,1,1,2")),
-                    Contains(":2: solved: found 'x'"));
+                    Contains("row 2: solved: found 'x'"));
   CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,-4,27,1,1,2")),
-                    Contains("solved: found -4"));
+                    Contains("solved: found '-4'"));
   CHECK_THROWS_WITH(Read(kHead + Line("masses", "fast", "double", "25,20,3,1,0,2")),
                     Contains("do not add up to 25"));
   CHECK_THROWS_WITH(Read(kHead + "masses,8,fast,double,25,20,3,1,1,2,0,0.2,3,0,0.1,1,2,3,0,0,0,0,0,0,0\n"),
