@@ -20,6 +20,7 @@
 #include "cli/store_progress.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
+#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "corpus/kinds.h"
@@ -241,8 +242,9 @@ struct Look {
 
 Look LookAt(const Store& store) {
   Look look;
-  for (const auto& [key, tally] : store.Total().tallies) look.problems += tally.problems;
-  for (const auto& [signature, count] : store.Total().signatures) look.signatures.insert(signature);
+  const Record total = store.Total();
+  look.problems = CountAll(total).runs;
+  for (const auto& [signature, count] : total.signatures) look.signatures.insert(signature);
   return look;
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/counts.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <string>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace stiction {
@@ -21,6 +25,8 @@ void Counts::Add(const Tally& tally) {
   wrong += tally.wrong;
   audited += tally.audited;
   misjudged += tally.misjudged;
+  with_zero_steps += tally.with_zero_steps;
+  with_give_ups += tally.with_give_ups;
 }
 
 void Counts::Add(const Stratum& stratum) {
@@ -48,6 +54,16 @@ std::int64_t ProblemsOf(const Record& record) {
   std::int64_t sum = 0;
   for (const auto& [key, count] : problems) sum += count;
   return sum;
+}
+
+std::string PoliciesText(const Record& record) {
+  constexpr std::size_t kMostNamed = 3;
+  std::set<std::string> policies;
+  for (const auto& [key, tally] : record.tallies) policies.insert(key.policy);
+  if (policies.empty()) return "";
+  if (policies.size() == 1) return "the policy " + *policies.begin();
+  const std::string all = fmt::format("{} policies", policies.size());
+  return policies.size() <= kMostNamed ? fmt::format("{} ({})", all, fmt::join(policies, ", ")) : all;
 }
 
 }  // namespace stiction

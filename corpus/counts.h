@@ -6,8 +6,8 @@
 #define STICTION_CORPUS_COUNTS_H_
 
 #include <cstdint>
-#include <functional>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "corpus/statistics.h"
 
@@ -22,9 +22,11 @@ struct Counts {
   std::int64_t wrong = 0;           // called solved by doubles, with forces that are no solution
   std::int64_t audited = 0;         // run again exactly without a suspicion, as a sample
   std::int64_t misjudged = 0;       // of these, with another outcome
+  std::int64_t with_zero_steps = 0;
+  std::int64_t with_give_ups = 0;
 
   void Add(const Tally& tally);
-  // Of a stratum doubles are not counted.
+  // Of a stratum doubles are not counted, nor what steps were like.
   void Add(const Stratum& stratum);
 
   std::int64_t Of(Outcome outcome) const { return exact[static_cast<int>(outcome)]; }
@@ -34,34 +36,25 @@ struct Counts {
 
 Counts CountAll(const Record& record);
 
-// By what `by` makes of a TallyKey, in order.
-template <class By>
-auto CountBy(const Record& record, By by) {
-  std::map<decltype(by(TallyKey{})), Counts> counts;
-  for (const auto& [key, tally] : record.tallies) counts[by(key)].Add(tally);
-  return counts;
-}
-
-// The same of strata, by what `by` makes of a TallyKey and a StratumKey.
-template <class By>
-auto CountStrataBy(const Record& record, By by) {
-  std::map<decltype(by(TallyKey{}, StratumKey{})), Counts> counts;
-  for (const auto& [key, tally] : record.tallies) {
-    for (const auto& [stratum_key, stratum] : tally.strata) counts[by(key, stratum_key)].Add(stratum);
-  }
-  return counts;
-}
-
-// Tallies themselves, merged.
-template <class By>
-auto MergeBy(const Record& record, By by) {
-  std::map<decltype(by(TallyKey{})), Tally> merged;
-  for (const auto& [key, tally] : record.tallies) merged[by(key)].Merge(tally);
-  return merged;
-}
-
 // Every policy runs the same problems.
 std::int64_t ProblemsOf(const Record& record);
+
+// The policies of the runs: "the policy paper", "2 policies (paper, ties=contacts)", "1536 policies"; empty:
+// no runs.
+std::string PoliciesText(const Record& record);
+
+// The counters of a record's tallies by contacts, added up.
+template <class CountersByContacts>
+auto SumOf(const CountersByContacts& by_contacts) {
+  typename CountersByContacts::mapped_type sum;
+  for (const auto& [contacts, counters] : by_contacts) {
+    std::vector<std::int64_t> values;
+    ForEachCounter(counters, [&values](const char*, std::int64_t value) { values.push_back(value); });
+    auto next = values.begin();
+    ForEachCounter(sum, [&next](const char*, std::int64_t& value) { value += *next++; });
+  }
+  return sum;
+}
 
 }  // namespace stiction
 

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <set>
 #include <utility>
 
 #include "solver/problem/check.h"
@@ -184,16 +183,6 @@ std::string PlainValue(const Json& json) {
   std::vector<std::string> parts;
   for (const Json& element : json) parts.push_back(PlainValue(element));
   return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::string PoliciesText(const Record& record) {
-  constexpr std::size_t kMostNamed = 3;
-  std::set<std::string> policies;
-  for (const auto& [key, tally] : record.tallies) policies.insert(key.policy);
-  if (policies.empty()) return "";
-  if (policies.size() == 1) return "the policy " + *policies.begin();
-  const std::string all = fmt::format("{} policies", policies.size());
-  return policies.size() <= kMostNamed ? fmt::format("{} ({})", all, fmt::join(policies, ", ")) : all;
 }
 
 std::string ShellWord(const std::string& word) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "corpus/json_text.h"
-#include "corpus/statistics.h"
 
 namespace stiction {
 
@@ -63,10 +62,6 @@ class TextTable {
 
 // A value of a definition: texts without quotes, elements of arrays behind ", ".
 std::string PlainValue(const Json& json);
-
-// The policies of the runs: "the policy paper", "2 policies (paper, ties=contacts)", "1536 policies"; empty:
-// no runs.
-std::string PoliciesText(const Record& record);
 
 // A word as a shell reads it back.
 std::string ShellWord(const std::string& word);

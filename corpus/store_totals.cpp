@@ -15,23 +15,12 @@
 namespace stiction {
 namespace {
 
-// Counters of the same name are added.
-template <class Tally>
-void AddCounters(Tally& sum, const std::map<int, Tally>& tallies) {
-  for (const auto& [contacts, tally] : tallies) {
-    std::vector<std::int64_t> values;
-    ForEachCounter(tally, [&values](const char*, std::int64_t value) { values.push_back(value); });
-    std::size_t next = 0;
-    ForEachCounter(sum, [&](const char*, std::int64_t& value) { value += values[next++]; });
-  }
-}
-
 void AddRecord(StoreTotals& totals) {
   totals.counts = CountAll(totals.record);
   totals.problems = ProblemsOf(totals.record);
-  AddCounters(totals.existence, totals.record.existence);
-  AddCounters(totals.agreement, totals.record.agreement);
-  AddCounters(totals.loops, totals.record.loops);
+  totals.existence = SumOf(totals.record.existence);
+  totals.agreement = SumOf(totals.record.agreement);
+  totals.loops = SumOf(totals.record.loops);
   for (const auto& [signature, count] : totals.record.signatures) ++totals.groups[LabelOf(signature)];
 }
 

@@ -10,9 +10,7 @@
 #include "corpus/json_text.h"
 #include "corpus/machine.h"
 #include "python/signals.h"
-#include "reports/report_files.h"
-#include "reports/tables/csv.h"
-#include "reports/tables/discovery.h"
+#include "reports/tables/campaign_tables.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/search.h"
 #include "search/summary.h"
@@ -116,13 +114,18 @@ class PythonStore {
     return list;
   }
 
-  // Name -> rows of texts, the names of the columns first: the tables of a report.
-  std::map<std::string, std::vector<std::vector<std::string>>> Tables() const {
+  // Name -> names of the columns that are text, and the table as JSON: those of a report.
+  py::dict Tables() const {
     const std::vector<Finding> findings = store_.Findings();
     const Record total = store_.Total();
-    std::map<std::string, std::vector<std::vector<std::string>>> tables;
-    for (const auto& [name, text] : TablesOf(total, Discoveries(total, findings)))
-      tables[name.substr(0, name.rfind('.'))] = ReadCsv(text, name);
+    py::dict tables;
+    for (const Table& table : CampaignTables(total, Discoveries(total, findings))) {
+      py::list texts;
+      for (const Column& column : table.columns) {
+        if (column.text) texts.append(column.name);
+      }
+      tables[py::str(table.name)] = py::make_tuple(texts, JsonText(ToJson(table)));
+    }
     return tables;
   }
 

@@ -17,7 +17,7 @@
 #include "reports/papers/latex.h"
 #include "reports/pictures/finding_picture.h"
 #include "reports/report_files.h"
-#include "reports/tables/csv.h"
+#include "reports/tables/campaign_tables.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/since.h"
 
@@ -64,11 +64,11 @@ void WriteMeasures(ReportFiles& folder, const ReportExtras& extras) {
       throw InputError(fmt::format("--bench: found two files {}, expected names of their own", name));
     folder.Write(name, ReadText(file));
   }
-  if (!extras.frontiers.empty()) folder.Write("frontiers.csv", FrontiersCsv(extras.frontiers));
+  if (!extras.frontiers.empty()) folder.Write("frontiers.csv", ToCsv(FrontiersTable(extras.frontiers)));
 }
 
-void WriteFigures(ReportFiles& folder, const std::vector<FigureTable>& figures) {
-  for (const FigureTable& figure : figures) folder.Write("figures/" + figure.name + ".csv", FigureCsv(figure));
+void WriteTables(ReportFiles& folder, const std::string& place, const std::vector<Table>& tables) {
+  for (const Table& table : tables) folder.Write(place + table.name + ".csv", ToCsv(table));
 }
 
 }  // namespace
@@ -79,9 +79,9 @@ std::filesystem::path WriteMeasured(const std::filesystem::path& directory, Occu
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   WriteMeasures(folder, extras);
-  std::vector<FigureTable> figures = {RungsFigure(lines), FrontiersFigure(extras.frontiers)};
-  std::erase_if(figures, [](const FigureTable& figure) { return figure.rows.empty(); });
-  WriteFigures(folder, figures);
+  std::vector<Table> figures = {RungsFigure(lines), FrontiersFigure(extras.frontiers)};
+  std::erase_if(figures, [](const Table& figure) { return figure.rows.empty(); });
+  WriteTables(folder, "figures/", figures);
   folder.Write("index.html", MeasuredPage(lines, extras.frontiers, extras.benches, figures));
   folder.WriteSums();
   return whole.Commit();
@@ -115,17 +115,18 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
     discovery.files.picture = "findings/" + FileName(discovery.signature) + ".svg";
     folder.Write(discovery.files.picture, picture);
   }
-  for (const auto& [name, text] : TablesOf(content.total, content.discoveries)) folder.Write(name, text);
-  whole.Write("work.csv", WorkCsv(content.work));  // not among the sums: equal searches differ in it alone
+  WriteTables(folder, "", CampaignTables(content.total, content.discoveries));
+  whole.Write("work.csv",
+              ToCsv(WorkTable(content.work)));  // not among the sums: equal searches differ in it alone
   folder.Write("citation.bib", Citation(store));
   folder.Write("campaign.json", CampaignFile(content.identity));
-  if (content.since) folder.Write("since.csv", SinceCsv(*content.since, content.discoveries));
+  if (content.since) WriteTables(folder, "", {SinceTable(*content.since, content.discoveries)});
   WriteMeasures(folder, extras);
   if (extras.latex) {
     for (const auto& [name, text] : LatexFiles(store)) folder.Write(name, text);
   }
-  const std::vector<FigureTable> figures = Figures(content);
-  WriteFigures(folder, figures);
+  const std::vector<Table> figures = Figures(content);
+  WriteTables(folder, "figures/", figures);
   folder.Write("index.html", Page(content, figures));
   folder.WriteSums();
   return whole.Commit();

@@ -2,7 +2,7 @@
 // The report: what a store holds, as a page for people, tables for programs, and files to replay and check.
 //
 //   index.html                    one page that needs nothing else
-//   statistics.csv verdicts.csv   what was counted (csv.h)
+//   statistics.csv verdicts.csv   what was counted (tables/campaign_tables.h)
 //   steps.csv findings.csv agreement.csv solutions.csv
 //   figures/NAME.csv              what the figures of the page draw (figures.h)
 //   campaign.json                 what was searched, for another search

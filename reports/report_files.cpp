@@ -3,7 +3,6 @@
 
 #include "corpus/digest.h"
 #include "corpus/problem_file.h"
-#include "reports/tables/csv.h"
 
 namespace stiction {
 namespace {
@@ -44,19 +43,6 @@ std::map<std::string, std::string> FilesOf(const Discovery& discovery) {
   certificate(names.existence, minimized ? finding.minimized_existence : finding.existence);
   certificate(names.original_existence, finding.existence);
   return files;
-}
-
-std::map<std::string, std::string> TablesOf(const Record& total, const std::vector<Discovery>& discoveries) {
-  return {{"statistics.csv", StatisticsCsv(total)},
-          {"verdicts.csv", VerdictsCsv(total)},
-          {"strata.csv", StrataCsv(total)},
-          {"steps.csv", StepsCsv(total)},
-          {"loops.csv", LoopsCsv(total)},
-          {"zero_steps.csv", ZeroStepsCsv(total)},
-          {"agreement.csv", AgreementCsv(total)},
-          {"solutions.csv", SolutionsCsv(total)},
-          {"findings.csv", FindingsCsv(discoveries)},
-          {"ipopt.csv", IpoptCsv(discoveries)}};
 }
 
 }  // namespace stiction

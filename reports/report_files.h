@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/statistics.h"
 #include "corpus/whole_folder.h"
 #include "reports/tables/discovery.h"
 
@@ -47,9 +46,6 @@ class ReportFiles {
 // Name -> text of the files that discovery.files names. Requires a representative; its problems are parsed, and
 // InputError says what is none.
 std::map<std::string, std::string> FilesOf(const Discovery& discovery);
-
-// Name -> text of the CSV tables (csv.h) but that of bench.
-std::map<std::string, std::string> TablesOf(const Record& total, const std::vector<Discovery>& discoveries);
 
 }  // namespace stiction
 

@@ -16,11 +16,6 @@ from ._given import Path, exact_text, integer, listed, path_text, real, shortene
 from ._methods import Certificate
 from ._problem import Problem, parsed, wrapped
 
-_TEXTS = frozenset(("generator", "policy", "method", "arithmetic", "inexact_outcome", "exact_outcome", "friction",
-                    "or_more", "counted", "signature", "kind", "outcome", "state", "whole_grid", "every_policy_loops",
-                    "words_exact"))
-_YES_OR_NO_OF_FINDINGS = frozenset(("safe", "minimized_safe"))
-
 Table = dict[str, NDArray[Any]]
 
 
@@ -74,11 +69,11 @@ def _finding(row: Mapping[str, Any], seed: int) -> Finding:
         facts.get("found", {}).get("grid", {}), facts)
 
 
-def _column(table: str, name: str, cells: Sequence[str]) -> NDArray[Any]:
-    if name in _TEXTS or (table == "findings" and name in _YES_OR_NO_OF_FINDINGS):
-        return np.array(cells, dtype=str)
-    empty = [cell == "" for cell in cells]
-    numbers = np.array([int(cell or 0) for cell in cells], dtype=np.int64)
+def _column(cells: Sequence[Any], is_text: bool) -> NDArray[Any]:
+    if is_text:
+        return np.array([cell or "" for cell in cells], dtype=str)
+    empty = [cell is None for cell in cells]
+    numbers = np.array([cell or 0 for cell in cells], dtype=np.int64)
     masked: NDArray[Any] = np.ma.masked_array(numbers, empty)  # type: ignore[no-untyped-call]
     return masked if any(empty) else numbers
 
@@ -145,9 +140,10 @@ class Store:
         that name files of a report's folder. `pandas.DataFrame(table)` takes one as it is.
         """
         if not self._tables:
-            for name, (names, *rows) in self._store.tables().items():
-                self._tables[name] = {column: _column(name, column, [row[i] for row in rows])
-                                      for i, column in enumerate(names) if not column.endswith("_file")}
+            for name, (texts, written) in self._store.tables().items():
+                table = json.loads(written)
+                self._tables[name] = {column: _column([row[i] for row in table["rows"]], column in texts)
+                                      for i, column in enumerate(table["columns"]) if not column.endswith("_file")}
         return dict(self._tables)
 
     def statistics(self) -> Table:

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
@@ -19,74 +18,39 @@
 #include "corpus/plain_text.h"
 #include "reports/comparison/comparison_page.h"
 #include "reports/report_files.h"
-#include "reports/tables/csv.h"
-#include "reports/tables/friction_order.h"
+#include "reports/tables/groups.h"
 
 namespace stiction {
 namespace {
 
 // ---- What is compared ----
 
-// Of a tally or a stratum.
-template <class Runs>
-Counts CountsOf(const Runs& runs) {
-  Counts counts;
-  counts.Add(runs);
-  return counts;
-}
-
 struct Measure {
   const char* name;
   const char* meaning;
-  Trials (*of)(const Tally&);
+  bool by_friction;
+  Ratio (*of)(const Counts&);
 };
 
-constexpr Measure kMeasures[] = {{"loops", "runs that loop, confirmed exactly",
-                                  [](const Tally& t) {
-                                    return Trials{CountsOf(t).Loops(), t.problems};
-                                  }},
-                                 {"singular", "runs without a direction of the forces, confirmed exactly",
-                                  [](const Tally& t) {
-                                    return Trials{CountsOf(t).Of(Outcome::kSingular), t.problems};
-                                  }},
-                                 {"rays", "runs with a step without end, confirmed exactly",
-                                  [](const Tally& t) {
-                                    return Trials{CountsOf(t).Of(Outcome::kRay), t.problems};
-                                  }},
-                                 {"zero-steps", "runs with a step of length zero",
-                                  [](const Tally& t) {
-                                    return Trials{t.with_zero_steps, t.problems};
-                                  }},
-                                 {"give-ups", "runs that gave something up",
-                                  [](const Tally& t) {
-                                    return Trials{t.with_give_ups, t.problems};
-                                  }},
-                                 {"misjudged", "audited runs that ended otherwise in exact arithmetic",
-                                  [](const Tally& t) {
-                                    return Trials{t.misjudged, t.audited};
-                                  }},
-                                 {"wrong", "runs called solved with forces that are none", [](const Tally& t) {
-                                    return Trials{t.wrong, t.problems};
-                                  }}};
+constexpr Measure kMeasures[] = {
+    {"loops", "runs that loop, confirmed exactly", true,
+     [](const Counts& c) { return ShareOf(c.Loops(), c.runs); }},
+    {"singular", "runs without a direction of the forces, confirmed exactly", false,
+     [](const Counts& c) { return ShareOf(c.Of(Outcome::kSingular), c.runs); }},
+    {"rays", "runs with a step without end, confirmed exactly", false,
+     [](const Counts& c) { return ShareOf(c.Of(Outcome::kRay), c.runs); }},
+    {"zero-steps", "runs with a step of length zero", false,
+     [](const Counts& c) { return ShareOf(c.with_zero_steps, c.runs); }},
+    {"give-ups", "runs that gave something up", false,
+     [](const Counts& c) { return ShareOf(c.with_give_ups, c.runs); }},
+    {"misjudged", "audited runs that ended otherwise in exact arithmetic", true,
+     [](const Counts& c) { return ShareOf(c.misjudged, c.audited); }},
+    {"wrong", "runs called solved with forces that are none", false,
+     [](const Counts& c) { return ShareOf(c.wrong, c.runs); }}};
 
-struct StratumMeasure {
-  const char* name;
-  const char* meaning;
-  Trials (*of)(const Stratum&);
-};
-
-constexpr StratumMeasure kStratumMeasures[] = {
-    {"loops", "runs that loop, confirmed exactly",
-     [](const Stratum& s) {
-       return Trials{CountsOf(s).Loops(), s.problems};
-     }},
-    {"misjudged", "audited runs that ended otherwise in exact arithmetic", [](const Stratum& s) {
-       return Trials{s.misjudged, s.audited};
-     }}};
-
-std::map<std::string, Stratum, ByFriction> FrictionsOf(const Tally& tally) {
-  std::map<std::string, Stratum, ByFriction> frictions;
-  for (const auto& [key, stratum] : tally.strata) frictions[key.friction].Merge(stratum);
+std::map<std::string, Counts, decltype(&NaturalLess)> FrictionsOf(const Tally& tally) {
+  std::map<std::string, Counts, decltype(&NaturalLess)> frictions(&NaturalLess);
+  for (const auto& [key, stratum] : tally.strata) frictions[key.friction].Add(stratum);
   return frictions;
 }
 
@@ -101,8 +65,8 @@ int PooledMedian(const Tally& a, const Tally& b) {
   return Tally::kBins - 1;
 }
 
-Trials StepsAbove(const Tally& tally, int median) {
-  Trials trials;
+Ratio StepsAbove(const Tally& tally, int median) {
+  Ratio trials;
   for (int steps = 0; steps < Tally::kBins; ++steps) {
     trials.of += tally.steps[steps];
     trials.count += steps > median ? tally.steps[steps] : 0;
@@ -110,33 +74,29 @@ Trials StepsAbove(const Tally& tally, int median) {
   return trials;
 }
 
-void AddRates(Comparison& comparison, const TallyKey& key, const Tally& a, const Tally& b) {
+void AddRates(Comparison& comparison, const TallyKey& key, const Group& a, const Group& b) {
+  const auto add = [&](const std::string& friction, const std::string& measure, const std::string& meaning,
+                       const Ratio& of_a, const Ratio& of_b) {
+    comparison.rates.push_back({key, friction, measure, meaning, of_a, of_b, {}, {}});
+  };
   for (const Measure& measure : kMeasures)
-    comparison.rates.push_back({key, "", measure.name, measure.meaning, measure.of(a), measure.of(b), {}, {}});
-  const int median = PooledMedian(a, b);
-  comparison.rates.push_back({key,
-                              "",
-                              fmt::format("steps-above-{}", median),
-                              fmt::format("runs of more than {} steps, the median of both", median),
-                              StepsAbove(a, median),
-                              StepsAbove(b, median),
-                              {},
-                              {}});
-  const auto frictions_a = FrictionsOf(a), frictions_b = FrictionsOf(b);
-  for (const auto& [friction, stratum] : frictions_a) {
-    const auto found = frictions_b.find(friction);
-    if (found == frictions_b.end()) continue;
-    for (const StratumMeasure& measure : kStratumMeasures)
-      comparison.rates.push_back({key,
-                                  friction,
-                                  measure.name,
-                                  measure.meaning,
-                                  measure.of(stratum),
-                                  measure.of(found->second),
-                                  {},
-                                  {}});
+    add("", measure.name, measure.meaning, measure.of(a.counts), measure.of(b.counts));
+  const int median = PooledMedian(a.tally, b.tally);
+  add("", fmt::format("steps-above-{}", median),
+      fmt::format("runs of more than {} steps, the median of both", median), StepsAbove(a.tally, median),
+      StepsAbove(b.tally, median));
+  const auto frictions = FrictionsOf(b.tally);
+  for (const auto& [friction, counts] : FrictionsOf(a.tally)) {
+    const auto found = frictions.find(friction);
+    if (found == frictions.end()) continue;
+    for (const Measure& measure : kMeasures) {
+      if (measure.by_friction)
+        add(friction, measure.name, measure.meaning, measure.of(counts), measure.of(found->second));
+    }
   }
 }
+
+TallyKey KeyOf(const Group& g) { return {g.Text(0), g.Number(1), g.Text(2), g.Text(3), g.Text(4)}; }
 
 void AddTests(Comparison& comparison) {
   std::vector<double> p;
@@ -177,7 +137,7 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
 
 // ---- Text ----
 
-double RateOf(const Trials& t) { return static_cast<double>(t.count) / static_cast<double>(t.of); }
+double ValueOf(const Ratio& t) { return static_cast<double>(t.count) / static_cast<double>(t.of); }
 
 }  // namespace
 
@@ -191,10 +151,10 @@ std::string NameOf(const TallyKey& key) {
 
 std::string PText(double p) { return p == 0 ? "< 1e-300" : fmt::format("{:.2g}", p); }
 
-bool MoreInA(const ComparedRate& rate) { return RateOf(rate.a) > RateOf(rate.b); }
+bool MoreInA(const ComparedRate& rate) { return ValueOf(rate.a) > ValueOf(rate.b); }
 
 std::string SentenceOf(const ComparedRate& rate) {
-  const auto side = [](const Trials& t) {
+  const auto side = [](const Ratio& t) {
     return fmt::format("{} of {}, {}", Grouped(t.count), Grouped(t.of), ShareText(t.count, t.of));
   };
   return fmt::format("{}{}: {}: more in {}: A {}; B {}; p = {} corrected.", NameOf(rate.key),
@@ -253,28 +213,6 @@ std::string RowName(const TallyKey& key) {
   return name;
 }
 
-// A table for each policy, of the rows that `add` puts into it.
-template <class Rows, class Add>
-std::string TablesByPolicy(const Rows& rows, const std::vector<std::string>& header, Add add) {
-  std::map<std::string, TextTable> tables;
-  for (const auto& row : rows) add(tables.try_emplace(row.key.policy, header, 1).first->second, row);
-  std::string text;
-  for (const auto& [policy, table] : tables)
-    text += Paragraph(fmt::format("Policy {}:", policy)) + table.Done();
-  return text;
-}
-
-std::string LoopTable(const Comparison& c) {
-  return TablesByPolicy(
-      c.rates, {"generator, contacts", "loops A", "in a million runs", "loops B", "in a million runs", "p"},
-      [](TextTable& table, const ComparedRate& rate) {
-        if (rate.measure != "loops" || !rate.friction.empty()) return;
-        table.AddRow({RowName(rate.key), Grouped(rate.a.count), RateText(rate.a.count, rate.a.of),
-                      Grouped(rate.b.count), RateText(rate.b.count, rate.b.of),
-                      rate.adjusted ? PText(*rate.adjusted) : ""});
-      });
-}
-
 // The number of steps that a share of the runs do not exceed; "63+" for the last bin.
 std::string Quantile(const ComparedSteps::Bins& bins, double share) {
   double all = 0, up_to = 0;
@@ -301,31 +239,21 @@ std::string StepTable(const Comparison& c) {
   for (const ComparedRate& rate : c.rates) {
     if (rate.measure.starts_with("steps-above") && rate.adjusted) p[rate.key] = PText(*rate.adjusted);
   }
-  const char* quantiles = "25/50/75/99 %";
-  return TablesByPolicy(c.steps, {"generator, contacts", "mean A", quantiles, "mean B", quantiles, "p"},
-                        [&p](TextTable& table, const ComparedSteps& steps) {
-                          std::vector<std::string> cells = {RowName(steps.key)};
-                          for (std::string& cell : StepCells(steps.a, steps.sum_a))
-                            cells.push_back(std::move(cell));
-                          for (std::string& cell : StepCells(steps.b, steps.sum_b))
-                            cells.push_back(std::move(cell));
-                          cells.push_back(p[steps.key]);
-                          table.AddRow(std::move(cells));
-                        });
+  Table table{"steps", "", Columns("policy* generator,_contacts* mean_A 25/50/75/99_% mean_B 25/50/75/99_% p")};
+  table.keys = 2;
+  for (const ComparedSteps& steps : c.steps) {
+    const auto a = StepCells(steps.a, steps.sum_a), b = StepCells(steps.b, steps.sum_b);
+    table.Add({steps.key.policy, RowName(steps.key), a[0], a[1], b[0], b[1], p[steps.key]});
+  }
+  return TextByPolicy(table, "Policy {}:");
 }
 
-void AddTallyKey(Csv& csv, const TallyKey& key) {
-  csv.Add(key.generator).Add(key.contacts).Add(key.policy).Add(key.method).Add(key.arithmetic);
+Group GroupOf(const TallyKey& key) {
+  return {{key.generator, std::int64_t{key.contacts}, key.policy, key.method, key.arithmetic}, {}, {}};
 }
 
-std::string Decimal(double value) { return fmt::format("{:.9g}", value); }
-
-void AddTrials(Csv& csv, const Trials& trials) {
-  csv.Add(trials.count).Add(trials.of);
-  const Interval interval = ShareInterval(trials.count, trials.of);
-  csv.Add(trials.of == 0 ? "" : Decimal(RateOf(trials)));
-  csv.Add(trials.of == 0 ? "" : Decimal(interval.low)).Add(trials.of == 0 ? "" : Decimal(interval.high));
-}
+// In nine digits.
+TableCell Decimal(std::optional<double> x) { return x ? TableCell(RoundedTo(9, *x)) : TableCell(); }
 
 }  // namespace
 
@@ -340,22 +268,23 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
                     "'merge' joins those of one",
                     file_a, file_b));
   }
-  const Record of_a = a.Total(), of_b = b.Total();
   Comparison comparison;
   comparison.differences = Differences(a.identity(), b.identity());
-  for (const auto& [key, tally] : of_a.tallies) {
-    const auto found = of_b.tallies.find(key);
-    if (found == of_b.tallies.end()) {
+  std::map<TallyKey, Group> of_b;
+  for (Group& group : Groups(b.Total(), kByAll)) of_b.emplace(KeyOf(group), std::move(group));
+  for (const Group& group : Groups(a.Total(), kByAll)) {
+    const TallyKey key = KeyOf(group);
+    const auto found = of_b.find(key);
+    if (found == of_b.end()) {
       comparison.only_a.push_back(key);
       continue;
     }
-    AddRates(comparison, key, tally, found->second);
-    comparison.steps.push_back(
-        {key, tally.steps, found->second.steps, tally.sums.steps, found->second.sums.steps});
+    const Tally &tally_a = group.tally, &tally_b = found->second.tally;
+    AddRates(comparison, key, group, found->second);
+    comparison.steps.push_back({key, tally_a.steps, tally_b.steps, tally_a.sums.steps, tally_b.sums.steps});
+    of_b.erase(found);
   }
-  for (const auto& [key, tally] : of_b.tallies) {
-    if (!of_a.tallies.contains(key)) comparison.only_b.push_back(key);
-  }
+  for (const auto& [key, group] : of_b) comparison.only_b.push_back(key);
   if (comparison.rates.empty()) {
     throw InputError(
         fmt::format("{} and {}: found no generator, number of contacts, policy and arithmetic that both "
@@ -373,29 +302,45 @@ std::string ComparisonText(const Comparison& c, const std::string& file_a, const
   text += "\n" + Heading("What is more than noise") + NoiseText(c) + Paragraph(AboutTests(), 0);
   for (const std::string& only : {OnlyIn(c.only_a, "A"), OnlyIn(c.only_b, "B")})
     text += only.empty() ? "" : Paragraph(only, 0);
-  text += "\n" + Heading("Loops, confirmed exactly") + LoopTable(c);
+  text += "\n" + Heading("Loops, confirmed exactly") +
+          TextByPolicy(Select(ComparedLoopsTable(c),
+                              "policy generator,_contacts #A=loops_A A=in_a_million_runs #B=loops_B "
+                              "B=in_a_million_runs p",
+                              ""),
+                       "Policy {}:");
   return text + "\n" + Heading("Steps of a run: mean and quantiles") + StepTable(c);
 }
 
-std::string ComparisonCsv(const Comparison& comparison) {
-  Csv csv;
-  for (const char* column :
-       {"generator", "contacts", "policy", "method",     "arithmetic", "friction",    "measure",
-        "a_count",   "a_of",     "a_rate", "a_low",      "a_high",     "b_count",     "b_of",
-        "b_rate",    "b_low",    "b_high", "difference", "p",          "p_corrected", "more_than_noise"})
-    csv.Add(column);
-  csv.EndRow();
-  for (const ComparedRate& rate : comparison.rates) {
-    AddTallyKey(csv, rate.key);
-    csv.Add(rate.friction).Add(rate.measure);
-    AddTrials(csv, rate.a);
-    AddTrials(csv, rate.b);
-    const bool both = rate.a.of > 0 && rate.b.of > 0;
-    csv.Add(both ? Decimal(RateOf(rate.b) - RateOf(rate.a)) : "");
-    csv.Add(rate.p ? Decimal(*rate.p) : "").Add(rate.adjusted ? Decimal(*rate.adjusted) : "");
-    csv.Add(rate.MoreThanNoise() ? "yes" : "no").EndRow();
+Table ComparedLoopsTable(const Comparison& comparison) {
+  Table table{"loops",
+              "Loops, confirmed exactly",
+              {{"policy", "", kText},
+               {"generator, contacts", "", kText},
+               {"A", "runs that loop; below: in a million runs, with the exact interval at 95 %"},
+               {"B", "likewise"},
+               {"p", "corrected; nothing where no difference is possible"}},
+              {},
+              {},
+              2};
+  for (const auto& [key, friction, measure, meaning, a, b, p, adjusted] : comparison.rates) {
+    if (measure != "loops" || !friction.empty()) continue;
+    table.Add({key.policy, RowName(key), RateOf(a.count, a.of), RateOf(b.count, b.of),
+               adjusted ? PText(*adjusted) : ""});
   }
-  return csv.text();
+  return table;
+}
+
+Table ComparisonTable(const Comparison& comparison) {
+  Table table = Keyed("comparison", "", kByAll,
+                      Columns("friction* measure* a_count,a_of,a_rate,a_low,a_high "
+                              "b_count,b_of,b_rate,b_low,b_high difference p p_corrected more_than_noise*"));
+  for (const ComparedRate& rate : comparison.rates) {
+    const bool both = rate.a.of > 0 && rate.b.of > 0;
+    table.Add(Behind(GroupOf(rate.key), {rate.friction, rate.measure, rate.a, rate.b,
+                                         both ? Decimal(ValueOf(rate.b) - ValueOf(rate.a)) : TableCell(),
+                                         Decimal(rate.p), Decimal(rate.adjusted), rate.MoreThanNoise()}));
+  }
+  return table;
 }
 
 Json ComparisonToJson(const Comparison& comparison) {
@@ -406,7 +351,7 @@ Json ComparisonToJson(const Comparison& comparison) {
                 {"method", key.method},
                 {"arithmetic", key.arithmetic}};
   };
-  const auto trials = [](const Trials& trials) { return Json{{"count", trials.count}, {"of", trials.of}}; };
+  const auto trials = [](const Ratio& trials) { return Json{{"count", trials.count}, {"of", trials.of}}; };
   const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
   Json rates = Json::array(), only_a = Json::array(), only_b = Json::array();
   for (const ComparedRate& rate : comparison.rates) {
@@ -429,21 +374,15 @@ Json ComparisonToJson(const Comparison& comparison) {
           {"only_b", only_b}};
 }
 
-std::string ComparisonStepsCsv(const Comparison& comparison) {
-  Csv csv;
-  for (const char* column : {"generator", "contacts", "policy", "method", "arithmetic", "steps", "or_more",
-                             "a_problems", "b_problems"})
-    csv.Add(column);
-  csv.EndRow();
-  for (const ComparedSteps& compared : comparison.steps) {
+Table ComparisonStepsTable(const Comparison& comparison) {
+  Table table = Keyed("comparison_steps", "", kByAll, Columns("steps or_more* a_problems b_problems"));
+  for (const auto& [key, a, b, sum_a, sum_b] : comparison.steps) {
     for (int steps = 0; steps < Tally::kBins; ++steps) {
-      if (compared.a[steps] == 0 && compared.b[steps] == 0) continue;
-      AddTallyKey(csv, compared.key);
-      csv.Add(steps).Add(steps == Tally::kBins - 1 ? "yes" : "no");
-      csv.Add(compared.a[steps]).Add(compared.b[steps]).EndRow();
+      if (a[steps] > 0 || b[steps] > 0)
+        table.Add(Behind(GroupOf(key), {steps, steps == Tally::kBins - 1, a[steps], b[steps]}));
     }
   }
-  return csv.text();
+  return table;
 }
 
 std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& file_a,
@@ -454,8 +393,8 @@ std::filesystem::path WriteComparison(const Comparison& comparison, const std::s
   const FixedTextWidth of_the_file(kUsualTextWidth);
   folder.Write("comparison.txt", ComparisonText(comparison, file_a, file_b));
   folder.Write("index.html", ComparisonPage(comparison, file_a, file_b));
-  folder.Write("comparison.csv", ComparisonCsv(comparison));
-  folder.Write("comparison_steps.csv", ComparisonStepsCsv(comparison));
+  folder.Write("comparison.csv", ToCsv(ComparisonTable(comparison)));
+  folder.Write("comparison_steps.csv", ToCsv(ComparisonStepsTable(comparison)));
   folder.WriteSums();
   return whole.Commit();
 }

@@ -28,10 +28,10 @@ inline constexpr double kNoiseLevel = 0.05;
 
 struct ComparedRate {
   TallyKey key;
-  std::string friction;  // of all contacts; empty: any
-  std::string measure;   // "loops"
-  std::string meaning;   // "runs that loop, confirmed exactly"
-  Trials a, b;
+  std::string friction;            // of all contacts; empty: any
+  std::string measure;             // "loops"
+  std::string meaning;             // "runs that loop, confirmed exactly"
+  Ratio a, b;                      // shares
   std::optional<double> p;         // where the two can differ at all
   std::optional<double> adjusted;  // corrected for all tests of the comparison
 
@@ -63,12 +63,14 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
 
 // As plain text, `a` and `b` being the names of the two.
 std::string ComparisonText(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
-// A row per rate that was compared; exact counts, p as decimal numbers.
-std::string ComparisonCsv(const Comparison& comparison);
-// The same, with what differs by design, and what one alone has.
+// A row per rate that was compared.
+Table ComparisonTable(const Comparison& comparison);
+// Loops by policy, generator and contacts, for people.
+Table ComparedLoopsTable(const Comparison& comparison);
+// Every rate, with what differs by design, and what one alone has.
 Json ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
-std::string ComparisonStepsCsv(const Comparison& comparison);
+Table ComparisonStepsTable(const Comparison& comparison);
 
 // ---- In words, for text and page alike ----
 

@@ -7,14 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "corpus/intervals.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "reports/comparison_template.h"
-#include "reports/html/html.h"
 #include "reports/html/template.h"
 #include "reports/page/page.h"
-#include "reports/tables/csv.h"
-#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -35,33 +32,28 @@ Html Stores(const std::string& file_a, const std::string& file_b) {
 
 // ---- What is more than noise ----
 
-HtmlCell CountCell(const Trials& trials) {
-  return {Text(fmt::format("{} of {}", Grouped(trials.count), Grouped(trials.of))) +
-              Tag("small")(ShareText(trials.count, trials.of)),
-          trials.count == 0 ? "zero" : ""};
+TableCell CountCell(const Ratio& ratio) {
+  return {fmt::format("{} of {}", Grouped(ratio.count), Grouped(ratio.of)), Shown(ratio),
+          ratio.count == 0 ? "zero" : ""};
 }
 
 Html NoiseTable(const std::vector<const ComparedRate*>& beyond) {
-  Table table("Differences that are more than noise",
-              {{"generator, contacts", "", false},
-               {"friction", "of all contacts, where runs of one friction are compared", false},
-               {"what", "", false},
-               {"more in", "", false},
+  Table table{"noise",
+              "Differences that are more than noise",
+              {{"generator, contacts", "", kText},
+               {"friction", "of all contacts, where runs of one friction are compared", kText},
+               {"what", "", kText},
+               {"more in", "", kText},
                {"A", "runs, of how many, share and its exact interval at 95 %"},
                {"B", "likewise"},
                {"p", "of Fisher's exact test, two-sided"},
-               {"p corrected", "for all tests of this comparison, by Holm"}});
+               {"p corrected", "for all tests of this comparison, by Holm"}}};
   for (const ComparedRate* rate : beyond) {
-    table.AddRow({{Text(NameOf(rate->key))},
-                  {Text(rate->friction.empty() ? "any" : rate->friction)},
-                  {Text(rate->meaning)},
-                  {Text(MoreInA(*rate) ? "A" : "B")},
-                  CountCell(rate->a),
-                  CountCell(rate->b),
-                  {Text(PText(*rate->p))},
-                  {Text(PText(*rate->adjusted))}});
+    table.Add({NameOf(rate->key), rate->friction.empty() ? "any" : rate->friction, rate->meaning,
+               MoreInA(*rate) ? "A" : "B", CountCell(rate->a), CountCell(rate->b), PText(*rate->p),
+               PText(*rate->adjusted)});
   }
-  return table.Done();
+  return ToHtml(table);
 }
 
 Html NoiseSection(const Comparison& comparison) {
@@ -83,51 +75,26 @@ Html NoiseSection(const Comparison& comparison) {
 
 // ---- Figures ----
 
-Html FigureOf(const std::string& table, const char* caption) {
-  const std::string file = table + ".csv";
-  return Tag("figure", {{"class", "plot"}, {"data-figure", table}})(
-             Html("\n") + Tag("figcaption")(caption) + Html("\n<div class=\"drawing\"></div>\n") +
-             Tag("p", {{"class", "source"}})(Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) +
-                                             Html(", made by <code>stiction report A B -o DIR</code>")) +
-             Html("\n")) +
-         Html("\n");
-}
+constexpr const char* kMadeBy = "stiction report A B -o DIR";
 
-// The cells of a table as they stand in its file.
-Json CsvTable(const std::string& csv, const std::string& name) {
-  std::vector<std::vector<std::string>> rows = ReadCsv(csv, name);
-  const std::vector<std::string> columns = rows.front();
-  rows.erase(rows.begin());
-  return {{"columns", columns}, {"rows", rows}};
-}
-
-Html LoopRates(const Comparison& comparison) {
-  Table table("Loops, confirmed exactly",
-              {{"generator, contacts", "", false},
-               {"A", "runs that loop, of how many, share and its exact interval at 95 %"},
-               {"B", "likewise"},
-               {"p corrected", "nothing where no difference is possible"}});
-  for (const ComparedRate& rate : comparison.rates) {
-    if (rate.measure != "loops" || !rate.friction.empty()) continue;
-    table.AddRow({{Text(NameOf(rate.key))},
-                  CountCell(rate.a),
-                  CountCell(rate.b),
-                  {Text(rate.adjusted ? PText(*rate.adjusted) : "")}});
+// The cells of a table as they stand in its file: as text.
+Json FileCells(const Table& table) {
+  Json json = ToJson(table);
+  for (Json& row : json["rows"]) {
+    for (Json& cell : row)
+      cell = cell.is_null() ? "" : cell.is_string() ? cell.get<std::string>() : cell.dump();
   }
-  return table.Done();
+  return json;
 }
 
 Html FilesBeside() {
   return Section("files", "Files beside this page",
-                 Html("<ul>\n"
-                      "<li><a href=\"comparison.csv\"><code>comparison.csv</code></a>: a row per rate, "
-                      "also those that are noise</li>\n"
-                      "<li><a href=\"comparison_steps.csv\"><code>comparison_steps.csv</code></a>: runs of A "
-                      "and of B by their steps</li>\n"
-                      "<li><a href=\"comparison.txt\"><code>comparison.txt</code></a>: what the program "
-                      "prints</li>\n"
-                      "<li><a href=\"SHA256SUMS\"><code>SHA256SUMS</code></a>: the SHA-256 of every file of "
-                      "this folder, for sha256sum --check</li>\n</ul>\n"));
+                 Html("<ul>\n<li><a href=\"comparison.csv\"><code>comparison.csv</code></a>: a row per rate, "
+                      "also those that are noise</li>\n<li><a "
+                      "href=\"comparison_steps.csv\"><code>comparison_steps.csv</code></a>: runs of A and of B "
+                      "by their steps</li>\n<li><a href=\"comparison.txt\"><code>comparison.txt</code></a>: "
+                      "what the program prints</li>\n<li><a href=\"SHA256SUMS\"><code>SHA256SUMS</code></a>: "
+                      "the SHA-256 of every file of this folder, for sha256sum --check</li>\n</ul>\n"));
 }
 
 // The command that makes the page again, where the stores lie as they did.
@@ -142,20 +109,21 @@ Html CommandSection(const std::string& file_a, const std::string& file_b) {
 
 std::string ComparisonPage(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
   const Html rates =
-      FigureOf(
+      FigurePlace(
           "comparison",
           "How often, in a million runs, with exact intervals at 95 %, on a logarithmic scale. Zero has no "
           "place on it: where none was seen, a dotted line reaches up to the end of the interval, below "
-          "which the rate lies.") +
-      Html("<h3>Loops</h3>\n") + LoopRates(comparison);
+          "which the rate lies.",
+          kMadeBy, "") +
+      Html("<h3>Loops</h3>\n") + ToHtml(ComparedLoopsTable(comparison));
   const Html steps =
-      FigureOf("comparison_steps",
-               "Runs by their steps, as shares of all runs of each campaign, on a logarithmic scale; "
-               "the last number stands for itself and all above where the table says so.");
-  const Json data = {
-      {"figures",
-       {{"comparison", CsvTable(ComparisonCsv(comparison), "comparison.csv")},
-        {"comparison_steps", CsvTable(ComparisonStepsCsv(comparison), "comparison_steps.csv")}}}};
+      FigurePlace("comparison_steps",
+                  "Runs by their steps, as shares of all runs of each campaign, on a logarithmic scale; "
+                  "the last number stands for itself and all above where the table says so.",
+                  kMadeBy, "");
+  const Json data = {{"figures",
+                      {{"comparison", FileCells(ComparisonTable(comparison))},
+                       {"comparison_steps", FileCells(ComparisonStepsTable(comparison))}}}};
   const std::string page(std::begin(kComparisonTemplate), std::end(kComparisonTemplate));
   return FilledTemplate(
       page,

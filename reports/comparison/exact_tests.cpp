@@ -45,13 +45,13 @@ struct Hypergeometric {
 
 }  // namespace
 
-bool CanDiffer(const Trials& a, const Trials& b) {
+bool CanDiffer(const Ratio& a, const Ratio& b) {
   const std::int64_t events = a.count + b.count;
   return a.of > 0 && b.of > 0 && events > 0 && events < a.of + b.of;
 }
 
-double FisherTest(const Trials& a, const Trials& b) {
-  for (const Trials& trials : {a, b})
+double FisherTest(const Ratio& a, const Ratio& b) {
+  for (const Ratio& trials : {a, b})
     STICTION_CHECK(trials.count >= 0 && trials.count <= trials.of, "no more events than trials");
   if (!CanDiffer(a, b)) return 1;
   const auto of = [](std::int64_t n) { return static_cast<double>(n); };  // exact up to 2^53

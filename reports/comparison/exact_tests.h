@@ -4,22 +4,15 @@
 #ifndef STICTION_REPORTS_COMPARISON_EXACT_TESTS_H_
 #define STICTION_REPORTS_COMPARISON_EXACT_TESTS_H_
 
-#include <cstdint>
 #include <vector>
+
+#include "reports/tables/table.h"
 
 namespace stiction {
 
-// An event that was seen so often in so many trials.
-struct Trials {
-  std::int64_t count = 0;
-  std::int64_t of = 0;
-
-  bool operator==(const Trials&) const = default;
-};
-
 // Whether the margins leave a choice: trials on both sides, and an event seen in some of them all, not in all.
 // Where they do not, no test can say anything.
-bool CanDiffer(const Trials& a, const Trials& b);
+bool CanDiffer(const Ratio& a, const Ratio& b);
 
 // Fisher's exact test, two-sided: were the chances equal, the probability of tables that are no more probable
 // than this one, given the sums of their rows and columns (R. A. Fisher, Journal of the Royal Statistical
@@ -28,7 +21,7 @@ bool CanDiffer(const Trials& a, const Trials& b);
 // Sums the hypergeometric weights outward from their middle, each from the one before. Boost.Math's
 // distribution takes counts of 32 bits, which a night leaves behind; a test holds small tables against rational
 // numbers.
-double FisherTest(const Trials& a, const Trials& b);
+double FisherTest(const Ratio& a, const Ratio& b);
 
 // Holm's correction for many tests (S. Holm, Scandinavian Journal of Statistics 6, 1979), whether they depend
 // on each other or not: what is at most 5 % here is, in all, false with a probability of at most 5 %.

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "solver/problem/check.h"
-
 namespace stiction {
 namespace {
 
@@ -101,52 +99,6 @@ Html Tag::Void() const {
   Html html;
   html.markup_ = open_ + ">";
   return html;
-}
-
-std::string Document(const Html& head, const Html& body) {
-  const Html page = Tag("html", {{"lang", "en"}})(Html("\n") + head + body + Html("\n"));
-  return "<!DOCTYPE html>\n" + page.markup() + "\n";
-}
-
-Table::Table(std::string caption, std::vector<Column> columns)
-    : caption_(std::move(caption)), columns_(std::move(columns)) {}
-
-void Table::AddRow(const std::vector<HtmlCell>& cells, int headers, const std::string& style) {
-  STICTION_CHECK(cells.size() == columns_.size(),
-                 fmt::format("table {}: {} cells for {} columns", caption_, cells.size(), columns_.size()));
-  ++count_;
-  Html row;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool header = static_cast<int>(i) < headers;
-    std::string classes = columns_[i].number ? "n" : "";
-    if (!cells[i].style.empty()) classes += (classes.empty() ? "" : " ") + cells[i].style;
-    row += Tag(header ? "th" : "td", {{"scope", header ? "row" : ""}, {"class", classes}})(cells[i].content);
-  }
-  rows_ += Tag("tr", {{"class", style}})(row) + Html("\n");
-}
-
-void Table::AddWide(const Html& content, const std::string& style) {
-  const Tag cell("td", {{"colspan", std::to_string(columns_.size())}});
-  rows_ += Tag("tr", {{"class", style}})(cell(content)) + Html("\n");
-}
-
-Html Table::Head() const {
-  Html row;
-  for (const Column& column : columns_) {
-    row += Tag("th",
-               {{"scope", "col"}, {"class", column.number ? "n" : ""}, {"title", column.hint}})(column.title);
-  }
-  return Tag("thead")(Tag("tr")(row));
-}
-
-Html Table::Done() const {
-  const Html caption = Tag("caption")(caption_);
-  const Html table = Tag("table")(caption + Head() + Html("\n") + Tag("tbody")(Html("\n") + rows_));
-  const Tag frame("div",
-                  {{"class", "scroll"}, {"role", "region"}, {"aria-label", caption_}, {"tabindex", "0"}});
-  if (count_ <= kLong || !folds_) return frame(table) + Html("\n");
-  const Html title = Tag("summary")(fmt::format("{}: a table of {}", caption_, Counted(count_, "row")));
-  return Tag("details", {{"class", "folded"}})(title + Html("\n") + frame(table)) + Html("\n");
 }
 
 std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, decimals); }

@@ -60,48 +60,6 @@ struct Tag {
   std::string open_;  // "<name attributes", not closed yet
 };
 
-// A page that needs nothing else.
-std::string Document(const Html& head, const Html& body);
-
-// ---- Tables ----
-
-struct Column {
-  std::string title;
-  std::string hint = {};  // shown on hovering
-  bool number = true;     // right-aligned
-};
-
-struct HtmlCell {
-  Html content;
-  std::string style = {};  // class names
-};
-
-class Table {
- public:
-  // `caption` names the table to a screen reader, and is not shown.
-  Table(std::string caption, std::vector<Column> columns);
-
-  // The first `headers` cells are headers of the row. As many cells as columns (InternalError otherwise).
-  void AddRow(const std::vector<HtmlCell>& cells, int headers = 1, const std::string& style = "");
-  // Shows all rows at once, however many.
-  void StayOpen() { folds_ = false; }
-  // One cell across all columns.
-  void AddWide(const Html& content, const std::string& style);
-  // The table in a frame that scrolls sideways where the page is narrow; a long one opens on demand.
-  Html Done() const;
-
- private:
-  Html Head() const;
-
-  static constexpr int kLong = 30;  // rows
-
-  std::string caption_;
-  std::vector<Column> columns_;
-  Html rows_;
-  int count_ = 0;  // of rows
-  bool folds_ = true;
-};
-
 // ---- Numbers for pictures ----
 
 std::string Fixed(double x, int decimals = 1);

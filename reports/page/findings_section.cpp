@@ -7,11 +7,11 @@
 
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
+#include "corpus/plain_text.h"
 #include "corpus/problem_file.h"
 #include "reports/page/findings_data.h"
 #include "reports/page/page.h"
 #include "reports/pictures/finding_picture.h"
-#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -54,25 +54,24 @@ std::vector<std::string> MuColumn(const ExactProblem& problem) {
 
 namespace {
 
-HtmlCell Number(const Rational& x, const std::string& style = "") {
-  return {Text(ToString(x)), x == 0 && style.empty() ? "zero" : style};
+TableCell Number(const Rational& x, const std::string& style = "") {
+  return {ToString(x), "", x == 0 && style.empty() ? "zero" : style};
 }
 
 Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
   const std::vector<std::string> names = RowNames(problem);
   const std::vector<std::string> mu = MuColumn(problem);
-  std::vector<Column> columns = {{"A", "", false}};
-  for (const std::string& name : names) columns.push_back({name});
-  columns.insert(columns.end(), {{"b"}, {"mu"}});
-  Table table(caption, columns);
+  Table table{"problem", caption, {{"A", "", kText}}};
+  for (const std::string& name : names) table.columns.push_back({name});
+  table.columns.insert(table.columns.end(), {{"b"}, {"mu"}});
   for (int row = 0; row < problem.rows(); ++row) {
-    std::vector<HtmlCell> cells = {{Text(names[row])}};
+    std::vector<TableCell> cells = {names[row]};
     for (int column = 0; column < problem.rows(); ++column) cells.push_back(Number(problem.A(row, column)));
     cells.push_back(Number(problem.b[row], "edge"));
-    cells.push_back({Text(mu[row]), "edge"});
-    table.AddRow(cells);
+    cells.emplace_back(mu[row], "", "edge");
+    table.Add(std::move(cells));
   }
-  return table.Done();
+  return ToHtml(table);
 }
 
 }  // namespace
@@ -179,24 +178,6 @@ namespace {
 
 // ---- The table ----
 
-Table EmptyTable() {
-  return Table(
-      "Findings, the simplest first",
-      {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units",
-        false},
-       {"kind", "", false},
-       {"contacts", "of the problem as found → of the minimized problem", false},
-       {"drives", "of one period of the loop"},
-       {"steps", "of one period of the loop"},
-       {"met",
-        "runs of the campaign with this signature; below: different words of their loops, where the "
-        "signature is counts alone"},
-       {"representative", "generator, unit and index of the first problem that shows it; its policy", false},
-       {"policies, as found", "outcomes over the planar grid of policies", false},
-       {"policies, minimized", "likewise, of the minimized problem", false},
-       {"minimized size", "entries of A and b that are not zero; bits of the longest number", false}});
-}
-
 Html KindBadge(const Discovery& discovery, const std::optional<Since>& since) {
   const bool stands_out = discovery.IsLoop() || IsGrave(discovery.kind);
   const Tag badge("span", {{"class", stands_out ? "badge loop" : "badge"}});
@@ -233,23 +214,34 @@ Html SizeText(const Discovery& discovery) {
   return Text(fmt::format("{}, {}", Counted(size.nonzeros, "nonzero"), Counted(size.bits, "bit")));
 }
 
-void AddFinding(Table& table, const Discovery& discovery, const std::optional<Since>& since) {
-  const auto period = [&](std::int64_t LoopLength::*part) {
-    return discovery.loop ? Text(Grouped((*discovery.loop).*part)) : Html();
-  };
-  table.AddRow({{Tag("code")(discovery.signature), "signature"},
-                {KindBadge(discovery, since)},
-                {ContactsText(discovery)},
-                {period(&LoopLength::drives)},
-                {period(&LoopLength::steps)},
-                {MetText(discovery)},
-                {RepresentativeText(*discovery.representative)},
-                {discovery.found ? Text(GridText(discovery.found->grid)) : Html()},
-                {discovery.minimized ? Text(GridText(discovery.minimized->grid)) : Html()},
-                {SizeText(discovery)}},
-               1, "finding");
-  table.AddWide(Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(discovery)),
-                "more");
+Html FindingsRows(const std::vector<const Discovery*>& shown, const std::optional<Since>& since) {
+  Table table{
+      "gallery",
+      "Findings, the simplest first",
+      {{"signature", "the same for problems that differ by permuted contacts, reversed tangents or units",
+        kText},
+       {"kind", "", kText},
+       {"contacts", "of the problem as found → of the minimized problem", kText},
+       {"drives", "of one period of the loop"},
+       {"steps", "of one period of the loop"},
+       {"met",
+        "runs of the campaign with this signature; below: different words of their loops, where the signature "
+        "is counts alone"},
+       {"representative", "generator, unit and index of the first problem that shows it; its policy", kText},
+       {"policies, as found", "outcomes over the planar grid of policies", kText},
+       {"policies, minimized", "likewise, of the minimized problem", kText},
+       {"minimized size", "entries of A and b that are not zero; bits of the longest number", kText}}};
+  table.stays_open = true;
+  for (const Discovery* d : shown) {
+    table.Add(
+        {TableCell(Tag("code")(d->signature), "signature"), KindBadge(*d, since), ContactsText(*d),
+         d->loop ? TableCell(d->loop->drives) : TableCell(), d->loop ? TableCell(d->loop->steps) : TableCell(),
+         MetText(*d), RepresentativeText(*d->representative), d->found ? GridText(d->found->grid) : "",
+         d->minimized ? GridText(d->minimized->grid) : "", SizeText(*d)},
+        Tag("details")(Html("<summary>A, b, mu and commands</summary>\n") + FindingDetails(*d)));
+    table.rows.back().style = "finding";
+  }
+  return ToHtml(table);
 }
 
 Html HowMany(std::size_t represented, const std::vector<Discovery>& discoveries) {
@@ -313,9 +305,6 @@ Html FindingsSection(const std::vector<Discovery>& discoveries, const std::optio
   std::vector<const Discovery*> shown = ByInterest(discoveries);
   const std::size_t represented = shown.size();
   if (represented > kFindingsShown) shown.resize(kFindingsShown);
-  Table table = EmptyTable();
-  table.StayOpen();
-  for (const Discovery* discovery : shown) AddFinding(table, *discovery, since);
   return Section(
       "findings", "Findings",
       HowMany(represented, discoveries) + IpoptText(discoveries) +
@@ -325,7 +314,7 @@ Html FindingsSection(const std::vector<Discovery>& discoveries, const std::optio
                "every pivot in exact numbers, as text or as a page to step through; <code>check</code> "
                "verifies a certificate, and so does <code>certify/check_certificate.py</code> of the sources, "
                "which shares nothing with it.</p>\n<div id=\"gallery\"></div>\n") +
-          table.Done());
+          FindingsRows(shown, since));
 }
 
 }  // namespace stiction

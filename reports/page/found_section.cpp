@@ -49,29 +49,24 @@ KindCounts CountGroups(const std::vector<Discovery>& discoveries) {
   return all;
 }
 
-std::vector<HtmlCell> KindRow(const std::string& kind, const KindCounts& c) {
-  std::vector<HtmlCell> cells = {{Text(kind)}};
-  for (const std::int64_t count :
-       {c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid}) {
-    cells.push_back({Text(Grouped(count)), count == 0 ? "zero" : ""});
-  }
-  return cells;
-}
-
-Html KindTable(const std::string& caption, const std::vector<Discovery>& discoveries) {
+Html KindTable(const char* caption, const std::vector<Discovery>& discoveries) {
   if (discoveries.empty()) return {};
-  Table table(
+  Table table{
+      "kinds",
       caption,
-      {{"kind", "", false},
+      {{"kind", "", kText},
        {"groups", "signatures: findings up to permuting contacts, reversing tangents and scaling"},
        {"finished", "representatives certified and minimized"},
        {"pending", "representatives that are not finished yet"},
        {"only counted", "groups without a representative"},
        {"whole grid, as found", "finished representatives that loop under every policy of the planar grid"},
-       {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}});
-  for (const auto& [kind, counts] : CountByKind(discoveries)) table.AddRow(KindRow(kind, counts));
-  table.AddRow(KindRow("all", CountGroups(discoveries)), 1, "total");
-  return table.Done();
+       {"whole grid, minimized", "minimized problems that loop under every policy of the planar grid"}}};
+  auto kinds = CountByKind(discoveries);
+  kinds.emplace_back("all", CountGroups(discoveries));
+  for (const auto& [kind, c] : kinds)
+    table.Add({kind, c.groups, c.finished, c.pending, c.counted, c.found_grid, c.minimized_grid});
+  table.TotalIsLast();
+  return ToHtml(table);
 }
 
 Html KindNote() {

@@ -7,7 +7,6 @@
 #include "corpus/grouped.h"
 #include "corpus/rational.h"
 #include "reports/page/page.h"
-#include "reports/tables/csv.h"
 
 namespace stiction {
 namespace {
@@ -19,30 +18,29 @@ std::string ValueText(const std::string& value) {
   return fmt::format("{:.6g}", ToDouble(*ParseRational(value)));
 }
 
-Html CommandCell(const std::string& command) { return Tag("code")(command); }
-
-// In six digits, as text and as a number alike; null for what is none.
-Json NumberOf(const std::string& value) {
-  if (value.empty()) return nullptr;
-  return Json::parse(fmt::format("{:.6g}", ToDouble(*ParseRational(value))));
+// In six digits; nothing for what is none.
+TableCell NumberOf(const std::string& value) {
+  if (value.empty()) return {};
+  return RoundedTo(6, ToDouble(*ParseRational(value)));
 }
 
+const char* Worse(const FrontierLine& line) { return line.high ? "higher" : "lower"; }
+
 Html RecordsTable(const std::vector<FrontierLine>& lines) {
-  Table table("The worst problems that are known, each beside random problems", {{"frontier", "", false},
-                                                                                 {"worst known"},
-                                                                                 {"worse is", "", false},
-                                                                                 {"best of random problems"},
-                                                                                 {"of so many"},
-                                                                                 {"found by", "", false}});
+  Table table{"records",
+              "The worst problems that are known, each beside random problems",
+              {{"frontier", "", kText},
+               {"worst known"},
+               {"worse is", "", kText},
+               {"best of random problems"},
+               {"of so many"},
+               {"found by", "", kText}}};
   for (const FrontierLine& line : lines) {
-    table.AddRow({{Text(line.what) + Html(" ") + Tag("small")(line.status)},
-                  {Text(ValueText(line.value))},
-                  {Text(line.high ? "higher" : "lower")},
-                  {Text(line.random.empty() ? "nothing" : ValueText(line.random))},
-                  {Text(Grouped(line.evaluations))},
-                  {CommandCell(line.command)}});
+    table.Add({Text(line.what) + Html(" ") + Tag("small")(line.status), ValueText(line.value), Worse(line),
+               line.random.empty() ? "nothing" : ValueText(line.random), line.evaluations,
+               Tag("code")(line.command)});
   }
-  return table.Done();
+  return ToHtml(table);
 }
 
 // All records of an objective and number of contacts, by their names: "friction-gravity-4-contacts 1/54; ...".
@@ -58,32 +56,27 @@ std::string RecordsOf(const std::vector<FrontierLine>& lines, const OwnBest& bes
 
 Html OwnTable(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
   if (own.empty()) return {};
-  Table table("The best of this search", {{"sought", "", false},
-                                          {"generator", "", false},
-                                          {"contacts"},
-                                          {"mu"},
-                                          {"best here"},
-                                          {"records", "of this objective and number of contacts", false}});
-  for (const OwnBest& best : own) {
-    table.AddRow({{Text(best.objective)},
-                  {Text(best.generator)},
-                  {Text(std::to_string(best.contacts))},
-                  {Text(best.mu)},
-                  {Text(best.value)},
-                  {Text(RecordsOf(lines, best))}});
-  }
+  Table table{"own",
+              "The best of this search",
+              {{"sought", "", kText},
+               {"generator", "", kText},
+               {"contacts"},
+               {"mu"},
+               {"best here"},
+               {"records", "of this objective and number of contacts", kText}}};
+  for (const OwnBest& best : own)
+    table.Add({best.objective, best.generator, best.contacts, best.mu, best.value, RecordsOf(lines, best)});
   return Html("<p>What this search has found worst, of each generator and number of contacts:</p>\n") +
-         table.Done();
+         ToHtml(table);
 }
 
 Html Records(const std::vector<FrontierLine>& lines) {
   if (lines.empty()) return {};
   return Html(
              "<p>How bad it can get, whatever campaign found it: the records that stand beside the program, "
-             "and "
-             "are no part of a store. Each is an exact problem with its "
-             "certificate; <code>stiction records --check</code> computes every value anew. Exact values, "
-             "and what drew the random problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
+             "and are no part of a store. Each is an exact problem with its certificate; <code>stiction "
+             "records --check</code> computes every value anew. Exact values, and what drew the random "
+             "problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
          FigurePlace(
              "frontiers",
              "From the best of random problems, an open ring, to the worst that is known, a dot; a dot without "
@@ -95,28 +88,24 @@ Html Records(const std::vector<FrontierLine>& lines) {
 
 }  // namespace
 
-FigureTable FrontiersFigure(const std::vector<FrontierLine>& lines) {
-  FigureTable figure{"frontiers",
-                     {"frontier", "objective", "worse", "record", "random", "evaluations", "what"}};
-  for (const FrontierLine& line : lines)
-    figure.rows.push_back({line.name, line.objective, line.high ? "higher" : "lower", NumberOf(line.value),
-                           NumberOf(line.random), line.evaluations, line.what});
-  return figure;
+Table FrontiersFigure(const std::vector<FrontierLine>& lines) {
+  Table table{"frontiers", "", Columns("frontier* objective* worse* record random evaluations what*")};
+  for (const FrontierLine& line : lines) {
+    table.Add({line.name, line.objective, Worse(line), NumberOf(line.value), NumberOf(line.random),
+               line.evaluations, line.what});
+  }
+  return table;
 }
 
-std::string FrontiersCsv(const std::vector<FrontierLine>& lines) {
-  Csv csv;
-  for (const char* name : {"frontier", "what", "objective", "worse", "value", "status", "command",
-                           "random_value", "random_evaluations", "random_command"}) {
-    csv.Add(std::string_view(name));
-  }
-  csv.EndRow();
+Table FrontiersTable(const std::vector<FrontierLine>& lines) {
+  Table table{"frontiers", "",
+              Columns("frontier what objective worse value status command random_value random_evaluations "
+                      "random_command")};
   for (const FrontierLine& line : lines) {
-    csv.Add(line.name).Add(line.what).Add(line.objective).Add(std::string_view(line.high ? "high" : "low"));
-    csv.Add(line.value).Add(line.status).Add(line.command).Add(line.random).Add(line.evaluations);
-    csv.Add(line.random_command).EndRow();
+    table.Add({line.name, line.what, line.objective, line.high ? "high" : "low", line.value, line.status,
+               line.command, line.random, line.evaluations, line.random_command});
   }
-  return csv.text();
+  return table;
 }
 
 Html FrontiersSection(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {

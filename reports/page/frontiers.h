@@ -36,9 +36,10 @@ struct OwnSearch {
   std::int64_t problems = 0;  // that its units ask for
 };
 
-std::string FrontiersCsv(const std::vector<FrontierLine>& lines);
+// frontiers.csv: what is exact, and what drew the random problems.
+Table FrontiersTable(const std::vector<FrontierLine>& lines);
 // Each record, and what random problems reached, null if nothing, as numbers (figures.h).
-FigureTable FrontiersFigure(const std::vector<FrontierLine>& lines);
+Table FrontiersFigure(const std::vector<FrontierLine>& lines);
 // Empty without lines and bests.
 Html FrontiersSection(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own = {});
 

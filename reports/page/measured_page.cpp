@@ -21,22 +21,16 @@ namespace {
 
 constexpr char kMeasuredLead[] =
     "<p>Users trade speed for accuracy: how long each method takes for a friction problem over each "
-    "arithmetic, and "
-    "how often its answer is none. Measured by <code>stiction bench</code>, on families of problems with a "
-    "dial "
-    "from ordinary to extreme.</p>";
+    "arithmetic, and how often its answer is none. Measured by <code>stiction bench</code>, on families of "
+    "problems with a dial from ordinary to extreme.</p>";
 
 constexpr char kHowMeasured[] =
     "<p><strong>Method.</strong> All methods, over all arithmetics, are asked the same problems of a family at "
-    "each "
-    "setting of its dial. <em>Silent</em> is what is called solved within errors that, computed over "
-    "rationals, "
-    "it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the published "
-    "algorithm another end than over rationals; <em>undecided</em> what says itself that it is no answer. "
-    "Problems "
-    "whose numbers an arithmetic cannot hold are not asked of it. Times are those of the machine that "
-    "measured, "
-    "medians of the settings’ medians.</p>";
+    "each setting of its dial. <em>Silent</em> is what is called solved within errors that, computed over "
+    "rationals, it does not have, or without a solution where there is one; <em>wrong</em> is that, and of the "
+    "published algorithm another end than over rationals; <em>undecided</em> what says itself that it is no "
+    "answer. Problems whose numbers an arithmetic cannot hold are not asked of it. Times are those of the "
+    "machine that measured, medians of the settings’ medians.</p>";
 
 // Of all rows of a kind of arithmetic.
 struct Runs {
@@ -90,14 +84,13 @@ Html Again(const std::vector<std::filesystem::path>& files) {
           Tag("pre")(Tag("code")(commands + " -o again")));
 }
 
-Html Files(const std::vector<std::filesystem::path>& files, const std::vector<FigureTable>& figures,
-           bool records) {
+Html Files(const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures, bool records) {
   const auto row = [](const std::string& file, const char* meaning) {
     return Tag("li")(Tag("a", {{"href", file}})(Tag("code")(file)) + Html(": ") + Text(meaning)) + Html("\n");
   };
   Html list;
   for (const auto& file : files) list += row(BenchName(file), "as bench wrote it");
-  for (const FigureTable& figure : figures)
+  for (const Table& figure : figures)
     list += row("figures/" + figure.name + ".csv", "the numbers that the figure draws");
   if (records) list += row("frontiers.csv", "the records, exactly, and what drew the random problems");
   list += row("SHA256SUMS", "the SHA-256 of every file of this folder, for sha256sum --check");
@@ -121,8 +114,7 @@ std::string BenchName(const std::filesystem::path& file) {
 }
 
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
-                         const std::vector<std::filesystem::path>& files,
-                         const std::vector<FigureTable>& figures) {
+                         const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   const bool records = !frontiers.empty();
   const Json data = {{"figures", FiguresToJson(figures)}, {"findings", Json::array()}};

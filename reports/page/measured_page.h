@@ -19,8 +19,7 @@ std::string BenchName(const std::filesystem::path& file);
 
 // `files`: that the lines stand in, whose names are told; `figures`: those of lines and records.
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
-                         const std::vector<std::filesystem::path>& files,
-                         const std::vector<FigureTable>& figures);
+                         const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures);
 
 }  // namespace stiction
 

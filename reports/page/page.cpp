@@ -77,22 +77,15 @@ void AddDefinition(Definitions& list, const std::string& definition) {
 constexpr char kLead[] =
     "<p>A search of random friction problems for inputs on which the pivoting algorithm of D. Baraff,\n"
     "<cite>Fast Contact Force Computation for Nonpenetrating Rigid Bodies</cite> (SIGGRAPH 1994), run as "
-    "published, repeats a\n"
-    "state and so never ends. Every finding was run again in exact rational arithmetic, in space over "
-    "intervals, "
-    "which prove\n"
-    "what they decide; a finished loop comes with a problem made as small as it gets and, in the plane, with a "
-    "certificate that\n"
-    "an independent checker verifies.</p>";
+    "published, repeats a\nstate and so never ends. Every finding was run again in exact rational arithmetic, "
+    "in space over intervals, which prove\nwhat they decide; a finished loop comes with a problem made as "
+    "small as it gets and, in the plane, with a certificate that\nan independent checker verifies.</p>";
 
 constexpr char kOptimizedLead[] =
     "<p>An optimized search: problems are not drawn, but made worse step by step, as an objective counts what "
-    "is "
-    "worse for the pivoting algorithm of D. Baraff, <cite>Fast Contact Force Computation for Nonpenetrating "
-    "Rigid "
-    "Bodies</cite> (SIGGRAPH 1994). Of such problems there are no frequencies. A value counts that exact "
-    "rational "
-    "arithmetic confirms.</p>";
+    "is worse for the pivoting algorithm of D. Baraff, <cite>Fast Contact Force Computation for Nonpenetrating "
+    "Rigid Bodies</cite> (SIGGRAPH 1994). Of such problems there are no frequencies. A value counts that exact "
+    "rational arithmetic confirms.</p>";
 
 constexpr char kHowOptimized[] =
     "<p><strong>Method.</strong> Candidates come from a seed and from the best of earlier units, are judged in "
@@ -101,17 +94,11 @@ constexpr char kHowOptimized[] =
 
 constexpr char kHow[] =
     "<p><strong>Method.</strong> Problems are drawn from a seed. Each is run in doubles; what does not end in "
-    "a "
-    "solution, or in\n"
-    "one that is none, is <em>suspicious</em>, and is decided again in exact arithmetic, as is a sample of the "
-    "others, the\n"
-    "<em>audited</em> ones. Only what exact arithmetic says counts as a failure of the algorithm. What it "
-    "fails "
-    "on is given to\n"
-    "complete driving, and on a share to Lemke’s method; solutions are verified exactly. The first problem of "
-    "a "
-    "kind is certified\n"
-    "and made smaller, and says the same at every step of that.</p>";
+    "a solution, or in\none that is none, is <em>suspicious</em>, and is decided again in exact arithmetic, as "
+    "is a sample of the others, the\n<em>audited</em> ones. Only what exact arithmetic says counts as a "
+    "failure of the algorithm. What it fails on is given to\ncomplete driving, and on a share to Lemke’s "
+    "method; solutions are verified exactly. The first problem of a kind is certified\nand made smaller, and "
+    "says the same at every step of that.</p>";
 
 bool HasFrontiers(const ReportContent& content) {
   return !content.frontiers.empty() || !content.own.bests.empty();
@@ -180,7 +167,7 @@ Html Results(const ReportContent& content) {
          FindingsSection(content.discoveries, content.since) + end;
 }
 
-Json PageData(const ReportContent& content, const std::vector<FigureTable>& figures) {
+Json PageData(const ReportContent& content, const std::vector<Table>& figures) {
   return {{"figures", FiguresToJson(figures)},
           {"findings", FindingsToJson(content.discoveries, content.since)}};
 }
@@ -234,7 +221,7 @@ Html AgainSection(const ReportContent& content) {
                           "alone.</p>\n"));
 }
 
-std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures) {
+std::string Page(const ReportContent& content, const std::vector<Table>& figures) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   const bool random = content.Objective().empty();
   return FilledTemplate(

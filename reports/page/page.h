@@ -42,7 +42,7 @@ struct ReportContent {
 };
 
 // `figures`: those of the content.
-std::string Page(const ReportContent& content, const std::vector<FigureTable>& figures);
+std::string Page(const ReportContent& content, const std::vector<Table>& figures);
 
 // ---- Sections of the page, in its order ----
 
@@ -58,14 +58,6 @@ Html AgainSection(const ReportContent& content);
 
 // What was found, in sentences.
 Html FoundSentences(const ReportContent& content);
-
-// What a method made of problems of one size.
-struct MethodLine {
-  std::string method, asked_about;
-  int contacts = 0;
-  std::int64_t asked = 0, solved = 0;
-};
-std::vector<MethodLine> MethodLines(const ReportContent& content);
 
 // All findings with a representative, in the order of interest, as the script of the page reads them
 // (web/data.md).

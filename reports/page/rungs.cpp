@@ -4,82 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <map>
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/intervals.h"
 #include "reports/page/page.h"
 
 namespace stiction {
 namespace {
-
-// ---- Reading -------------------------------------------------------------------------------------
-
-std::vector<std::string> Split(const std::string& text, char at) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == at) {
-      parts.emplace_back();
-    } else if (c != '\r') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-// The cells of one line by the names of the columns.
-class CellsOfLine {
- public:
-  CellsOfLine(const std::filesystem::path& file, std::size_t line, const std::vector<std::string>& names,
-              std::vector<std::string> cells)
-      : file_(file), line_(line), names_(names), cells_(std::move(cells)) {
-    if (cells_.size() != names_.size())
-      throw InputError(fmt::format("{}:{}: found {} cells, expected {}", file_.string(), line_, cells_.size(),
-                                   names_.size()));
-  }
-
-  const std::string& Text(const std::string& name) const {
-    const auto at = std::find(names_.begin(), names_.end(), name);
-    if (at == names_.end())
-      throw InputError(
-          fmt::format("{}:1: found no column {}, expected a file of bench --csv", file_.string(), name));
-    return cells_[static_cast<std::size_t>(at - names_.begin())];
-  }
-
-  template <class Value>
-  Value Number(const std::string& name, const char* expected) const {
-    const std::string& text = Text(name);
-    Value value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    bool fits = error == std::errc() && end == text.data() + text.size();
-    if constexpr (std::is_floating_point_v<Value>) fits = fits && std::isfinite(value) && value >= 0;
-    if (!fits)
-      throw InputError(
-          fmt::format("{}:{}: {}: found '{}', expected {}", file_.string(), line_, name, text, expected));
-    return value;
-  }
-  std::int64_t Count(const std::string& name) const {
-    const auto count = Number<std::int64_t>(name, "a count");
-    if (count < 0)
-      throw InputError(
-          fmt::format("{}:{}: {}: found {}, expected a count", file_.string(), line_, name, count));
-    return count;
-  }
-  std::optional<double> Measure(const std::string& name) const {
-    if (Text(name).empty()) return std::nullopt;
-    return Number<double>(name, "a number, or nothing");
-  }
-
- private:
-  const std::filesystem::path& file_;
-  std::size_t line_;
-  const std::vector<std::string>& names_;
-  std::vector<std::string> cells_;
-};
 
 // ---- One row of a family: a method over an arithmetic, over all settings -----------------------
 
@@ -124,36 +56,31 @@ std::vector<RungSum> SumsOf(const std::vector<const RungLine*>& lines) {
 // ---- Tables --------------------------------------------------------------------------------------
 
 Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
-  Table table("Rungs on " + family,
-              {{"method", "", false},
-               {"arithmetic", "", false},
-               {"microseconds", "median of the settings' medians"},
-               {"problems", "that its numbers hold"},
-               {"solved"},
-               {"undecided"},
-               {"other", "other ends: a loop, a ray, no direction"},
-               {"wrong",
-                "silently wrong, or, of the published algorithm, another end than over rationals; below: the "
-                "share, with its interval at 95 %"},
-               {"silent",
-                "called solved within errors that it does not keep, or without a solution where there "
-                "is one"},
-               {"worst residual", "of what is called solved, over rationals"}});
+  Table table{
+      "rungs",
+      "Rungs on " + family,
+      {{"method", "", kText},
+       {"arithmetic", "", kText},
+       {"microseconds", "median of the settings' medians"},
+       {"problems", "that its numbers hold"},
+       {"solved"},
+       {"undecided"},
+       {"other", "other ends: a loop, a ray, no direction"},
+       {"wrong",
+        "silently wrong, or, of the published algorithm, another end than over rationals; below: the share, "
+        "with its interval at 95 %"},
+       {"silent",
+        "called solved within errors that it does not keep, or without a solution where there is one"},
+       {"worst residual", "of what is called solved, over rationals"}},
+      {},
+      {},
+      2};
   for (const RungSum& sum : sums) {
-    const Html share = Tag("small")(ShareText(sum.wrong, sum.asked));
-    table.AddRow({{Text(sum.method)},
-                  {Text(sum.arithmetic)},
-                  {Text(sum.microseconds.empty() ? "" : fmt::format("{:.3g}", sum.Median()))},
-                  {Text(Grouped(sum.asked))},
-                  {Text(Grouped(sum.solved))},
-                  {Text(Grouped(sum.undecided))},
-                  {Text(Grouped(sum.other))},
-                  {Text(Grouped(sum.wrong)) + share},
-                  {Text(Grouped(sum.silent))},
-                  {Text(fmt::format("{:.0e}", sum.worst))}},
-                 2);
+    table.Add({sum.method, sum.arithmetic, sum.microseconds.empty() ? TableCell() : sum.Median(), sum.asked,
+               sum.solved, sum.undecided, sum.other, ShareOf(sum.wrong, sum.asked), sum.silent,
+               fmt::format("{:.0e}", sum.worst)});
   }
-  return table.Done();
+  return ToHtml(table);
 }
 
 // In the order of the file.
@@ -171,40 +98,34 @@ std::vector<std::pair<std::string, std::vector<RungSum>>> Families(const std::ve
 
 Html NotMeasured() {
   return Html(
-      "<p>Not measured for this report: how fast each method is over each arithmetic, and how often it "
-      "errs, on ordinary and on extreme problems. In the folder of the sources:</p>\n"
-      "<pre><code>stiction bench --suite trade --csv trade.csv\n"
-      "stiction bench --suite extremes --csv extremes.csv\n"
-      "stiction report STORE --bench trade.csv extremes.csv -o DIR</code></pre>\n");
+      "<p>Not measured for this report: how fast each method is over each arithmetic, and how often it errs, "
+      "on ordinary and on extreme problems. In the folder of the sources:</p>\n<pre><code>stiction bench "
+      "--suite trade --csv trade.csv\nstiction bench --suite extremes --csv extremes.csv\nstiction report "
+      "STORE --bench trade.csv extremes.csv -o DIR</code></pre>\n");
 }
 
 }  // namespace
 
 std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
-  const std::vector<std::string> texts = Split(ReadText(file), '\n');
-  const std::vector<std::string> names = Split(texts.front(), ',');
+  const CsvReader rows(ReadText(file), file.string(), "a file of bench --csv");
   std::vector<RungLine> lines;
-  for (std::size_t i = 1; i < texts.size(); ++i) {
-    if (texts[i].empty()) continue;
-    const CellsOfLine cells(file, i + 1, names, Split(texts[i], ','));
-    RungLine line;
-    line.family = cells.Text("family");
-    line.method = cells.Text("method");
-    line.arithmetic = cells.Text("arithmetic");
-    line.setting = cells.Number<int>("setting", "an integer");
-    line.problems = cells.Count("problems");
-    line.solved = cells.Count("solved");
-    line.undecided = cells.Count("undecided");
-    line.other = cells.Count("other");
-    line.refused = cells.Count("refused");
-    line.wrong = cells.Count("wrong");
-    line.silent = cells.Count("silent");
-    line.microseconds = cells.Measure("microseconds_median");
-    line.worst_residual = cells.Measure("worst_residual");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto count = [&](const char* name) { return rows.Count(i, name); };
+    RungLine line{rows.Text(i, "family"),
+                  rows.Text(i, "method"),
+                  rows.Text(i, "arithmetic"),
+                  count("problems"),
+                  count("solved"),
+                  count("undecided"),
+                  count("other"),
+                  count("refused"),
+                  count("wrong"),
+                  count("silent"),
+                  rows.Measure(i, "microseconds_median"),
+                  rows.Measure(i, "worst_residual")};
     if (line.solved + line.undecided + line.other + line.refused != line.problems ||
         line.wrong > line.problems || line.silent > line.wrong || line.silent > line.solved + line.other)
-      throw InputError(fmt::format("{}:{}: found counts that do not add up to {} problems", file.string(),
-                                   i + 1, line.problems));
+      rows.Refuse(i, fmt::format("found counts that do not add up to {} problems", line.problems));
     lines.push_back(std::move(line));
   }
   if (lines.empty())
@@ -212,18 +133,17 @@ std::vector<RungLine> ReadRungs(const std::filesystem::path& file) {
   return lines;
 }
 
-FigureTable RungsFigure(const std::vector<RungLine>& lines) {
-  FigureTable figure{
-      "rungs",
-      {"family", "method", "arithmetic", "microseconds", "lost", "asked", "solved", "wrong", "undecided"}};
+Table RungsFigure(const std::vector<RungLine>& lines) {
+  Table table{"rungs", "",
+              Columns("family* method* arithmetic* microseconds lost asked solved wrong undecided")};
   for (const auto& [family, sums] : Families(lines)) {
     for (const RungSum& sum : sums) {
       if (sum.microseconds.empty() || sum.asked == 0) continue;
-      figure.rows.push_back({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked,
-                             sum.solved, sum.wrong, sum.undecided});
+      table.Add({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked, sum.solved,
+                 sum.wrong, sum.undecided});
     }
   }
-  return figure;
+  return table;
 }
 
 Html RungsSection(const std::vector<RungLine>& lines) {

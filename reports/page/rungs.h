@@ -19,7 +19,6 @@ namespace stiction {
 // A line of the file, of one family and setting.
 struct RungLine {
   std::string family, method, arithmetic;
-  int setting = 0;
   std::int64_t problems = 0, solved = 0, undecided = 0, other = 0, refused = 0, wrong = 0, silent = 0;
   std::optional<double> microseconds, worst_residual;  // the first: the median
 };
@@ -28,7 +27,7 @@ struct RungLine {
 std::vector<RungLine> ReadRungs(const std::filesystem::path& file);
 
 // Time and lost answers of each method over each arithmetic (figures.h).
-FigureTable RungsFigure(const std::vector<RungLine>& lines);
+Table RungsFigure(const std::vector<RungLine>& lines);
 // Without lines it says what measures them.
 Html RungsSection(const std::vector<RungLine>& lines);
 

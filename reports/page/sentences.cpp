@@ -10,7 +10,7 @@
 #include "corpus/intervals.h"
 #include "corpus/kinds.h"
 #include "reports/page/page.h"
-#include "corpus/plain_text.h"
+#include "reports/tables/groups.h"
 
 namespace stiction {
 namespace {
@@ -21,9 +21,9 @@ struct Asking {
   std::set<std::string> generators;
 
   explicit Asking(const Record& total) {
-    for (const auto& [key, counts] : CountBy(total, [](const TallyKey& key) { return key; })) {
-      contacts.insert(key.contacts);
-      generators.insert(key.generator);
+    for (const Group& group : Groups(total, {"generator", "contacts"})) {
+      generators.insert(group.Text(0));
+      contacts.insert(group.Number(1));
     }
   }
 };
@@ -79,9 +79,8 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   if (finished == 0) return Html();
   return Sentence(
       found + minimized > 0 ? "Not a matter of one policy." : "The policy matters.",
-      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, "
-                  "and {} as they were found, loop under every policy that stiction "
-                  "distinguishes; the smallest has {}.",
+      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, and {} as they "
+                  "were found, loop under every policy that stiction distinguishes; the smallest has {}.",
                   Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
 }
 
@@ -99,12 +98,7 @@ Html OtherFailures(const Counts& sums) {
 }
 
 Html CompleteSentence(const Record& total) {
-  ExistenceTally all;
-  for (const auto& [contacts, tally] : total.existence) {
-    all.problems += tally.problems;
-    all.solved += tally.solved;
-    all.with_folds += tally.with_folds;
-  }
+  const ExistenceTally all = SumOf(total.existence);
   if (all.problems == 0) return Html();
   return Sentence(
       all.solved == all.problems ? "Solutions exist, and are found." : "Not all were solved.",
@@ -114,17 +108,13 @@ Html CompleteSentence(const Record& total) {
 }
 
 Html AgreementSentence(const Record& total) {
-  std::int64_t compared = 0, disagreements = 0;
-  for (const auto& [contacts, tally] : total.agreement) {
-    compared += tally.compared;
-    disagreements += tally.disagreements;
-  }
-  if (compared == 0) return Html();
+  const AgreementTally all = SumOf(total.agreement);
+  if (all.compared == 0) return Html();
   return Sentence(
-      disagreements == 0 ? "The methods agree." : "The methods disagree.",
+      all.disagreements == 0 ? "The methods agree." : "The methods disagree.",
       fmt::format("{} of {} problems show a disagreement of the published algorithm, complete driving and "
                   "Lemke’s method.",
-                  Grouped(disagreements), Grouped(compared)));
+                  Grouped(all.disagreements), Grouped(all.compared)));
 }
 
 Html LyingSentence(const Counts& sums) {
@@ -155,8 +145,7 @@ Html FoundSentences(const ReportContent& content) {
                                            AgreementSentence(content.total) + LyingSentence(sums)) +
          Html(
              "\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by "
-             "Clopper and "
-             "Pearson.</p>\n");
+             "Clopper and Pearson.</p>\n");
 }
 
 }  // namespace stiction

@@ -14,14 +14,10 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 
 #include "corpus/store.h"
 
 namespace stiction {
-
-// A text in which nothing is a command of LaTeX.
-std::string LatexText(std::string_view text);
 
 // Name -> text of the files above.
 std::map<std::string, std::string> LatexFiles(const Store& store);

@@ -11,7 +11,7 @@
 #include "reports/papers/package/README_txt.h"
 #include "reports/papers/package/verify_py.h"
 #include "reports/report_files.h"
-#include "reports/tables/discovery.h"
+#include "reports/tables/campaign_tables.h"
 
 namespace stiction {
 namespace {
@@ -97,7 +97,8 @@ std::filesystem::path WritePackage(const Store& store, const std::filesystem::pa
     folder.FinishFinding();
     entries.push_back(Entry(discovery, files));
   }
-  for (const auto& [name, text] : TablesOf(total, discoveries)) folder.Write("tables/" + name, text);
+  for (const Table& table : CampaignTables(total, discoveries))
+    folder.Write("tables/" + table.name + ".csv", ToCsv(table));
   for (const auto& [name, text] : checkers) folder.Write("checkers/" + name, text);
   folder.Write("README.txt", TextOf(kReadmeTxt));
   folder.Write("verify.py", TextOf(kVerifyPy));

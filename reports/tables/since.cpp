@@ -3,47 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <set>
 
-#include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/json_text.h"
-#include "reports/tables/csv.h"
 
 namespace stiction {
-namespace {
-
-// Of the columns, one that must be there.
-std::size_t ColumnOf(const std::vector<std::string>& columns, const std::string& name,
-                     const std::string& source) {
-  const auto at = std::find(columns.begin(), columns.end(), name);
-  if (at == columns.end())
-    throw InputError(fmt::format("{}:1: found no column {}, expected findings.csv of a report", source, name));
-  return static_cast<std::size_t>(at - columns.begin());
-}
-
-struct Changes {
-  std::int64_t fresh = 0, finished = 0, more = 0, gone = 0;
-};
-
-Changes CountChanges(const Since& since, const std::vector<Discovery>& discoveries) {
-  Changes changes;
-  std::size_t known = 0;
-  for (const Discovery& discovery : discoveries) {
-    const std::string_view change = since.ChangeOf(discovery);
-    changes.fresh += change == "new";
-    changes.finished += change == "finished";
-    changes.more += change == "more";
-    known += since.earlier.count(discovery.signature);
-  }
-  changes.gone = static_cast<std::int64_t>(since.earlier.size() - known);
-  return changes;
-}
-
-}  // namespace
-
 std::string_view StateOf(const Discovery& discovery) {
   return discovery.representative == nullptr ? "counted" : discovery.Finished() ? "finished" : "pending";
 }
@@ -57,56 +21,45 @@ std::string_view Since::ChangeOf(const Discovery& discovery) const {
 
 Since ReadSince(const std::filesystem::path& report) {
   const std::filesystem::path file = std::filesystem::is_directory(report) ? report / "findings.csv" : report;
-  const std::string source = file.string();
-  const auto rows = ReadCsv(ReadText(file), source);
-  const std::vector<std::string> columns = rows.empty() ? std::vector<std::string>() : rows.front();
-  const std::size_t signature = ColumnOf(columns, "signature", source),
-                    count = ColumnOf(columns, "count", source), state = ColumnOf(columns, "state", source);
+  const CsvReader rows(ReadText(file), file.string(), "findings.csv of a report");
+  for (const char* column : {"signature", "count", "state"})
+    rows.IndexOf(column);  // also where there is no row
   Since since;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const std::string& text = rows[i][count];
-    Since::Line line{rows[i][state], 0};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line.met);
-    if (error != std::errc() || end != text.data() + text.size() || line.met < 0)
-      throw InputError(fmt::format("{}: row {}: count: found '{}', expected a count", source, i + 1, text));
-    since.earlier[rows[i][signature]] = line;
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    since.earlier[rows.Text(i, "signature")] = {rows.Text(i, "state"), rows.Count(i, "count")};
   return since;
 }
 
-std::string SinceCsv(const Since& since, const std::vector<Discovery>& discoveries) {
-  Csv csv;
-  for (const char* column : {"signature", "change", "count_before", "count", "state_before", "state"})
-    csv.Add(column);
-  csv.EndRow();
+Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries) {
+  Table table{"since", "", Columns("signature* change* count_before count state_before* state*")};
   std::set<std::string> present;
   for (const Discovery& discovery : discoveries) {
     present.insert(discovery.signature);
     const std::string_view change = since.ChangeOf(discovery);
     if (change.empty()) continue;
-    const auto before = since.earlier.find(discovery.signature);
-    const bool known = before != since.earlier.end();
-    csv.Add(discovery.signature).Add(change).Add(known ? before->second.met : 0).Add(discovery.met);
-    csv.Add(known ? before->second.state : "").Add(StateOf(discovery)).EndRow();
+    const auto found = since.earlier.find(discovery.signature);
+    const Since::Line before = found == since.earlier.end() ? Since::Line() : found->second;
+    table.Add({discovery.signature, change, before.met, discovery.met, before.state, StateOf(discovery)});
   }
   for (const auto& [signature, line] : since.earlier) {
     if (present.count(signature) > 0) continue;
-    csv.Add(signature).Add("gone").Add(line.met).Add(std::int64_t{0}).Add(line.state).Add("").EndRow();
+    table.Add({signature, "gone", line.met, 0, line.state, ""});
   }
-  return csv.text();
+  return table;
 }
 
 Html SinceText(const Since& since, const std::vector<Discovery>& discoveries) {
-  const Changes changes = CountChanges(since, discoveries);
+  std::map<std::string, std::int64_t> changes;
+  for (const Table::Row& row : SinceTable(since, discoveries).rows) ++changes[Shown(row.cells[1])];
   std::string text = fmt::format(
       "Since the earlier report: {} new, {} finished that were not, and {} met more often, of {} groups; it "
       "had {}.",
-      Grouped(changes.fresh), Grouped(changes.finished), Grouped(changes.more),
+      Grouped(changes["new"]), Grouped(changes["finished"]), Grouped(changes["more"]),
       Grouped(static_cast<std::int64_t>(discoveries.size())),
       Grouped(static_cast<std::int64_t>(since.earlier.size())));
-  if (changes.gone > 0)
+  if (changes["gone"] > 0)
     text += fmt::format(" {} of those are not here: the earlier report is of another store.",
-                        Grouped(changes.gone));
+                        Grouped(changes["gone"]));
   return Tag("p", {{"class", "since"}})(Text(text) +
                                         Html(" Each is in <a href=\"since.csv\"><code>since.csv</code></a>.")) +
          Html("\n");

@@ -13,6 +13,7 @@
 
 #include "reports/html/html.h"
 #include "reports/tables/discovery.h"
+#include "reports/tables/table.h"
 
 namespace stiction {
 
@@ -34,8 +35,8 @@ Since ReadSince(const std::filesystem::path& report);
 // "finished", "pending", "counted"
 std::string_view StateOf(const Discovery& discovery);
 
-// since.csv: a row for each signature that changed, or is gone: before and now.
-std::string SinceCsv(const Since& since, const std::vector<Discovery>& discoveries);
+// A row for each signature that changed, or is gone: before and now.
+Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries);
 Html SinceText(const Since& since, const std::vector<Discovery>& discoveries);
 
 }  // namespace stiction

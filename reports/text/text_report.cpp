@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "corpus/intervals.h"
@@ -16,9 +15,7 @@
 #include "corpus/problem_file.h"
 #include "corpus/program_name.h"
 #include "corpus/store_totals.h"
-#include "reports/html/html.h"
-#include "reports/tables/discovery.h"
-#include "reports/tables/friction_order.h"
+#include "reports/tables/campaign_tables.h"
 
 namespace stiction {
 namespace {
@@ -106,17 +103,15 @@ std::string LoopsText(const StoreTotals& t) {
 
 // How the algorithm fails, in exact arithmetic.
 std::string FailuresTable(const StoreTotals& t) {
-  TextTable table({"in exact arithmetic", "outcome", "runs", "in a million [95 %]"}, 2);
-  int rows = 0;
+  Table table{"failures", "", Columns("in_exact_arithmetic* outcome* runs in_a_million_[95_%]")};
+  table.keys = 2;
   for (int i = 0; i < kOutcomeCount; ++i) {
-    const auto outcome = static_cast<Outcome>(i);
+    const std::string name(kOutcomeNames[i]);
     const std::int64_t count = t.counts.exact[i];
-    if (outcome == Outcome::kSolved || count == 0) continue;
-    const std::string name(Name(outcome));
-    table.AddRow({InWords(name), name, Grouped(count), RateText(count, t.counts.runs)});
-    ++rows;
+    if (i != static_cast<int>(Outcome::kSolved) && count > 0)
+      table.Add({InWords(name), name, count, RateOf(count, t.counts.runs)});
   }
-  return rows == 0 ? Paragraph("No run fails in exact arithmetic.") : table.Done();
+  return table.rows.empty() ? Paragraph("No run fails in exact arithmetic.") : ToText(table);
 }
 
 // Groups of findings, by kind.
@@ -137,8 +132,7 @@ std::string ExistenceText(const StoreTotals& t) {
     const std::int64_t missed = e.problems - e.solved;
     text +=
         Paragraph(fmt::format("{}: of {} given to complete driving {} solved, each solution verified exactly "
-                              "({} with folds, where the "
-                              "published algorithm gives up).",
+                              "({} with folds, where the published algorithm gives up).",
                               missed == 0 ? "Complete driving never failed"
                                           : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
                               Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
@@ -221,68 +215,36 @@ std::string SimplestText(const StoreTotals& t) {
 
 // ---- The page's own sections ----
 
-std::vector<std::string> Cells(std::vector<std::string> names, const Counts& c) {
-  names.insert(names.end(), {Grouped(c.runs), Grouped(c.Loops()), RateText(c.Loops(), c.runs),
-                             Grouped(c.Of(Outcome::kSingular)), Grouped(c.Of(Outcome::kRay))});
-  return names;
-}
-
-std::vector<std::string> CountHeader(std::vector<std::string> names) {
-  names.insert(names.end(), {"runs", "loops", "in a million [95 %]", "singular", "rays"});
-  return names;
-}
-
-std::string GeneratorTables(const Record& record) {
-  std::map<std::string, std::map<std::pair<std::string, int>, Counts>> policies;
-  const auto by = [](const TallyKey& key) { return std::tuple(key.policy, key.generator, key.contacts); };
-  for (const auto& [key, counts] : CountBy(record, by)) {
-    const auto& [policy, generator, contacts] = key;
-    policies[policy][{generator, contacts}] = counts;
-  }
-  std::string text;
-  for (const auto& [policy, rows] : policies) {
-    TextTable table(CountHeader({"generator", "contacts"}), 1);
-    for (const auto& [key, counts] : rows) table.AddRow(Cells({key.first, Grouped(key.second)}, counts));
-    text += Paragraph(fmt::format("Policy {}:", policy)) + table.Done();
-  }
-  return text;
-}
-
-std::string FrictionTables(const Record& record) {
-  std::map<std::string, std::map<std::string, Counts, ByFriction>> policies;
-  const auto by = [](const TallyKey& key, const StratumKey& stratum) {
-    return std::pair(key.policy, stratum.friction);
-  };
-  for (const auto& [key, counts] : CountStrataBy(record, by)) policies[key.first][key.second] = counts;
-  std::string text;
-  for (const auto& [policy, rows] : policies) {
-    TextTable table(CountHeader({"mu"}), 1);
-    for (const auto& [mu, counts] : rows) table.AddRow(Cells({mu}, counts));
-    text += Paragraph(fmt::format("Policy {}, all generators together:", policy)) + table.Done();
-  }
-  return text;
+// A table of failures for each policy; `names` stand before the runs.
+std::string FailuresByPolicy(const Record& record, const By& names, const char* title) {
+  By by = names;
+  by.insert(by.begin(), "policy");
+  std::string columns;
+  for (const std::string& name : by) columns += name == "friction" ? "friction=mu " : name + " ";
+  columns += "runs #loops loops=in_a_million_[95_%] #singular #ray=rays";
+  return TextByPolicy(Select(FailuresTable(record, by), columns, ""), title);
 }
 
 // A, b and mu, if they fit.
 std::string ProblemText(const ExactProblem& problem) {
   if (problem.rows() > kMostRowsInNumbers) return Paragraph("Its numbers are too many for a page of text.");
-  std::vector<std::string> header(static_cast<std::size_t>(problem.rows()) + 1);
-  header.front() = "A";
-  header.emplace_back("b");
-  TextTable table(header, 0);
+  Table table{"problem", "", std::vector<Column>(static_cast<std::size_t>(problem.rows()) + 2)};
+  table.columns.front().name = "A";
+  table.columns.back().name = "b";
   for (int row = 0; row < problem.rows(); ++row) {
-    std::vector<std::string> cells = {""};
-    for (int column = 0; column < problem.rows(); ++column) cells.push_back(ToString(problem.A(row, column)));
-    cells.push_back(ToString(problem.b[row]));
-    for (const std::string& cell : cells) {
-      if (cell.size() > kLongestWord) return Paragraph("Its numbers are too long for a page of text.");
+    std::vector<TableCell> cells = {""};
+    for (int column = 0; column < problem.rows(); ++column)
+      cells.emplace_back(ToString(problem.A(row, column)));
+    cells.emplace_back(ToString(problem.b[row]));
+    for (const TableCell& cell : cells) {
+      if (Shown(cell).size() > kLongestWord) return Paragraph("Its numbers are too long for a page of text.");
     }
-    table.AddRow(std::move(cells));
+    table.Add(std::move(cells));
   }
   std::vector<std::string> mu;
   for (const auto& contact : problem.contacts)
     mu.push_back(contact.HasFrictionRows() ? ToString(contact.mu) : std::string(Name(contact.kind)));
-  return table.Done() + Paragraph(fmt::format("mu = {}", fmt::join(mu, ", ")));
+  return ToText(table) + Paragraph(fmt::format("mu = {}", fmt::join(mu, ", ")));
 }
 
 std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
@@ -319,11 +281,11 @@ std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
       fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "group"), Verb(all, "is", "are")));
   std::stable_sort(unknown.begin(), unknown.end(),
                    [](const auto& left, const auto& right) { return left.second > right.second; });
-  TextTable table({"signature", "runs"}, 1);
+  Table table{"new", "", Columns("signature* runs")};
   for (std::size_t i = 0; i < std::min(kShown, unknown.size()); ++i)
-    table.AddRow({unknown[i].first, Grouped(unknown[i].second)});
+    table.Add({unknown[i].first, unknown[i].second});
   if (unknown.size() > kShown) text += Paragraph(fmt::format("The {} that were met most often:", kShown));
-  return text + table.Done();
+  return text + ToText(table);
 }
 
 // "0.1.0 2060e9f249a5, GNU 12.2.0 Release" of a build, whose flags follow.
@@ -373,12 +335,13 @@ std::string TextReport(const Store& store, const std::string& file, const KnownC
   std::string text = HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
                      FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as);
   if (t.counts.runs > 0) {
-    text += "\n" + Heading("How often it fails, in exact arithmetic") + GeneratorTables(t.record) + "\n" +
+    text += "\n" + Heading("How often it fails, in exact arithmetic") +
+            FailuresByPolicy(t.record, {"generator", "contacts"}, "Policy {}:") + "\n" +
             Heading("The same by friction coefficient") +
             Paragraph(
                 "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
                 "units of the tangents make another mu of it.") +
-            FrictionTables(t.record);
+            FailuresByPolicy(t.record, {"friction"}, "Policy {}, all generators together:");
   }
   return text + SearchedText(store, t);
 }

@@ -15,7 +15,7 @@
 #include "corpus/store_rows.h"
 #include "reports/page/figures.h"
 #include "reports/page/page.h"
-#include "reports/tables/csv.h"
+#include "reports/tables/campaign_tables.h"
 #include "reports/text/text_report.h"
 #include "search/campaign.h"
 #include "search/known_signatures.h"
@@ -244,14 +244,14 @@ void ReadFindings(const Store& store) {
   content.total = store.Total();
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
-  FindingsCsv(content.discoveries);
+  ToCsv(FindingsTable(content.discoveries));
   Page(content, Figures(content));
 }
 
 void ReadTotal(const Store& store) {
   const Record total = store.Total();
   STICTION_CHECK(ParseRecord(Serialize(total)) == total, "a record that is read back to another");
-  for (const auto& table : {StatisticsCsv, VerdictsCsv, StepsCsv, AgreementCsv, SolutionsCsv}) table(total);
+  for (const Table& table : CampaignTables(total, {})) ToCsv(table);
 }
 
 void ReadUnits(const Store& store) {

@@ -825,18 +825,30 @@ bug("fclib-bytes", "bytes_ <= most", "true", "a small file takes any memory")
 
 # ---- reports -------------------------------------------------------------------------
 
-bug = in_file("reports/tables/csv.cpp", "^reports: ")
+bug = in_file("reports/tables/table.cpp", "^reports: ")
 bug("quote-not-quoted", r'text.find_first_of(",\"\r\n") == std::string_view::npos',
     r'text.find_first_of(",\r\n") == std::string_view::npos', "a cell with a quotation mark breaks its row")
 bug("quote-not-doubled", r'''c == '"' ? std::string("\"\"") : std::string(1, c)''', "std::string(1, c)",
     "quotation marks end their cell")
-bug("last-bin", "AddYesNo(csv, steps == Tally::kBins - 1);", "AddYesNo(csv, false);", "the last bin is like others")
+bug("interval-of-the-runs", "CountInterval(ratio.count)", "CountInterval(ratio.of)",
+    "the interval of a rate is that of another count")
+bug("control-not-replaced", "static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c", "c",
+    "control characters of a store come through", type="char")
+bug("small-first", "return *x < *y;", "return *x > *y;", "friction coefficients stand the wrong way round")
+bug("pivot-shifted", "keys + static_cast<std::size_t>(place)", "keys", "what stands across stands in one column")
 
-bug = in_file("reports/page/statistics_sections.cpp", "^reports: ")
-bug("wrong-confirmed", "inexact == static_cast<int>(Outcome::kSolved) ? -1 : inexact", "inexact",
-    "wrong answers are confirmed by right ones")
-bug("refuted-by-cycles", "suspicions.refuted += exact[static_cast<int>(Outcome::kSolved)];",
-    "suspicions.refuted += exact[static_cast<int>(Outcome::kCycle)];", "confirmed cycles are called refuted")
+bug = in_file("reports/tables/campaign_tables.cpp", "^reports: ")
+bug("last-bin", "{steps, steps == Tally::kBins - 1, g.tally.steps[steps]}", "{steps, false, g.tally.steps[steps]}",
+    "the last bin is like others")
+bug("empty-bins-drawn", "if (g.tally.steps[steps] == 0) continue;", "", "bars of no height are drawn")
+bug("wrong-confirmed", "inexact == kSolvedOutcome ? -1 : inexact", "inexact", "wrong answers are confirmed by right ones")
+bug("refuted-by-cycles", "refuted = c.Of(Outcome::kSolved);", "refuted = c.Of(Outcome::kCycle);",
+    "confirmed cycles are called refuted")
+bug("exceptions-hidden", "Exception(e.problems - e.solved)", "Exception(0)", "unsolved problems are not told")
+bug("disagreements-hidden", "Exception(a.disagreements)", "Exception(0)", "disagreements are not told")
+bug("wrong-is-solved", "g.tally.outcomes[kSolvedOutcome] - g.tally.wrong", "g.tally.outcomes[kSolvedOutcome]",
+    "wrong answers of doubles count as solutions")
+bug("lemke-disagrees", "tally.compared - tally.disagreements", "tally.compared", "a disagreement counts as solved")
 
 bug = in_file("reports/tables/discovery.cpp", "^reports: ")
 bug("some-loop", "loops > 0 && loops == Total()", "loops > 0", "every policy loops if one does")
@@ -858,7 +870,7 @@ bug("counted-is-pending", "pending += discovery.representative != nullptr && !di
 bug = in_file("reports/page/frontiers.cpp", "^reports: measured")
 bug("records-of-any-size", "line.objective == best.objective && line.name.ends_with(end)", "line.objective == best.objective",
     "the best of four contacts stands beside a record of three")
-bug("nothing-reached-is-zero", "if (value.empty()) return nullptr;", "if (value.empty()) return 0;",
+bug("nothing-reached-is-zero", "if (value.empty()) return {};", "if (value.empty()) return 0;",
     "where random problems reached nothing a ring is drawn at zero")
 
 bug = in_file("reports/page/measured_page.cpp", "^reports: measured")
@@ -869,10 +881,6 @@ bug("filtered-is-rounded", 'line.arithmetic == "exact" || line.arithmetic == "fi
 
 bug = in_file("reports/page/rungs.cpp", "^reports: rungs")
 bug("silent-beyond-wrong", "line.silent > line.wrong", "false", "more silent answers than wrong ones are read")
-
-bug = in_file("reports/page/existence_section.cpp", "^reports: ")
-bug("exceptions-hidden", "Exception(t.problems - t.solved)", "Exception(0)", "unsolved problems are not told")
-bug("disagreements-hidden", "Exception(t.disagreements)", "Exception(0)", "disagreements are not told")
 
 bug = in_file("reports/animation.cpp", "^reports: (animation|draw)")
 bug("animation-side", "ShownSide(scene, force.bodies) == 0 ? 1 : -1", "1", "forces point into the body that moves")
@@ -886,16 +894,6 @@ bug("markup-in-script", "c == '<'", "c == '>'", "script data can end a script or
 bug = in_file("corpus/plain_text.cpp", "^reports: ")
 bug("shell-quote", r"""c == '\'' ? std::string("'\\''") : std::string(1, c)""", "std::string(1, c)",
     "a policy can end its shell word")
-
-bug = in_file("reports/page/figures.cpp", "^reports: ")
-bug("interval-of-the-runs", "CountInterval(count)", "CountInterval(runs)",
-    "the interval of a rate is that of another count")
-bug("empty-bins-drawn", "if (tally.steps[steps] == 0) continue;", "", "bars of no height are drawn")
-
-bug = in_file("reports/page/methods_section.cpp", "^reports: ")
-bug("wrong-is-solved", "tally.outcomes[kSolvedOutcome] - tally.wrong", "tally.outcomes[kSolvedOutcome]",
-    "wrong answers of doubles count as solutions")
-bug("lemke-disagrees", "tally.compared - tally.disagreements", "tally.compared", "a disagreement counts as solved")
 
 bug = in_file("reports/tables/since.cpp", "^reports: ")
 bug("since-always-more", "discovery.met > before->second.met", "discovery.met >= before->second.met",
@@ -925,18 +923,16 @@ bug("one-sided", "weight <= seen * kSame ? weight : 0", "weight < seen ? weight 
 bug("bonferroni", "order.size() - k", "order.size()", "every p is corrected for all tests")
 
 bug = in_file("reports/comparison/comparison.cpp", "^reports: comparison")
-bug("misjudged-of-all", "Trials{t.misjudged, t.audited}", "Trials{t.misjudged, t.problems}",
+bug("misjudged-of-all", "ShareOf(c.misjudged, c.audited)", "ShareOf(c.misjudged, c.runs)",
     "misjudged runs are held against all runs")
 bug("median-of-half", "if (2 * up_to >= all) return steps;", "if (up_to >= all) return steps;", "the median is the most")
-bug("one-rank", "frictions[key.friction].Merge(stratum);", "frictions[key.friction] = stratum;",
+bug("one-rank", "frictions[key.friction].Add(stratum);", "(frictions[key.friction] = Counts()).Add(stratum);",
     "a friction has one rank alone")
 bug("shards-compared", "a.identity() == b.identity()", "false", "stores of one campaign are compared")
-bug("rates-the-wrong-way", "return RateOf(rate.a) > RateOf(rate.b);", "return RateOf(rate.a) < RateOf(rate.b);",
+bug("rates-the-wrong-way", "return ValueOf(rate.a) > ValueOf(rate.b);", "return ValueOf(rate.a) < ValueOf(rate.b);",
     "more is said to be less")
 
 bug = in_file("reports/papers/latex.cpp", "^reports: latex|^program: latex")
-bug("control-not-replaced", "static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c", "c",
-    "control characters of a store come through", type="char")
 bug("interval-as-reach", "scale * (count - interval.low)", "scale * interval.low", "error bars begin at the interval's end")
 
 bug = in_file("reports/papers/package.cpp", "^program: package")

@@ -11,8 +11,8 @@
 
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
-#include "corpus/rational.h"
 #include "corpus/plain_text.h"
+#include "corpus/rational.h"
 #include "tests/scratch.h"
 
 namespace stiction {
@@ -33,7 +33,7 @@ Rational Binomial(std::int64_t n, std::int64_t k) {
 }
 
 // By the definition, over rationals.
-Rational FisherByDefinition(const Trials& a, const Trials& b) {
+Rational FisherByDefinition(const Ratio& a, const Ratio& b) {
   const std::int64_t events = a.count + b.count, all = a.of + b.of;
   const auto weight = [&](std::int64_t x) -> Rational {
     return x > events || x > a.of || events - x > b.of
@@ -54,7 +54,7 @@ TEST_CASE("comparison: Fisher's test is what its definition gives over rationals
     for (std::int64_t of_b = 0; of_b <= 12; of_b += 3) {
       for (std::int64_t count_a = 0; count_a <= of_a; ++count_a) {
         for (std::int64_t count_b = 0; count_b <= of_b; ++count_b) {
-          const Trials a{count_a, of_a}, b{count_b, of_b};
+          const Ratio a{count_a, of_a}, b{count_b, of_b};
           INFO(count_a << "/" << of_a << " " << count_b << "/" << of_b);
           CHECK(FisherTest(a, b) == Approx(FisherByDefinition(a, b).get_d()).epsilon(1e-12));
           CHECK(FisherTest(a, b) == Approx(FisherTest(b, a)).epsilon(1e-12));
@@ -65,7 +65,7 @@ TEST_CASE("comparison: Fisher's test is what its definition gives over rationals
 }
 
 TEST_CASE("comparison: Fisher's test is right far out and for unequal sides") {
-  for (const auto& [a, b] : std::vector<std::pair<Trials, Trials>>{
+  for (const auto& [a, b] : std::vector<std::pair<Ratio, Ratio>>{
            {{60, 100}, {1, 100}}, {{0, 400}, {12, 300}}, {{5, 1000}, {40, 700}}, {{199, 200}, {3, 9}}}) {
     CHECK(FisherTest(a, b) == Approx(FisherByDefinition(a, b).get_d()).epsilon(1e-10));
   }
@@ -81,7 +81,7 @@ TEST_CASE("comparison: Fisher's test takes counts beyond 32 bits") {
 }
 
 TEST_CASE("comparison: where the sums leave no choice there is no test") {
-  for (const auto& [a, b] : std::vector<std::pair<Trials, Trials>>{
+  for (const auto& [a, b] : std::vector<std::pair<Ratio, Ratio>>{
            {{0, 10}, {0, 20}}, {{10, 10}, {20, 20}}, {{0, 0}, {3, 20}}, {{1, 10}, {0, 0}}}) {
     CHECK_FALSE(CanDiffer(a, b));
     CHECK(FisherTest(a, b) == 1);
@@ -158,17 +158,17 @@ std::string Joined(const std::string& text) {
 TEST_CASE("comparison: every rate is of the counts of both stores") {
   const Scratch scratch;
   const Comparison c = Compared(scratch, RecordOf(1000, 3, 6), RecordOf(2000, 40, 6));
-  CHECK(RateNamed(c, "loops").a == Trials{3, 1000});
-  CHECK(RateNamed(c, "loops").b == Trials{40, 2000});
-  CHECK(RateNamed(c, "loops", "1/2").a == Trials{3, 1000});
-  CHECK(RateNamed(c, "loops", "1/2").b == Trials{40, 2000});
-  CHECK(RateNamed(c, "rays").a == Trials{0, 1000});
-  CHECK(RateNamed(c, "zero-steps").b == Trials{300, 2000});
-  CHECK(RateNamed(c, "give-ups").a == Trials{20, 1000});
-  CHECK(RateNamed(c, "misjudged").a == Trials{1, 50});
-  CHECK(RateNamed(c, "wrong").b == Trials{0, 2000});
-  CHECK(RateNamed(c, "steps-above-4").a == Trials{500, 1000});
-  CHECK(RateNamed(c, "steps-above-4").b == Trials{1000, 2000});
+  CHECK(RateNamed(c, "loops").a == Ratio{3, 1000});
+  CHECK(RateNamed(c, "loops").b == Ratio{40, 2000});
+  CHECK(RateNamed(c, "loops", "1/2").a == Ratio{3, 1000});
+  CHECK(RateNamed(c, "loops", "1/2").b == Ratio{40, 2000});
+  CHECK(RateNamed(c, "rays").a == Ratio{0, 1000});
+  CHECK(RateNamed(c, "zero-steps").b == Ratio{300, 2000});
+  CHECK(RateNamed(c, "give-ups").a == Ratio{20, 1000});
+  CHECK(RateNamed(c, "misjudged").a == Ratio{1, 50});
+  CHECK(RateNamed(c, "wrong").b == Ratio{0, 2000});
+  CHECK(RateNamed(c, "steps-above-4").a == Ratio{500, 1000});
+  CHECK(RateNamed(c, "steps-above-4").b == Ratio{1000, 2000});
   REQUIRE(c.steps.size() == 1);
   CHECK(c.steps[0].sum_a == 5000);
 }
@@ -213,8 +213,8 @@ TEST_CASE("comparison: other steps are noticed, their mean and quantiles shown")
   const Scratch scratch;
   const Comparison c = Compared(scratch, RecordOf(1000, 3, 2), RecordOf(1000, 3, 9));
   const ComparedRate& steps = RateNamed(c, "steps-above-4");
-  CHECK(steps.a == Trials{0, 1000});
-  CHECK(steps.b == Trials{500, 1000});
+  CHECK(steps.a == Ratio{0, 1000});
+  CHECK(steps.b == Ratio{500, 1000});
   CHECK(steps.MoreThanNoise());
   CHECK_THAT(Joined(ComparisonText(c, "a", "b")), Contains("psd, 2 3.00 2/2/4/4 6.50 4/4/9/9 "));
 }
@@ -265,13 +265,13 @@ TEST_CASE("comparison: no line is longer than 100 columns") {
 TEST_CASE("comparison: the tables have a row for every rate and every number of steps") {
   const Scratch scratch;
   const Comparison c = Compared(scratch, RecordOf(1000, 3, 6), RecordOf(2000, 40, 9));
-  const std::string csv = ComparisonCsv(c);
+  const std::string csv = ToCsv(ComparisonTable(c));
   CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(c.rates.size() + 1));
   CHECK_THAT(csv, Contains("\r\npsd,2,paper,baraff,double,,loops,3,1000,0.003,"));
   CHECK_THAT(csv, Contains(",40,2000,0.02,"));
   CHECK_THAT(csv, Contains(",0.017,") && Contains(",yes\r\n"));
   CHECK_THAT(csv, Contains("\r\npsd,2,paper,baraff,double,,wrong,0,1000,0,"));
-  const std::string steps = ComparisonStepsCsv(c);
+  const std::string steps = ToCsv(ComparisonStepsTable(c));
   CHECK(steps ==
         "generator,contacts,policy,method,arithmetic,steps,or_more,a_problems,b_problems\r\n"
         "psd,2,paper,baraff,double,4,no,500,1000\r\n"

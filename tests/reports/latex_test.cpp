@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "reports/tables/table.h"
 #include "tests/scratch.h"
 
 namespace stiction {

@@ -27,9 +27,9 @@
 #include "reports/page/page.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/finding_picture.h"
-#include "reports/tables/csv.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/since.h"
+#include "reports/tables/table.h"
 #include "reports/text/text_report.h"
 #include "scene/simulate.h"
 #include "solver/problem/check.h"
@@ -567,9 +567,9 @@ TEST_CASE("report: findings.csv holds every signature with its count and facts")
 }
 
 TEST_CASE("report: CSV cells are quoted where RFC 4180 asks for it") {
-  Csv csv;
-  csv.Add("plain").Add("a,b").Add("say \"so\"").Add("two\r\nlines").Add("").Add(-12345678).EndRow();
-  CHECK(csv.text() == "plain,\"a,b\",\"say \"\"so\"\"\",\"two\r\nlines\",,-12345678\r\n");
+  Table table{"t", "", {{"1"}, {"2"}, {"3"}, {"4"}, {"5"}, {"6"}}};
+  table.Add({"plain", "a,b", "say \"so\"", "two\r\nlines", "", -12345678});
+  CHECK(ToCsv(table) == "1,2,3,4,5,6\r\nplain,\"a,b\",\"say \"\"so\"\"\",\"two\r\nlines\",,-12345678\r\n");
 }
 
 // ---- Files of findings ----
@@ -1338,8 +1338,8 @@ TEST_CASE("report: numbers for people") {
 TEST_CASE("report: text and attribute values are escaped, tables keep their shape") {
   CHECK(Text("a<b & \"c\" > 'd'").markup() == "a&lt;b &amp; &quot;c&quot; &gt; &#39;d&#39;");
   CHECK(Tag("a", {{"href", "x\"y"}, {"class", ""}})("<").markup() == "<a href=\"x&quot;y\">&lt;</a>");
-  Table table("caption", {{"one"}, {"two"}});
-  CHECK_THROWS_AS(table.AddRow({{Text("alone")}}), InternalError);
+  Table table{"name", "caption", {{"one"}, {"two"}}};
+  CHECK_THROWS_AS(table.Add({"alone"}), InternalError);
 }
 
 }  // namespace

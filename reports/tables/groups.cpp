@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/tables/groups.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace stiction {
+namespace {
+
+KeyPart PartOf(const std::string& name, const TallyKey& key, const StratumKey& stratum) {
+  if (name == "generator") return key.generator;
+  if (name == "contacts") return std::int64_t{key.contacts};
+  if (name == "policy") return key.policy;
+  if (name == "method") return key.method;
+  if (name == "arithmetic") return key.arithmetic;
+  if (name == "friction") return stratum.friction;
+  return std::int64_t{stratum.rank};
+}
+
+bool IsNumber(const std::string& name) { return name == "contacts" || name == "rank"; }
+
+struct InOrder {
+  static bool Less(const KeyPart& left, const KeyPart& right) {
+    if (std::holds_alternative<std::int64_t>(left)) return left < right;
+    return NaturalLess(std::get<std::string>(left), std::get<std::string>(right));
+  }
+  bool operator()(const std::vector<KeyPart>& left, const std::vector<KeyPart>& right) const {
+    return std::lexicographical_compare(left.begin(), left.end(), right.begin(), right.end(), &Less);
+  }
+};
+
+}  // namespace
+
+std::vector<Group> Groups(const Record& record, const By& by) {
+  std::map<std::vector<KeyPart>, Group, InOrder> groups;
+  const auto group_of = [&](const TallyKey& key, const StratumKey& stratum) -> Group& {
+    std::vector<KeyPart> parts;
+    for (const std::string& name : by) parts.push_back(PartOf(name, key, stratum));
+    return groups[parts];
+  };
+  const bool of_strata = std::any_of(
+      by.begin(), by.end(), [](const std::string& name) { return name == "friction" || name == "rank"; });
+  if (by.empty()) groups[{}];
+  for (const auto& [key, tally] : record.tallies) {
+    if (!of_strata) group_of(key, {}).tally.Merge(tally);
+    for (const auto& [stratum_key, stratum] : tally.strata) {
+      if (of_strata) group_of(key, stratum_key).stratum.Merge(stratum);
+    }
+  }
+  std::vector<Group> sorted;
+  for (auto& [key, group] : groups) {
+    group.key = key;
+    of_strata ? group.counts.Add(group.stratum) : group.counts.Add(group.tally);
+    sorted.push_back(std::move(group));
+  }
+  return sorted;
+}
+
+Table Keyed(const std::string& name, const std::string& caption, const By& by,
+            const std::vector<Column>& columns) {
+  Table table{name, caption, {}, {}, {}, static_cast<int>(by.size())};
+  for (const std::string& key : by) table.columns.push_back({key, "", !IsNumber(key)});
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+  return table;
+}
+
+std::vector<TableCell> Behind(const Group& group, const std::vector<TableCell>& more) {
+  std::vector<TableCell> cells;
+  for (const KeyPart& part : group.key)
+    cells.push_back(std::visit([](const auto& each) { return TableCell(each); }, part));
+  cells.insert(cells.end(), more.begin(), more.end());
+  return cells;
+}
+
+}  // namespace stiction
