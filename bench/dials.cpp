@@ -11,8 +11,8 @@
 #include "certify/exact/exact.h"
 #include "corpus/input_error.h"
 #include "corpus/rounded.h"
-#include "search/exponential.h"
-#include "search/generators.ipp"
+#include "search/generators/exponential.h"
+#include "search/generators/generators.ipp"
 
 namespace stiction {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

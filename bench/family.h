@@ -4,8 +4,8 @@
 //   A = J J' + I    J square, entries uniform integers in [-1000, 1000]
 //   b               uniform integers in [-10^6, 10^6]; a normal's is made <= 0 with probability 3/5
 //
-// The generators of the search (search/generators.h) promise less: A positive semidefinite, b in range(A). They
-// can be compared on, too, with the same friction.
+// The generators of the search (search/generators/generators.h) promise less: A positive semidefinite, b in
+// range(A). They can be compared on, too, with the same friction.
 //
 // Friction: problem `index` is of class index mod 8, so that every class is as frequent: classes 0 to 6 have
 // 0, 1/5, 1/2, 1, 2, 5 and 10 at all contacts, in class 7 every contact draws one of them; a generator draws
@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "corpus/problem_file.h"
-#include "search/generators.h"
+#include "corpus/record/problem_file.h"
+#include "search/generators/generators.h"
 
 namespace stiction {
 

@@ -4,7 +4,7 @@
 #ifndef STICTION_BENCH_PEAK_H_
 #define STICTION_BENCH_PEAK_H_
 
-#include "search/batch/instructions.h"
+#include "search/lanes/instructions.h"
 
 namespace stiction {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/contacts.h"
 #include "scene/simulate.h"
 #include "solver/problem/check.h"

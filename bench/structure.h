@@ -8,7 +8,7 @@
 #ifndef STICTION_BENCH_STRUCTURE_H_
 #define STICTION_BENCH_STRUCTURE_H_
 
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "solver/problem/problem.h"
 
 namespace stiction {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "search/generators.h"
+#include "search/generators/generators.h"
 
 namespace stiction {
 

@@ -18,9 +18,9 @@
 #include "cli/narration/narrate_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "corpus/digest.h"
 #include "corpus/json_text.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/digest.h"
+#include "corpus/record/scene_file.h"
 
 namespace stiction {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction minimize, stiction policies.
 
-#include "search/minimize.h"
+#include "search/units/minimize.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -16,8 +16,8 @@
 #include "cli/verbs.h"
 #include "corpus/json_text.h"
 #include "search/adversary/minimize_candidate.h"
-#include "search/finish.h"
-#include "search/signature.h"
+#include "search/units/finish.h"
+#include "search/units/signature.h"
 
 namespace stiction {
 namespace {

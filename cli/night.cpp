@@ -20,8 +20,8 @@
 #include "corpus/descriptor.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
-#include "search/known_signatures.h"
+#include "corpus/record/kinds.h"
+#include "search/units/known_signatures.h"
 
 namespace stiction {
 namespace {

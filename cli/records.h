@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "reports/page/frontiers.h"
 
 namespace stiction {

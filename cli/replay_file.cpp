@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/replay_file.h"
 
-#include "corpus/read_problem.h"
+#include "corpus/formats/read_problem.h"
 #include "reports/pictures/problem_picture.h"
 #include "reports/pictures/rounded_scene.h"
 

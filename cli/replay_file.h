@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `replay` follows a method on: a problem (corpus/read_problem.h), and the picture of its scene.
+// What `replay` follows a method on: a problem (corpus/formats/read_problem.h), and the picture of its scene.
 
 #ifndef STICTION_CLI_REPLAY_FILE_H_
 #define STICTION_CLI_REPLAY_FILE_H_
 
 #include <string>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

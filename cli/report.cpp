@@ -23,9 +23,9 @@
 #include "reports/papers/package.h"
 #include "reports/text/text_report.h"
 #include "search/campaign.h"
-#include "search/known_signatures.h"
 #include "search/summary.h"
 #include "search/testimony.h"
+#include "search/units/known_signatures.h"
 
 namespace stiction {
 namespace {

@@ -17,7 +17,7 @@
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/output_error.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "reports/animation.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/rounded_scene.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "corpus/input_error.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

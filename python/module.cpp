@@ -24,15 +24,15 @@
 #include "cli/narration/followed.h"
 #include "cli/narration/over_intervals.h"
 #include "corpus/atomic_file.h"
-#include "corpus/digest.h"
+#include "corpus/formats/read_problem.h"
 #include "corpus/intervals.h"
 #include "corpus/output_error.h"
-#include "corpus/read_problem.h"
+#include "corpus/record/digest.h"
 #include "corpus/stopwatch.h"
 #include "python/search.h"
 #include "python/signals.h"
 #include "search/campaign.h"
-#include "search/generators.h"
+#include "search/generators/generators.h"
 
 namespace stiction {
 namespace {

@@ -27,7 +27,7 @@
 #include <limits>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "corpus/whole_folder.h"
 #include "reports/page/frontiers.h"
 #include "reports/report_files.h"

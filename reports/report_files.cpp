@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/report_files.h"
 
-#include "corpus/digest.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/digest.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

@@ -17,7 +17,7 @@ namespace stiction {
 struct ViewerOrigin {
   std::string command;  // as a shell reads it
   std::string version;  // of the program
-  std::string digest;   // of the problem (corpus/digest.h)
+  std::string digest;   // of the problem (corpus/record/digest.h)
 };
 
 // `data`: web/data.md has its keys.

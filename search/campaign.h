@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "search/adversary/candidate.h"
-#include "search/generators.h"
+#include "search/generators/generators.h"
 #include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 

@@ -10,16 +10,16 @@
 #include <thread>
 #include <vector>
 
-#include "corpus/kinds.h"
+#include "corpus/record/kinds.h"
 #include "corpus/stopwatch.h"
-#include "corpus/store_lock.h"
+#include "corpus/store/store_lock.h"
 #include "search/adversary/optimized_unit.h"
-#include "search/backlog.h"
-#include "search/finish.h"
-#include "search/finishing_time.h"
 #include "search/testimony.h"
-#include "search/unit.h"
-#include "search/work_meter.h"
+#include "search/units/backlog.h"
+#include "search/units/finish.h"
+#include "search/units/finishing_time.h"
+#include "search/units/unit.h"
+#include "search/units/work_meter.h"
 
 namespace stiction {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "corpus/counts.h"
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/program_name.h"
-#include "corpus/store_totals.h"
+#include "corpus/record/counts.h"
+#include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
 
 namespace stiction {
@@ -24,12 +24,14 @@ Json TimeToJson(const ProcessorTime& time) {
 
 Json IntervalToJson(const Interval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
 
-// Runs that fail in exact arithmetic, by outcome, and where doubles fail. Both counts of a rate are of `counts`.
+// Runs that fail in exact arithmetic, by outcome, and where doubles fail. Both counts of a rate are of
+// `counts`.
 std::map<std::string, std::int64_t> FailuresOf(const Counts& counts) {
   std::map<std::string, std::int64_t> failures;
   for (int i = 0; i < kOutcomeCount; ++i) {
     const auto outcome = static_cast<Outcome>(i);
-    if (outcome != Outcome::kSolved && counts.exact[i] > 0) failures[std::string(Name(outcome))] = counts.exact[i];
+    if (outcome != Outcome::kSolved && counts.exact[i] > 0)
+      failures[std::string(Name(outcome))] = counts.exact[i];
   }
   if (counts.doubles_differ > 0) failures["doubles-differ"] = counts.doubles_differ;
   if (counts.wrong > 0) failures["wrong-answer"] = counts.wrong;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 
 namespace stiction {
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "corpus/digest.h"
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
 #include "corpus/rational.h"
+#include "corpus/record/digest.h"
+#include "corpus/record/kinds.h"
 #include "search/adversary/optimized_unit.h"
 #include "solver/problem/solution.h"
 

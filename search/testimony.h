@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether what a store holds can be what its campaign left, read as strictly as a problem file.
 //
-// Seals (corpus/store_rows.h) tell what was changed by accident. This tells what no search writes: a kind that
-// does not exist, a unit of another generator, a certificate of another problem, a statistic with an unknown
-// key. Nothing is solved or verified again: `stiction check` does that.
+// Seals (corpus/store/store_rows.h) tell what was changed by accident. This tells what no search writes: a kind
+// that does not exist, a unit of another generator, a certificate of another problem, a statistic with an
+// unknown key. Nothing is solved or verified again: `stiction check` does that.
 
 #ifndef STICTION_SEARCH_TESTIMONY_H_
 #define STICTION_SEARCH_TESTIMONY_H_

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "certify/exact/exact.h"
-#include "search/exponential.h"
-#include "search/generators.h"
+#include "search/generators/exponential.h"
+#include "search/generators/generators.h"
 #include "solver/complete/polygon_errors.h"
 
 namespace stiction::testing {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/kinds.h"
-#include "corpus/statistics.h"
-#include "corpus/store.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/statistics.h"
+#include "corpus/store/store.h"
 
 namespace stiction::testing {
 

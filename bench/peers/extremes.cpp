@@ -27,7 +27,7 @@
 #include "certify/exact/solve.h"
 #include "corpus/atomic_file.h"
 #include "corpus/json_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
 
@@ -240,9 +240,7 @@ void PrintLine(const Json& line) {
 }
 
 // Rounded to doubles a problem may have lost its solution.
-bool IsSolvable(const PeerProblem& problem) {
-  return Solve(Unrounded(problem), "complete").Solved();
-}
+bool IsSolvable(const PeerProblem& problem) { return Solve(Unrounded(problem), "complete").Solved(); }
 
 // The first wrong answer of a package and dial that is called a success, of a problem with a solution.
 class Examples {

@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "bench/structure.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/simulate.h"
-#include "search/generators.h"
+#include "search/generators/generators.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

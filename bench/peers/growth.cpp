@@ -14,7 +14,7 @@
 #include "bench/one_thread.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "solver/complete/complete.h"
 #include "solver/numeric/fast.h"
 #include "solver/published/published.h"

@@ -18,8 +18,8 @@
 #include "bench/table.h"
 #include "corpus/input_error.h"
 #include "corpus/stopwatch.h"
-#include "search/batch/batch.h"
-#include "search/unit.h"
+#include "search/lanes/batch.h"
+#include "search/units/unit.h"
 #include "solver/problem/gate.h"
 #include "solver/published/published.ipp"
 

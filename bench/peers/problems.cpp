@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/peers/tables.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 
 namespace stiction {
 namespace {

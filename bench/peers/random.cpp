@@ -9,7 +9,7 @@
 
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -11,8 +11,8 @@
 
 #include "certify/claims/claims.h"
 #include "certify/claims/witness.h"
-#include "corpus/digest.h"
 #include "corpus/exact_number.h"
+#include "corpus/record/digest.h"
 
 namespace stiction {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -54,7 +54,7 @@ struct CheckReport {
   std::string claim;         // as far as it could be read
   std::string reason;        // why it was rejected: JSON path, found, expected
   bool is_too_dear = false;  // rejected for the work that it asks for, not for what it says
-  std::string digest;        // of the problem (corpus/digest.h), as far as it could be read
+  std::string digest;        // of the problem (corpus/record/digest.h), as far as it could be read
   Json facts;                // of an accepted certificate: policies, start, period, ...
 };
 

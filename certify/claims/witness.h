@@ -15,7 +15,7 @@
 
 #include "certify/exact/modes.h"
 #include "corpus/json_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

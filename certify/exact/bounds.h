@@ -22,7 +22,7 @@
 #include <optional>
 
 #include "certify/exact/properties.h"
-#include "corpus/formats/sparse_problem.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/reduction.h"

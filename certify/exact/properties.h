@@ -16,7 +16,7 @@
 #include <utility>
 #include <variant>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

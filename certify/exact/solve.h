@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/solve.h"
 
 namespace stiction {

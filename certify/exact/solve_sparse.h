@@ -9,7 +9,7 @@
 #define STICTION_CERTIFY_EXACT_SOLVE_SPARSE_H_
 
 #include "certify/exact/solve.h"
-#include "corpus/formats/sparse_problem.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 

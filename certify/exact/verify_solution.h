@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

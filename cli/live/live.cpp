@@ -10,7 +10,7 @@
 #include "certify/exact/inexact.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/replay_page.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {

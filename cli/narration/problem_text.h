@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/narration/outcome_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "corpus/formats/printable.h"
+#include "corpus/printable.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

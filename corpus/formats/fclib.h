@@ -27,7 +27,7 @@
 
 #include <string>
 
-#include "corpus/formats/sparse_problem.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 

@@ -9,8 +9,8 @@
 
 #include "corpus/atomic_file.h"
 #include "corpus/formats/fclib.h"
-#include "corpus/formats/printable.h"
 #include "corpus/formats/siconos.h"
+#include "corpus/printable.h"
 
 namespace stiction {
 namespace {

@@ -28,7 +28,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/formats/sparse_problem.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 

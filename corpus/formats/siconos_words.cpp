@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "corpus/formats/printable.h"
+#include "corpus/printable.h"
 
 namespace stiction {
 namespace {

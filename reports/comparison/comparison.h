@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "corpus/json_text.h"
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "corpus/whole_folder.h"
 #include "reports/comparison/exact_tests.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "corpus/kinds.h"
+#include "corpus/record/kinds.h"
 #include "reports/page/page.h"
 #include "reports/tables/campaign_tables.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/findings_data.h"
 
-#include "corpus/kinds.h"
 #include "corpus/rational.h"
+#include "corpus/record/kinds.h"
 #include "reports/page/page.h"
 
 namespace stiction {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "reports/tables/discovery.h"
 
 namespace stiction {

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "corpus/intervals.h"
-#include "corpus/kinds.h"
 #include "corpus/plain_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
 #include "reports/page/findings_data.h"
 #include "reports/page/page.h"
 #include "reports/pictures/finding_picture.h"

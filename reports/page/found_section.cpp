@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/counts.h"
-#include "corpus/kinds.h"
+#include "corpus/record/counts.h"
+#include "corpus/record/kinds.h"
 #include "reports/page/page.h"
 
 namespace stiction {

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <map>
 
-#include "corpus/counts.h"
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
+#include "corpus/record/counts.h"
+#include "corpus/record/kinds.h"
 #include "reports/html/template.h"
 #include "reports/report_template.h"
 

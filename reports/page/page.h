@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "reports/html/html.h"
 #include "reports/page/figures.h"
 #include "reports/page/frontiers.h"

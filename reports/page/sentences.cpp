@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "corpus/counts.h"
 #include "corpus/intervals.h"
-#include "corpus/kinds.h"
+#include "corpus/record/counts.h"
+#include "corpus/record/kinds.h"
 #include "reports/page/page.h"
 #include "reports/tables/groups.h"
 

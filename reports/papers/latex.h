@@ -15,7 +15,7 @@
 #include <map>
 #include <string>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 
 namespace stiction {
 

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <vector>
 
-#include "corpus/digest.h"
 #include "corpus/json_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/digest.h"
+#include "corpus/record/problem_file.h"
 #include "reports/papers/package/README_txt.h"
 #include "reports/papers/package/verify_py.h"
 #include "reports/report_files.h"

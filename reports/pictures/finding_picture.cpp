@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "corpus/input_error.h"
-#include "corpus/problem_file.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/scene_file.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/rounded_scene.h"
 #include "scene/contacts.h"
@@ -16,15 +16,15 @@ namespace {
 
 // A scene with its contacts, and as much of the plane as shows it.
 template <class Kind>
-struct Shown {
+struct ShownScene {
   SceneIn<Kind, double> scene;
   MarksIn<Kind> marks;
   View view;
 };
 
 template <class Kind>
-Shown<Kind> Show(const SceneFileIn<Kind>& file, const std::string& signature) {
-  Shown<Kind> shown{RoundedScene(file, signature), {}, {}};
+ShownScene<Kind> Show(const SceneFileIn<Kind>& file, const std::string& signature) {
+  ShownScene<Kind> shown{RoundedScene(file, signature), {}, {}};
   for (const auto& contact : FindContacts(file.scene))
     shown.marks.contacts.push_back(contact.point.unaryExpr(&ToDouble));
   shown.view.Include(shown.scene);
@@ -33,7 +33,7 @@ Shown<Kind> Show(const SceneFileIn<Kind>& file, const std::string& signature) {
 }
 
 template <class Kind>
-Html SceneFigure(const Shown<Kind>& shown, const std::string& signature) {
+Html SceneFigure(const ShownScene<Kind>& shown, const std::string& signature) {
   const auto bodies = static_cast<std::int64_t>(shown.scene.bodies.size()),
              contacts = static_cast<std::int64_t>(shown.marks.contacts.size());
   const std::string label =

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "reports/html/html.h"
 
 namespace stiction {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "corpus/input_error.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 
 namespace stiction {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/work.h"
+#include "corpus/record/work.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/groups.h"
 #include "reports/tables/table.h"

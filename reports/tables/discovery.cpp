@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
+#include "corpus/record/kinds.h"
 
 namespace stiction {
 namespace {

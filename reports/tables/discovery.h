@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -83,7 +83,7 @@ struct Discovery {
 std::vector<Discovery> Discoveries(const Record& record, const std::vector<Finding>& findings);
 
 // The loop with the shortest minimized problem, the gravest first, as StoreTotals has it
-// (corpus/store_totals.h); null if none is minimized.
+// (corpus/store/store_totals.h); null if none is minimized.
 const Discovery* SimplestLoop(const std::vector<Discovery>& discoveries);
 
 // The order of interest: grave kinds (kinds.h), fewest contacts, then those that the whole grid shows, then

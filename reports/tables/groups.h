@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "corpus/counts.h"
+#include "corpus/record/counts.h"
 #include "reports/tables/table.h"
 
 namespace stiction {

@@ -10,11 +10,11 @@
 
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
 #include "corpus/plain_text.h"
-#include "corpus/problem_file.h"
 #include "corpus/program_name.h"
-#include "corpus/store_totals.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/store/store_totals.h"
 #include "reports/tables/campaign_tables.h"
 
 namespace stiction {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 
 namespace stiction {
 

@@ -5,9 +5,9 @@
 
 #include <span>
 
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "search/campaign.h"
-#include "search/scenes.h"
+#include "search/generators/scenes.h"
 
 namespace stiction {
 namespace {
@@ -104,10 +104,10 @@ Candidate CandidateFromJson(const JsonPlace& place) {
 
 Candidate CandidateOf(const ProblemFile& file, const std::string& source) {
   if (!file.origin || !file.origin->contains("choices")) {
-    throw InputError(
-        fmt::format("{}: origin: found none with choices, expected a problem of an optimized search, as `problem "
-                    "STORE --best` writes it",
-                    source));
+    throw InputError(fmt::format(
+        "{}: origin: found none with choices, expected a problem of an optimized search, as `problem "
+        "STORE --best` writes it",
+        source));
   }
   Json origin = *file.origin;
   origin.erase("objective");

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/problem_file.h"
-#include "search/generators.h"
+#include "corpus/record/problem_file.h"
+#include "search/generators/generators.h"
 
 namespace stiction {
 

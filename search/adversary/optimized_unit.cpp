@@ -7,7 +7,7 @@
 
 #include "certify/exact/exact.h"
 #include "corpus/json_text.h"
-#include "search/signature.h"
+#include "search/units/signature.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

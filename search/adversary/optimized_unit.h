@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "search/adversary/optimizer.h"
-#include "search/unit.h"
+#include "search/units/unit.h"
 
 namespace stiction {
 

@@ -11,8 +11,8 @@
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
-#include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "search/adversary/objective.h"
 #include "solver/problem/options.h"
 

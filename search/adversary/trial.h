@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 #include "solver/complete/complete.h"
 #include "solver/published/published.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "certify/exact/wide_ball.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 
 namespace stiction {
 namespace {

@@ -13,7 +13,7 @@
 #include <set>
 
 #include "certify/claims/claims.h"
-#include "corpus/digest.h"
+#include "corpus/record/digest.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "certify/exact/verify_solution.h"
-#include "corpus/read_problem.h"
+#include "corpus/formats/read_problem.h"
 #include "solver/published/published.h"
 #include "tests/support.h"
 

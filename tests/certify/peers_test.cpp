@@ -8,9 +8,9 @@
 #include "bench/rungs.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
-#include "corpus/problem_file.h"
+#include "corpus/formats/read_problem.h"
 #include "corpus/rational.h"
-#include "corpus/read_problem.h"
+#include "corpus/record/problem_file.h"
 #include "tests/methods.h"
 
 namespace stiction {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "certify/claims/robust_scene.h"
-#include "corpus/scene_file.h"
-#include "search/choices.h"
+#include "corpus/record/scene_file.h"
+#include "search/generators/choices.h"
 #include "tests/support.h"
 
 namespace stiction {

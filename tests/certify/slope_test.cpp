@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "tests/support.h"
 
 namespace stiction {

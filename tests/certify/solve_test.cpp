@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "corpus/rounded.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "tests/judge.h"
 #include "tests/support.h"
 

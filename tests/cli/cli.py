@@ -85,7 +85,7 @@ def content(store):
         db.close()
 
 
-# The columns that the seal of a row is of, in order (corpus/store_rows.h).
+# The columns that the seal of a row is of, in order (corpus/store/store_rows.h).
 SEALED = {
     "blocks": "shards, shard, block, record",
     "units": "unit, shards, shard, block, record",

@@ -14,7 +14,7 @@
 #include "corpus/input_file.h"
 #include "corpus/json_text.h"
 #include "corpus/output_error.h"
-#include "corpus/store_lock.h"
+#include "corpus/store/store_lock.h"
 #include "corpus/whole_folder.h"
 #include "tests/scratch.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problem files: what is read, what is refused and how, and the exact round trip.
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/read_problem.h"
+#include "corpus/formats/read_problem.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

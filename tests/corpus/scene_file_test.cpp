@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 
 #include <catch2/catch.hpp>
 

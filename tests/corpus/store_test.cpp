@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The store: the same units leave the same content, whatever their order, interruptions and merges.
 
-#include "corpus/store.h"
+#include "corpus/store/store.h"
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "corpus/input_error.h"
-#include "corpus/kinds.h"
 #include "corpus/machine.h"
-#include "corpus/store_rows.h"
+#include "corpus/record/kinds.h"
+#include "corpus/store/store_rows.h"
 #include "solver/problem/check.h"
 #include "tests/scratch.h"
 

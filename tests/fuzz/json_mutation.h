@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "search/choices.h"
+#include "search/generators/choices.h"
 
 namespace stiction::fuzz {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "corpus/formats/sparse_problem.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/same.h"

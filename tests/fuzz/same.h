@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "corpus/formats/sparse_problem.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction::fuzz {
 

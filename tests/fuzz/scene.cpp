@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/scene_file.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/targets.h"

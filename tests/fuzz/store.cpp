@@ -12,15 +12,15 @@
 #include <filesystem>
 #include <fstream>
 
-#include "corpus/store_rows.h"
+#include "corpus/store/store_rows.h"
 #include "reports/page/figures.h"
 #include "reports/page/page.h"
 #include "reports/tables/campaign_tables.h"
 #include "reports/text/text_report.h"
 #include "search/campaign.h"
-#include "search/known_signatures.h"
 #include "search/summary.h"
 #include "search/testimony.h"
+#include "search/units/known_signatures.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support.h"

@@ -558,7 +558,7 @@ bug("dependent-without-b", "row << problem_.A.row(i), problem_.b[i];", "row << p
 
 # ---- search --------------------------------------------------------------------------
 
-bug = in_file("search/unit.cpp", "^search: (unit|alarms)")
+bug = in_file("search/units/unit.cpp", "^search: (unit|alarms)")
 bug("wrong-answer-threshold", "!(error() <= kWrongAnswer)", "!(error() <= 1)", "wrong is above 1, not 1e-6")
 bug("misjudged-not-counted", "tally.misjudged += misjudged;", "", "misjudged runs are not counted")
 bug("misjudged-stratum-not-counted", "stratum.misjudged += misjudged;", "", "misjudged runs are not counted by friction and rank")
@@ -611,7 +611,7 @@ bug("safety-of-fewer", "if (task_.contacts > kMostContactsEnumerated) return;",
 bug("policy-not-named", 'if (!(policy == Policy{})) signature += "@" + PolicyName(policy);', "",
     "findings of all policies share a signature")
 
-bug = in_file("search/batch/run_lanes.ipp", "^search: batch")
+bug = in_file("search/lanes/run_lanes.ipp", "^search: batch")
 bug("lanes-reach", "~(limits[row].s > reach)", "~(limits[row].s > nearest)",
     "in lanes steps within the tolerance do not tie")
 bug("lanes-tie", "place[i] < at", "at < place[i]", "of equal pivots in lanes the last is taken")
@@ -625,7 +625,7 @@ bug("lanes-second-limit", "second.exists & ~(first.exists & ~(second.s < first.s
     "in lanes the second limit of a friction never comes first")
 bug("lanes-give-up", "Leave(moves & ~is_driven_[row] & (wants_ == last_left_[row]) & zero);", "",
     "what is given up does not leave the lanes")
-bug = in_file("search/finish.cpp", "^search: finish")
+bug = in_file("search/units/finish.cpp", "^search: finish")
 bug("safe-once-minimized", 'if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;',
     "", "a cycle that is safe once minimized is one like others")
 bug("methods-not-compared", "if (!cancelled()) CompareMethods(finished, facts, found, limits);", "",
@@ -640,7 +640,7 @@ bug("grid-not-kept", "whole_grid", "false", "minimizing may lose policies",
     context="if (whole_grid) {\n    options.policies = PlanarGrid();")
 bug("cancelled-is-done", "if (cancelled()) return std::nullopt;", "", "what was cancelled is called done")
 
-bug = in_file("search/minimize.cpp", "^search: (minimize|simplicity|finish)")
+bug = in_file("search/units/minimize.cpp", "^search: (minimize|simplicity|finish)")
 bug("asymmetric-kept", 'if (!IsSymmetric(candidate)) return "A is not symmetric";', "", "A need not stay symmetric")
 bug("indefinite-kept", 'if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";', "",
     "A need not stay semidefinite")
@@ -653,7 +653,7 @@ bug("mirror-not-set", "candidate.A(j, i) = number;", "", "one of two mirrored en
 bug("friction-row-kept", "if (k != contact) rows.push_back(row);", "rows.push_back(row);",
     "a contact without friction keeps its row")
 
-bug = in_file("search/signature.cpp", "^search: (signature|unit|finish)")
+bug = in_file("search/units/signature.cpp", "^search: (signature|unit|finish)")
 bug("tangents-not-turned", 'sign * turn > 0 ? "+" : "-"', 'sign > 0 ? "+" : "-"', "a turned tangent is another loop")
 bug("period-too-long", "pivots[k].drive > verdict.start", "pivots[k].drive >= verdict.start", "a drive before the period")
 bug("no-word-of-two", "contacts.size() <= kMostContactsWithWord", "contacts.size() < kMostContactsWithWord",
@@ -672,7 +672,7 @@ bug("policy-twice", "std::find(campaign.policies.begin(), here, *here) != here",
 
 # ---- corpus --------------------------------------------------------------------------
 
-bug = in_file("corpus/counts.cpp", "^search: summary|^reports: ")
+bug = in_file("corpus/record/counts.cpp", "^search: summary|^reports: ")
 bug("all-confirmed", "(inexact == outcome ? confirmed : doubles_differ) += count;", "confirmed += count;",
     "every suspicion is confirmed")
 bug("undecided-differs", "if (outcome == static_cast<int>(Outcome::kUndecided)) continue;", "",
@@ -680,9 +680,9 @@ bug("undecided-differs", "if (outcome == static_cast<int>(Outcome::kUndecided)) 
 bug("misjudged-not-summed", "misjudged += tally.misjudged;", "", "misjudged runs are not told")
 bug("problems-per-policy", "most = std::max(most, tally.problems);", "most += tally.problems;",
     "problems count once for every policy")
-bug = in_file("corpus/counts.h", "^reports: ")
+bug = in_file("corpus/record/counts.h", "^reports: ")
 bug("stalls-are-no-loops", "Of(Outcome::kCycle) + Of(Outcome::kStall)", "Of(Outcome::kCycle)", "stalls are no loops")
-bug = in_file("corpus/store_totals.cpp", "^search: summary|^reports: text")
+bug = in_file("corpus/store/store_totals.cpp", "^search: summary|^reports: text")
 bug("grave-not-named", "if (IsGrave(finding.kind)) totals.grave.push_back(finding);", "", "grave findings are not named")
 bug("grid-of-any-size", "totals.whole_grid += grid.size() == 1;", "totals.whole_grid += 1;",
     "every loop is one of the whole grid")
@@ -692,7 +692,7 @@ bug("ends-vanish", "alike(interval.low, digits) || alike(interval.high, digits)"
     "the ends of a narrow interval are shown as its value")
 bug("series-of-many", "if (n > 1e9) return OfManyEvents(n);", "", "intervals of many events throw")
 
-bug = in_file("corpus/store.cpp", "^corpus: (store|merge)|^program: store")
+bug = in_file("corpus/store/store.cpp", "^corpus: (store|merge)|^program: store")
 bug("largest-represents", "now <= std::pair(candidate.unit, candidate.index)", "now >= std::pair(candidate.unit, candidate.index)",
     "the largest problem represents its group")
 bug("block-too-early", "CountUnits(shard, block) < kUnitsPerBlock", "CountUnits(shard, block) < kUnitsPerBlock - 1",
@@ -711,16 +711,16 @@ bug("store-beside-link", "S_ISREG(status.st_mode) && status.st_nlink == 1", "tru
 bug("campaign-unsealed", "seal != stored", "false", "a campaign that was changed is believed",
     context="if (const std::string seal = CampaignSeal(values); seal != stored) {")
 
-bug = in_file("corpus/store_rows.cpp", "^corpus: (store|merge|work)")
+bug = in_file("corpus/store/store_rows.cpp", "^corpus: (store|merge|work)")
 bug("row-unsealed", "seal != stored", "false", "a row that was changed is believed", context="  if (seal != stored) {")
 bug("seal-without-lengths", 'fmt::format("{}:{}\\n", column.size(), column)', "column", "columns may change places in a seal")
 bug("machines-unwritten", "!work.machines.empty()", "false", "a store does not name the machines that searched")
 
-bug = in_file("corpus/work.h", "^corpus: (store|merge|work)")
+bug = in_file("corpus/record/work.h", "^corpus: (store|merge|work)")
 bug("machines-of-one-part", "machines.insert(other.machines.begin(), other.machines.end());", "void();",
     "of two parts of a campaign the machines of one are named")
 
-bug = in_file("corpus/store_merge.cpp", "^corpus: (store|merge|work)")
+bug = in_file("corpus/store/store_merge.cpp", "^corpus: (store|merge|work)")
 bug("merge-overwrites", "if (mine <= std::tuple(finding.unit, finding.index, -static_cast<std::int64_t>(finding.done))) return;",
     "", "the other store's findings win")
 bug("merge-any-campaign", "other.identity_ != identity_", "false", "stores of different campaigns are merged",
@@ -732,17 +732,17 @@ bug("merge-unheld", "HoldsIn(db_.get(), unit, shards)", "false", "a unit of a bl
 bug("salvage-unsound", "RequireSoundRow(other.db_.get(), table, row);", "", "damaged rows are saved")
 bug("work-added", "work.Unite(ReadWorkRow(row));", "work.Add(ReadWorkRow(row));", "a merge with itself doubles the time")
 
-bug = in_file("search/backlog.cpp", "^search: backlog")
+bug = in_file("search/units/backlog.cpp", "^search: backlog")
 bug("no-bound", "size >= *most_", "false", "the backlog has no bound")
 bug("grave-waits-not", "IsGrave(finding.kind)", "false", "a grave finding may be left out",
     context="!IsGrave(finding.kind) && !finding.done")
 bug("outdated-back", "admitted->second.unit != entry.finding.unit", "false", "what was replaced meanwhile waits again")
 
-bug = in_file("search/finishing_time.h", "^search: finishing")
+bug = in_file("search/units/finishing_time.h", "^search: finishing")
 bug("for-ever", "std::max(left, kAfterLastUnit - finishing)", "kNoBound", "after the last unit finishing has no end")
 bug("share-without-try", "left >= 0 ? left + one_try : 0", "left", "a finding longer than the share is never finished")
 
-bug = in_file("corpus/problem_file.cpp", "^corpus: (problem|formats)")
+bug = in_file("corpus/record/problem_file.cpp", "^corpus: (problem|formats)")
 bug("entry-twice", 'if (!A.emplace(std::pair(i, j), Number(entry[2])).second) entry.Refuse("each entry once");',
     "A.emplace(std::pair(i, j), Number(entry[2]));", "an entry may stand twice")
 bug("entry-above", 'if (is_new && i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");', "",
@@ -788,7 +788,7 @@ bug("binary-exponent", "below ? e - 1 : e", "e", "numbers are rounded to one bit
 bug("zero-denominator", "if (denominator == 0) return std::nullopt;", "", "a denominator of zero is read")
 bug("empty-fraction", "if (fraction.empty()) return std::nullopt;", "", "1. is a number")
 
-bug = in_file("corpus/statistics.cpp", "^corpus: (record|tally|store|merge)")
+bug = in_file("corpus/record/statistics.cpp", "^corpus: (record|tally|store|merge)")
 bug("misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs are lost in sums",
     context="misjudged += other.misjudged;\n  for (std::size_t i = 0; i < rungs.size(); ++i)")
 bug("stratum-misjudged-not-merged", "misjudged += other.misjudged;", "", "misjudged runs of a stratum are lost in sums",
@@ -798,7 +798,7 @@ bug("zero-steps-not-merged", "AddTo(loops[contacts].by_zero_steps, tally.by_zero
 bug("sketch-never-full", "if (hashes_.size() > kMost) hashes_.pop_back();", "", "a sketch keeps all words")
 bug("words-not-merged", "AddTo(mine.words, tally.words);", "", "mode words are lost in sums")
 
-bug = in_file("corpus/statistics.h", "^corpus: (record|tally)|^search: unit")
+bug = in_file("corpus/record/statistics.h", "^corpus: (record|tally)|^search: unit")
 bug("maxima-add", "mine = std::max(mine, theirs);", "mine += theirs;", "maxima are sums")
 bug("give-ups-counted", "with_give_ups += s.give_ups > 0;", "with_give_ups += s.give_ups;", "give-ups for runs with any")
 
@@ -816,7 +816,7 @@ bug("folder-of-others", "S_ISREG(StatusOf(folder / kList).st_mode)", "true", "a 
 bug("folder-link", "O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC", "O_RDONLY | O_DIRECTORY | O_CLOEXEC",
     "the folder that a link leads to is locked", equivalent="what is no folder itself is refused by its status, too")
 
-bug = in_file("corpus/store_lock.cpp", "^program: links|^corpus: store lock")
+bug = in_file("corpus/store/store_lock.cpp", "^program: links|^corpus: store lock")
 bug("lock-link", "O_RDWR | O_CREAT | O_NOFOLLOW", "O_RDWR | O_CREAT", "a lock is written through a link")
 bug("lock-name", "status.st_nlink <= 1", "true", "a lock is written into a file with another name")
 

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "corpus/counts.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
-#include "corpus/problem_file.h"
+#include "corpus/record/counts.h"
+#include "corpus/record/problem_file.h"
 #include "reports/animation.h"
 #include "reports/html/html.h"
 #include "reports/html/template.h"

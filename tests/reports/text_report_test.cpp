@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "corpus/intervals.h"
-#include "corpus/kinds.h"
 #include "corpus/plain_text.h"
+#include "corpus/record/kinds.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"
 

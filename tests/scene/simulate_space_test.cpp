@@ -9,7 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/simulate.h"
 #include "tests/support.h"
 

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <random>
 
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"
 

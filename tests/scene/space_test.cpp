@@ -11,7 +11,7 @@
 
 #include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/polyhedron.h"
 

@@ -14,7 +14,7 @@
 
 #include "certify/exact/exact.h"
 #include "corpus/rational.h"
-#include "search/unit.h"
+#include "search/units/unit.h"
 #include "tests/methods.h"
 
 namespace stiction {

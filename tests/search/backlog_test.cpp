@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What waits to be finished: fewest contacts first, a bounded number of each kind, grave ones always.
 
-#include "search/backlog.h"
+#include "search/units/backlog.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "corpus/kinds.h"
-#include "search/finishing_time.h"
+#include "corpus/record/kinds.h"
+#include "search/units/finishing_time.h"
 
 namespace stiction {
 namespace {

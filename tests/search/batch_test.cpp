@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems in lanes: what the algorithm makes of them one by one, to the bit, in every instruction set at hand.
 
-#include "search/batch/batch.h"
+#include "search/lanes/batch.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
-#include "search/generators.ipp"
-#include "search/unit.h"
+#include "search/generators/generators.ipp"
+#include "search/units/unit.h"
 #include "solver/problem/errors.h"
 #include "solver/published/published.ipp"
 

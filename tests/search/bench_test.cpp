@@ -15,7 +15,7 @@
 #include "bench/structure.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
-#include "search/generators.ipp"
+#include "search/generators/generators.ipp"
 #include "solver/published/published.ipp"
 #include "tests/methods.h"
 

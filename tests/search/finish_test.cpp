@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finishing: what a finding has in the end, and the alarms that ring only then.
 
-#include "search/finish.h"
+#include "search/units/finish.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,8 +10,8 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
-#include "search/signature.h"
+#include "corpus/record/kinds.h"
+#include "search/units/signature.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of search/choices.h and search/generators.h. What is exact is checked over rationals, with ==.
+// Tests of search/generators/choices.h and search/generators/generators.h. What is exact is checked over
+// rationals, with ==.
 
-#include "search/generators.h"
+#include "search/generators/generators.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
 #include "corpus/rational.h"
-#include "search/exponential.h"
+#include "search/generators/exponential.h"
 
 namespace stiction {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of known signatures is that of the corpus.
 
-#include "search/known_signatures.h"
+#include "search/units/known_signatures.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "certify/exact/exact.h"
-#include "corpus/problem_file.h"
-#include "corpus/read_problem.h"
-#include "search/signature.h"
+#include "corpus/formats/read_problem.h"
+#include "corpus/record/problem_file.h"
+#include "search/units/signature.h"
 
 namespace stiction {
 namespace {
@@ -38,7 +38,7 @@ TEST_CASE("known signatures: the table has every loop of the corpus under paper,
   std::string expected;
   for (const auto& [signature, name] : found)
     expected += fmt::format("    {{\"{}\", \"{}\"}},\n", signature, name);
-  INFO("the table for search/known_signatures.cpp, " << found.size() << " rows:\n" << expected);
+  INFO("the table for search/units/known_signatures.cpp, " << found.size() << " rows:\n" << expected);
   CHECK(table == found);
   REQUIRE(!found.empty());
   CHECK(KnownAs(found.front().first) == found.front().second);

@@ -12,7 +12,7 @@
 #include "search/adversary/record.h"
 #include "search/adversary/trial.h"
 #include "search/campaign.h"
-#include "search/minimize.h"
+#include "search/units/minimize.h"
 #include "tests/scratch.h"
 #include "tests/support.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The minimizer: what it returns is simpler, shows the same, and cannot be made simpler by it.
 
-#include "search/minimize.h"
+#include "search/units/minimize.h"
 
 #include <catch2/catch.hpp>
 
 #include "certify/exact/properties.h"
 #include "certify/exact/published_space.h"
-#include "search/signature.h"
+#include "search/units/signature.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -2,12 +2,12 @@
 // The generator `scenes` against solver/scene: its bodies touch where it says and nowhere else, none overlap,
 // and the scene's own model is the problem. Over rationals, with ==.
 
-#include "search/scenes.h"
+#include "search/generators/scenes.h"
 
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "corpus/scene_file.h"
+#include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/polygon.h"
 #include "tests/support.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The signature of a loop: unchanged where the loop is the same, different where it is not.
 
-#include "search/signature.h"
+#include "search/units/signature.h"
 
 #include <catch2/catch.hpp>
 #include <set>

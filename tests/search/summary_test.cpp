@@ -8,7 +8,7 @@
 #include <string>
 
 #include "corpus/json_text.h"
-#include "corpus/kinds.h"
+#include "corpus/record/kinds.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"
 

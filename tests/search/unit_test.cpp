@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Units: the same problems, counts and findings wherever they are run, and no allocation per problem.
 
-#include "search/unit.h"
+#include "search/units/unit.h"
 
 #include <fmt/format.h>
 
@@ -18,11 +18,11 @@
 #include "certify/claims/certificate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/published_space.h"
-#include "corpus/kinds.h"
-#include "corpus/problem_file.h"
-#include "search/finish.h"
-#include "search/minimize.h"
-#include "search/signature.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
+#include "search/units/finish.h"
+#include "search/units/minimize.h"
+#include "search/units/signature.h"
 
 // ---- Counting allocations --------------------------------------------------------------------
 

@@ -5,7 +5,7 @@
 #ifndef STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
 #define STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
 
-#include "corpus/problem_file.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "corpus/formats/sparse_problem.h"
+#include "corpus/record/sparse_problem.h"
 #include "tests/support.h"
 
 namespace stiction {

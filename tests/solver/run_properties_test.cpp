@@ -5,7 +5,7 @@
 #include <map>
 
 #include "certify/exact/verify_solution.h"
-#include "search/signature.h"
+#include "search/units/signature.h"
 #include "solver/published/published.ipp"
 #include "tests/support.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "certify/exact/exact.h"
-#include "search/choices.h"
+#include "search/generators/choices.h"
 #include "solver/complete/complete.ipp"
 #include "solver/problem/errors.h"
 #include "solver/published/published.ipp"

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/record/campaign_identity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "corpus/json_text.h"
+#include "corpus/plain_text.h"
+
+namespace stiction {
+namespace {
+
+// A definition key by key; of one that is no object the whole.
+std::map<std::string, std::string> PartsOf(const CampaignIdentity& identity) {
+  std::map<std::string, std::string> parts;
+  const Json definition = Json::parse(identity.definition, nullptr, false);
+  if (definition.is_object()) {
+    for (const auto& [key, value] : definition.items()) parts[key] = PlainValue(value);
+  } else {
+    parts["definition"] = identity.definition;
+  }
+  const Json policies = Json::parse(identity.policies, nullptr, false);
+  parts["policies"] = policies.is_array() ? PlainValue(policies) : identity.policies;
+  parts["seed"] = std::to_string(identity.seed);
+  parts["version of the algorithm"] = std::to_string(identity.algorithm);
+  return parts;
+}
+
+// Of a value that is long, its beginning.
+std::string Brief(const std::string& value) {
+  constexpr std::size_t kMost = 40;
+  if (value.empty()) return "none";
+  return value.size() <= kMost ? value : value.substr(0, kMost - 3) + "...";
+}
+
+}  // namespace
+
+std::vector<CampaignDifference> DifferencesOf(const CampaignIdentity& a, const CampaignIdentity& b) {
+  auto of_a = PartsOf(a), of_b = PartsOf(b);
+  std::vector<CampaignDifference> differences;
+  for (const auto& [part, value] : of_a) {
+    if (of_b[part] != value) differences.push_back({part, value, of_b[part]});
+  }
+  for (const auto& [part, value] : of_b) {
+    if (!of_a.contains(part)) differences.push_back({part, "", value});
+  }
+  return differences;
+}
+
+std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<CampaignDifference> differences = DifferencesOf(stored, wanted);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, differences.size()); ++i) {
+    const auto& [part, there, here] = differences[i];
+    text += fmt::format("{}{} {}, not {}", i > 0 ? "; " : "", part, Brief(there), Brief(here));
+  }
+  return differences.size() <= kMost ? text : fmt::format("{}; and {} more", text, differences.size() - kMost);
+}
+
+}  // namespace stiction

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinds of findings, the gravest first. A signature begins with its kind.
+//
+//   safe-cycle               a cycle of a problem that is safe (certify/claims/safe.h), as found or minimized:
+//   there are
+//                            such, with ties (certify/where_loops_begin.md)
+//   disagreement-of-methods  exact methods contradict each other or what is proved (certify/claims/agreement.h)
+//   cycle, stall, ...        an exact outcome other than solved, in space one that intervals prove
+//   undecided                in space: a loop over doubles that intervals neither prove nor deny
+//   wrong-answer             doubles said solved, with an error above the bound of the gate
+//   disagreement             doubles ended in another outcome than exact numbers, of the same problem
+
+#ifndef STICTION_CORPUS_RECORD_KINDS_H_
+#define STICTION_CORPUS_RECORD_KINDS_H_
+
+#include <string>
+#include <string_view>
+
+namespace stiction {
+
+inline constexpr std::string_view kSafeCycle = "safe-cycle";
+inline constexpr std::string_view kDisagreementOfMethods = "disagreement-of-methods";
+
+// 0 for the gravest kind, then 1; the same, 2, for all that are neither of the two above.
+inline constexpr int Gravity(std::string_view kind) {
+  return kind == kSafeCycle ? 0 : kind == kDisagreementOfMethods ? 1 : 2;
+}
+inline constexpr bool IsGrave(std::string_view kind) { return Gravity(kind) < 2; }
+
+// A failure of doubles, and none of the algorithm: wrong-answer, disagreement.
+bool IsOfDoubles(std::string_view kind);
+
+// A loop of the published algorithm: cycle, stall, safe-cycle.
+bool IsLoopKind(std::string_view kind);
+
+// What a signature begins with; the whole of one that begins with no kind.
+std::string KindOf(const std::string& signature);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RECORD_KINDS_H_

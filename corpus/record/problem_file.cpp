@@ -1,0 +1,604 @@
+// SPDX-License-Identifier: Apache-2.0
+// Problem files: the reader, which refuses, and the writer.
+
+#include "corpus/record/problem_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "corpus/exact_number.h"
+#include "corpus/printable.h"
+#include "corpus/record/sparse_problem.h"
+#include "solver/problem/check.h"
+#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+namespace {
+
+using Matrix = ExactProblem::Matrix;
+using Vector = ExactProblem::Vector;
+
+constexpr std::string_view kFormat = "stiction-problem";
+constexpr int kVersion = 1;
+constexpr std::array<std::string_view, 4> kKindNames = {"bilateral", "frictionless", "static", "sliding"};
+
+const std::vector<std::string> kProblemKeys = {"format", "version", "dimension", "contacts", "A", "b"};
+const std::vector<std::string> kFileKeys = {"format", "version", "name",  "dimension", "contacts", "mu",
+                                            "A",      "b",       "scene", "origin",    "expect"};
+
+bool HasSlip(const Contact<Rational>& contact) { return contact.kind == ContactKind::kSliding; }
+
+bool IsUnit(const std::array<Rational, 2>& x) { return Rational(x[0] * x[0] + x[1] * x[1]) == 1; }
+
+// ---- Reading ---------------------------------------------------------------------------------
+
+// A problem as it was read: `entries` in place of problem.A where the file has entries.
+struct ReadResult {
+  ExactProblem problem;
+  std::optional<SparseMatrix> entries;
+};
+
+// Reads a problem value by value. Strict: numbers are strings only, and nothing has a default.
+class ProblemReader {
+ public:
+  explicit ProblemReader(bool strict) : strict_(strict) {}
+
+  // Adds what is wrong with the problem to `faults`; the result holds only where there is nothing.
+  ReadResult Read(const JsonPlace& place, Faults& faults) const;
+
+ private:
+  void ReadHeader(const JsonPlace& place) const;
+  Rational Number(const JsonPlace& place) const;
+  std::vector<Contact<Rational>> Contacts(const JsonPlace& place, int dimension, Faults& faults) const;
+  std::vector<Contact<Rational>> StaticContacts(const JsonPlace& mu, int dimension, int rows,
+                                                Faults& faults) const;
+  Contact<Rational> OneContact(const JsonPlace& place, int dimension, Faults& faults) const;
+  Rational Friction(const JsonPlace& place) const;
+  std::array<Rational, 2> Slip(const JsonPlace& place, int dimension) const;
+  Matrix DenseRows(const JsonPlace& place, int rows) const;
+  SparseMatrix Entries(const JsonPlace& place, int rows) const;
+  Vector Numbers(const JsonPlace& place, int rows) const;
+
+  bool strict_;
+};
+
+constexpr const char* kMatrixExpected = R"(an array of rows, or {"size", "entries"})";
+
+// What another file of ours is for.
+std::string NextStepWith(const Json& format) {
+  if (format == "stiction-certificate") return " (stiction check verifies a certificate)";
+  if (format == "stiction-scene") return " (stiction assemble makes problems of a scene)";
+  if (format == "stiction-campaign") return " (stiction search runs a campaign)";
+  return "";
+}
+
+// A file of another format or version has other keys: it is refused by these alone.
+void ProblemReader::ReadHeader(const JsonPlace& place) const {
+  place.RequireObject();
+  const std::string format = '"' + std::string(kFormat) + '"', version = std::to_string(kVersion);
+  const auto found = place.Optional("format");
+  if (found && found->json() != kFormat) found->Refuse(format + NextStepWith(found->json()));
+  const auto number = place.Optional("version");
+  if (number) number->Integer(kVersion, kVersion, version);
+  if (!strict_) return;
+  place.Required("format", format);
+  place.Required("version", version);
+}
+
+// ---- Sizes, as far as a file tells them ----
+
+// Rows by the length of b, otherwise of a dense A; -1 where neither tells.
+int RowsTold(const JsonPlace& place) {
+  const auto b = place.Optional("b"), A = place.Optional("A");
+  if (b && b->json().is_array()) return static_cast<int>(b->json().size());
+  if (A && A->json().is_array()) return static_cast<int>(A->json().size());
+  return -1;
+}
+
+// How many contacts have friction, and how many have not; by `mu` alone -1 where it does not tell.
+struct ContactCounts {
+  int with_friction = -1, without = 0;
+
+  bool Fit(int rows, int dimension) const {
+    return with_friction < 0 ? rows % dimension == 0 : without + dimension * with_friction == rows;
+  }
+};
+
+ContactCounts CountsTold(const JsonPlace& place) {
+  ContactCounts counts;
+  const auto contacts = place.Optional("contacts"), mu = place.Optional("mu");
+  if (!contacts || !contacts->json().is_array()) {
+    if (mu && mu->json().is_array()) counts.with_friction = static_cast<int>(mu->json().size());
+    return counts;
+  }
+  counts.with_friction = 0;
+  for (const Json& contact : contacts->json()) {
+    const Json kind = contact.is_object() ? contact.value("kind", Json()) : Json();
+    const bool has_none = kind == "bilateral" || kind == "frictionless";
+    ++(has_none ? counts.without : counts.with_friction);
+  }
+  return counts;
+}
+
+// The dimension that the sizes tell. Without friction the problem is the same in both: 2.
+int DimensionTold(const JsonPlace& place) {
+  const JsonPlace nothing = place.Child("dimension", place.json());
+  const int rows = RowsTold(place);
+  const ContactCounts counts = CountsTold(place);
+  const bool has_contacts = place.Optional("contacts") || place.Optional("mu");
+  if (rows < 0 || !has_contacts) return 0;  // what is missing is told
+  const bool plane = counts.Fit(rows, 2), space = counts.Fit(rows, 3);
+  if (counts.with_friction == 0 || rows == 0 || (plane && !space)) return 2;
+  if (space && !plane) return 3;
+  nothing.Refuse("nothing", fmt::format("2 or 3: {} rows fit {}", rows, plane ? "both" : "neither"));
+}
+
+// Contacts, A and b are read as far as they can be, whatever is wrong with the others.
+ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
+  ReadHeader(place);
+  ReadResult result;
+  ExactProblem& problem = result.problem;
+  faults.Try([&] { place.AllowKeys(strict_ ? kProblemKeys : kFileKeys); });
+  problem.dimension = 0;
+  faults.Try([&] {
+    const auto given = place.Optional("dimension");
+    if (!given && !strict_) {
+      problem.dimension = DimensionTold(place);
+      return;
+    }
+    problem.dimension = static_cast<int>(place.Required("dimension", "2 or 3").Integer(2, 3, "2 or 3"));
+  });
+  const auto mu = place.Optional("mu");
+  Faults of_contacts(place.source());
+  of_contacts.Try([&] {
+    const auto contacts = place.Optional("contacts");
+    if (contacts && mu && !strict_)
+      mu->Refuse("mu beside contacts", "one of the two: each contact has its own mu");
+    if (!contacts && mu && !strict_) {
+      problem.contacts = StaticContacts(*mu, problem.dimension, RowsTold(place), of_contacts);
+    } else {
+      const char* expected = strict_ ? "an array of contacts" : "an array of contacts, or mu of static ones";
+      problem.contacts = Contacts(place.Required("contacts", expected), problem.dimension, of_contacts);
+    }
+  });
+  faults.Take(of_contacts);
+  const bool are_counted = of_contacts.empty() && problem.dimension != 0;
+  const int rows = are_counted ? RowCount(problem.contacts, problem.dimension) : RowsTold(place);
+  faults.Try([&] {
+    const JsonPlace A = place.Required("A", kMatrixExpected);
+    if (rows < 0) return;
+    if (A.json().is_object())
+      result.entries = Entries(A, rows);
+    else
+      problem.A = DenseRows(A, rows);
+  });
+  faults.Try([&] {
+    const JsonPlace b = place.Required("b", "an array of numbers");
+    if (rows >= 0) problem.b = Numbers(b, rows);
+  });
+  return result;
+}
+
+Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
+
+std::vector<Contact<Rational>> ProblemReader::Contacts(const JsonPlace& place, int dimension,
+                                                       Faults& faults) const {
+  const std::size_t count = place.Size("an array of contacts");
+  std::vector<Contact<Rational>> contacts;
+  for (std::size_t i = 0; i < count; ++i)
+    faults.Try([&] { contacts.push_back(OneContact(place[i], dimension, faults)); });
+  return contacts;
+}
+
+// Of the short form: one mu for all, or one a contact.
+std::vector<Contact<Rational>> ProblemReader::StaticContacts(const JsonPlace& mu, int dimension, int rows,
+                                                             Faults& faults) const {
+  std::vector<Contact<Rational>> contacts;
+  const auto add = [&](const JsonPlace& place) {
+    contacts.push_back({.kind = ContactKind::kStatic, .mu = Friction(place), .slip = {}});
+  };
+  if (mu.json().is_array()) {
+    for (std::size_t i = 0; i < mu.json().size(); ++i) faults.Try([&] { add(mu[i]); });
+    return contacts;
+  }
+  add(mu);
+  if (rows >= 0 && dimension != 0) contacts.resize((rows + dimension - 1) / dimension, contacts[0]);
+  return contacts;
+}
+
+Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimension, Faults& faults) const {
+  const std::string kinds = fmt::format("one of {}", fmt::join(kKindNames, ", "));
+  const JsonPlace named = place.Required("kind", kinds);
+  const std::string& name = named.Text(kinds);
+  const auto kind = std::find(kKindNames.begin(), kKindNames.end(), name);
+  if (kind == kKindNames.end()) named.Refuse(kinds);
+  faults.Try([&] { place.AllowKeys({"kind", "mu", "slip"}); });
+
+  Contact<Rational> contact;
+  contact.kind = static_cast<ContactKind>(kind - kKindNames.begin());
+  const auto mu = place.Optional("mu"), slip = place.Optional("slip");
+  faults.Try([&] {
+    if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");
+    if (!contact.HasFrictionRows()) return;
+    contact.mu = Friction(place.Required("mu", fmt::format("the mu of a {} contact, a number >= 0", name)));
+  });
+  faults.Try([&] {
+    if (slip && !HasSlip(contact)) slip->Refuse("no slip on a " + name + " contact");
+    if (!HasSlip(contact)) return;
+    const JsonPlace given = place.Required("slip", "the direction of the sliding velocity");
+    if (dimension != 0) contact.slip = Slip(given, dimension);
+  });
+  return contact;
+}
+
+Rational ProblemReader::Friction(const JsonPlace& place) const {
+  const Json& json = place.json();
+  if (json == "inf" || json == "infinity" || json == "Infinity" || json == "+inf")
+    place.Refuse(
+        "a number >= 0: infinite friction is not built. Where the contact neither slips nor parts, write a "
+        "bilateral contact for each of its rows; where it may part, a mu above all |fF| / fN, such as 1e6");
+  Rational mu = Number(place);
+  if (mu < 0) place.Refuse("mu >= 0");
+  return mu;
+}
+
+std::array<Rational, 2> ProblemReader::Slip(const JsonPlace& place, int dimension) const {
+  if (dimension == 2) {
+    constexpr std::string_view kExpected = R"("1" or "-1")";
+    const std::string& sign = place.Text(std::string(kExpected));
+    if (sign != "1" && sign != "-1") place.Refuse(std::string(kExpected));
+    return {Rational(sign == "1" ? 1 : -1), Rational(0)};
+  }
+  const std::string expected = "a unit vector of two numbers [x, y], x^2 + y^2 = 1";
+  if (place.Size(expected) != 2) place.Refuse(expected);
+  std::array<Rational, 2> slip = {Number(place[0]), Number(place[1])};
+  if (!IsUnit(slip)) place.Refuse(expected);
+  return slip;
+}
+
+// Refuses an array that does not have one item per row of the contacts.
+void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
+  const std::string expected = fmt::format("{} {}, one per row of the contacts", rows, items);
+  const std::size_t size = place.Size("an array of " + expected);
+  if (size != static_cast<std::size_t>(rows)) place.Refuse(fmt::format("{} {}", size, items), expected);
+}
+
+// A dense matrix of more rows is refused before it is made.
+void RequireMemory(const JsonPlace& place, int rows) {
+  if (rows <= kMostDenseRows) return;
+  constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
+  place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
+               fmt::format("at most {} rows", kMostDenseRows) +
+                   R"(; stiction solve and survey take more, written as {"size", "entries"})");
+}
+
+Matrix ProblemReader::DenseRows(const JsonPlace& place, int rows) const {
+  RequireMemory(place, rows);
+  if (!place.json().is_array()) place.Refuse(kMatrixExpected);
+  RequireLength(place, rows, "rows");
+  Matrix A(rows, rows);
+  for (int i = 0; i < rows; ++i) A.row(i) = Numbers(place[i], rows).transpose();
+  return A;
+}
+
+SparseMatrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
+  place.AllowKeys({"size", "entries"});
+  const std::string size = fmt::format("{}, the rows of the contacts", rows);
+  place.Required("size", size).Integer(rows, rows, size);
+  const JsonPlace entries = place.Required("entries", "an array of entries [i, j, value]");
+  const std::size_t count = entries.Size("an array of entries [i, j, value]");
+  const std::string index = fmt::format("a row number >= 0 and < {}", rows);
+
+  SparseMatrix A;
+  std::vector<std::array<int, 2>> listed;
+  for (std::size_t k = 0; k < count; ++k) {
+    const JsonPlace entry = entries[k];
+    if (entry.Size("an entry [i, j, value]") != 3) entry.Refuse("an entry [i, j, value]");
+    const int i = static_cast<int>(entry[0].Integer(0, rows - 1, index));
+    const int j = static_cast<int>(entry[1].Integer(0, rows - 1, index));
+    if (!A.emplace(std::pair(i, j), Number(entry[2])).second) entry.Refuse("each entry once");
+    listed.push_back({i, j});
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [i, j] = listed[k];
+    const bool is_new = A.emplace(std::pair(j, i), A.at({i, j})).second;
+    if (is_new && i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");
+  }
+  std::erase_if(A, [](const auto& entry) { return entry.second == 0; });
+  return A;
+}
+
+Vector ProblemReader::Numbers(const JsonPlace& place, int rows) const {
+  RequireLength(place, rows, "numbers");
+  Vector values(rows);
+  for (int i = 0; i < rows; ++i) values(i) = Number(place[i]);
+  return values;
+}
+
+// A of entries becomes dense.
+ExactProblem Dense(ReadResult read, const JsonPlace& place) {
+  if (!read.entries) return std::move(read.problem);
+  const int rows = read.problem.rows();
+  RequireMemory(place.Child("A", place.json()), rows);
+  read.problem.A = Matrix::Constant(rows, rows, Rational(0));
+  for (auto& [at, value] : *read.entries) read.problem.A(at.first, at.second) = std::move(value);
+  return std::move(read.problem);
+}
+
+// One spelling per policy, so that two spellings of one are noticed.
+std::string CanonicalPolicy(const std::string& text, const JsonPlace& place) {
+  if (text == "*") return text;
+  try {
+    return PolicyName(ParsePolicy(text));
+  } catch (const std::invalid_argument& error) {
+    place.Refuse(Shown(text), fmt::format(R"(a policy or "*" ({}))", Shortened(error.what(), 300)));
+  }
+}
+
+std::map<std::string, std::string> ReadExpect(const JsonPlace& place) {
+  place.RequireObject();
+  const std::string outcomes = fmt::format("one of {}", fmt::join(kOutcomeNames, ", "));
+  std::map<std::string, std::string> expect;
+  std::map<std::string, std::string> spelling;  // canonical policy -> as written
+  for (const auto& member : place.json().items()) {
+    const JsonPlace outcome = place.Child(member.key(), member.value());
+    const std::string& name = outcome.Text(outcomes);
+    if (std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name) == kOutcomeNames.end())
+      outcome.Refuse(outcomes);
+    const auto [before, is_new] = spelling.emplace(CanonicalPolicy(member.key(), outcome), member.key());
+    if (!is_new)
+      outcome.Refuse("a duplicate key", "each policy once (it is " + Shown(before->second) + " too)");
+    expect[member.key()] = name;
+  }
+  return expect;
+}
+
+// ---- Writing ---------------------------------------------------------------------------------
+
+void CheckContact(const Contact<Rational>& contact, int dimension) {
+  STICTION_CHECK(contact.mu >= 0, "mu = " + ToString(contact.mu) + ", expected >= 0");
+  STICTION_CHECK(contact.HasFrictionRows() || contact.mu == 0, "mu on a contact without friction");
+  const auto& slip = contact.slip;
+  if (HasSlip(contact)) {
+    STICTION_CHECK(IsUnit(slip) && (dimension == 3 || slip[1] == 0),
+                   "the slip of a sliding contact is no unit vector");
+  } else {
+    STICTION_CHECK(slip[0] == 0 && slip[1] == 0, "slip on a contact that is not sliding");
+  }
+}
+
+// What the reader would refuse is not written.
+void CheckProblem(const ExactProblem& problem) {
+  STICTION_CHECK(problem.dimension == 2 || problem.dimension == 3, "the dimension is neither 2 nor 3");
+  for (const Contact<Rational>& contact : problem.contacts) CheckContact(contact, problem.dimension);
+  const int rows = RowCount(problem.contacts, problem.dimension);
+  STICTION_CHECK(problem.rows() == rows, "b does not have one row per row of the contacts");
+}
+
+Json ContactToJson(const Contact<Rational>& contact, int dimension) {
+  Json json = {{"kind", Name(contact.kind)}};
+  if (contact.HasFrictionRows()) json["mu"] = ToString(contact.mu);
+  if (!HasSlip(contact)) return json;
+  if (dimension == 2) {
+    json["slip"] = ToString(contact.slip[0]);
+  } else {
+    json["slip"] = Json::array({ToString(contact.slip[0]), ToString(contact.slip[1])});
+  }
+  return json;
+}
+
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (int i = 0; i < numbers.size(); ++i) json.push_back(ToString(numbers(i)));
+  return json;
+}
+
+Json RowsToJson(const Matrix& A) {
+  Json json = Json::array();
+  for (int i = 0; i < A.rows(); ++i) json.push_back(NumbersToJson(A.row(i)));
+  return json;
+}
+
+// Large, symmetric, and mostly zeros.
+bool IsBestSparse(const Matrix& A) {
+  constexpr int kSmall = 64;
+  const auto rows = A.rows();
+  return rows > kSmall && 4 * (A.array() != Rational(0)).count() <= rows * rows && A == A.transpose();
+}
+
+// The entries on and below the diagonal that are not zero, row by row.
+Json EntriesToJson(const Matrix& A) {
+  Json entries = Json::array();
+  for (int i = 0; i < A.rows(); ++i) {
+    for (int j = 0; j <= i; ++j) {
+      if (A(i, j) != 0) entries.push_back(Json::array({i, j, ToString(A(i, j))}));
+    }
+  }
+  return {{"size", A.rows()}, {"entries", std::move(entries)}};
+}
+
+// The same of any sparse matrix. An entry without its mirror stands beside a zero.
+Json EntriesToJson(const SparseMatrix& A, int rows) {
+  Json entries = Json::array();
+  const auto add = [&entries](int i, int j, const Rational& x) {
+    entries.push_back(Json::array({i, j, ToString(x)}));
+  };
+  for (const auto& [at, value] : A) {
+    const auto [i, j] = at;
+    const auto mirror = A.find({j, i});
+    if (mirror == A.end()) add(j, i, 0);
+    if (i >= j || mirror == A.end() || mirror->second != value) add(i, j, value);
+  }
+  return {{"size", rows}, {"entries", std::move(entries)}};
+}
+
+// All but A, which is given; that of the problem is not looked at.
+Json ProblemToJson(const ExactProblem& problem, Json A) {
+  CheckProblem(problem);
+  Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", problem.dimension}};
+  json["contacts"] = Json::array();
+  for (const auto& contact : problem.contacts)
+    json["contacts"].push_back(ContactToJson(contact, problem.dimension));
+  json["A"] = std::move(A);
+  json["b"] = NumbersToJson(problem.b);
+  return json;
+}
+
+// A file whose problem is given.
+Json FileToJson(const ProblemFile& file, const Json& problem) {
+  Json json;
+  for (const auto& member : problem.items()) {
+    if (member.key() == "dimension") json["name"] = file.name;
+    json[member.key()] = member.value();
+  }
+  if (file.scene) json["scene"] = *file.scene;
+  if (file.origin) json["origin"] = *file.origin;
+  if (!file.expect.empty()) json["expect"] = file.expect;
+  return json;
+}
+
+// `{"key": value, "key": value}`, spaced for people.
+std::string ObjectOnOneLine(const Json& object) {
+  std::vector<std::string> members;
+  for (const auto& member : object.items()) {
+    members.push_back(JsonText(member.key()) + ": " + JsonText(member.value()));
+  }
+  return fmt::format("{{{}}}", fmt::join(members, ", "));
+}
+
+std::string LinePerItem(const Json& array) {
+  if (array.empty()) return "[]";
+  std::vector<std::string> lines;
+  for (const Json& item : array) lines.push_back(item.is_object() ? ObjectOnOneLine(item) : JsonText(item));
+  return fmt::format("[\n    {}\n  ]", fmt::join(lines, ",\n    "));
+}
+
+// Several lines, all but the first moved in by one level. Strings hold no line breaks in JSON.
+std::string Indented(const Json& value) {
+  std::string text = JsonText(value, 2);
+  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, "  ");
+  return text;
+}
+
+std::string PrintedValue(const std::string& key, const Json& value) {
+  if (key == "A" && value.is_object())
+    return fmt::format(R"({{"size": {}, "entries": {}}})", value["size"].dump(), LinePerItem(value["entries"]));
+  if (key == "contacts" || key == "A") return LinePerItem(value);
+  if (key == "scene" || key == "origin" || key == "expect") return Indented(value);
+  return JsonText(value);
+}
+
+std::string PrintFile(const Json& json) {
+  std::string text = "{";
+  for (const auto& member : json.items()) {
+    const bool same_line = member.key() == "version" || member.key() == "dimension";
+    text += text == "{" ? "\n  " : same_line ? ", " : ",\n  ";
+    text += JsonText(member.key()) + ": " + PrintedValue(member.key(), member.value());
+  }
+  return text + "\n}\n";
+}
+
+// The exact value of a JSON number or string; empty where it has none.
+std::optional<Rational> ExactValue(const Json& json) {
+  if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
+  if (json.is_number_integer()) {
+    const Rational x = *ParseRational(json.dump());
+    return IsExactDouble(x) ? std::optional(x) : std::nullopt;
+  }
+  if (json.is_number_float() && std::isfinite(json.get<double>())) return Rational(json.get<double>());
+  return std::nullopt;
+}
+
+}  // namespace
+
+Rational ExactNumber(const JsonPlace& place, bool strict) {
+  const Json& json = place.json();
+  std::optional<Rational> x;
+  if (strict && json.is_string() && json.get_ref<const std::string&>().size() > kMostCharactersOfNumber) {
+    place.Refuse(fmt::format("a number of at most {} characters", kMostCharactersOfNumber));
+  }
+  if (!strict || json.is_string()) x = ExactValue(json);
+  if (x.has_value()) return *std::move(x);
+  if (!strict && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");
+  place.Refuse(std::string(strict ? "an exact number as a string" : "a number") +
+               R"(, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))");
+}
+
+std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
+                                                      int most_dense_rows) {
+  const Json json = ParseJson(text, source);
+  const JsonPlace place(json, source, "");
+  Faults faults(source);
+  ReadResult read = ProblemReader(false).Read(place, faults);
+  ProblemFile file;
+  file.name = Printable(std::filesystem::path(source).stem().string());
+  faults.Try([&] {
+    if (const auto name = place.Optional("name")) file.name = name->Text("a string");
+  });
+  if (const auto scene = place.Optional("scene")) file.scene = scene->json();
+  faults.Try([&] {
+    const auto origin = place.Optional("origin");
+    if (!origin) return;
+    origin->RequireObject();
+    file.origin = origin->json();
+  });
+  faults.Try([&] {
+    if (const auto expect = place.Optional("expect")) file.expect = ReadExpect(*expect);
+  });
+  faults.Throw();
+  ExactProblem& problem = read.problem;
+  if (read.entries && problem.rows() > most_dense_rows)
+    return SparseProblem{file.name,
+                         problem.dimension,
+                         std::move(problem.contacts),
+                         *std::move(read.entries),
+                         std::move(problem.b),
+                         file.origin.value_or(Json::object())};
+  file.problem = Dense(std::move(read), place);
+  return file;
+}
+
+ProblemFile ParseProblem(std::string_view text, const std::string& source) {
+  return std::get<ProblemFile>(ParseAnySize(text, source, INT_MAX));
+}
+
+ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path,
+                             bool strict) {
+  const JsonPlace place(json, source, path);
+  Faults faults(source);
+  ReadResult read = ProblemReader(strict).Read(place, faults);
+  faults.Throw();
+  return Dense(std::move(read), place);
+}
+
+Json ProblemToJson(const ExactProblem& problem) {
+  const int rows = problem.rows();
+  STICTION_CHECK(problem.A.rows() == rows && problem.A.cols() == rows, "A does not fit the contacts");
+  return ProblemToJson(problem, IsBestSparse(problem.A) ? EntriesToJson(problem.A) : RowsToJson(problem.A));
+}
+
+std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
+
+Json ToJson(const ProblemFile& file) { return FileToJson(file, ProblemToJson(file.problem)); }
+
+std::string Print(const ProblemFile& file) { return PrintFile(ToJson(file)); }
+
+std::string Print(const SparseProblem& problem) {
+  ProblemFile file;
+  file.name = problem.name;
+  if (!problem.origin.empty()) file.origin = problem.origin;
+  const ExactProblem all_but_A = {problem.dimension, problem.contacts, {}, problem.b};
+  return PrintFile(FileToJson(file, ProblemToJson(all_but_A, EntriesToJson(problem.A, problem.rows()))));
+}
+
+}  // namespace stiction

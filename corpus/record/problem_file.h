@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Problem files: `stiction-problem`, version 1, read and written exactly.
+//
+// Numbers: a string is exact ("-3/4", "2.5e-3"), a JSON number is taken at its IEEE double value; an
+// integer literal that is no exact double is refused. Nothing is guessed or repaired: a wrong file is an
+// InputError with file and, of every key that is missing or wrong, JSON path, what was found and what was
+// expected. formats/problems.md has what may be left out, and the short form.
+//
+// A may be {"size": n, "entries": [[i, j, "v"], ...]}, zero-based, each entry once; what is not listed is
+// zero. An entry (i, j) below the diagonal stands for (j, i) too, unless (j, i) is listed as well: then each
+// stands for itself. An entry above the diagonal without the one below is refused, since it could mean
+// either a symmetric matrix or not. So a symmetric A is its lower triangle, and whatever is not symmetric
+// is visible as a pair of entries.
+
+#ifndef STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
+#define STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "corpus/input_error.h"
+#include "corpus/json_text.h"
+#include "corpus/rational.h"
+#include "solver/problem/problem.h"
+
+namespace stiction {
+
+using ExactProblem = ContactProblem<Rational>;
+
+// "bilateral", "frictionless", "static", "sliding".
+std::string_view Name(ContactKind kind);
+
+struct ProblemFile {
+  std::string name;
+  ExactProblem problem;
+  std::optional<Json> scene;                  // any value, kept as it is
+  std::optional<Json> origin;                 // generator, seed, parent, what was rounded or symmetrized
+  std::map<std::string, std::string> expect;  // policy as written, or "*" for the grid -> outcome
+};
+
+// `source` names the text in errors. No policy may stand twice in `expect`, however it is written.
+// Without a name it has that of the source, without its ending.
+ProblemFile ParseProblem(std::string_view text, const std::string& source);
+
+// Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
+// InternalError. Every number of the problem is an exact string. A is in rows, or, where it is symmetric with
+// more than 64 rows and at most a quarter of its entries are not zero, in entries.
+//
+// The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
+Json ProblemToJson(const ExactProblem& problem);
+// Everything.
+Json ToJson(const ProblemFile& file);
+// Everything as text. One contact and one row of A a line, so that a person can read it.
+std::string Print(const ProblemFile& file);
+
+// The problem at key path `path` of a document that ParseJson read (certificates). `strict` allows exactly
+// the keys that ProblemToJson writes, and strings for numbers; otherwise the keys of a file may stand beside.
+ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path, bool strict);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RECORD_PROBLEM_FILE_H_

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SparseProblem: a problem as other programs publish it, large and mostly zeros, over exact numbers.
+//
+// The published numbers are IEEE doubles, and a double is a rational number: nothing is rounded on reading.
+
+#ifndef STICTION_CORPUS_RECORD_SPARSE_PROBLEM_H_
+#define STICTION_CORPUS_RECORD_SPARSE_PROBLEM_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "corpus/record/problem_file.h"
+#include "solver/problem/sparse_problem.h"
+
+namespace stiction {
+
+// By (row, column), zero-based; what is not there is zero.
+using SparseMatrix = std::map<std::pair<int, int>, Rational>;
+
+struct SparseProblem {
+  std::string name;
+  int dimension = 2;
+  std::vector<Contact<Rational>> contacts;
+  SparseMatrix A;  // no entry is zero
+  ExactProblem::Vector b;
+  Json origin = Json::object();  // format, storage, what was computed or changed on reading
+
+  int rows() const { return static_cast<int>(b.size()); }
+};
+
+// Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
+inline constexpr int kMostDenseRows = 4000;
+
+// A problem file; sparse if A is in entries, of more than `most_dense_rows` rows.
+std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
+                                                      int most_dense_rows = kMostDenseRows);
+
+// The text of a problem file, A in entries.
+std::string Print(const SparseProblem& problem);
+
+SparseProblem ToSparse(const ProblemFile& file);
+// InputError, naming `source`, above kMostDenseRows.
+ProblemFile ToDense(const SparseProblem& problem, const std::string& source);
+
+// The same numbers, or the nearest doubles.
+SparseContactProblem<Rational> OverRationals(const SparseProblem& problem);
+SparseContactProblem<double> InDoubles(const SparseProblem& problem);
+
+// The largest abs(A_ij - A_ji), i < j, and where it is first found; zero at (0, 0) if A is symmetric.
+struct Asymmetry {
+  Rational difference = 0;
+  int i = 0, j = 0;
+};
+Asymmetry LargestAsymmetry(const SparseProblem& problem);
+
+// A becomes (A + A')/2, exactly; `origin` says what the largest difference was. A symmetric A stays as it is.
+void Symmetrize(SparseProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RECORD_SPARSE_PROBLEM_H_

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lanes of AVX-512 (DQ, VL).
+
+#include "search/lanes/block.h"
+#include "search/lanes/draw_lanes.ipp"
+#include "search/lanes/run_lanes.ipp"
+
+namespace stiction {
+
+const LaneCode kAvx512Lanes = {
+    [](Block& block, int count, const LaneTolerances& tolerances) { LaneRuns(block, count, tolerances).Run(); },
+    [](Block& block, const LaneDraw& draw) { LaneDraws(block, draw).Draw(); },
+};
+
+}  // namespace stiction

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many problems of two contacts at once: one to a lane of the processor's vectors.
+//
+// A lane does what PublishedAlgorithm<double, 4> does under the policy `paper`, operation by operation in the
+// same order, without contractions: what it ends with is equal to the bit. It does so only on the common path,
+// on which every drive puts its variable into a set, nothing is given up, and the end is a solution. A problem
+// that leaves this path is *left*: the caller runs it by the algorithm itself.
+//
+// Shapes      two static contacts of the plane, rows 0 to 3: fN1, fF1, fN2, fF2.
+// Exactness   lanes do not touch each other: results do not depend on the instruction set, nor on what is
+// beside.
+
+#ifndef STICTION_SEARCH_LANES_BATCH_H_
+#define STICTION_SEARCH_LANES_BATCH_H_
+
+#include <span>
+#include <vector>
+
+#include "search/generators/generators.h"
+#include "search/lanes/block.h"
+#include "search/lanes/instructions.h"
+#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
+
+namespace stiction {
+
+// Whether runs under these options can be batched at all.
+bool IsBatched(const PublishedOptions& options);
+// Whether lanes can draw problems of a generator themselves.
+bool IsDrawnInLanes(GeneratorId id);
+
+inline constexpr int kBatchRows = 4;
+
+class Batch {
+ public:
+  using Problem = ContactProblem<double, kBatchRows>;
+
+  // Requires one of InstructionSets() other than kNone, and IsBatched(options).
+  Batch(InstructionSet set, const PublishedOptions& options);
+
+  // Makes `problem` number i of the block, and back: static contacts.
+  void Put(int i, const Problem& problem, const Drawn& drawn);
+  void Get(int i, Problem& problem) const;
+  Drawn DrawnOf(int i) const { return {block_.friction[i], block_.columns[i]}; }
+  // Draws problems first, ..., first + count - 1 of a unit: those of Generate, to the bit. Requires
+  // IsDrawnInLanes(id); a palette that stays as it is.
+  void Draw(GeneratorId id, std::span<const MuChoice> palette, std::uint64_t seed, std::uint64_t unit,
+            std::int64_t first, int count);
+  // Runs the first `count` problems.
+  void Run(int count);
+
+  // What the algorithm says of problem i. Requires !IsLeft(i).
+  Verdict VerdictOf(int i) const;
+  bool IsLeft(int i) const { return block_.ends[i].is_left; }
+  std::span<const double, kBatchRows> Forces(int i) const { return block_.f[i]; }
+  // The largest of MeasureErrors (solver/problem/errors.h), with accelerations computed anew.
+  double Error(int i) const { return block_.error[i]; }
+
+ private:
+  const LaneCode* code_;
+  LaneTolerances tolerances_;
+  std::vector<double> mu_;
+  Block block_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_LANES_BATCH_H_

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the code for one instruction set is given, and gives back: plain numbers. This header has no functions,
+// since a function that is compiled for several instruction sets under one name may end up in the wrong
+// program.
+
+#ifndef STICTION_SEARCH_LANES_BLOCK_H_
+#define STICTION_SEARCH_LANES_BLOCK_H_
+
+#include <cstdint>
+
+namespace stiction {
+
+inline constexpr int kBlockProblems = 256;
+inline constexpr int kMostLanes = 8;
+inline constexpr int kBlockRoom = kBlockProblems + kMostLanes;  // whole vectors are read
+
+// Counters of a run, as in Statistics. Nothing is given up, and every step is a pivot.
+struct LaneEnd {
+  bool is_left;  // nothing else is meant then
+  std::uint8_t drives, steps, zero_steps, longest_zero_run, singular_directions;
+};
+
+// Problems, one to a column, and how they end.
+struct Block {
+  alignas(64) double A[4][4][kBlockRoom];
+  alignas(64) double b[4][kBlockRoom];
+  alignas(64) double mu[2][kBlockRoom];
+  // Of problems that were drawn in lanes: the number in the palette of the friction that both contacts have, or
+  // -1, and the columns of J.
+  std::int32_t friction[kBlockRoom];
+  std::int32_t columns[kBlockRoom];
+  LaneEnd ends[kBlockProblems];
+  double f[kBlockProblems][4];
+  double error[kBlockProblems];  // the largest, with accelerations computed anew
+};
+
+// Of Scale, before they are multiplied by the numbers of a problem.
+struct LaneTolerances {
+  double acceleration, force, pivot;
+};
+
+// Generators whose problems lanes can draw.
+enum class LaneFamily : std::uint8_t { kIntegers, kPsd, kSmall };
+
+struct LaneDraw {
+  LaneFamily family;
+  std::uint64_t unit_seed;  // of the unit: ProblemSeed is Mix(unit_seed + odd (index + 1))
+  std::uint64_t odd;
+  std::int64_t first;
+  int count;
+  const double* mu;  // the palette
+  std::uint64_t palette;
+};
+
+// Functions of one instruction set.
+struct LaneCode {
+  void (*run)(Block& block, int count, const LaneTolerances& tolerances);
+  void (*draw)(Block& block, const LaneDraw& draw);
+};
+
+extern const LaneCode kAvx2Lanes, kAvx512Lanes;
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_LANES_BLOCK_H_
