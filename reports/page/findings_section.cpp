@@ -234,7 +234,7 @@ Html FindingsRows(const std::vector<const Discovery*>& shown, const std::optiona
   table.stays_open = true;
   for (const Discovery* d : shown) {
     table.Add(
-        {TableCell(Tag("code")(d->signature), "signature"), KindBadge(*d, since), ContactsText(*d),
+        {TableCell(Tag("code")(d->signature), "", "signature"), KindBadge(*d, since), ContactsText(*d),
          d->loop ? TableCell(d->loop->drives) : TableCell(), d->loop ? TableCell(d->loop->steps) : TableCell(),
          MetText(*d), RepresentativeText(*d->representative), d->found ? GridText(d->found->grid) : "",
          d->minimized ? GridText(d->minimized->grid) : "", SizeText(*d)},
