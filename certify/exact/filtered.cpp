@@ -261,6 +261,7 @@ ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limit
   if (!answer) return exactly();
   answer->f = remainder.Forces(answer->f);
   answer->a = remainder.Accelerations(answer->f);
+  answer->word = remainder.Word(answer->word);
   answer->method = "complete";
   answer->rung = rung;
   return *std::move(answer);

@@ -12,7 +12,7 @@ namespace {
 constexpr int kFloor = 0, kCeiling = 3, kFirstCut = 4, kSecondCut = 5;
 constexpr int kAttempts = 8;  // then a design without chance, whose interfaces hold eight contacts
 
-bool Less(const Ratio& p, const Ratio& q) {
+bool Less(const SmallFraction& p, const SmallFraction& q) {
   return static_cast<std::int64_t>(p.numerator) * q.denominator <
          static_cast<std::int64_t>(q.numerator) * p.denominator;
 }
@@ -91,7 +91,7 @@ bool Clip(const SceneLine& line, const SceneLine& other, int side, LinePiece& pi
   const int slope = side * (other.ny * line.nx - other.nx * line.ny);
   const int bound = -side * (other.nx * (line.x - other.x) + other.ny * (line.y - other.y));
   if (slope == 0) return bound < 0;
-  const Ratio t = slope > 0 ? Ratio{bound, slope} : Ratio{-bound, -slope};
+  const SmallFraction t = slope > 0 ? SmallFraction{bound, slope} : SmallFraction{-bound, -slope};
   if (slope > 0 && Less(piece.from, t)) piece.from = t;
   if (slope < 0 && Less(t, piece.to)) piece.to = t;
   return Less(piece.from, piece.to);

@@ -49,7 +49,7 @@ inline constexpr SceneGrain kCoarseScenes = {10, 1, 16, 8, 5};
 inline constexpr SceneGrain kFineScenes = {1000, 8, 4096, 256, 1000};
 
 // denominator > 0.
-struct Ratio {
+struct SmallFraction {
   int numerator = 0, denominator = 1;
 };
 
@@ -63,7 +63,7 @@ struct SceneLine {
 
 // A piece of a line, from < to.
 struct LinePiece {
-  Ratio from, to;
+  SmallFraction from, to;
 };
 
 // Places on it divide `piece` into SceneGrain::places parts; strictly between its ends.
@@ -78,9 +78,9 @@ struct SceneInterface {
 
 struct SceneCell {
   std::array<int, kSceneLines> side{};  // 1 above, -1 below the line, 0 where it does not matter
-  int fill = 0;         // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
-  Ratio mass = {1, 1};  // kg
-  std::array<int, 3> load{};  // applied force, N, and moment, N m
+  int fill = 0;  // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
+  SmallFraction mass = {1, 1};  // kg
+  std::array<int, 3> load{};    // applied force, N, and moment, N m
 };
 
 struct SceneDesign {

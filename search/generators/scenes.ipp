@@ -12,7 +12,7 @@
 namespace stiction {
 
 template <class Scalar>
-Scalar Value(const Ratio& ratio) {
+Scalar Value(const SmallFraction& ratio) {
   return Scalar(ratio.numerator) / Scalar(ratio.denominator);
 }
 

@@ -205,33 +205,5 @@ class Solve(cli.TestCase):
         self.assertTrue(all(math.isclose(x, y, abs_tol=1e-15) for x, y in zip(direction, [0, 1, -12 / 5, -16 / 5])), ray)
 
 
-class Bench(cli.TestCase):
-    def test_every_run_is_counted_once_and_none_is_wrong(self):
-        arguments = ["bench", "--suite", "space", "--contacts", "2", "3", "--problems", "100", "--json"]
-        done = self.succeeds(*arguments)
-        tables = done.json()
-        self.assertEqual([(row["family"], row["contacts"], row["policy"]) for row in tables["sizes"]],
-                         [(family, contacts, policy) for family, contacts in
-                          [("definite", 2), ("definite", 3), ("one body", 3)]
-                          for policy in ["paper", "slip=redirect", "slip=polygon"]])
-        for row in tables["sizes"] + tables["friction"]:
-            ends = ["solved", "recurs", "approaches", "refuted", "ray", "limit", "singular", "undecided"]
-            self.assertEqual(sum(row[end] for end in ends), row["problems"])
-            self.assertEqual((row["wrong"], row["differ"]), (0, 0))
-            self.assertLessEqual(row["proved solved"], row["solved"])
-            self.assertLessEqual(row["proved loop"], row["recurs"] + row["approaches"])
-            self.assertEqual(row["breaks (21)" if row["policy"] != "paper" else "redirects"], 0)
-            if row["policy"] == "slip=polygon":
-                self.assertEqual((row["solved"], row["proved solved"]), (row["problems"], row["problems"]))
-                self.assertLess(row["refined"], row["on an edge"])
-            else:
-                self.assertEqual(row["on an edge"], 0)
-        for key in ["problems", "solved", "ray", "unsure"]:
-            self.assertEqual(sum(row[key] for row in tables["sizes"]), sum(row[key] for row in tables["friction"]))
-        self.assertEqual(self.succeeds(*arguments).out, done.out)
-        self.assertIn("readings of section 5.6", self.succeeds("bench", "--suite", "space", "--contacts", "1",
-                                                               "--problems", "5").out)
-
-
 if __name__ == "__main__":
     cli.main()

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "certify/exact/exact.h"
@@ -88,10 +89,15 @@ TraceText CountedRuns(const Record& record) {
 
 // Forces and steps of one problem over rationals, by complete driving and by Lemke's method.
 std::string ExactPaths(const ExactProblem& problem) {
-  const ExactAnswer complete = RunComplete(problem, Limits{}), lemke = RunLemke(problem, Limits{});
+  ExactAnswer complete = RunComplete(problem, Limits{});
+  const ExactAnswer lemke = RunLemke(problem, Limits{});
   std::string text =
       fmt::format("{} {}\n", ValueOf(complete.counters, "pieces"), ValueOf(lemke.counters, "pivots"));
-  for (const auto* f : {&complete.f, &lemke.f}) {
+  // Where complete driving does not solve it, forces are those of what sliding contacts leave.
+  const Reduction<Rational> reduction(problem);
+  if (!complete.Solved() && reduction.end() == ReductionEnd::kReduced)
+    complete.f = RunComplete(reduction.problem(), Limits{}).f;
+  for (const ExactProblem::Vector* f : {&std::as_const(complete.f), &lemke.f}) {
     for (const Rational& force : *f) text += force.get_str() + " ";
   }
   return text;
