@@ -12,6 +12,8 @@ Answer<double> SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt)
   answer.counters = {{"iterations", statistics.iterations}};
   if (point) {
     answer.f = Eigen::VectorXd::Map(point->data(), problem.rows());
+    answer.reason =
+        "the errors of Ipopt's point are above the bound";  // unless the gate finds that they are not
   } else {
     answer.reason = "no answer from Ipopt";
   }

@@ -126,6 +126,7 @@ TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure conc
   CHECK(solved >= 18);
   const Answer<double> open = SolveQpByIpopt(MakeProblem({-1, -1}, {{1, -1}, {-1, 1}}, {-1, 0}), ipopt);
   CHECK(open.outcome == Outcome::kUndecided);
+  CHECK(!open.reason.empty());
   CHECK_THROWS_WITH(SolveQpByIpopt(ReferenceProblem(), ipopt), Catch::Contains("contacts[0].kind"));
 }
 
