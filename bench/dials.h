@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "search/generators/generators.h"
 
 namespace stiction {

@@ -48,6 +48,8 @@
 #include "certify/exact/solve.h"
 #include "corpus/exit_code.h"
 #include "corpus/intervals.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

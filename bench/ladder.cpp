@@ -30,6 +30,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
+#include "corpus/json.h"
 #include "corpus/stopwatch.h"
 #include "solver/problem/gate.h"
 

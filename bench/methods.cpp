@@ -27,10 +27,12 @@
 #include "certify/exact/linear_system.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/exit_code.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/stopwatch.h"
+#include "solver/lemke/lemke.h"
 #include "solver/numeric/fast.h"
 #include "solver/problem/gate.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 namespace {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/stopwatch.h"
 
 namespace stiction {

@@ -4,6 +4,8 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
+#include "solver/problem/errors.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {

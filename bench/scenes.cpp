@@ -18,6 +18,7 @@
 #include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/stopwatch.h"
 #include "scene/simulate.h"

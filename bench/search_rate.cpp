@@ -22,7 +22,7 @@
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/work.h"
 #include "corpus/stopwatch.h"
 #include "search/generators/generators.ipp"

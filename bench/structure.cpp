@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "scene/contacts.h"
 #include "scene/simulate.h"

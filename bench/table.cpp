@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "corpus/json.h"
+
 namespace stiction {
 namespace {
 

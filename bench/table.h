@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

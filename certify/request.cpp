@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "certify/claims/claims.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -18,7 +18,7 @@
 #include "cli/narration/narrate_text.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/scene_file.h"
 

@@ -9,6 +9,7 @@
 
 #include "cli/shared.h"
 #include "cli/verbs.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -11,6 +11,7 @@
 #include "cli/verbs.h"
 #include "cli/words.h"
 #include "corpus/exit_code.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -8,7 +8,7 @@
 #include "certify/exact/solve.h"
 #include "cli/verbs.h"
 #include "corpus/exit_code.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {

@@ -14,7 +14,7 @@
 #include "cli/help.h"
 #include "cli/shared.h"
 #include "cli/verbs.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/units/finish.h"
 #include "search/units/signature.h"

@@ -19,7 +19,7 @@
 
 #include "corpus/descriptor.h"
 #include "corpus/grouped.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "search/units/known_signatures.h"
 

@@ -14,7 +14,7 @@
 #include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "search/adversary/record.h"
 #include "search/campaign.h"
 #include "search/summary.h"

@@ -22,7 +22,7 @@
 #include "cli/verbs.h"
 #include "cli/version.h"
 #include "cli/words.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
 #include "corpus/rounded.h"

@@ -2,6 +2,7 @@
 #include "cli/replay_file.h"
 
 #include "corpus/formats/read_problem.h"
+#include "corpus/json.h"
 #include "reports/pictures/problem_picture.h"
 #include "reports/pictures/rounded_scene.h"
 

@@ -18,7 +18,7 @@
 #include "cli/store_progress.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "reports/comparison/comparison.h"
 #include "reports/papers/package.h"
 #include "reports/text/text_report.h"

@@ -16,6 +16,7 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/grouped.h"
+#include "corpus/json.h"
 #include "corpus/output_error.h"
 #include "corpus/record/scene_file.h"
 #include "reports/animation.h"

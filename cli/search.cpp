@@ -21,7 +21,7 @@
 #include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"
@@ -32,6 +32,7 @@
 #include "search/summary.h"
 #include "search/testimony.h"
 #include "search/units/known_signatures.h"
+#include "search/units/regenerate.h"
 #include "search/units/unit.h"
 
 namespace stiction {
@@ -338,7 +339,7 @@ ProblemFile StoredFile(const ProblemVerb& o) {
     throw InputError(
         fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, unit, problems - 1));
   }
-  return RegenerateFile(campaign, unit, *o.index);
+  return FileOf(campaign, unit, *o.index, Regenerate(campaign, unit, *o.index).problem);
 }
 
 int RunProblem(const ProblemVerb& o) {

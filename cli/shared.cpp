@@ -15,6 +15,7 @@
 #include "certify/exact/properties.h"
 #include "certify/request.h"
 #include "cli/help.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -18,6 +18,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/formats/read_problem.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/progress_bar.h"
 #include "corpus/record/problem_file.h"

@@ -17,7 +17,7 @@
 #include "cli/shared.h"
 #include "cli/verbs.h"
 #include "corpus/atomic_file.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "search/campaign.h"
 
 namespace stiction {

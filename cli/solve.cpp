@@ -21,7 +21,7 @@
 #include "cli/stop_after.h"
 #include "cli/verbs.h"
 #include "corpus/input_error.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/rounded.h"
 
 namespace stiction {

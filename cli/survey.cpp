@@ -25,7 +25,7 @@
 #include "cli/survey_text.h"
 #include "cli/verbs.h"
 #include "corpus/formats/formats.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/stopwatch.h"
 #include "solver/problem/check.h"
 #include "solver/problem/errors.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/shared.h"
+#include "corpus/json.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

@@ -12,7 +12,7 @@
 #include "cli/help.h"
 #include "cli/verbs.h"
 #include "corpus/exit_code.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // JSON text: a document builder on nlohmann's SAX parser, and places in documents.
 
-#include "corpus/json_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "corpus/input_file.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 template class nlohmann::basic_json<nlohmann::ordered_map>;

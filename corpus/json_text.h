@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text, read strictly and without loss, and places in it.
+// JSON text, read strictly and without loss, and places in it. json.h has the values themselves.
 //
 // What nlohmann lets pass is refused here: duplicate keys, integers that would silently be rounded to a
 // double, a NUL byte (which would end the text), and nesting deep enough to overflow the stack.
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,9 +19,6 @@
 
 #include "corpus/input_error.h"
 #include "corpus/rational.h"
-
-// Instantiated once, in json_text.cpp.
-extern template class nlohmann::basic_json<nlohmann::ordered_map>;
 
 namespace stiction {
 
@@ -37,23 +34,6 @@ Json ParseJson(std::string_view text, const std::string& source);
 
 // The bytes of a file; InputError if it cannot be read.
 std::string ReadText(const std::filesystem::path& file);
-
-// A number that is not finite becomes text.
-Json NumberToJson(double x);
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
-  return json;
-}
-inline Json InJson(const Rational& x) { return ToString(x); }
-inline Json InJson(double x) { return NumberToJson(x); }
-template <class Numbers>
-Json ListJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(InJson(x));
-  return json;
-}
 
 // The text of `value`, on one line if `indent` is negative. A value that no JSON text stands for (infinity,
 // NaN, text that is not UTF-8) is an InternalError: nlohmann would write `null` for the first two.

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

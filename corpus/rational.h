@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "solver/problem/scalar.h"
+
 #ifdef STICTION_BOOST_RATIONALS
 #include "corpus/rational_boost.h"
 #else

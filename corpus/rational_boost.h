@@ -10,8 +10,6 @@
 #include <cstdint>
 #include <string>
 
-#include "solver/problem/scalar.h"
-
 // Boost 1.74 asks of whatever a number might be made of whether it is a container of bytes, and in doing so
 // what the iterator of a matrix points to, which has none.
 template <class T>

@@ -9,8 +9,6 @@
 #include <cstdint>
 #include <string>
 
-#include "solver/problem/scalar.h"
-
 namespace stiction {
 
 // Always in lowest terms. It is CGAL::Exact_rational too (asserted in certify).

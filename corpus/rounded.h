@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "corpus/exact_problem.h"
 #include "corpus/input_error.h"
-#include "corpus/record/problem_file.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

@@ -26,6 +26,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/intervals.h"
+#include "corpus/json.h"
 #include "corpus/output_error.h"
 #include "corpus/record/digest.h"
 #include "corpus/stopwatch.h"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "cli/version.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/machine.h"
 #include "python/signals.h"
 #include "reports/tables/campaign_tables.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "reports/animation_template.h"
 #include "reports/html/template.h"
 #include "reports/pictures/draw_bodies.h"

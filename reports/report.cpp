@@ -10,7 +10,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "reports/page/figures.h"
 #include "reports/page/measured_page.h"
 #include "reports/page/page.h"

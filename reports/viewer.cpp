@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "corpus/json.h"
 #include "reports/html/template.h"
 #include "reports/viewer_template.h"
 

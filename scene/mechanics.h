@@ -17,7 +17,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/problem/sparse_problem.h"
+#include "solver/problem/problem.h"
 
 namespace stiction {
 

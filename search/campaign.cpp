@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "search/adversary/optimizer.h"
 #include "search/algorithm_version.h"
 #include "solver/published/published_space.h"

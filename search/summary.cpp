@@ -5,9 +5,10 @@
 
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/program_name.h"
 #include "corpus/record/counts.h"
+#include "corpus/record/problem_file.h"
 #include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
 

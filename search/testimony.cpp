@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/rational.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
 #include "search/adversary/optimized_unit.h"
 #include "solver/problem/solution.h"
 

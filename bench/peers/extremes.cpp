@@ -26,7 +26,7 @@
 #include "bench/rungs.h"
 #include "certify/exact/solve.h"
 #include "corpus/atomic_file.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"

@@ -14,6 +14,7 @@
 #include "bench/one_thread.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
+#include "corpus/json.h"
 #include "search/generators/choices.h"
 #include "solver/complete/complete.h"
 #include "solver/numeric/fast.h"

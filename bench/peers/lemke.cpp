@@ -17,6 +17,7 @@
 #include "bench/progress.h"
 #include "bench/table.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/stopwatch.h"
 #include "search/lanes/batch.h"
 #include "search/units/unit.h"

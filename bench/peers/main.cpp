@@ -20,6 +20,7 @@
 #include "bench/progress.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
+#include "corpus/json.h"
 #include "solver/problem/gate.h"
 
 namespace stiction {

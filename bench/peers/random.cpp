@@ -9,6 +9,7 @@
 
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
+#include "corpus/json.h"
 #include "search/generators/choices.h"
 #include "solver/problem/check.h"
 

@@ -9,6 +9,7 @@
 #include "bench/peers/families.h"
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

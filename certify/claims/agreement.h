@@ -28,6 +28,7 @@
 
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
+#include "corpus/json_text.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {

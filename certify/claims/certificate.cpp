@@ -12,7 +12,9 @@
 #include "certify/claims/claims.h"
 #include "certify/claims/witness.h"
 #include "corpus/exact_number.h"
+#include "corpus/json.h"
 #include "corpus/record/digest.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
+#include "corpus/json.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

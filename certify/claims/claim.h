@@ -13,6 +13,7 @@
 
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
+#include "corpus/json.h"
 #include "solver/problem/law.h"
 #include "solver/problem/options.h"
 

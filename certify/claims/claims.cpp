@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

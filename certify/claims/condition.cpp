@@ -10,6 +10,7 @@
 
 #include "certify/claims/claim.h"
 #include "certify/claims/safe.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "certify/exact/properties.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 

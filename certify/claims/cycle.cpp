@@ -12,6 +12,7 @@
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "certify/exact/enumerate.h"
+#include "corpus/json.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {

@@ -10,6 +10,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

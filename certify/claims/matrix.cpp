@@ -6,6 +6,9 @@
 #include "certify/claims/claim.h"
 #include "certify/exact/bounds.h"
 #include "certify/exact/properties.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 namespace {

@@ -9,6 +9,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "certify/exact/farkas.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "certify/claims/claim.h"
+#include "corpus/json.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 #include "solver/published/published.h"

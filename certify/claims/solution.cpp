@@ -8,6 +8,7 @@
 #include "certify/claims/existence.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

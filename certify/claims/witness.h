@@ -14,8 +14,8 @@
 #include <string>
 
 #include "certify/exact/modes.h"
+#include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
-#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

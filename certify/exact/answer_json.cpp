@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/answer_json.h"
 
+#include "corpus/json.h"
+
 namespace stiction {
 namespace {
 

@@ -5,7 +5,7 @@
 #define STICTION_CERTIFY_EXACT_ANSWER_JSON_H_
 
 #include "certify/exact/solve.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

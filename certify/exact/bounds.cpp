@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "corpus/record/sparse_problem.h"
+
 namespace stiction {
 namespace {
 

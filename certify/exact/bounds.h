@@ -22,9 +22,11 @@
 #include <optional>
 
 #include "certify/exact/properties.h"
-#include "corpus/record/sparse_problem.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
+
+struct SparseProblem;  // corpus/record/sparse_problem.h
 
 struct CurvatureBounds {
   double scale = 0;             // largest A_ii

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/linear/elimination.h"
 #include "solver/problem/enclosure.h"
 

@@ -5,6 +5,7 @@
 
 #include "certify/exact/inexact.h"
 #include "certify/exact/quad.h"
+#include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/problem/row_scale.h"
 

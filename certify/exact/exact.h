@@ -14,18 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
-#include "solver/complete/complete.h"
-#include "solver/lemke/lemke.h"
-#include "solver/problem/reduction.h"
-#include "solver/published/published.h"
+#include "corpus/exact_problem.h"
+#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
-
-extern template class Reduction<Rational>;
-extern template class PublishedAlgorithm<Rational>;
-extern template class CompleteDriving<Rational>;
-extern template class LemkeAlgorithm<Rational>;
 
 // What recurs in a loop, and where a run stands when it ends (readings.md, 2 and 3).
 struct ExactState {

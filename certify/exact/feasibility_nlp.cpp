@@ -15,6 +15,7 @@
 #include "certify/exact/ipopt_process.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/qp.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -24,7 +24,7 @@
 
 #include "certify/exact/exact.h"
 #include "certify/exact/solve.h"
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
 

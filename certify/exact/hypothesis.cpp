@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "certify/exact/cones.h"
+#include "corpus/input_error.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

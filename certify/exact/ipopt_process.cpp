@@ -15,7 +15,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

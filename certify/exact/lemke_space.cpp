@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "certify/exact/exact.h"
+#include "solver/lemke/lemke.h"
 #include "solver/problem/remainder.h"
 
 namespace stiction {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

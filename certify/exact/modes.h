@@ -30,6 +30,7 @@
 
 #include "certify/exact/linear_system.h"
 #include "certify/exact/properties.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 

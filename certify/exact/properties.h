@@ -16,7 +16,7 @@
 #include <utility>
 #include <variant>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

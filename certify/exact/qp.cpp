@@ -5,6 +5,7 @@
 
 #include "certify/exact/linear_system.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/input_error.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

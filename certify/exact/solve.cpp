@@ -14,8 +14,10 @@
 #include "certify/exact/rest.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {

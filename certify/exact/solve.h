@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/solve.h"
 
 namespace stiction {

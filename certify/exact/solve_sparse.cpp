@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/solve_sparse.h"
 
+#include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/errors.h"

@@ -9,9 +9,10 @@
 #define STICTION_CERTIFY_EXACT_SOLVE_SPARSE_H_
 
 #include "certify/exact/solve.h"
-#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
+
+struct SparseProblem;  // corpus/record/sparse_problem.h
 
 // Of the options, residual and limits are read.
 InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& options);

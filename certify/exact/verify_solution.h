@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

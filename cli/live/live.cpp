@@ -10,6 +10,7 @@
 #include "certify/exact/inexact.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/replay_page.h"
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "solver/published/published_space.h"
 

@@ -6,6 +6,7 @@
 #include "certify/exact/answer_json.h"
 #include "certify/exact/exact.h"
 #include "certify/request.h"
+#include "corpus/json.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
+#include "corpus/json_text.h"
 #include "solver/problem/options.h"
 
 namespace stiction {

@@ -6,6 +6,8 @@
 
 #include "cli/narration/narrate_text.h"
 #include "corpus/grouped.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

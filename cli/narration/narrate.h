@@ -8,7 +8,7 @@
 
 #include "certify/exact/solve.h"
 #include "cli/narration/outcome_text.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

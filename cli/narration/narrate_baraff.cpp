@@ -3,6 +3,8 @@
 
 #include "cli/narration/narrate.h"
 #include "cli/narration/narrate_text.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

@@ -7,6 +7,8 @@
 #include "certify/exact/exact.h"
 #include "cli/narration/narrate.h"
 #include "cli/narration/narrate_text.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

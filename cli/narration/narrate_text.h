@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/narration/outcome_text.h"
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/problem/answer.h"
 
 namespace stiction {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/narration/outcome_text.h"
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

@@ -2,6 +2,8 @@
 #include "cli/narration/replay_page.h"
 
 #include "cli/narration/narrate_text.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

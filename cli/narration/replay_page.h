@@ -9,6 +9,7 @@
 
 #include "cli/narration/narrate.h"
 #include "cli/narration/partings.h"
+#include "corpus/json.h"
 
 namespace stiction {
 

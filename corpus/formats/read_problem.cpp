@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corpus/formats/formats.h"
+#include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/store/store.h"
 #include "scene/assemble.h"

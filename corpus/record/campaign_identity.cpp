@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {

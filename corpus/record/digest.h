@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
+#include "corpus/json.h"
 #include "corpus/printable.h"
 #include "corpus/record/sparse_problem.h"
 #include "solver/problem/check.h"

@@ -20,17 +20,10 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/input_error.h"
-#include "corpus/json_text.h"
-#include "corpus/rational.h"
-#include "solver/problem/problem.h"
+#include "corpus/exact_problem.h"
+#include "corpus/json.h"
 
 namespace stiction {
-
-using ExactProblem = ContactProblem<Rational>;
-
-// "bilateral", "frictionless", "static", "sliding".
-std::string_view Name(ContactKind kind);
 
 struct ProblemFile {
   std::string name;

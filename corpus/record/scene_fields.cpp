@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "corpus/json.h"
 #include "scene/polygon.h"
 #include "scene/polyhedron.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "scene/scene.h"
 
 namespace stiction {

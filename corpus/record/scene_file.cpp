@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "corpus/json.h"
 #include "corpus/record/scene_fields.h"
 
 namespace stiction {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "corpus/json.h"
+
 namespace stiction {
 namespace {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "corpus/record/problem_file.h"
-#include "solver/problem/sparse_problem.h"
+#include "solver/problem/problem.h"
 
 namespace stiction {
 

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <vector>
 
+#include "corpus/json.h"
+
 namespace stiction {
 namespace {
 

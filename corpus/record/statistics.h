@@ -14,8 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
-#include "solver/problem/answer.h"
+#include "corpus/exact_problem.h"
+#include "corpus/json_text.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <new>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/output_error.h"
 #include "corpus/record/digest.h"
 #include "solver/problem/check.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"
 

@@ -14,7 +14,7 @@
 #include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "reports/comparison/comparison_page.h"
 #include "reports/report_files.h"

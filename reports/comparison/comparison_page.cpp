@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "reports/comparison_template.h"
 #include "reports/html/template.h"

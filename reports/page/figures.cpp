@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/figures.h"
 
+#include "corpus/json.h"
 #include "reports/page/page.h"
 #include "reports/tables/campaign_tables.h"
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/findings_data.h"
 
+#include "corpus/json.h"
 #include "corpus/rational.h"
 #include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
 #include "reports/page/page.h"
 
 namespace stiction {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "reports/tables/discovery.h"
 
 namespace stiction {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "reports/html/template.h"
 #include "reports/page/page.h"
 #include "reports/report_template.h"

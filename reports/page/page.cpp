@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"
 #include "reports/html/template.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/problem_file.h"
 #include "reports/papers/package/README_txt.h"

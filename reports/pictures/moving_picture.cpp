@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "corpus/json.h"
 #include "reports/html/html.h"
 #include "reports/pictures/draw_bodies.h"
 

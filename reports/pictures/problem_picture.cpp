@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/pictures/problem_picture.h"
 
+#include "corpus/json.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 
 namespace stiction {

@@ -11,6 +11,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/rational.h"
 #include "solver/problem/check.h"

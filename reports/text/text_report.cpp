@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/intervals.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"

@@ -5,6 +5,8 @@
 
 #include <span>
 
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
 #include "search/campaign.h"
 #include "search/generators/scenes.h"

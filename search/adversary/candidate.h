@@ -10,10 +10,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
+#include "corpus/json_text.h"
 #include "search/generators/generators.h"
 
 namespace stiction {
+
+struct ProblemFile;  // corpus/record/problem_file.h
 
 struct Candidate {
   GeneratorId generator = GeneratorId::kScenes;

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "certify/exact/exact.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"
 

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/adversary/objective.h"
 #include "solver/problem/options.h"

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/complete/complete.h"
 #include "solver/published/published.h"
 

@@ -10,7 +10,7 @@
 #ifndef STICTION_SEARCH_GENERATORS_EXPONENTIAL_H_
 #define STICTION_SEARCH_GENERATORS_EXPONENTIAL_H_
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

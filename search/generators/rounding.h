@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "search/generators/choices.h"
 
 namespace stiction {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 

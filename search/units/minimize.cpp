@@ -10,6 +10,7 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
 #include "certify/exact/published_space.h"
+#include "corpus/input_error.h"
 #include "search/generators/choices.h"
 #include "search/generators/rounding.h"
 #include "search/units/signature.h"

@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

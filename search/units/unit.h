@@ -59,10 +59,6 @@ class UnitRunner {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The exact problem with this number, and the same as a file, with its scene where it has one.
-ProblemFile RegenerateFile(const Campaign& campaign, std::int64_t unit, std::int64_t index);
-ExactProblem RegenerateExactly(const Campaign& campaign, std::int64_t unit, std::int64_t index);
-
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_UNITS_UNIT_H_

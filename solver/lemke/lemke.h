@@ -58,7 +58,8 @@
 
 #include "solver/complete/polygon.h"
 #include "solver/problem/enclosure.h"
-#include "solver/published/published.h"
+#include "solver/problem/problem.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 

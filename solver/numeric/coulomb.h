@@ -36,7 +36,7 @@
 
 #include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"
-#include "solver/problem/sparse_problem.h"
+#include "solver/problem/problem.h"
 #include "solver/problem/units.h"
 
 namespace stiction {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/complete/complete.ipp"
 #include "solver/numeric/fast.h"
 #include "solver/problem/errors.h"
 #include "solver/published/published.h"

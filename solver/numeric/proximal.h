@@ -26,7 +26,7 @@
 
 #include "solver/complete/complete.h"
 #include "solver/problem/errors.h"
-#include "solver/problem/sparse_problem.h"
+#include "solver/problem/problem.h"
 
 namespace stiction {
 

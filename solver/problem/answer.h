@@ -11,36 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/problem/errors.h"
 #include "solver/problem/law.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
-
-enum class Arithmetic : std::uint8_t { kFloat, kDouble, kLongDouble, kQuad, kInterval, kFiltered, kExact };
-inline constexpr int kArithmeticCount = 7;
-inline constexpr std::array<std::string_view, kArithmeticCount> kArithmeticNames = {
-    "float", "double", "long-double", "quad", "interval", "filtered", "exact"};
-
-inline constexpr std::string_view Name(Arithmetic arithmetic) {
-  return kArithmeticNames[static_cast<int>(arithmetic)];
-}
-
-// What a filtered run is decided on, in this order: balls around doubles, around double-doubles, rationals.
-enum class Rung : std::uint8_t { kDouble, kDoubleDouble, kExact };
-inline constexpr int kRungCount = 3;
-inline constexpr std::array<std::string_view, kRungCount> kRungNames = {"double", "double-double", "exact"};
-inline constexpr std::string_view Name(Rung rung) { return kRungNames[static_cast<int>(rung)]; }
-
-template <class Scalar>
-inline constexpr Arithmetic kArithmeticOf = Arithmetic::kExact;
-template <>
-inline constexpr Arithmetic kArithmeticOf<float> = Arithmetic::kFloat;
-template <>
-inline constexpr Arithmetic kArithmeticOf<double> = Arithmetic::kDouble;
-template <>
-inline constexpr Arithmetic kArithmeticOf<long double> = Arithmetic::kLongDouble;
 
 // A counter of a method by the name that its table of statistics gives it.
 struct Counter {

@@ -39,21 +39,10 @@
 #include "solver/problem/law.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/scalar.h"
+#include "solver/problem/solution.h"
 #include "solver/problem/units.h"
 
 namespace stiction {
-
-// All but `contact` relative.
-template <class Scalar>
-struct Errors {
-  Scalar acceleration = Scalar(0), force = Scalar(0);  // the largest of any contact
-  Scalar backward = Scalar(0);       // the least eps such that eps abs(A), eps abs(b) takes the first away
-  Scalar amplification = Scalar(1);  // largest size of what acts at a row and may cancel, in units of the row
-  int contact = -1;                  // where the largest of the first two is; none where there is no error
-  bool is_finite = true;             // otherwise the largest is infinite
-
-  const Scalar& Largest() const { return std::max(acceleration, force); }
-};
 
 // What the friction of a contact misses.
 template <class Scalar>

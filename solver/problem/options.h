@@ -157,6 +157,30 @@ void ForEachField(Limits& limits, Visit visit) {
 // planar contacts have less.
 inline constexpr int kUpdateFrom = 16;
 
+enum class Arithmetic : std::uint8_t { kFloat, kDouble, kLongDouble, kQuad, kInterval, kFiltered, kExact };
+inline constexpr int kArithmeticCount = 7;
+inline constexpr std::array<std::string_view, kArithmeticCount> kArithmeticNames = {
+    "float", "double", "long-double", "quad", "interval", "filtered", "exact"};
+
+inline constexpr std::string_view Name(Arithmetic arithmetic) {
+  return kArithmeticNames[static_cast<int>(arithmetic)];
+}
+
+// What a filtered run is decided on, in this order: balls around doubles, around double-doubles, rationals.
+enum class Rung : std::uint8_t { kDouble, kDoubleDouble, kExact };
+inline constexpr int kRungCount = 3;
+inline constexpr std::array<std::string_view, kRungCount> kRungNames = {"double", "double-double", "exact"};
+inline constexpr std::string_view Name(Rung rung) { return kRungNames[static_cast<int>(rung)]; }
+
+template <class Scalar>
+inline constexpr Arithmetic kArithmeticOf = Arithmetic::kExact;
+template <>
+inline constexpr Arithmetic kArithmeticOf<float> = Arithmetic::kFloat;
+template <>
+inline constexpr Arithmetic kArithmeticOf<double> = Arithmetic::kDouble;
+template <>
+inline constexpr Arithmetic kArithmeticOf<long double> = Arithmetic::kLongDouble;
+
 // Why a run that was stopped (Limits::stop) is undecided.
 inline constexpr std::string_view kStopped = "stopped";
 

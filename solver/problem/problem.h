@@ -16,6 +16,7 @@
 #define STICTION_SOLVER_PROBLEM_PROBLEM_H_
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -120,6 +121,20 @@ class RowLayout<Eigen::Dynamic> {
  private:
   std::vector<int> contact_of_;  // by row
   std::vector<int> normal_row_;  // by contact
+};
+
+// The same, of any size, with the nonzero entries of A only.
+template <class Scalar>
+struct SparseContactProblem {
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  int dimension = 2;
+  std::vector<Contact<Scalar>> contacts;
+  Matrix A;
+  Vector b;
+
+  int rows() const { return static_cast<int>(b.size()); }
 };
 
 }  // namespace stiction

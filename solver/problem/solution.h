@@ -5,6 +5,7 @@
 #define STICTION_SOLVER_PROBLEM_SOLUTION_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -31,6 +32,18 @@ inline constexpr std::string_view Name(Outcome outcome) {
 inline constexpr bool IsLoop(Outcome outcome) {
   return outcome == Outcome::kCycle || outcome == Outcome::kStall;
 }
+
+// All but `contact` relative.
+template <class Scalar>
+struct Errors {
+  Scalar acceleration = Scalar(0), force = Scalar(0);  // the largest of any contact
+  Scalar backward = Scalar(0);       // the least eps such that eps abs(A), eps abs(b) takes the first away
+  Scalar amplification = Scalar(1);  // largest size of what acts at a row and may cancel, in units of the row
+  int contact = -1;                  // where the largest of the first two is; none where there is no error
+  bool is_finite = true;             // otherwise the largest is infinite
+
+  const Scalar& Largest() const { return std::max(acceleration, force); }
+};
 
 // Counters of one run; readings.md, 4.
 struct Statistics {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "corpus/json.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 

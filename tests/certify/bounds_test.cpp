@@ -7,6 +7,8 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/hypothesis.h"
+#include "corpus/json.h"
+#include "corpus/record/sparse_problem.h"
 #include "tests/support.h"
 
 namespace stiction {

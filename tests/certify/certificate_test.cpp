@@ -13,7 +13,9 @@
 #include <set>
 
 #include "certify/claims/claims.h"
+#include "corpus/json.h"
 #include "corpus/record/digest.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 

@@ -8,6 +8,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
+#include "corpus/json.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -10,6 +10,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/json.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -11,6 +11,7 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/farkas.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 #include "tests/support.h"
 

@@ -9,6 +9,7 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/formats/read_problem.h"
+#include "corpus/json.h"
 #include "corpus/rational.h"
 #include "corpus/record/problem_file.h"
 #include "tests/methods.h"

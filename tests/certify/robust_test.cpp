@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "certify/claims/robust_scene.h"
+#include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "search/generators/choices.h"
 #include "tests/support.h"

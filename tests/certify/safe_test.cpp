@@ -14,6 +14,8 @@
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/check.h"
 #include "tests/methods.h"
 #include "tests/support.h"

@@ -11,7 +11,9 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/lemke_space.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/json.h"
 #include "solver/complete/polygon_errors.h"
+#include "solver/lemke/lemke.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"
 

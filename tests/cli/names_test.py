@@ -13,7 +13,7 @@ TYPE = re.compile(r"^(?:class|struct|enum class|enum|union) (\w+)(?: final)?(?: 
 class Names(cli.TestCase):
     def test_every_type_of_the_namespace_is_defined_once(self):
         places = collections.defaultdict(set)
-        for folder in ("solver", "corpus", "certify", "search", "reports"):
+        for folder in ("solver", "scene", "corpus", "certify", "search", "reports", "cli", "python", "bench"):
             for suffix in ("h", "ipp", "cpp"):
                 for file in (cli.ROOT / folder).rglob(f"*.{suffix}"):
                     text = re.sub(r"^namespace \{$.*?^\}  // namespace$", "", file.read_text(), flags=re.M | re.S)

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "corpus/formats/siconos.h"
+#include "corpus/record/problem_file.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "corpus/formats/read_problem.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

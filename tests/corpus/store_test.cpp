@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/kinds.h"
 #include "corpus/store/store_rows.h"

@@ -10,6 +10,8 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/properties.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/targets.h"

@@ -6,6 +6,7 @@
 #include "certify/claims/existence.h"
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/extreme.h"

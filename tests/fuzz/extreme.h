@@ -5,7 +5,7 @@
 #ifndef STICTION_TESTS_FUZZ_EXTREME_H_
 #define STICTION_TESTS_FUZZ_EXTREME_H_
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "tests/fuzz/bytes.h"
 
 namespace stiction::fuzz {

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <map>
 
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/same.h"
 #include "tests/fuzz/targets.h"

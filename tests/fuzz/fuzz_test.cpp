@@ -7,6 +7,8 @@
 
 #include "certify/claims/certificate.h"
 #include "corpus/input_file.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "tests/fuzz/claims.h"
 #include "tests/fuzz/extreme.h"
 #include "tests/fuzz/json_mutation.h"

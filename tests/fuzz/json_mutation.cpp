@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "tests/fuzz/targets.h"
 
 namespace stiction::fuzz {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "corpus/exact_number.h"
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/targets.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/adversary/record.h"
 
+#include "corpus/json.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/same.h"
 #include "tests/fuzz/targets.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 #include "corpus/record/sparse_problem.h"
 
 namespace stiction::fuzz {

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "corpus/store/store_rows.h"
 #include "reports/page/figures.h"
 #include "reports/page/page.h"

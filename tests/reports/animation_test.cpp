@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
 

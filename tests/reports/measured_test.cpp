@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "corpus/json.h"
 #include "reports/page/measured_page.h"
 
 namespace stiction {

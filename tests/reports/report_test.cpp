@@ -17,7 +17,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/problem_file.h"
 #include "reports/animation.h"

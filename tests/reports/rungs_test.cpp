@@ -7,6 +7,7 @@
 
 #include "corpus/atomic_file.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "tests/scratch.h"
 
 namespace stiction {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corpus/intervals.h"
+#include "corpus/json.h"
 #include "reports/page/page.h"
 #include "reports/tables/table.h"
 

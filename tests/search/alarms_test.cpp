@@ -18,6 +18,7 @@
 #include "certify/exact/published_space.h"
 #include "certify/exact/space.h"
 #include "corpus/record/kinds.h"
+#include "search/units/regenerate.h"
 #include "search/units/signature.h"
 #include "search/units/unit.h"
 #include "solver/problem/errors.h"
@@ -234,7 +235,7 @@ TEST_CASE("alarms: the residual that a wrong answer is told by is that of its fo
   Campaign campaign = Audited();
   campaign.unit_problems = 1;
   for (std::int64_t unit = 0; unit < 30; ++unit) {
-    const ExactProblem exact = RegenerateExactly(campaign, unit, 0);
+    const ExactProblem exact = Regenerate(campaign, unit, 0).problem;
     const auto problem = As<double>(exact);
     for (const double error : {1e-4, 3e-6, 1e-7}) {
       bool wrong = false;

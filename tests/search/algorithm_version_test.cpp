@@ -15,7 +15,9 @@
 
 #include "certify/exact/exact.h"
 #include "corpus/rational.h"
+#include "search/units/regenerate.h"
 #include "search/units/unit.h"
+#include "solver/problem/reduction.h"
 #include "tests/methods.h"
 
 namespace stiction {
@@ -121,7 +123,7 @@ TraceText TraceOf(std::string_view generator) {
     text.runs += counted.runs;
     text.rest += counted.rest;
     for (const std::int64_t index : {0, 1, 2, 3})
-      if (!in_space) text.runs += ExactPaths(RegenerateExactly(campaign, unit, index));
+      if (!in_space) text.runs += ExactPaths(Regenerate(campaign, unit, index).problem);
   }
   return text;
 }

@@ -15,6 +15,8 @@
 #include "bench/structure.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "search/generators/generators.ipp"
 #include "solver/published/published.ipp"
 #include "tests/methods.h"

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "search/algorithm_version.h"
 
 namespace stiction {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "certify/exact/exact.h"
+#include "corpus/exact_problem.h"
 #include "corpus/formats/read_problem.h"
-#include "corpus/record/problem_file.h"
 #include "search/units/signature.h"
 
 namespace stiction {

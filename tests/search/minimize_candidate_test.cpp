@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "corpus/json_text.h"
+#include "corpus/record/problem_file.h"
 #include "scene/assemble.h"
 #include "search/adversary/optimizer.h"
 #include "search/adversary/record.h"

@@ -7,6 +7,8 @@
 
 #include "certify/exact/properties.h"
 #include "certify/exact/published_space.h"
+#include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "search/units/signature.h"
 #include "tests/support.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"

@@ -18,10 +18,12 @@
 #include "certify/claims/certificate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/published_space.h"
+#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
 #include "search/units/finish.h"
 #include "search/units/minimize.h"
+#include "search/units/regenerate.h"
 #include "search/units/signature.h"
 
 // ---- Counting allocations --------------------------------------------------------------------
@@ -204,7 +206,7 @@ TEST_CASE("unit: strata have the friction and the rank of their problems") {
   std::map<std::string, std::int64_t> found, expected;
   for (const auto& [key, stratum] : tally.strata) found[key.friction] += stratum.problems;
   for (std::int64_t index = 0; index < result.problems; ++index) {
-    const ExactProblem problem = RegenerateExactly(campaign, 0, index);
+    const ExactProblem problem = Regenerate(campaign, 0, index).problem;
     const Rational &mu = problem.contacts[0].mu, &other = problem.contacts[1].mu;
     ++expected[mu == other ? ToString(mu) : kMixedFriction];
   }
@@ -238,7 +240,7 @@ TEST_CASE("unit: loops are counted with the zero steps of their periods, and the
   }
   for (const Finding& finding : result.candidates) {
     if (finding.kind != "cycle") continue;
-    const ExactProblem problem = RegenerateExactly(campaign, finding.unit, finding.index);
+    const ExactProblem problem = Regenerate(campaign, finding.unit, finding.index).problem;
     const ExactRun run = RunExact(problem, {{}, {}, campaign.limits});
     const LoopFacts loop = FactsOfLoop(problem, run.verdict, run.trace.pivots);
     std::int64_t zero_steps = 0;
@@ -259,7 +261,7 @@ TEST_CASE("unit: an exact run of a finding's problem gives what the finding says
     std::string last;
     for (const Finding& finding : result.candidates) {
       CAPTURE(finding.signature, finding.unit, finding.index);
-      const ExactProblem problem = RegenerateExactly(campaign, finding.unit, finding.index);
+      const ExactProblem problem = Regenerate(campaign, finding.unit, finding.index).problem;
       const ProblemFile file = ParseProblem(finding.problem, "finding");
       CHECK(ProblemToJson(file.problem) == ProblemToJson(problem));
       CHECK(ToJson(file).dump() == finding.problem);

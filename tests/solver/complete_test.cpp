@@ -12,6 +12,7 @@
 
 #include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
+#include "solver/published/published.h"
 #include "tests/support.h"
 
 namespace stiction {

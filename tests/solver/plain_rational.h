@@ -5,7 +5,7 @@
 #ifndef STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
 #define STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
 
-#include "corpus/record/problem_file.h"
+#include "corpus/exact_problem.h"
 
 namespace stiction {
 

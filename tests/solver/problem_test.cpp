@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/published/published.h"
 #include "tests/support.h"
 
 namespace stiction {

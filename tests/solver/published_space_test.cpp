@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "solver/problem/errors.h"
+#include "solver/published/published.h"
 #include "tests/support.h"
 
 namespace stiction {

@@ -6,6 +6,8 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/record/sparse_problem.h"
+#include "solver/complete/complete.h"
 #include "solver/linear/direction.ipp"
 #include "solver/problem/errors.h"
 #include "solver/problem/reduction.ipp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "certify/exact/exact.h"
+#include "corpus/json_text.h"
 #include "search/generators/choices.h"
 #include "solver/complete/complete.ipp"
 #include "solver/problem/errors.h"

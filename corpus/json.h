@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON values: for sources that make or read them. Headers take json_text.h, which names the type alone.
+
+#ifndef STICTION_CORPUS_JSON_H_
+#define STICTION_CORPUS_JSON_H_
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/json_text.h"
+
+// Instantiated once, in json_text.cpp.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
+namespace stiction {
+
+// A number that is not finite becomes text.
+Json NumberToJson(double x);
+template <class Numbers>
+Json NumbersToJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
+  return json;
+}
+inline Json InJson(const Rational& x) { return ToString(x); }
+inline Json InJson(double x) { return NumberToJson(x); }
+template <class Numbers>
+Json ListJson(const Numbers& numbers) {
+  Json json = Json::array();
+  for (const auto& x : numbers) json.push_back(InJson(x));
+  return json;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_JSON_H_

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/units/kernel.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <vector>
+
+#include "corpus/input_error.h"
+#include "search/generators/generators.ipp"
+#include "search/lanes/batch.h"
+#include "search/units/examiner.h"
+#include "solver/problem/gate.h"
+#include "solver/problem/reduction.h"
+#include "solver/published/published.ipp"
+#include "solver/published/published_space.h"
+
+namespace stiction {
+namespace {
+
+constexpr double kWrongAnswer = 1e-6;  // error (solver/problem/errors.h)
+
+// draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
+template <class Draw, class Attempt>
+void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkMeter& meter, Draw draw,
+            Attempt attempt) {
+  SampledDraws draws;
+  const std::int64_t problems = UnitProblems(campaign, task);
+  std::int64_t until_audit = 1;  // the first problem is audited
+  for (std::int64_t index = 0; index < problems; ++index) {
+    Choices choices(
+        ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
+    draws(index, [&] { draw(choices); });
+    const bool audit = --until_audit == 0;
+    if (audit) until_audit = campaign.audit_every;
+    for (std::size_t policy = 0; policy < campaign.policies.size(); ++policy) attempt(index, policy, audit);
+  }
+  meter.Attribute(&ProcessorTime::generation, draws.Nanoseconds(problems));
+}
+
+struct Judgement {
+  bool wrong = false;      // called solved, with forces that are no solution
+  bool suspected = false;  // not a verified solution
+};
+
+// Counts a run over doubles. error() is the largest of its forces.
+template <class Error>
+Judgement Judge(Collector& collector, std::size_t policy, const Drawn& drawn, const Verdict& verdict,
+                Error error) {
+  collector.Count(policy, drawn, verdict);
+  const bool solved = verdict.outcome == Outcome::kSolved;
+  const bool wrong = solved && !(error() <= kWrongAnswer);
+  collector.tally(policy).wrong += wrong;
+  return {wrong, !solved || wrong};
+}
+
+// Rows: two for each contact, or dynamic, where bilateral and sliding contacts leave the problem before a run
+// (solver/problem/reduction.h).
+template <int Rows>
+class PlanarKernel final : public Kernel {
+ public:
+  PlanarKernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {
+    for (const Policy& policy : campaign.policies) {
+      algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
+    }
+    const bool batched = Rows == kBatchRows && campaign.policies.size() == 1 && !solvers.distort &&
+                         IsBatched(algorithms_.front().options());
+    if (batched && solvers.lanes != InstructionSet::kNone)
+      batch_ = std::make_unique<Batch>(solvers.lanes, algorithms_.front().options());
+  }
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
+    const Surroundings surroundings = SurroundingsOf(campaign_);
+    if constexpr (Rows == kBatchRows) {
+      if (batch_ != nullptr) return RunBatched(unit, task, surroundings, collector, examiner);
+    }
+    bool reduced = true;
+    const auto draw = [&](Choices& choices) {
+      drawn_ = Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      if constexpr (Rows == Eigen::Dynamic) {
+        whole_ = problem_;
+        reduction_.emplace(whole_);
+        reduced = reduction_->end() == ReductionEnd::kReduced;
+        if (reduced) problem_ = reduction_->problem();
+      }
+    };
+    TryAll(campaign_, unit, task, collector.meter(), draw,
+           [&](std::int64_t index, std::size_t policy, bool audit) {
+             if (reduced)
+               Try(index, policy, audit, collector, examiner);
+             else
+               Refuse(index, policy, collector, examiner);
+           });
+  }
+
+ private:
+  using Vector = typename ContactProblem<double, Rows>::Vector;
+
+  // The same, many problems at once; what leaves the lanes is run by itself.
+  void RunBatched(std::int64_t unit, const Task& task, const Surroundings& surroundings, Collector& collector,
+                  Examiner& examiner) {
+    const std::int64_t problems = UnitProblems(campaign_, task);
+    for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
+      const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
+      DrawBlock(unit, task, surroundings, first, count, collector);
+      batch_->Run(count);
+      for (int i = 0; i < count; ++i) {
+        const std::int64_t index = first + i;
+        const bool audit = index % campaign_.audit_every == 0;
+        drawn_ = batch_->DrawnOf(i);
+        if (batch_->IsLeft(i)) {
+          batch_->Get(i, problem_);
+          Try(index, 0, audit, collector, examiner, examiner);
+        } else {
+          Conclude(batch_->VerdictOf(i), index, 0, audit, collector, examiner,
+                   [&] { return batch_->Error(i); });
+        }
+      }
+    }
+  }
+
+  void DrawBlock(std::int64_t unit, const Task& task, const Surroundings& surroundings, std::int64_t first,
+                 int count, Collector& collector) {
+    const Spending spending(collector.meter(), &ProcessorTime::generation);
+    const auto u = static_cast<std::uint64_t>(unit);
+    if (IsDrawnInLanes(task.generator))
+      return batch_->Draw(task.generator, surroundings.palette, campaign_.seed, u, first, count);
+    for (int i = 0; i < count; ++i) {
+      Choices choices(ProblemSeed(campaign_.seed, u, static_cast<std::uint64_t>(first + i)));
+      const Drawn drawn =
+          Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      batch_->Put(i, problem_, drawn);
+    }
+  }
+
+  // A problem that bilateral and sliding contacts cannot leave over doubles: exact arithmetic decides.
+  void Refuse(std::int64_t index, std::size_t policy, Collector& collector, Examiner& examiner) {
+    Verdict verdict;
+    verdict.outcome = Outcome::kSingular;
+    collector.Count(policy, drawn_, verdict);
+    examiner.RunAgain(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
+  }
+
+  void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector, Examiner& examiner) {
+    Verdict verdict = algorithms_[policy].Run(problem_);
+    const Vector* f = &algorithms_[policy].state().f;
+    Vector distorted;
+    if (solvers_.distort) {
+      distorted = *f;
+      solvers_.distort(verdict, {distorted.data(), static_cast<std::size_t>(distorted.size())});
+      f = &distorted;
+    }
+    Conclude(verdict, index, policy, audit, collector, examiner, [&] { return Error(*f); });
+  }
+
+  template <class ErrorOf>
+  void Conclude(const Verdict& verdict, std::int64_t index, std::size_t policy, bool audit,
+                Collector& collector, Examiner& examiner, ErrorOf error) {
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, error);
+    if (suspected || audit) examiner.RunAgain(index, policy, verdict.outcome, wrong, suspected);
+  }
+
+  // Of f alone: the accelerations are computed anew. Of the whole problem, whose A is symmetric.
+  double Error(const Vector& f) {
+    if constexpr (Rows == Eigen::Dynamic) {
+      const Vector forces = reduction_->Forces(f), a = whole_.A * forces + whole_.b;
+      return MeasureErrors(whole_, FrictionLaw::kCoulomb, forces, a, units_, 0.0).Largest();
+    }
+    Vector a = problem_.b;
+    const int rows = problem_.rows();
+    for (int i = 0; i < rows; ++i) {
+      double sum = problem_.b[i];
+      for (int j = 0; j < rows; ++j) sum += problem_.A(i, j) * f[j];
+      a[i] = sum;
+    }
+    return MeasureErrors(problem_, FrictionLaw::kCoulomb, f, a, units_, 0.0).Largest();
+  }
+
+  const Campaign& campaign_;
+  const UnitSolvers& solvers_;
+  std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
+  ContactProblem<double, Rows> problem_;
+  ContactProblem<double> whole_;                // of other kinds, before reduction
+  std::optional<Reduction<double>> reduction_;  // likewise
+  Units<double> units_;
+  Drawn drawn_;
+  std::unique_ptr<Batch> batch_;  // null: problems are run one by one
+};
+
+// Problems that are decided with certified signs from the start.
+class CertifiedKernel final : public Kernel {
+ public:
+  explicit CertifiedKernel(const Campaign& campaign) : campaign_(campaign) {}
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
+    TryAll(
+        campaign_, unit, task, collector.meter(), [](Choices&) {},
+        [&](std::int64_t index, std::size_t policy, bool audit) {
+          examiner.RunCertified(index, policy, audit);
+        });
+  }
+
+ private:
+  const Campaign& campaign_;
+};
+
+// Problems of space.
+class SpaceKernel final : public Kernel {
+ public:
+  SpaceKernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {}
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
+    const auto draw = [&](Choices& choices) {
+      drawn_ = Generate(task.generator, task.contacts, SurroundingsOf(campaign_), choices, problem_);
+    };
+    TryAll(campaign_, unit, task, collector.meter(), draw,
+           [&](std::int64_t index, std::size_t policy, bool audit) {
+             Try(index, policy, audit, collector, examiner);
+           });
+  }
+
+ private:
+  void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector, Examiner& examiner) {
+    algorithm_.options() = {campaign_.policies[policy], {}, campaign_.limits};
+    const PublishedSpaceVerdict end = algorithm_.Run(problem_);
+    Verdict verdict = {end.outcome, end.reason, end.statistics, end.start, end.period};
+    ContactProblem<double>::Vector f = algorithm_.f();
+    if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
+    const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {
+      return BoundErrors(problem_, FrictionLaw::kBaraff, f.cast<long double>()).Largest();
+    });
+    if (suspected || audit) examiner.RunOverIntervals(index, policy, verdict, wrong, suspected);
+  }
+
+  const Campaign& campaign_;
+  const UnitSolvers& solvers_;
+  PublishedInSpace<double> algorithm_;
+  ContactProblem<double> problem_;
+  Drawn drawn_;
+};
+
+}  // namespace
+
+std::unique_ptr<Kernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, const Task& task) {
+  if (Row(task.generator).InSpace()) return std::make_unique<SpaceKernel>(campaign, solvers);
+  if (campaign.arithmetic != Arithmetic::kDouble) return std::make_unique<CertifiedKernel>(campaign);
+  if (Row(task.generator).HasOtherKinds())
+    return std::make_unique<PlanarKernel<Eigen::Dynamic>>(campaign, solvers);
+  switch (task.contacts) {
+    case 1:
+      return std::make_unique<PlanarKernel<2>>(campaign, solvers);
+    case 2:
+      return std::make_unique<PlanarKernel<4>>(campaign, solvers);
+    case 3:
+      return std::make_unique<PlanarKernel<6>>(campaign, solvers);
+    case 4:
+      return std::make_unique<PlanarKernel<8>>(campaign, solvers);
+    case 5:
+      return std::make_unique<PlanarKernel<10>>(campaign, solvers);
+    case 6:
+      return std::make_unique<PlanarKernel<12>>(campaign, solvers);
+    case 7:
+      return std::make_unique<PlanarKernel<14>>(campaign, solvers);
+    case 8:
+      return std::make_unique<PlanarKernel<16>>(campaign, solvers);
+    default:
+      throw InputError(
+          fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
+  }
+}
+
+}  // namespace stiction

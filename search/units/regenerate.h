@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Problem number `index` of a unit, from the seed alone.
+
+#ifndef STICTION_SEARCH_UNITS_REGENERATE_H_
+#define STICTION_SEARCH_UNITS_REGENERATE_H_
+
+#include <cstdint>
+
+#include "corpus/exact_problem.h"
+#include "search/campaign.h"
+#include "search/generators/generators.h"
+
+namespace stiction {
+
+struct ProblemFile;  // corpus/record/problem_file.h
+
+struct Regenerated {
+  ExactProblem problem;
+  Drawn drawn;
+};
+
+Regenerated Regenerate(const Campaign& campaign, std::int64_t unit, std::int64_t index);
+
+// A problem that was regenerated as a file, with its scene where it has one.
+ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,
+                   const ExactProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_UNITS_REGENERATE_H_
