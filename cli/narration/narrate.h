@@ -12,6 +12,8 @@
 
 namespace stiction {
 
+struct ProblemFile;  // corpus/record/problem_file.h
+
 // `vectors`: whether the objects have them, too.
 struct Telling {
   bool vectors = false;

@@ -7,6 +7,7 @@
 
 #include "certify/exact/exact.h"
 #include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"
 

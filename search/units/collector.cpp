@@ -92,13 +92,13 @@ void Collector::FindDisagreementOfMethods(const Place& place, Outcome published,
                                           const Disagreement& disagreement, const ExactProblem& problem,
                                           const Answers& answers) {
   ++result_.record.agreement[task_.contacts].disagreements;
+  const Json facts = {{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}};
   Find(place, published, kDisagreementOfMethods,
-       fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem,
-       Json{{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}});
+       fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem, &facts);
 }
 
 void Collector::Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
-                     const ExactProblem& problem, const Json& facts) {
+                     const ExactProblem& problem, const Json* facts) {
   const Policy& policy = campaign_.policies[place.policy];
   signature = Named(std::move(signature), place.policy);
   if (++result_.record.signatures[signature] > 1) return;
@@ -115,7 +115,7 @@ void Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
   finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
-  if (!facts.is_null()) finding.facts = facts.dump();
+  if (facts != nullptr) finding.facts = facts->dump();
   result_.candidates.push_back(std::move(finding));
 }
 

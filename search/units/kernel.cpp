@@ -110,7 +110,7 @@ class PlanarKernel final : public Kernel {
         drawn_ = batch_->DrawnOf(i);
         if (batch_->IsLeft(i)) {
           batch_->Get(i, problem_);
-          Try(index, 0, audit, collector, examiner, examiner);
+          Try(index, 0, audit, collector, examiner);
         } else {
           Conclude(batch_->VerdictOf(i), index, 0, audit, collector, examiner,
                    [&] { return batch_->Error(i); });
