@@ -27,10 +27,10 @@ struct Plainness {
   auto operator<=>(const Plainness&) const = default;
 };
 
-class Minimizer {
+class CandidateMinimizer {
  public:
-  Minimizer(const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
-            const std::function<bool()>& cancelled)
+  CandidateMinimizer(const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
+                     const std::function<bool()>& cancelled)
       : keep_(keep), cancelled_(cancelled) {
     Take(candidate);
     if (!keep(ExactOf(candidate))) throw InputError("minimize: the candidate does not show what is to be kept");
@@ -133,7 +133,7 @@ class Minimizer {
 MinimizedCandidate MinimizeCandidate(const Candidate& candidate,
                                      const std::function<bool(const ExactProblem&)>& keep,
                                      const std::function<bool()>& cancelled) {
-  return Minimizer(candidate, keep, cancelled).Run();
+  return CandidateMinimizer(candidate, keep, cancelled).Run();
 }
 
 }  // namespace stiction

@@ -76,9 +76,6 @@ Scalar LargestFriction(const Trial<Scalar>& trial) {
   return mu;
 }
 
-double AsDouble(double x) { return x; }
-double AsDouble(const Rational& x) { return ToDouble(x); }
-
 Value NegativeCondition(const ContactProblem<double>& problem) {
   const auto condition = Condition(problem);
   return condition ? Value(-*condition) : Value();

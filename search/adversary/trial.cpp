@@ -10,9 +10,6 @@
 namespace stiction {
 namespace {
 
-double AsDouble(double x) { return x; }
-double AsDouble(const Rational& x) { return ToDouble(x); }
-
 template <class Scalar>
 double LargestOf(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& vector) {
   double largest = 0;

@@ -12,6 +12,9 @@
 
 namespace stiction {
 
+inline double AsDouble(double x) { return x; }
+inline double AsDouble(const Rational& x) { return ToDouble(x); }
+
 template <class Scalar>
 class Trial {
  public:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What includes what: the order of the folders, and of rooms within them."""
+"""What includes what: the order of the folders, and of rooms within them; and names that files must not share."""
 
 import functools
 import re
@@ -33,6 +33,10 @@ ROOMS = {
                "adversary": ["generators", "units"]},
 }
 MOST_LEVELS = 10
+UNITED = ("bench", "certify", "cli", "corpus", "reports", "scene", "search")  # several sources to a unit
+CONSTANT = re.compile(r"^(?:static |inline )?constexpr [^=;(]*?\b(k\w+)\s*(?:\[[^\]]*\])*\s*[={]", re.M)
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)\b(?! ?[;<])", re.M)
+FUNCTION = re.compile(r"^(?! |return|using|namespace|template)[\w:<>,&*\[\] ]*?[\w>&*] (\w+)\([^{};]*?\)(?: const)? \{", re.M)
 INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.M)
 
 
@@ -86,6 +90,23 @@ class Structure(cli.TestCase):
     def test_command_line_parsers_stand_in_the_programs_alone(self):
         users = {path for path, names in self.others.items() if any(name.startswith("CLI/") for name in names)}
         self.assertEqual({path for path in users if not path.startswith("bench/peers/")}, {"cli/command_line.cpp"})
+
+    def test_files_that_may_be_compiled_together_share_no_name(self):
+        """In their unnamed namespaces: which files share a unit changes with every file that is added."""
+        for folder in UNITED:
+            constants, types, functions = ({}, {}, {})
+            for file in sorted((cli.ROOT / folder).rglob("*.cpp")):
+                if {"ipopt", "live", "peers", "lanes"} & set(file.relative_to(cli.ROOT).parts):
+                    continue  # programs of their own
+                text = file.read_text()
+                for pattern, found in ((CONSTANT, constants), (TYPE, types), (FUNCTION, functions)):
+                    for name in pattern.findall(text):
+                        found.setdefault(name, set()).add(file.name)
+            self.assertGreater(len(functions), 20, folder)
+            for name, files in (*constants.items(), *types.items()):
+                self.assertEqual(len(files), 1, f"{folder}: {name} stands in {sorted(files)}")
+            for name in types.keys() & functions.keys():
+                self.assertEqual(types[name], functions[name], f"{folder}: {name} is a type and a function")
 
     def test_includes_are_no_circle_and_at_most_ten_levels_deep(self):
         open_files = []
