@@ -7,8 +7,8 @@
 
 #include <iostream>
 
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 
 namespace stiction {
 namespace {
@@ -73,7 +73,7 @@ int Export(const ExportOptions& o) {
 
 }  // namespace
 
-void AddImport(CommandLine& program) {
+const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("import", "Write what is read as a whole stiction-problem file", Import);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
@@ -85,9 +85,9 @@ void AddImport(CommandLine& program) {
       .OneOf(FormatNames());
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddExport(CommandLine& program) {
+const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
@@ -96,6 +96,6 @@ void AddExport(CommandLine& program) {
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "certify/exact/solve.h"
-#include "cli/verbs.h"
+#include "cli/command_line.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
 #include "corpus/plain_text.h"
@@ -76,9 +76,9 @@ int List(const MethodsOptions& o) {
 
 }  // namespace
 
-void AddMethods(CommandLine& program) {
+const ListedVerb kMethodsVerb("About stiction", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("methods", "The methods, what their ends prove, and where they are built", List);
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

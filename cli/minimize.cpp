@@ -11,9 +11,9 @@
 
 #include "certify/exact/exact.h"
 #include "certify/exact/published_space.h"
+#include "cli/command_line.h"
 #include "cli/help.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/json_text.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/units/finish.h"
@@ -165,7 +165,7 @@ int ListPolicies(const PoliciesVerb& o) {
 
 }  // namespace
 
-void AddMinimize(CommandLine& program) {
+const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
@@ -181,11 +181,11 @@ void AddMinimize(CommandLine& program) {
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
-}
+});
 
-void AddPolicies(CommandLine& program) {
+const ListedVerb kPoliciesVerb("About stiction", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

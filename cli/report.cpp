@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "certify/claims/checker_files.h"
+#include "cli/command_line.h"
 #include "cli/records.h"
 #include "cli/shared.h"
 #include "cli/store_progress.h"
-#include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
 #include "reports/comparison/comparison.h"
@@ -154,7 +154,7 @@ int RunReport(const ReportVerb& o) {
 
 }  // namespace
 
-void AddReport(CommandLine& program) {
+const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search; none with --bench alone");
@@ -173,6 +173,6 @@ void AddReport(CommandLine& program) {
   verb.Flag("-j,--json", o.json,
             "machine output: what was written, with two stores the comparison, with --text the summary");
   AddReplace(verb, o.replace);
-}
+});
 
 }  // namespace stiction

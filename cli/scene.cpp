@@ -13,8 +13,8 @@
 #include <iostream>
 #include <set>
 
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/output_error.h"
 #include "corpus/record/scene_file.h"
@@ -435,7 +435,7 @@ int RunDrawVerb(const DrawCommand& o) {
 
 }  // namespace
 
-void AddAssemble(CommandLine& program) {
+const ListedVerb kAssembleVerb("Scenes and other programs' files", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("assemble", "The contact problems of a scene, over rationals", RunAssembleVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output")
@@ -447,9 +447,9 @@ void AddAssemble(CommandLine& program) {
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddSimulate(CommandLine& program) {
+const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("simulate", "Step a scene through time, over doubles", RunSimulateVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
@@ -474,13 +474,13 @@ void AddSimulate(CommandLine& program) {
   verb.Flag("--full", o.full, "leave out nothing that the scene does not require");
   verb.Flag("--no-svg", o.svg, "no frames/*.svg");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddDraw(CommandLine& program) {
+const ListedVerb kDrawVerb("Scenes and other programs' files", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

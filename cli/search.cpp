@@ -15,10 +15,10 @@
 #include <thread>
 
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/store_progress.h"
-#include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
@@ -502,7 +502,7 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
 
 }  // namespace
 
-void AddSearch(CommandLine& program) {
+const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
   AddCampaignOptions(verb, o);
   verb.Option("-s,--store", o.store,
@@ -534,24 +534,24 @@ void AddSearch(CommandLine& program) {
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
   verb.footer += "\nObjectives:" + HelpOf(Objectives()) + "\nOptimizers:" + HelpOf(Optimizers());
-}
+});
 
-void AddStatus(CommandLine& program) {
+const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddMerge(CommandLine& program) {
+const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("merge", "Join the stores of one campaign", RunMerge);
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddProblem(CommandLine& program) {
+const ListedVerb kProblemVerb("Search", 60, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("problem", "Write any problem that a search tried as a problem file", RunProblem);
   verb.footer =
@@ -565,6 +565,6 @@ void AddProblem(CommandLine& program) {
   verb.Flag("-j,--json", o.json, "machine output");
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");
-}
+});
 
 }  // namespace stiction

@@ -15,11 +15,11 @@
 #include "certify/exact/answer_json.h"
 #include "certify/exact/solve_sparse.h"
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/shared.h"
 #include "cli/stop_after.h"
-#include "cli/verbs.h"
 #include "corpus/input_error.h"
 #include "corpus/json_text.h"
 #include "corpus/rounded.h"
@@ -256,7 +256,7 @@ std::vector<AllowedValue> MethodChoices() {
 
 }  // namespace
 
-void AddSolve(CommandLine& program) {
+const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("solve", "Solve problems", RunSolve);
   verb.footer =
       "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "
@@ -287,6 +287,6 @@ void AddSolve(CommandLine& program) {
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
   AddTolerances(verb, o.options.tolerances);
-}
+});
 
 }  // namespace stiction

@@ -21,9 +21,9 @@
 #include "certify/exact/solve_sparse.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
+#include "cli/command_line.h"
 #include "cli/shared.h"
 #include "cli/survey_text.h"
-#include "cli/verbs.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
 #include "corpus/stopwatch.h"
@@ -433,7 +433,7 @@ int Survey(const SurveyOptions& o) {
 
 }  // namespace
 
-void AddSurvey(CommandLine& program) {
+const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
   verb.footer =
@@ -451,6 +451,6 @@ void AddSurvey(CommandLine& program) {
       .Details("Over rationals only what no run over doubles solves with a residual of at most 1e-6");
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
-}
+});
 
 }  // namespace stiction

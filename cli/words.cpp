@@ -9,8 +9,8 @@
 #include <iostream>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "cli/help.h"
-#include "cli/verbs.h"
 #include "corpus/exit_code.h"
 #include "corpus/json_text.h"
 
@@ -140,9 +140,9 @@ std::string GlossaryOf(std::string_view text) {
   return glossary;
 }
 
-void AddWords(CommandLine& program) {
+const ListedVerb kWordsVerb("About stiction", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("words", "What the words of answers and replays mean", List);
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction
