@@ -27,12 +27,16 @@ std::string StoragesText() {
   return fmt::format("{}", fmt::join(rows, "; "));
 }
 
-struct ImportOptions {
+// The words of both verbs.
+struct FormatsVerb {
   std::string file, output, format;
-  bool symmetrize = false, json = false;
+  std::string storage;      // export: how it has A
+  bool symmetrize = false;  // import
+  bool round = false;       // export
+  bool json = false;
 };
 
-int Import(const ImportOptions& o) {
+int Import(const FormatsVerb& o) {
   auto read = o.format.empty() ? ReadAnySize(o.file) : Sized(ReadPublished(o.file, o.format));
   const auto* dense = std::get_if<ProblemFile>(&read);
   SparseProblem problem = dense != nullptr ? ToSparse(*dense) : std::get<SparseProblem>(read);
@@ -52,12 +56,7 @@ int Import(const ImportOptions& o) {
   return kExitDone;
 }
 
-struct ExportOptions {
-  std::string file, output, format, storage;
-  bool round = false, json = false;
-};
-
-int Export(const ExportOptions& o) {
+int Export(const FormatsVerb& o) {
   SparseProblem problem = ReadSparseProblem(o.file);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);

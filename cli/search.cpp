@@ -18,7 +18,6 @@
 #include "cli/command_line.h"
 #include "cli/night.h"
 #include "cli/shared.h"
-#include "cli/store_progress.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json_text.h"
@@ -196,7 +195,6 @@ int RunSearchVerb(const SearchVerb& asked) {
                options.threads, o.shard, o.store);
   };
   NightLog log(options.minutes);
-  const FindingCommand command(o.on_finding, o.store);
   std::int64_t untold = 0;
   const SearchReport report =
       RunSearch(campaign, IdentityOf(campaign), options, [&](const SearchProgress& progress) {
@@ -206,7 +204,7 @@ int RunSearchVerb(const SearchVerb& asked) {
           if (*options.interrupted) {
             ++untold;
           } else {
-            command.Run(finding);
+            RunOnFinding(o.on_finding, o.store, finding);
           }
         }
       });
@@ -281,8 +279,8 @@ void Watch(const std::string& file) {
 
 int RunStatus(const StatusVerb& o) {
   if (o.watch) Watch(o.store);
-  StoreProgress progress;
-  const Store store = OpenSound(o.store, progress.Reading());
+  ProgressBar progress;
+  const Store store = OpenSound(o.store, Reading(progress));
   progress.Clear();
   std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryOf(store, o.store));
   return kExitDone;
@@ -424,8 +422,8 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
 }
 
 int RunMerge(const MergeVerb& o) {
-  StoreProgress progress;
-  const auto open = [&](const std::string& file) { return OpenSound(file, progress.Reading(file)); };
+  ProgressBar progress;
+  const auto open = [&](const std::string& file) { return OpenSound(file, Reading(progress, file)); };
   std::optional<Store> first;
   if (!o.salvage) first = open(o.stores.front());
   const CampaignIdentity identity = first ? first->identity() : IdentityOfAny(o.stores);
@@ -439,7 +437,7 @@ int RunMerge(const MergeVerb& o) {
     } else {
       TakeWhatIsSound(merged, o.stores);
     }
-    RequireSound(merged, o.out, progress.Reading(o.out));
+    RequireSound(merged, o.out, Reading(progress, o.out));
   }
   progress.Clear();
   made.Keep();
