@@ -92,10 +92,10 @@ std::string MeetingText(const Json& entries) {
 
 // Of one problem: what it meets, and what became of it.
 void PrintSurveySentences(const Json& entry) {
-  Tell("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsText(entry), RunsText(entry));
+  Tell("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsMetText(entry), RunsText(entry));
   if (!entry.contains("symmetrized")) return;
   const Json& symmetrized = entry["symmetrized"];
-  Tell("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n", AssumptionsText(symmetrized),
+  Tell("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n", AssumptionsMetText(symmetrized),
        RunsText(symmetrized));
 }
 

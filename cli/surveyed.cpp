@@ -362,7 +362,7 @@ Json Surveyed(SparseProblem problem, const std::string& source, const SurveyScop
   return entry;
 }
 
-std::string AssumptionsText(const Json& facts) {
+std::string AssumptionsMetText(const Json& facts) {
   if (facts["meets assumptions"] == true)
     return "meets the paper's assumptions: A is symmetric and semidefinite, b in its range";
   if (facts["meets assumptions"].is_null())

@@ -27,7 +27,7 @@ Json Surveyed(SparseProblem problem, const std::string& source, const SurveyScop
 // "3e-16".
 std::string ShortText(double x);
 // What the facts of an entry say, or of `symmetrized`: "meets the paper's assumptions: ...".
-std::string AssumptionsText(const Json& facts);
+std::string AssumptionsMetText(const Json& facts);
 // The first run that says whether there is a solution, and what the published algorithm does.
 std::string RunsText(const Json& facts);
 
