@@ -3,12 +3,10 @@
 // bound (none may), and how much is left undecided?
 //
 // gate    along dials (dials.h) in the plane and in space, so many problems at each setting, and a fifth as
-// many
-//         of large ones: every method in every inexact arithmetic that it is built for but intervals
+//         many of large ones: every method in every inexact arithmetic that it is built for but intervals
 // silent  so many problems in all, one from each dial and generator of the plane in turn, large ones in one
-// round
-//         of a hundred; each is given to one method, the methods in turn, in every arithmetic, rationals too.
-//         Threads take the rounds as they come: the counts do not depend on them.
+//         round of a hundred; each is given to one method, the methods in turn, in every arithmetic, rationals
+//         too. Threads take the rounds as they come: the counts do not depend on them.
 //
 // Limits are counted, and nothing runs again to confirm it. Answers called solved are judged over rationals
 // (certify/exact/judge.h) on the problem that the arithmetic was given: as it is for rationals, rounded to
@@ -33,6 +31,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <thread>
@@ -60,19 +59,35 @@ constexpr std::size_t kExamples = 50;
 
 // ---- Runs ----------------------------------------------------------------------------------------
 
-struct GateRow {
+// A method in an arithmetic on problems of a source, and how its runs ended.
+struct GateCell {
+  const Source* source;
+  int dimension;
   std::string_view method;
   Arithmetic arithmetic;
+  std::array<std::int64_t, kOutcomeCount + 1> outcomes = {};
+  std::int64_t wrong = 0, refused = 0;
+
+  std::int64_t Of(Outcome outcome) const { return outcomes[static_cast<int>(outcome)]; }
+  std::int64_t Runs() const { return std::accumulate(outcomes.begin(), outcomes.end(), std::int64_t{0}); }
+  void Add(const GateCell& more) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += more.outcomes[i];
+    wrong += more.wrong;
+    refused += more.refused;
+  }
 };
 
-std::vector<GateRow> GateRows(int dimension, std::initializer_list<std::string_view> methods,
+// Those that are built.
+std::vector<GateCell> CellsOf(const Source& source, int dimension,
+                              std::initializer_list<std::string_view> methods,
                               std::initializer_list<Arithmetic> arithmetics) {
-  std::vector<GateRow> rows;
+  std::vector<GateCell> cells;
   for (const std::string_view method : methods) {
     for (const Arithmetic arithmetic : arithmetics)
-      if (Refusal(method, dimension, arithmetic).empty()) rows.push_back({method, arithmetic});
+      if (Refusal(method, dimension, arithmetic).empty())
+        cells.push_back({&source, dimension, method, arithmetic});
   }
-  return rows;
+  return cells;
 }
 
 // What the arithmetic is given; null where it does not hold a number.
@@ -99,66 +114,40 @@ std::optional<std::string> MissOf(const ExactProblem& given, Arithmetic arithmet
   return MissOf(given, answer.f.unaryExpr([](double x) { return Rational(x); }), answer.law, bound);
 }
 
-SolveRequest RequestOf(const GateRow& row) {
+SolveRequest RequestOf(const GateCell& cell) {
   SolveRequest request;
-  request.method = row.method;
-  request.arithmetic = row.arithmetic;
+  request.method = cell.method;
+  request.arithmetic = cell.arithmetic;
   request.options.limits.drives = request.options.limits.pivots = kMostSteps;
   request.confirm = false;
   return request;
 }
 
-// ---- Counts --------------------------------------------------------------------------------------
-
-struct GateCounts {
-  std::array<std::int64_t, kOutcomeCount + 1> outcomes = {};
-  std::int64_t wrong = 0, refused = 0;
-
-  std::int64_t Of(Outcome outcome) const { return outcomes[static_cast<int>(outcome)]; }
-  std::int64_t Runs() const {
-    std::int64_t runs = 0;
-    for (const std::int64_t count : outcomes) runs += count;
-    return runs;
-  }
-  void Add(const GateCounts& more) {
-    for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += more.outcomes[i];
-    wrong += more.wrong;
-    refused += more.refused;
-  }
-};
-
-struct GateCell {
-  const Source* source;
-  int dimension;
-  GateRow row;
-  GateCounts counts;
-};
-
 Json WrongJson(const GateCell& cell, std::int64_t index, const std::string& miss, const ExactProblem& given) {
-  return {{"dial", cell.source->family},    {"setting", cell.source->setting},         {"index", index},
-          {"method", cell.row.method},      {"arithmetic", Name(cell.row.arithmetic)}, {"miss", miss},
+  return {{"dial", cell.source->family},    {"setting", cell.source->setting},     {"index", index},
+          {"method", cell.method},          {"arithmetic", Name(cell.arithmetic)}, {"miss", miss},
           {"problem", ProblemToJson(given)}};
 }
 
 // One problem in one cell.
 void RunOne(const RungProblem& problem, std::int64_t index, GateCell& cell, Json& wrong) {
-  const ExactProblem* given = GivenTo(cell.row.arithmetic, problem);
+  const ExactProblem* given = GivenTo(cell.arithmetic, problem);
   if (given == nullptr) {
-    ++cell.counts.refused;
+    ++cell.refused;
     return;
   }
-  const Solution solution = SolveIn(*given, RequestOf(cell.row));
+  const Solution solution = SolveIn(*given, RequestOf(cell));
   const Outcome outcome = solution.outcome();
-  ++cell.counts.outcomes[static_cast<int>(outcome)];
+  ++cell.outcomes[static_cast<int>(outcome)];
   std::optional<std::string> miss;
   if (outcome == Outcome::kSolved) {
-    miss = MissOf(*given, cell.row.arithmetic, solution);
-  } else if (outcome == Outcome::kNoSolution && cell.row.arithmetic == Arithmetic::kExact &&
+    miss = MissOf(*given, cell.arithmetic, solution);
+  } else if (outcome == Outcome::kNoSolution && cell.arithmetic == Arithmetic::kExact &&
              cell.source->has_solution) {
     miss = "there is a solution";
   }
   if (!miss) return;
-  ++cell.counts.wrong;
+  ++cell.wrong;
   if (wrong.size() < kExamples) wrong.push_back(WrongJson(cell, index, *miss, *given));
 }
 
@@ -168,7 +157,7 @@ double Percent(std::int64_t part, std::int64_t of) {
   return of == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(of);
 }
 
-Json TableRow(const std::string& key, const std::string& name, const GateCounts& counts) {
+Json TableRow(const std::string& key, const std::string& name, const GateCell& counts) {
   const std::int64_t runs = counts.Runs(), solved = counts.Of(Outcome::kSolved),
                      undecided = counts.Of(Outcome::kUndecided);
   const auto most = static_cast<double>(std::max<std::int64_t>(runs, 1));
@@ -185,12 +174,14 @@ Json TableRow(const std::string& key, const std::string& name, const GateCounts&
 // Cells of the same name together, in the order in which the names come.
 BenchTable TableBy(const std::string& key, const std::vector<GateCell>& cells,
                    const std::function<std::string(const GateCell&)>& name_of) {
-  std::vector<std::pair<std::string, GateCounts>> sums;
+  std::vector<std::pair<std::string, GateCell>> sums;
   for (const GateCell& cell : cells) {
     const std::string name = name_of(cell);
     auto sum = std::find_if(sums.begin(), sums.end(), [&name](auto& s) { return s.first == name; });
-    if (sum == sums.end()) sum = sums.insert(sums.end(), {name, {}});
-    sum->second.Add(cell.counts);
+    if (sum == sums.end())
+      sums.emplace_back(name, cell);
+    else
+      sum->second.Add(cell);
   }
   BenchTable table{"by-" + key, "By " + key, Json::array()};
   for (const auto& [name, counts] : sums) table.rows.push_back(TableRow(key, name, counts));
@@ -201,23 +192,22 @@ Json CellJson(const GateCell& cell) {
   Json json = {{"dial", cell.source->family},
                {"dimension", cell.dimension},
                {"setting", cell.source->setting},
-               {"method", cell.row.method},
-               {"arithmetic", Name(cell.row.arithmetic)},
-               {"runs", cell.counts.Runs()},
-               {"wrong", cell.counts.wrong},
-               {"refused", cell.counts.refused}};
-  for (int i = 0; i <= kOutcomeCount; ++i)
-    json[std::string(Name(static_cast<Outcome>(i)))] = cell.counts.outcomes[i];
+               {"method", cell.method},
+               {"arithmetic", Name(cell.arithmetic)},
+               {"runs", cell.Runs()},
+               {"wrong", cell.wrong},
+               {"refused", cell.refused}};
+  for (int i = 0; i <= kOutcomeCount; ++i) json[std::string(Name(static_cast<Outcome>(i)))] = cell.outcomes[i];
   return json;
 }
 
 // Cells, wrong answers and tables by what is asked; exit code.
 int Report(const BenchOptions& o, const std::vector<GateCell>& cells, const Json& wrong,
            const std::vector<BenchTable>& tables) {
-  GateCounts all;
+  GateCell all = {};
   Json json = Json::array();
   for (const GateCell& cell : cells) {
-    all.Add(cell.counts);
+    all.Add(cell);
     json.push_back(CellJson(cell));
   }
   progress::Clear();
@@ -236,20 +226,20 @@ int Report(const BenchOptions& o, const std::vector<GateCell>& cells, const Json
 }
 
 std::string MethodOf(const GateCell& cell) {
-  return fmt::format("{}, {}", cell.row.method, cell.dimension == 2 ? "plane" : "space");
+  return fmt::format("{}, {}", cell.method, cell.dimension == 2 ? "plane" : "space");
 }
-std::string ArithmeticOf(const GateCell& cell) { return std::string(Name(cell.row.arithmetic)); }
+std::string ArithmeticOf(const GateCell& cell) { return std::string(Name(cell.arithmetic)); }
 
 // ---- One method a problem, in threads ------------------------------------------------------------
 
-// Rows, counted over all sources, and wrong answers; each by its place among all problems.
+// Cells, counted over all sources, and wrong answers; each by its place among all problems.
 struct SilentCounts {
-  std::vector<std::vector<GateCell>> methods;  // rows of each method
+  std::vector<std::vector<GateCell>> methods;  // cells of each method
   std::map<std::int64_t, Json> wrong;
 
   void Add(const SilentCounts& more) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      for (std::size_t i = 0; i < methods[m].size(); ++i) methods[m][i].counts.Add(more.methods[m][i].counts);
+      for (std::size_t i = 0; i < methods[m].size(); ++i) methods[m][i].Add(more.methods[m][i]);
     }
     wrong.insert(more.wrong.begin(), more.wrong.end());
   }
@@ -259,9 +249,8 @@ SilentCounts NoneOf(const Source& any) {
   using enum Arithmetic;
   SilentCounts counts;
   for (const std::string_view method : {"complete", "lemke", "fast", "baraff"}) {
-    auto& cells = counts.methods.emplace_back();
-    for (const GateRow& row : GateRows(2, {method}, {kFloat, kDouble, kLongDouble, kQuad, kFiltered, kExact}))
-      cells.push_back({&any, 2, row, {}});
+    counts.methods.push_back(
+        CellsOf(any, 2, {method}, {kFloat, kDouble, kLongDouble, kQuad, kFiltered, kExact}));
   }
   return counts;
 }
@@ -318,7 +307,7 @@ int BenchSilent(const BenchOptions& o) {
   const Source all{.family = "all", .make = {}};
   for (GateCell& cell : cells) cell.source = &all;
   return Report(o, cells, wrong, {TableBy("method and arithmetic", cells, [](const GateCell& cell) {
-                  return fmt::format("{} {}", cell.row.method, ArithmeticOf(cell));
+                  return fmt::format("{} {}", cell.method, ArithmeticOf(cell));
                 })});
 }
 
@@ -333,10 +322,9 @@ int BenchGate(const BenchOptions& o) {
     const std::int64_t problems = source.is_large ? std::max<std::int64_t>(1, asked / kLargeFraction) : asked;
     progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
     const int dimension = source.make(o.seed, 0).dimension;
-    std::vector<GateCell> of_source;
-    for (const GateRow& row : GateRows(dimension, {"auto", "fast", "complete", "lemke", "baraff", "proximal"},
-                                       {kFloat, kDouble, kLongDouble, kQuad, kFiltered}))
-      of_source.push_back({&source, dimension, row, {}});
+    std::vector<GateCell> of_source =
+        CellsOf(source, dimension, {"auto", "fast", "complete", "lemke", "baraff", "proximal"},
+                {kFloat, kDouble, kLongDouble, kQuad, kFiltered});
     for (std::int64_t index = 0; index < problems; ++index) {
       const RungProblem problem(source.make(o.seed, index));
       for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "cli/bench_words.h"
-#include "cli/verbs.h"
+#include "cli/command_line.h"
 #include "corpus/input_error.h"
 
 namespace stiction {
@@ -34,7 +34,7 @@ int BecomeBench(const BenchCommand& o) {
 
 }  // namespace
 
-void AddBench(CommandLine& program) {
+const ListedVerb kBenchVerb("About stiction", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("bench", kBenchPurpose, BecomeBench);
   verb.footer =
       "Its words are read by the program stiction-bench, which stands beside this one. Questions that are "
@@ -42,6 +42,6 @@ void AddBench(CommandLine& program) {
       "once are studies in Python, in the folder bench/studies of the sources: ./run bench --suite NAME.";
   verb.rest = &o.words;
   AddBenchWords(verb, o.meant);
-}
+});
 
 }  // namespace stiction

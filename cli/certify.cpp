@@ -15,9 +15,9 @@
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/scene_file.h"
@@ -356,7 +356,7 @@ std::vector<AllowedValue> ClaimChoices() {
 
 }  // namespace
 
-void AddCertify(CommandLine& program) {
+const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
@@ -376,13 +376,13 @@ void AddCertify(CommandLine& program) {
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
-}
+});
 
-void AddCheck(CommandLine& program) {
+const ListedVerb kCheckVerb("One problem", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
   verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

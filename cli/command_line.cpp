@@ -9,14 +9,23 @@
 #include <algorithm>
 #include <cstring>
 #include <iostream>
-#include <string_view>
+#include <map>
 
 #include "cli/help.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {
+
+using AddVerbTo = void (*)(CommandLine&);
+
+// By group and place.
+std::multimap<std::pair<std::string_view, int>, AddVerbTo>& ListedVerbs() {
+  static std::multimap<std::pair<std::string_view, int>, AddVerbTo> verbs;
+  return verbs;
+}
 
 // "--json" of "-j,--json".
 std::string LongName(const OptionRow& row) { return row.name.substr(row.name.find(',') + 1); }  // npos + 1 is 0
@@ -112,6 +121,22 @@ InputError Refused(const CommandLine& program, const CLI::ParseError& error, con
 }
 
 }  // namespace
+
+ListedVerb::ListedVerb(std::string_view group, int place, void (*add)(CommandLine&)) {
+  ListedVerbs().insert({{group, place}, add});
+}
+
+void CommandLine::AddListed(std::initializer_list<std::string_view> groups) {
+  for (const std::string_view each : groups) {
+    group = each;
+    for (const auto& [place, add] : ListedVerbs()) {
+      STICTION_CHECK(ListedVerbs().count(place) == 1,
+                     fmt::format("two verbs at place {} of the group {}", place.second, place.first));
+      if (place.first == each) add(*this);
+    }
+  }
+  STICTION_CHECK(verbs.size() == ListedVerbs().size(), "a verb is listed in a group that the help has not");
+}
 
 int CommandLine::Help(const std::string& verb) const {
   if (!verb.empty()) RefuseUnknownVerb(*this, verb);

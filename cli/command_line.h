@@ -5,9 +5,10 @@
 #define STICTION_CLI_COMMAND_LINE_H_
 
 #include <deque>
-#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/verb.h"
@@ -21,18 +22,16 @@ class CommandLine {
 
   // A new verb, and the options that `run` is called with; both live as long as the command line.
   template <class Options>
-  struct Added {
-    Verb& verb;
-    Options& options;
-  };
-  template <class Options>
-  Added<Options> Add(std::string name, std::string help, int (*run)(const Options&)) {
+  std::pair<Verb&, Options&> Add(std::string name, std::string help, int (*run)(const Options&)) {
     auto options = std::make_shared<Options>();
     Verb& verb = verbs.emplace_back(std::move(name), std::move(help));
     verb.group = group;
     verb.run = [options, run] { return run(*options); };
     return {verb, *options};
   }
+
+  // Every listed verb, by these groups and its place in them; no group may be missing.
+  void AddListed(std::initializer_list<std::string_view> groups);
 
   // Reads the command line and runs the verb; its exit code, or 2 with what is wrong on standard error.
   int Run(int argc, char** argv) const;
@@ -46,6 +45,12 @@ class CommandLine {
  private:
   // Of the program, or of a verb.
   int Help(const std::string& verb) const;
+};
+
+// A verb in the list of the program, from before main: its group in the help, its place there, and what adds
+// it. The file of the verb has it, and nothing else names the verb.
+struct ListedVerb {
+  ListedVerb(std::string_view group, int place, void (*add)(CommandLine&));
 };
 
 }  // namespace stiction

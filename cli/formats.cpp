@@ -7,8 +7,8 @@
 
 #include <iostream>
 
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/json.h"
 
 namespace stiction {
@@ -28,12 +28,16 @@ std::string StoragesText() {
   return fmt::format("{}", fmt::join(rows, "; "));
 }
 
-struct ImportOptions {
+// The words of both verbs.
+struct FormatsVerb {
   std::string file, output, format;
-  bool symmetrize = false, json = false;
+  std::string storage;      // export: how it has A
+  bool symmetrize = false;  // import
+  bool round = false;       // export
+  bool json = false;
 };
 
-int Import(const ImportOptions& o) {
+int Import(const FormatsVerb& o) {
   auto read = o.format.empty() ? ReadAnySize(o.file) : Sized(ReadPublished(o.file, o.format));
   const auto* dense = std::get_if<ProblemFile>(&read);
   SparseProblem problem = dense != nullptr ? ToSparse(*dense) : std::get<SparseProblem>(read);
@@ -53,12 +57,7 @@ int Import(const ImportOptions& o) {
   return kExitDone;
 }
 
-struct ExportOptions {
-  std::string file, output, format, storage;
-  bool round = false, json = false;
-};
-
-int Export(const ExportOptions& o) {
+int Export(const FormatsVerb& o) {
   SparseProblem problem = ReadSparseProblem(o.file);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
@@ -74,7 +73,7 @@ int Export(const ExportOptions& o) {
 
 }  // namespace
 
-void AddImport(CommandLine& program) {
+const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("import", "Write what is read as a whole stiction-problem file", Import);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
@@ -86,9 +85,9 @@ void AddImport(CommandLine& program) {
       .OneOf(FormatNames());
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddExport(CommandLine& program) {
+const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
@@ -97,6 +96,6 @@ void AddExport(CommandLine& program) {
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/manual.h"
+// stiction manual: the man pages and the completion of bash, from the rows of the verbs (cli/verb.h) and the
+// table of words.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "cli/command_line.h"
 #include "cli/help.h"
-#include "cli/verbs.h"
 #include "cli/words.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
@@ -114,31 +117,14 @@ Json RowInJson(const OptionRow& row) {
   return json;
 }
 
-// ---- The verb ----
-
-struct ManualOptions {
-  const CommandLine* program = nullptr;
-  std::string format = "man";
-  bool json = false;
-};
-
-std::string TextIn(const std::string& format, const CommandLine& program) {
-  if (format == "bash") return BashCompletion(program);
-  return format == "man" ? ManPage(program) : ManPageOfBench(program);
-}
-
-int Write(const ManualOptions& o) {
-  std::cout << (o.json ? JsonText(TablesInJson(*o.program)) + "\n" : TextIn(o.format, *o.program));
-  return kExitDone;
-}
-
 // "stiction 0.1.0" of "stiction 0.1.0 COMMIT, ..."
 std::string NameAndNumber(const std::string& version) {
   return version.substr(0, version.find(' ', version.find(' ') + 1));
 }
 
-}  // namespace
+// ---- Whole texts ----
 
+// In the language of man(7), section 1.
 std::string ManPage(const CommandLine& program) {
   std::string text =
       fmt::format(".TH STICTION 1 \"\" \"{}\" \"User commands\"\n", Escaped(NameAndNumber(program.version)));
@@ -167,6 +153,7 @@ std::string ManPage(const CommandLine& program) {
   return text + Section("SEE ALSO") + ".BR stiction\\-bench (1),\n.BR stiction\\-ipopt (1)\n";
 }
 
+// The page of the program stiction-bench, which reads the words of the verb bench.
 std::string ManPageOfBench(const CommandLine& program) {
   const auto is_bench = [](const Verb& each) { return each.name == "bench"; };
   const Verb& verb = *std::find_if(program.verbs.begin(), program.verbs.end(), is_bench);
@@ -186,6 +173,7 @@ std::string ManPageOfBench(const CommandLine& program) {
   return text + Section("SEE ALSO") + ".BR stiction (1)\n";
 }
 
+// A script for bash: verbs, their options, and the values of those that have a list; files elsewhere.
 std::string BashCompletion(const CommandLine& program) {
   std::vector<std::string> verbs;
   std::string options, values;
@@ -221,6 +209,7 @@ complete -o filenames -F _stiction stiction
                      Quoted(Words(verbs) + " help --help --version"), values, options);
 }
 
+// Verbs with their rows, as a program reads them.
 Json TablesInJson(const CommandLine& program) {
   Json verbs = Json::array();
   for (const Verb& verb : program.verbs) {
@@ -231,7 +220,27 @@ Json TablesInJson(const CommandLine& program) {
   return verbs;
 }
 
-void AddManual(CommandLine& program) {
+// ---- The verb ----
+
+struct ManualOptions {
+  const CommandLine* program = nullptr;
+  std::string format = "man";
+  bool json = false;
+};
+
+std::string TextIn(const std::string& format, const CommandLine& program) {
+  if (format == "bash") return BashCompletion(program);
+  return format == "man" ? ManPage(program) : ManPageOfBench(program);
+}
+
+int Write(const ManualOptions& o) {
+  std::cout << (o.json ? JsonText(TablesInJson(*o.program)) + "\n" : TextIn(o.format, *o.program));
+  return kExitDone;
+}
+
+}  // namespace
+
+const ListedVerb kManualVerb("About stiction", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("manual", "The manual page, and the completion of a shell", Write);
   o.program = &program;
   verb.Option("--format", o.format, "what to write")
@@ -239,6 +248,6 @@ void AddManual(CommandLine& program) {
                 {"man-bench", "a page for man, of the program stiction-bench"},
                 {"bash", "completion for bash"}});
   verb.Flag("-j,--json", o.json, "all verbs with their options, as a program reads them");
-}
+});
 
 }  // namespace stiction

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "certify/exact/solve.h"
-#include "cli/verbs.h"
+#include "cli/command_line.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
@@ -65,20 +65,17 @@ Json TableInJson() {
   return json;
 }
 
-struct MethodsOptions {
-  bool json = false;
-};
-
-int List(const MethodsOptions& o) {
-  std::cout << (o.json ? JsonText(TableInJson()) + "\n" : Table() + Folded(Facts()));
+int List(const bool& json) {
+  std::cout << (json ? JsonText(TableInJson()) + "\n" : Table() + Folded(Facts()));
   return kExitDone;
 }
 
 }  // namespace
 
-void AddMethods(CommandLine& program) {
-  auto [verb, o] = program.Add("methods", "The methods, what their ends prove, and where they are built", List);
-  verb.Flag("-j,--json", o.json, "machine output");
-}
+const ListedVerb kMethodsVerb("About stiction", 10, [](CommandLine& program) {
+  auto [verb, json] =
+      program.Add("methods", "The methods, what their ends prove, and where they are built", List);
+  verb.Flag("-j,--json", json, "machine output");
+});
 
 }  // namespace stiction

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction minimize, stiction policies.
+// stiction minimize: a simpler problem with the same certified finding.
 
 #include "search/units/minimize.h"
 
@@ -11,9 +11,9 @@
 
 #include "certify/exact/exact.h"
 #include "certify/exact/published_space.h"
+#include "cli/command_line.h"
 #include "cli/help.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/json.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/units/finish.h"
@@ -134,38 +134,9 @@ int RunMinimize(const MinimizeVerb& o) {
   return kExitDone;
 }
 
-struct PoliciesVerb {
-  bool json = false;
-};
-
-int ListPolicies(const PoliciesVerb& o) {
-  Json rows = Json::array();
-  for (const PolicySwitchRow& row : PolicySwitches()) {
-    Json values = Json::array();
-    for (const PolicyValue& value : row.values)
-      values.push_back({{"value", value.name}, {"meaning", value.meaning}});
-    rows.push_back({{"switch", row.name},
-                    {"question", row.question},
-                    {"reads", row.reads},
-                    {"planar", row.planar},
-                    {"values", values}});
-    if (o.json) continue;
-    Tell("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
-         row.reads);
-    for (const PolicyValue& value : row.values) Tell("    {:14}  {}\n", value.name, value.meaning);
-  }
-  if (o.json) {
-    std::cout << JsonText(rows) << "\n";
-  } else {
-    Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
-         PlanarGrid().size());
-  }
-  return kExitDone;
-}
-
 }  // namespace
 
-void AddMinimize(CommandLine& program) {
+const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
@@ -181,11 +152,6 @@ void AddMinimize(CommandLine& program) {
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
-}
-
-void AddPolicies(CommandLine& program) {
-  auto [verb, o] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
-  verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

@@ -54,6 +54,14 @@ std::string TimeOfDay() {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(now));
 }
 
+ShowFindings Reading(ProgressBar& bar, const std::string& file) {
+  const std::string which = file.empty() ? "" : file + ": ";
+  return [&bar, which](std::int64_t done, std::int64_t of) {
+    bar.ShowSome(done, of,
+                 [&] { return fmt::format("{}{} of {} findings read", which, Grouped(done), Grouped(of)); });
+  };
+}
+
 // ---- The log ---------------------------------------------------------------------------------
 
 void NightLog::Show(const SearchProgress& progress) {
@@ -200,9 +208,9 @@ std::string WaitFor(pid_t id) {
 
 }  // namespace
 
-void FindingCommand::Run(const Finding& finding) const {
+void RunOnFinding(const std::string& command, const std::string& store, const Finding& finding) {
   const Descriptor input = InMemory(JsonText(ToJson(finding)) + "\n");
-  const pid_t id = input.valid() ? Start(command_, input.number(), EnvironmentOf(finding, store_)) : 0;
+  const pid_t id = input.valid() ? Start(command, input.number(), EnvironmentOf(finding, store)) : 0;
   const std::string trouble = id > 0 ? WaitFor(id) : fmt::format("cannot be started: {}", std::strerror(errno));
   if (!trouble.empty())
     fmt::print(stderr, "{} --on-finding: the command for {} {}\n", TimeOfDay(), finding.signature, trouble);

@@ -11,11 +11,15 @@
 
 #include "cli/shared.h"
 #include "search/search.h"
+#include "search/testimony.h"
 
 namespace stiction {
 
 // "2026-01-31 23:59:59", local.
 std::string TimeOfDay();
+
+// How far a store is read, which is named if it is one of several.
+ShowFindings Reading(ProgressBar& bar, const std::string& file = {});
 
 // Progress on standard error. A log has a line every ten seconds at first, later more seldom, and one when
 // there is a new group; each says what is new since the line before it, and which of that the corpus has too.
@@ -39,20 +43,11 @@ class NightLog {
   std::vector<Finding> news_;  // since then
 };
 
-// Runs a shell command for each finding. It gets the finding as JSON on standard input, and STICTION_SIGNATURE,
+// Runs a shell command for a finding. It gets the finding as JSON on standard input, and STICTION_SIGNATURE,
 // STICTION_KIND, STICTION_GRAVE (0 or 1), STICTION_KNOWN (the case of the corpus with this signature, or
 // nothing), STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that fails, or is still
 // running after a minute and is killed then, is reported on standard error and nothing else.
-class FindingCommand {
- public:
-  FindingCommand(std::string command, std::string store)
-      : command_(std::move(command)), store_(std::move(store)) {}
-
-  void Run(const Finding& finding) const;
-
- private:
-  std::string command_, store_;
-};
+void RunOnFinding(const std::string& command, const std::string& store, const Finding& finding);
 
 // What is stored of a finding, as JSON.
 Json ToJson(const Finding& finding);

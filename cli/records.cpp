@@ -10,8 +10,8 @@
 #include <iostream>
 
 #include "certify/claims/claims.h"
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -134,7 +134,7 @@ OwnSearch OwnSearchOf(const Store& store) {
   return own;
 }
 
-void AddRecords(CommandLine& program) {
+const ListedVerb kRecordsVerb("Search", 70, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
   std::vector<std::string> objectives;
@@ -152,6 +152,6 @@ void AddRecords(CommandLine& program) {
   verb.Option("--random-command", o.random_command, "what drew them");
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.limits);
-}
+});
 
 }  // namespace stiction

@@ -12,6 +12,7 @@
 
 #include "certify/exact/solve.h"
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
@@ -19,7 +20,6 @@
 #include "cli/narration/problem_text.h"
 #include "cli/replay_file.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "cli/version.h"
 #include "cli/words.h"
 #include "corpus/json.h"
@@ -274,7 +274,7 @@ std::vector<AllowedValue> PathMethodChoices() {
 
 }  // namespace
 
-void AddReplay(CommandLine& program) {
+const ListedVerb kReplayVerb("One problem", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("replay", "Follow a path method step by step, exactly where it can be", Replay);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   AddPolicyOption(verb, o.policy, Grid::kRefused);
@@ -296,6 +296,6 @@ void AddReplay(CommandLine& program) {
   verb.Option("--svg", o.svg, "write a picture that moves, of a scene: the forces of a loop, again and again");
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
-}
+});
 
 }  // namespace stiction

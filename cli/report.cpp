@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "certify/claims/checker_files.h"
+#include "cli/command_line.h"
+#include "cli/night.h"
 #include "cli/records.h"
 #include "cli/shared.h"
-#include "cli/store_progress.h"
-#include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "reports/comparison/comparison.h"
@@ -38,18 +38,14 @@ struct ReportVerb {
   bool replace = false, text = false, latex = false, json = false;
 };
 
-// How far the store is read, and what is made of it written.
-class ReportProgress : public StoreProgress {
- public:
-  ShowWriting Writing() {
-    return [this](const WritingProgress& now) {
-      Show(now.findings, now.of, [&] {
-        return fmt::format("{} of {} findings written, {} files", Grouped(now.findings), Grouped(now.of),
-                           Grouped(now.files));
-      });
-    };
-  }
-};
+// How far what is made of a store is written.
+ShowWriting Writing(ProgressBar& bar) {
+  return [&bar](std::int64_t findings, std::int64_t of, std::int64_t files) {
+    bar.ShowSome(findings, of, [&] {
+      return fmt::format("{} of {} findings written, {} files", Grouped(findings), Grouped(of), Grouped(files));
+    });
+  };
+}
 
 int PrintReport(const ReportVerb& o, const Store& store) {
   const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
@@ -62,8 +58,8 @@ int PrintReport(const ReportVerb& o, const Store& store) {
 
 // A store of problems that were drawn at random.
 Store OpenDrawn(const std::string& file) {
-  ReportProgress progress;
-  Store store = OpenSound(file, progress.Reading());
+  ProgressBar progress;
+  Store store = OpenSound(file, Reading(progress));
   if (!CampaignOf(store.identity(), file).objective.empty())
     throw InputError(
         fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
@@ -85,8 +81,8 @@ int CompareStores(const ReportVerb& o) {
 
 // What is made of one store.
 int ReportStore(const ReportVerb& o) {
-  ReportProgress progress;
-  const Store store = OpenSound(o.store, progress.Reading());
+  ProgressBar progress;
+  const Store store = OpenSound(o.store, Reading(progress));
   std::string text;
   Json written = Json::array();
   if (!o.folder.empty()) {
@@ -97,15 +93,14 @@ int ReportStore(const ReportVerb& o) {
                                     o.files.value_or(ReportExtras().files),
                                     KnownFrontiers(),
                                     OwnSearchOf(store),
-                                    progress.Writing()});
+                                    Writing(progress)});
     progress.Clear();
     TellAside(aside);
     text += o.folder + "/index.html\n";
     written.push_back(o.folder);
   }
   if (!o.package.empty()) {
-    const auto aside =
-        WritePackage(store, o.package, CheckerFiles(), OccupiedIf(o.replace), progress.Writing());
+    const auto aside = WritePackage(store, o.package, CheckerFiles(), OccupiedIf(o.replace), Writing(progress));
     progress.Clear();
     TellAside(aside);
     text += fmt::format("{0}: verify it with: python3 {0}/verify.py\n", o.package);
@@ -154,7 +149,7 @@ int RunReport(const ReportVerb& o) {
 
 }  // namespace
 
-void AddReport(CommandLine& program) {
+const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search; none with --bench alone");
@@ -173,6 +168,6 @@ void AddReport(CommandLine& program) {
   verb.Flag("-j,--json", o.json,
             "machine output: what was written, with two stores the comparison, with --text the summary");
   AddReplace(verb, o.replace);
-}
+});
 
 }  // namespace stiction

@@ -6,15 +6,14 @@
 #include <tbb/info.h>
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
 
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/output_error.h"
@@ -31,6 +30,7 @@ namespace fs = std::filesystem;
 
 // ---- assemble --------------------------------------------------------------------------------
 
+// Of them `draw` takes scene, output and json.
 struct AssembleCommand {
   std::string scene, output, given, level = "forces";
   bool explain = false, full = false, json = false;
@@ -275,25 +275,13 @@ class SimulationWriter {
   bool has_room_ = true;
 };
 
-// About twice a second, of runs that take more than that.
-class SimulationProgress {
- public:
-  void Show(std::int64_t done, std::int64_t steps, double time) {
-    const auto now = Clock::now();
-    if (now - shown_ < std::chrono::milliseconds(500)) return;
-    shown_ = now;
-    const double fraction = static_cast<double>(done) / static_cast<double>(steps);
-    const double left = std::chrono::duration<double>(now - start_).count() * (1 - fraction) / fraction;
-    bar_.Show(fraction, fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Grouped(done),
-                                    Grouped(steps), left));
-  }
-  ~SimulationProgress() { bar_.Clear(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  ProgressBar bar_;
-  Clock::time_point start_ = Clock::now(), shown_ = start_;
-};
+void ShowStep(ProgressBar& bar, std::int64_t done, std::int64_t steps, double time) {
+  bar.ShowSome(done, steps, [&] {
+    const double left = bar.Seconds() * static_cast<double>(steps - done) / static_cast<double>(done);
+    return fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Grouped(done), Grouped(steps),
+                       left);
+  });
+}
 
 // All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
 // the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
@@ -301,7 +289,7 @@ class SimulationProgress {
 template <class Kind>
 void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_second,
          const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
-  SimulationProgress progress;
+  ProgressBar progress;
   double next = 0;  // picture, s
   writer.AddState(simulation);
   for (std::int64_t k = 0; k < steps && !interrupted; ++k) {
@@ -316,7 +304,7 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
       writer.AddPicture(*start, std::move(picture));
     }
     writer.AddState(simulation);
-    progress.Show(k + 1, steps, simulation.time());
+    ShowStep(progress, k + 1, steps, simulation.time());
   }
   auto picture = RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation));
   picture.remark = "last";
@@ -392,13 +380,8 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
 
 // ---- draw ------------------------------------------------------------------------------------
 
-struct DrawCommand {
-  std::string scene, output;
-  bool json = false;
-};
-
 template <class Kind>
-int RunDraw(const DrawCommand& o, const SceneFileIn<Kind>& file) {
+int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationOptions options;
   options.step = StepOf(file, o.scene);
@@ -430,13 +413,13 @@ int RunAssembleVerb(const AssembleCommand& o) {
 int RunSimulateVerb(const SimulateCommand& o) {
   return std::visit([&o](const auto& file) { return RunSimulate(o, file); }, ReadAnyScene(o.scene));
 }
-int RunDrawVerb(const DrawCommand& o) {
+int RunDrawVerb(const AssembleCommand& o) {
   return std::visit([&o](const auto& file) { return RunDraw(o, file); }, ReadAnyScene(o.scene));
 }
 
 }  // namespace
 
-void AddAssemble(CommandLine& program) {
+const ListedVerb kAssembleVerb("Scenes and other programs' files", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("assemble", "The contact problems of a scene, over rationals", RunAssembleVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output")
@@ -448,9 +431,9 @@ void AddAssemble(CommandLine& program) {
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddSimulate(CommandLine& program) {
+const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("simulate", "Step a scene through time, over doubles", RunSimulateVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
@@ -475,13 +458,13 @@ void AddSimulate(CommandLine& program) {
   verb.Flag("--full", o.full, "leave out nothing that the scene does not require");
   verb.Flag("--no-svg", o.svg, "no frames/*.svg");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddDraw(CommandLine& program) {
+const ListedVerb kDrawVerb("Scenes and other programs' files", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
 }  // namespace stiction

@@ -15,10 +15,9 @@
 #include <thread>
 
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/night.h"
 #include "cli/shared.h"
-#include "cli/store_progress.h"
-#include "cli/verbs.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -197,7 +196,6 @@ int RunSearchVerb(const SearchVerb& asked) {
                options.threads, o.shard, o.store);
   };
   NightLog log(options.minutes);
-  const FindingCommand command(o.on_finding, o.store);
   std::int64_t untold = 0;
   const SearchReport report =
       RunSearch(campaign, IdentityOf(campaign), options, [&](const SearchProgress& progress) {
@@ -207,7 +205,7 @@ int RunSearchVerb(const SearchVerb& asked) {
           if (*options.interrupted) {
             ++untold;
           } else {
-            command.Run(finding);
+            RunOnFinding(o.on_finding, o.store, finding);
           }
         }
       });
@@ -282,8 +280,8 @@ void Watch(const std::string& file) {
 
 int RunStatus(const StatusVerb& o) {
   if (o.watch) Watch(o.store);
-  StoreProgress progress;
-  const Store store = OpenSound(o.store, progress.Reading());
+  ProgressBar progress;
+  const Store store = OpenSound(o.store, Reading(progress));
   progress.Clear();
   std::cout << (o.json ? JsonText(SummaryToJson(store)) + "\n" : SummaryOf(store, o.store));
   return kExitDone;
@@ -425,8 +423,8 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
 }
 
 int RunMerge(const MergeVerb& o) {
-  StoreProgress progress;
-  const auto open = [&](const std::string& file) { return OpenSound(file, progress.Reading(file)); };
+  ProgressBar progress;
+  const auto open = [&](const std::string& file) { return OpenSound(file, Reading(progress, file)); };
   std::optional<Store> first;
   if (!o.salvage) first = open(o.stores.front());
   const CampaignIdentity identity = first ? first->identity() : IdentityOfAny(o.stores);
@@ -440,7 +438,7 @@ int RunMerge(const MergeVerb& o) {
     } else {
       TakeWhatIsSound(merged, o.stores);
     }
-    RequireSound(merged, o.out, progress.Reading(o.out));
+    RequireSound(merged, o.out, Reading(progress, o.out));
   }
   progress.Clear();
   made.Keep();
@@ -503,7 +501,7 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
 
 }  // namespace
 
-void AddSearch(CommandLine& program) {
+const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
   AddCampaignOptions(verb, o);
   verb.Option("-s,--store", o.store,
@@ -535,24 +533,24 @@ void AddSearch(CommandLine& program) {
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
   verb.footer += "\nObjectives:" + HelpOf(Objectives()) + "\nOptimizers:" + HelpOf(Optimizers());
-}
+});
 
-void AddStatus(CommandLine& program) {
+const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddMerge(CommandLine& program) {
+const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("merge", "Join the stores of one campaign", RunMerge);
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
   verb.Flag("-j,--json", o.json, "machine output");
-}
+});
 
-void AddProblem(CommandLine& program) {
+const ListedVerb kProblemVerb("Search", 60, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("problem", "Write any problem that a search tried as a problem file", RunProblem);
   verb.footer =
@@ -566,6 +564,6 @@ void AddProblem(CommandLine& program) {
   verb.Flag("-j,--json", o.json, "machine output");
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");
-}
+});
 
 }  // namespace stiction

@@ -14,8 +14,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/verbs.h"
 #include "corpus/atomic_file.h"
 #include "corpus/json.h"
 #include "search/campaign.h"
@@ -273,7 +273,7 @@ int RunSlurm(const SlurmVerb& o) {
 
 }  // namespace
 
-void AddSlurm(CommandLine& program) {
+const ListedVerb kSlurmVerb("Search", 50, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
   verb.footer =
@@ -296,6 +296,6 @@ void AddSlurm(CommandLine& program) {
   verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);
   verb.Flag("-j,--json", o.json, "machine output");
   AddReplace(verb, o.replace);
-}
+});
 
 }  // namespace stiction

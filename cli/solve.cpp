@@ -7,19 +7,23 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <iostream>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/solve_sparse.h"
 #include "certify/request.h"
+#include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/shared.h"
-#include "cli/stop_after.h"
-#include "cli/verbs.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
@@ -34,6 +38,18 @@ struct SolveVerb : Wanted {
   bool fractions = false;  // for people, in full
   bool json = false;
 };
+
+// Sets the flag, which must outlive it, when the time is up; zero: never.
+std::jthread StopAfter(double seconds, std::atomic<bool>& stopped) {
+  if (seconds <= 0) return {};
+  return std::jthread([seconds, &stopped](const std::stop_token& end) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    const bool ended = std::condition_variable_any().wait_for(lock, end, std::chrono::duration<double>(seconds),
+                                                              [&end] { return end.stop_requested(); });
+    if (!ended) stopped = true;
+  });
+}
 
 int ExitOf(Outcome outcome) {
   if (outcome == Outcome::kSolved) return kExitDone;
@@ -177,18 +193,15 @@ void RequireForSparse(const SolveVerb& o, const SparseProblem& problem) {
   if (!o.law.empty() && o.law != "coulomb") refuse("--law " + o.law);
 }
 
-// What was asked of one file, and how it ended.
-struct Answered {
-  Json result;
-  int exit;
-};
+using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
 // More rows than a dense matrix is made for.
 Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
   RequireForSparse(o, problem);
-  const StopAfter stop(o.seconds);
+  std::atomic<bool> stopped = false;
+  const std::jthread timer = StopAfter(o.seconds, stopped);
   SolveOptions options = o.options;
-  options.limits.stop = stop.flag();
+  options.limits.stop = &stopped;
   const Solution solution{SolveSparse(problem, options)};
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
@@ -203,8 +216,9 @@ Answered SolveOne(const SolveVerb& o) {
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
-  const StopAfter stop(o.seconds);
-  request.options.limits.stop = stop.flag();
+  std::atomic<bool> stopped = false;
+  const std::jthread timer = StopAfter(o.seconds, stopped);
+  request.options.limits.stop = &stopped;
   const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
@@ -225,9 +239,9 @@ int SolveMany(SolveVerb o) {
     o.file = file;
     if (!o.json) Tell("{}{}:\n", results.empty() ? "" : "\n", file);
     try {
-      Answered answered = SolveOne(o);
-      results.push_back({{"file", file}, {"answer", std::move(answered.result)}});
-      if (severity(answered.exit) < severity(exit)) exit = answered.exit;
+      auto [answer, ended] = SolveOne(o);
+      results.push_back({{"file", file}, {"answer", std::move(answer)}});
+      if (severity(ended) < severity(exit)) exit = ended;
     } catch (const InputError& error) {
       std::cerr << "stiction: " << error.what() << "\n";
       results.push_back({{"file", file}, {"error", error.what()}});
@@ -242,9 +256,9 @@ int RunSolve(const SolveVerb& asked) {
   SolveVerb o = asked;
   if (o.files.size() > 1) return SolveMany(std::move(o));
   o.file = o.files.front();
-  const Answered answered = SolveOne(o);
-  if (o.json) std::cout << JsonText(answered.result) << "\n";
-  return answered.exit;
+  const auto [answer, exit] = SolveOne(o);
+  if (o.json) std::cout << JsonText(answer) << "\n";
+  return exit;
 }
 
 std::vector<AllowedValue> MethodChoices() {
@@ -256,7 +270,7 @@ std::vector<AllowedValue> MethodChoices() {
 
 }  // namespace
 
-void AddSolve(CommandLine& program) {
+const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("solve", "Solve problems", RunSolve);
   verb.footer =
       "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "
@@ -287,6 +301,6 @@ void AddSolve(CommandLine& program) {
   verb.Flag("-j,--json", o.json, "machine output");
   AddLimits(verb, o.options.limits);
   AddTolerances(verb, o.options.tolerances);
-}
+});
 
 }  // namespace stiction

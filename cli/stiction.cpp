@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
 // The program `stiction`: one verb per task. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
+#include "cli/command_line.h"
 #include "cli/help.h"
 #include "cli/program.h"
-#include "cli/verbs.h"
 #include "cli/version.h"
 
 namespace {
@@ -12,33 +12,7 @@ int Main(int argc, char** argv) {
   using namespace stiction;
   CommandLine program("stiction: does Baraff's algorithm for contact forces with static friction always end?",
                       "stiction " + BuildId(), kExitCodes);
-  program.group = "Search";
-  AddSearch(program);
-  AddStatus(program);
-  AddReport(program);
-  AddMerge(program);
-  AddSlurm(program);
-  AddProblem(program);
-  AddRecords(program);
-  program.group = "One problem";
-  AddSolve(program);
-  AddReplay(program);
-  AddCertify(program);
-  AddCheck(program);
-  AddMinimize(program);
-  AddSurvey(program);
-  program.group = "Scenes and other programs' files";
-  AddAssemble(program);
-  AddSimulate(program);
-  AddDraw(program);
-  AddImport(program);
-  AddExport(program);
-  program.group = "About stiction";
-  AddMethods(program);
-  AddPolicies(program);
-  AddWords(program);
-  AddBench(program);
-  AddManual(program);
+  program.AddListed({"Search", "One problem", "Scenes and other programs' files", "About stiction"});
   return program.Run(argc, argv);
 }
 

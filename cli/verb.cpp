@@ -6,25 +6,22 @@
 #include <algorithm>
 #include <charconv>
 #include <type_traits>
+#include <utility>
 
 #include "cli/help.h"
 
 namespace stiction {
 namespace {
 
-// What one word is read as.
+// What one word of a field is read as.
 template <class T>
-struct WordOf {
-  using Type = T;
-};
+T WordFor(const T&);
 template <class T>
-struct WordOf<std::optional<T>> {
-  using Type = T;
-};
+T WordFor(const std::optional<T>&);
 template <class T>
-struct WordOf<std::vector<T>> {
-  using Type = T;
-};
+T WordFor(const std::vector<T>&);
+template <class T>
+using WordOf = decltype(WordFor(std::declval<T>()));
 
 // All of the word as a number, in decimal.
 template <class Number>
@@ -90,9 +87,9 @@ std::string ErrorOf(const OptionRow& row, const std::string& word) {
 
 template <class T>
 std::string TakeWord(const OptionRow& row, const std::string& word, T& field) {
-  typename WordOf<T>::Type value{};
+  WordOf<T> value{};
   bool good = Read(word, value);
-  if constexpr (std::is_arithmetic_v<typename WordOf<T>::Type>) {
+  if constexpr (std::is_arithmetic_v<WordOf<T>>) {
     const double number = static_cast<double>(value);
     good = good && row.min <= number && number <= row.max;  // not so of nan
   }
@@ -117,7 +114,7 @@ bool OptionRow::IsRepeated() const {
 std::string_view OptionRow::TypeName() const {
   return std::visit(
       [](const auto* bound) -> std::string_view {
-        using Word = typename WordOf<std::remove_cvref_t<decltype(*bound)>>::Type;
+        using Word = WordOf<std::remove_cvref_t<decltype(*bound)>>;
         if constexpr (std::is_same_v<Word, bool>) return "";
         if constexpr (std::is_integral_v<Word>) return "INTEGER";
         return std::is_floating_point_v<Word> ? "NUMBER" : "TEXT";

@@ -5,13 +5,13 @@
 //   struct ExportOptions { std::string file, output, format; bool round = false; };
 //   int Export(const ExportOptions& o);
 //
-//   void AddExport(CommandLine& program) {
+//   const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
 //     auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
 //     verb.Positional("FILE", o.file, "stiction-problem file").Required();
 //     verb.Option("-o,--output", o.output, "file to write").Required();
 //     verb.Option("--format", o.format, "the format to write").Required().OneOf(FormatNames());
 //     verb.Flag("--round", o.round, "write the nearest double for a number that is none");
-//   }
+//   });
 //
 // A row is bound to a field of the options, which holds the default. A field that is empty or zero has none
 // that could be shown: the verb chooses, and the help says how. The type of the field says what is read:
@@ -65,7 +65,7 @@ struct OptionRow {
   bool required = false;
   std::function<std::string(const std::string&)> check;  // what is wrong with a value; empty: nothing
 
-  // How an Add function fills the row.
+  // How the row is filled.
   OptionRow& Required() { return required = true, *this; }
   OptionRow& Details(std::string text) { return details = std::move(text), *this; }
   OptionRow& Unit(std::string_view text) { return unit = text, *this; }

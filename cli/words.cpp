@@ -9,8 +9,8 @@
 #include <iostream>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "cli/help.h"
-#include "cli/verbs.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
 
@@ -111,18 +111,14 @@ bool StandsIn(std::string_view text, std::string_view word) {
   return false;
 }
 
-struct WordsOptions {
-  bool json = false;
-};
-
-int List(const WordsOptions& o) {
+int List(const bool& in_json) {
   Json json = Json::array();
   std::string text;
   for (const Word& word : kWords) {
     json.push_back({{"word", word.name}, {"meaning", word.meaning}, {"source", word.source}});
     text += TextOf(word);
   }
-  std::cout << (o.json ? JsonText(json) + "\n" : text + "\nNumbers in brackets are sections of the paper.\n");
+  std::cout << (in_json ? JsonText(json) + "\n" : text + "\nNumbers in brackets are sections of the paper.\n");
   return kExitDone;
 }
 
@@ -140,9 +136,9 @@ std::string GlossaryOf(std::string_view text) {
   return glossary;
 }
 
-void AddWords(CommandLine& program) {
-  auto [verb, o] = program.Add("words", "What the words of answers and replays mean", List);
-  verb.Flag("-j,--json", o.json, "machine output");
-}
+const ListedVerb kWordsVerb("About stiction", 30, [](CommandLine& program) {
+  auto [verb, in_json] = program.Add("words", "What the words of answers and replays mean", List);
+  verb.Flag("-j,--json", in_json, "machine output");
+});
 
 }  // namespace stiction

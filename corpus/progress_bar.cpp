@@ -24,6 +24,13 @@ void ProgressBar::Show(double fraction, const std::string& text) {
   std::fflush(out_);
 }
 
+void ProgressBar::ShowSome(std::int64_t done, std::int64_t of, const std::function<std::string()>& text) {
+  const double now = watch_.Seconds();
+  if (now < next_) return;
+  next_ = now + 0.2;
+  Show(static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(1, of)), text());
+}
+
 void ProgressBar::Log(double fraction, const std::string& text) {
   constexpr double kFirst = 10, kLast = 600;  // seconds between lines
   const double now = watch_.Seconds();

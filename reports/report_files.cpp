@@ -16,8 +16,7 @@ std::string Pretty(const std::string& problem, const std::string& source) {
 void ReportFiles::Write(const std::string& name, const std::string& text) {
   folder_.Write(name, text);
   digests_[name] = Sha256(text);
-  ++progress_.files;
-  if (show_) show_(progress_);
+  if (show_) show_(findings_, of_, static_cast<std::int64_t>(digests_.size()));
 }
 
 void ReportFiles::WriteSums() const {

@@ -16,11 +16,8 @@
 
 namespace stiction {
 
-// How far a folder is: so many of its findings have their files; so many files there are.
-struct WritingProgress {
-  std::int64_t findings = 0, of = 0, files = 0;
-};
-using ShowWriting = std::function<void(const WritingProgress&)>;
+// How far a folder is: of how many findings the files are there, of how many, and how many files.
+using ShowWriting = std::function<void(std::int64_t findings, std::int64_t of, std::int64_t files)>;
 
 // Writes the files of a folder, and at last what they are. `show`, if any, is called after each.
 class ReportFiles {
@@ -29,8 +26,8 @@ class ReportFiles {
       : folder_(folder), show_(std::move(show)) {}
 
   // So many findings will have files; one of them has all of its own.
-  void ExpectFindings(std::int64_t of) { progress_.of = of; }
-  void FinishFinding() { ++progress_.findings; }
+  void ExpectFindings(std::int64_t of) { of_ = of; }
+  void FinishFinding() { ++findings_; }
 
   void Write(const std::string& name, const std::string& text);
   // SHA256SUMS, in the format of sha256sum.
@@ -39,7 +36,7 @@ class ReportFiles {
  private:
   const WholeFolder& folder_;
   ShowWriting show_;
-  WritingProgress progress_;
+  std::int64_t findings_ = 0, of_ = 0;
   std::map<std::string, std::string> digests_;
 };
 

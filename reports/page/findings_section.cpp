@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section of the page that shows findings one by one.
+// Findings one by one: the section of the page, and its data.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "corpus/intervals.h"
 #include "corpus/plain_text.h"
+#include "corpus/rational.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
-#include "reports/page/findings_data.h"
 #include "reports/page/page.h"
 #include "reports/pictures/finding_picture.h"
+#include "reports/tables/discovery.h"
 
 namespace stiction {
 namespace {
 
+// Letters of the JSON text of a problem: longer ones nobody reads off a page.
+constexpr std::size_t kLongestProblem = 6000;
+
 // ---- The problem in numbers ----
 
-}  // namespace
-
+// "N1", "F1", "N2", ...; in space a contact has two friction rows, "F1x" and "F1y".
 std::vector<std::string> RowNames(const ExactProblem& problem) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
@@ -34,14 +41,11 @@ std::vector<std::string> RowNames(const ExactProblem& problem) {
   return names;
 }
 
-namespace {
-
 std::string MuText(const Contact<Rational>& contact) {
   return contact.HasFrictionRows() ? ToString(contact.mu) : "–";
 }
 
-}  // namespace
-
+// The column of mu: the coefficient beside the normal of its contact.
 std::vector<std::string> MuColumn(const ExactProblem& problem) {
   std::vector<std::string> column;
   for (const Contact<Rational>& contact : problem.contacts) {
@@ -51,8 +55,6 @@ std::vector<std::string> MuColumn(const ExactProblem& problem) {
   }
   return column;
 }
-
-namespace {
 
 TableCell Number(const Rational& x, const std::string& style = "") {
   return {ToString(x), "", x == 0 && style.empty() ? "zero" : style};
@@ -74,25 +76,24 @@ Html ProblemTable(const ExactProblem& problem, const std::string& caption) {
   return ToHtml(table);
 }
 
-}  // namespace
-
-ProblemSize SizeOf(const ExactProblem& problem) {
-  ProblemSize size;
-  const auto count = [&size](const Rational& x) {
-    size.nonzeros += x != 0;
-    size.bits = std::max(size.bits, Bits(x));
+// Numbers of A and b that are not zero; bits of the longest numerator or denominator.
+std::pair<int, std::int64_t> SizeOf(const ExactProblem& problem) {
+  int nonzeros = 0;
+  std::int64_t bits = 0;
+  const auto count = [&](const Rational& x) {
+    nonzeros += x != 0;
+    bits = std::max<std::int64_t>(bits, Bits(x));
   };
   for (const Rational& x : problem.A.reshaped()) count(x);
   for (const Rational& x : problem.b) count(x);
   for (const auto& contact : problem.contacts) count(contact.mu);
-  return size;
+  return {nonzeros, bits};
 }
 
+// The minimized problem; as found while there is none.
 const std::string& SimplestText(const Finding& finding) {
   return finding.minimized.empty() ? finding.problem : finding.minimized;
 }
-
-namespace {
 
 Html ProblemOf(const Finding& finding) {
   const std::string& text = SimplestText(finding);
@@ -103,8 +104,7 @@ Html ProblemOf(const Finding& finding) {
 
 // ---- Words ----
 
-}  // namespace
-
+// "solved 36, cycle 1,500"
 std::string GridText(const GridOutcomes& grid) {
   std::string text;
   for (int i = 0; i < kOutcomeCount; ++i) {
@@ -113,8 +113,6 @@ std::string GridText(const GridOutcomes& grid) {
   }
   return text;
 }
-
-namespace {
 
 // "The state after 3 drives stands again 4 drives later (17 steps in all)."
 std::string RunText(const RunFacts& run, const Finding& finding) {
@@ -127,8 +125,7 @@ std::string RunText(const RunFacts& run, const Finding& finding) {
                      finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
 }
 
-}  // namespace
-
+// Commands for a shell in the folder of the report.
 std::string CommandsOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   const std::string& policy = finding.policy;
@@ -142,8 +139,6 @@ std::string CommandsOf(const Discovery& discovery) {
     text += fmt::format("\nstiction check {}", ShellWord(discovery.files.certificate));
   return text;
 }
-
-namespace {
 
 Html FileLinks(const FindingFiles& files) {
   const auto link = [](const std::string& file, std::string_view title) {
@@ -163,8 +158,7 @@ std::string SafeText(const RunFacts& run) {
   return run.safe == true ? " All reduced determinants are positive." : "";
 }
 
-}  // namespace
-
+// What happens, and to which problem.
 std::string StoryOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   if (!discovery.Finished()) return "Neither certified nor minimized yet; the problem as found:";
@@ -173,8 +167,6 @@ std::string StoryOf(const Discovery& discovery) {
   if (discovery.found) text += " " + RunText(*discovery.found, finding);
   return text + " Not minimized; the problem as found:";
 }
-
-namespace {
 
 // ---- The table ----
 
@@ -210,8 +202,8 @@ Html RepresentativeText(const Finding& finding) {
 Html SizeText(const Discovery& discovery) {
   if (!discovery.minimized) return Tag("span", {{"class", "soft"}})(discovery.Finished() ? "–" : "pending");
   const Finding& finding = *discovery.representative;
-  const ProblemSize size = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
-  return Text(fmt::format("{}, {}", Counted(size.nonzeros, "nonzero"), Counted(size.bits, "bit")));
+  const auto [nonzeros, bits] = SizeOf(ParseProblem(finding.minimized, finding.signature).problem);
+  return Text(fmt::format("{}, {}", Counted(nonzeros, "nonzero"), Counted(bits, "bit")));
 }
 
 Html FindingsRows(const std::vector<const Discovery*>& shown, const std::optional<Since>& since) {
@@ -289,7 +281,71 @@ Html IpoptText(const std::vector<Discovery>& discoveries) {
   return Tag("p")(html) + Html("\n");
 }
 
+// ---- Data ----
+
+Json NumbersToJson(const ExactProblem& problem) {
+  Json A = Json::array(), b = Json::array();
+  for (int row = 0; row < problem.rows(); ++row) {
+    Json numbers = Json::array();
+    for (int column = 0; column < problem.rows(); ++column) numbers.push_back(ToString(problem.A(row, column)));
+    A.push_back(std::move(numbers));
+    b.push_back(ToString(problem.b[row]));
+  }
+  return {{"names", RowNames(problem)}, {"A", std::move(A)}, {"b", std::move(b)}, {"mu", MuColumn(problem)}};
+}
+
+Json FilesToJson(const FindingFiles& files) {
+  return {files.problem,   files.original,           files.certificate,
+          files.existence, files.original_existence, files.picture};
+}
+
+Json FindingToJson(const Discovery& discovery, const std::optional<Since>& since) {
+  const Finding& finding = *discovery.representative;
+  Json json = {{"signature", discovery.signature},
+               {"kind", discovery.kind},
+               {"loop", discovery.IsLoop()},
+               {"stands_out", discovery.IsLoop() || IsGrave(discovery.kind)},
+               {"whole", discovery.WholeGrid()},
+               {"state", StateOf(discovery)},
+               {"contacts", finding.contacts},
+               {"smallest", discovery.SmallestContacts()},
+               {"met", discovery.met},
+               {"generator", finding.generator},
+               {"unit", finding.unit},
+               {"index", finding.index},
+               {"policy", finding.policy}};
+  if (discovery.loop) {
+    json["drives"] = discovery.loop->drives;
+    json["steps"] = discovery.loop->steps;
+  }
+  if (discovery.words) {
+    json["words"] = discovery.Words();
+    json["words_exact"] = discovery.words->IsExact();
+  }
+  if (since) json["change"] = since->ChangeOf(discovery);
+  if (discovery.found) json["grid"] = GridText(discovery.found->grid);
+  if (discovery.minimized) json["minimized_grid"] = GridText(discovery.minimized->grid);
+  const std::string& text = SimplestText(finding);
+  const ExactProblem problem = ParseProblem(text, finding.signature).problem;
+  if (discovery.minimized) {
+    const auto [nonzeros, bits] = SizeOf(problem);
+    json["nonzeros"] = nonzeros;
+    json["bits"] = bits;
+  }
+  json["story"] = StoryOf(discovery);
+  json["commands"] = CommandsOf(discovery);
+  json["files"] = FilesToJson(discovery.files);
+  json["numbers"] = text.size() > kLongestProblem ? Json() : NumbersToJson(problem);
+  return json;
+}
+
 }  // namespace
+
+Json FindingsToJson(const std::vector<Discovery>& discoveries, const std::optional<Since>& since) {
+  Json json = Json::array();
+  for (const Discovery* discovery : ByInterest(discoveries)) json.push_back(FindingToJson(*discovery, since));
+  return json;
+}
 
 Html FindingDetails(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;

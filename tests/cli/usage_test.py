@@ -24,16 +24,21 @@ SWITCHES = {
 }
 
 
+def all_verbs():
+    return [verb["verb"] for verb in cli.run("manual", "--json").json()]
+
+
 class Usage(cli.TestCase):
     def test_help_of_the_program_names_every_verb_and_the_exit_codes(self):
         done = self.succeeds("--help")
         self.assertEqual(done.err, "")
-        for verb in VERBS:
+        self.assertLessEqual(set(VERBS), set(all_verbs()))
+        for verb in all_verbs():
             self.assertRegex(done.out, rf"(?m)^  {verb} ")
         self.assertIn("Exit: 0", done.out)
 
     def test_help_of_every_verb(self):
-        for verb in VERBS:
+        for verb in all_verbs():
             with self.subTest(verb=verb):
                 done = self.succeeds(verb, "--help")
                 self.assertIn("Usage:", done.out)
@@ -41,7 +46,7 @@ class Usage(cli.TestCase):
                 self.assertEqual(self.succeeds(verb, "-h").out, done.out)
 
     def test_no_line_of_a_help_is_wider_than_a_terminal(self):
-        for verb in [(), *((verb,) for verb in VERBS)]:
+        for verb in [(), *((verb,) for verb in all_verbs())]:
             for line in self.succeeds(*verb, "--help").out.splitlines():
                 self.assertLessEqual(len(line), 80, f"{verb}: {line}")
 

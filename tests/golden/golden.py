@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the program says today of everything that it is sure to say again: before and after a change of its insides.
 
-    golden.py [PROGRAM]            says each case that differs from tests/golden/recorded; exit 1 if one does
+    golden.py [PROGRAM]            says each case that differs from tests/golden/recorded; exit 1 if one does;
+                                   a case that is not recorded is new, and differs from nothing
     golden.py [PROGRAM] --show N   the first N of them, as they were and as they are (5 unless told)
     golden.py [PROGRAM] --accept "REASON"    records what is said now; CHANGES.md gets the cases and the reason
     golden.py [PROGRAM] --only GROUP...      of these groups
@@ -181,10 +182,11 @@ REFUSED = [("solve", "none.json"), ("solve",), ("replay", "corpus/two-contact-cy
 
 def verbs(program, scratch):
     for words in (("methods", "--json"), ("policies", "--json"), ("words", "--json"), ("records", "--json"),
-                  ("manual", "--json"), *REFUSED):
+                  *REFUSED):
         yield " ".join(words), words
     done = subprocess.run([program.path, "manual", "--json"], capture_output=True, check=True)
     for verb in json.loads(done.stdout):
+        yield f"manual {verb['verb']}", lambda verb=verb: json.dumps(verb, separators=(",", ":"))
         yield f"help {verb['verb']}", ("help", verb["verb"])
     for file, problem in problems("", *SPATIAL):
         if len(problem.get("b", [])) <= 12:
@@ -233,7 +235,8 @@ def write(group, said):
 
 
 def differing(before, now):
-    return [name for name in sorted({*before, *now}) if before.get(name) != now.get(name)]
+    """A case that is new says nothing otherwise than before; --accept records it with the others."""
+    return [name for name in sorted(before) if before[name] != now.get(name)]
 
 
 def shown(name, before, now):
@@ -260,10 +263,11 @@ def main():
         for group in options.only:
             before, now = read(group), say(program, group, scratch)
             found[group] = names = differing(before, now)
-            print(f"{group}: {len(now)} cases, {len(names)} differ")
+            new = now.keys() - before.keys()
+            print(f"{group}: {len(now)} cases, {len(names)} differ, {len(new)} are new")
             for name in names[:options.show]:
                 print(shown(f"{group}: {name}", before.get(name, ""), now.get(name, "")))
-            if options.accept and names:
+            if options.accept and (names or new):
                 write(group, now)
     finally:
         shutil.rmtree(scratch)

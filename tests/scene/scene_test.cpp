@@ -12,6 +12,7 @@
 #include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/scene_file.h"
+#include "corpus/record/sparse_problem.h"
 #include "scene/assemble.h"
 #include "solver/problem/reduction.h"
 #include "tests/methods.h"

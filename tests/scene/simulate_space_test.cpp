@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "corpus/record/scene_file.h"
+#include "corpus/record/sparse_problem.h"
 #include "scene/simulate.h"
 #include "tests/support.h"
 

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "corpus/record/scene_file.h"
+#include "corpus/record/sparse_problem.h"
 #include "solver/problem/errors.h"
 #include "tests/support.h"
 

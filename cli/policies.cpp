@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// stiction policies: the readings of the published text.
+
+#include <iostream>
+
+#include "cli/command_line.h"
+#include "cli/shared.h"
+#include "corpus/json_text.h"
+
+namespace stiction {
+namespace {
+
+int ListPolicies(const bool& json) {
+  Json rows = Json::array();
+  for (const PolicySwitchRow& row : PolicySwitches()) {
+    Json values = Json::array();
+    for (const PolicyValue& value : row.values)
+      values.push_back({{"value", value.name}, {"meaning", value.meaning}});
+    rows.push_back({{"switch", row.name},
+                    {"question", row.question},
+                    {"reads", row.reads},
+                    {"planar", row.planar},
+                    {"values", values}});
+    if (json) continue;
+    Tell("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
+         row.reads);
+    for (const PolicyValue& value : row.values) Tell("    {:14}  {}\n", value.name, value.meaning);
+  }
+  if (json) {
+    std::cout << JsonText(rows) << "\n";
+  } else {
+    Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+         PlanarGrid().size());
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+const ListedVerb kPoliciesVerb("About stiction", 20, [](CommandLine& program) {
+  auto [verb, json] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
+  verb.Flag("-j,--json", json, "machine output");
+});
+
+}  // namespace stiction
