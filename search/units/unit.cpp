@@ -15,7 +15,7 @@
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/scene_file.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/generators.h"
 #include "search/generators/scenes.h"
 #include "search/lanes/batch.h"
 #include "search/units/signature.h"
