@@ -125,10 +125,11 @@ TEST_CASE("algorithm version: runs are those that were recorded under it, and so
   for (const GeneratorRow& row : Generators()) {
     const TraceText text = TraceOf(row.name);
     const Recorded recorded = RecordedOf(row.name);
-    INFO(fmt::format(
-        "{}: its runs, or what is counted of them, have changed; if that was meant, raise kAlgorithmVersion and "
-        "kCountsVersion, or the second alone, and record them again: {:#018x}, {:#018x}",
-        row.name, TraceHash(text.runs), TraceHash(text.runs + text.rest)));
+    INFO(
+        fmt::format("{}: its runs, or what is counted of them, have changed; if that was meant, raise "
+                    "kAlgorithmVersion and "
+                    "kCountsVersion, or the second alone, and record them again: {:#018x}, {:#018x}",
+                    row.name, TraceHash(text.runs), TraceHash(text.runs + text.rest)));
     CHECK(TraceHash(text.runs) == recorded.runs);
     CHECK(TraceHash(text.runs + text.rest) == recorded.counts);
   }
