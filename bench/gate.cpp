@@ -63,7 +63,7 @@ struct GateRow {
   Arithmetic arithmetic;
 };
 
-std::vector<GateRow> GateRows(int dimension, std::initializer_list<std::string_view> methods,
+std::vector<GateRow> GateRows(int dimension, const std::vector<std::string_view>& methods,
                               std::initializer_list<Arithmetic> arithmetics) {
   std::vector<GateRow> rows;
   for (const std::string_view method : methods) {
@@ -71,6 +71,12 @@ std::vector<GateRow> GateRows(int dimension, std::initializer_list<std::string_v
       if (Refusal(method, dimension, arithmetic).empty()) rows.push_back({method, arithmetic});
   }
   return rows;
+}
+
+std::vector<std::string_view> AllOverDoubles() {
+  std::vector<std::string_view> names = {kAutomatic};
+  for (const Method<double>& method : Methods<double>()) names.push_back(method.name);
+  return names;
 }
 
 // What the arithmetic is given; null where it does not hold a number.
@@ -332,8 +338,8 @@ int BenchGate(const BenchOptions& o) {
     progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
     const int dimension = source.make(o.seed, 0).dimension;
     std::vector<GateCell> of_source;
-    for (const GateRow& row : GateRows(dimension, {"auto", "fast", "complete", "lemke", "baraff", "proximal"},
-                                       {kFloat, kDouble, kLongDouble, kQuad, kFiltered}))
+    for (const GateRow& row :
+         GateRows(dimension, AllOverDoubles(), {kFloat, kDouble, kLongDouble, kQuad, kFiltered}))
       of_source.push_back({&source, dimension, row, {}});
     for (std::int64_t index = 0; index < problems; ++index) {
       const RungProblem problem(source.make(o.seed, index));
