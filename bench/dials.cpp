@@ -12,7 +12,7 @@
 #include "corpus/input_error.h"
 #include "corpus/rounded.h"
 #include "search/generators/exponential.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/generators.h"
 
 namespace stiction {
 namespace {

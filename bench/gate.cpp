@@ -78,8 +78,7 @@ struct GateCell {
 };
 
 // Those that are built.
-std::vector<GateCell> CellsOf(const Source& source, int dimension,
-                              std::initializer_list<std::string_view> methods,
+std::vector<GateCell> CellsOf(const Source& source, int dimension, const std::vector<std::string_view>& methods,
                               std::initializer_list<Arithmetic> arithmetics) {
   std::vector<GateCell> cells;
   for (const std::string_view method : methods) {
@@ -88,6 +87,12 @@ std::vector<GateCell> CellsOf(const Source& source, int dimension,
         cells.push_back({&source, dimension, method, arithmetic});
   }
   return cells;
+}
+
+std::vector<std::string_view> AllOverDoubles() {
+  std::vector<std::string_view> names = {kAutomatic};
+  for (const Method<double>& method : Methods<double>()) names.push_back(method.name);
+  return names;
 }
 
 // What the arithmetic is given; null where it does not hold a number.
@@ -323,8 +328,7 @@ int BenchGate(const BenchOptions& o) {
     progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
     const int dimension = source.make(o.seed, 0).dimension;
     std::vector<GateCell> of_source =
-        CellsOf(source, dimension, {"auto", "fast", "complete", "lemke", "baraff", "proximal"},
-                {kFloat, kDouble, kLongDouble, kQuad, kFiltered});
+        CellsOf(source, dimension, AllOverDoubles(), {kFloat, kDouble, kLongDouble, kQuad, kFiltered});
     for (std::int64_t index = 0; index < problems; ++index) {
       const RungProblem problem(source.make(o.seed, index));
       for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);

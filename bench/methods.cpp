@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -25,6 +26,7 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/linear_system.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
@@ -62,22 +64,19 @@ bool Stands(const ContactProblem<double>& problem, const ContactProblem<double>:
   return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest() <= kWrongAnswer;
 }
 
-template <class Scalar>
-struct BenchAnswer {
-  Outcome outcome = Outcome::kUndecided;
-  typename ContactProblem<Scalar>::Vector f = {};  // if solved
-  double library_seconds = 0;                      // in another process
-};
+// The counter of what another process took, in nanoseconds of it.
+constexpr const char* kElsewhere = "nanoseconds elsewhere";
 
-// call(problem) returns a BenchAnswer.
+// call(problem) returns an Answer<Scalar>.
 template <class Scalar, class Call>
 std::function<Measure(const BenchProblem&)> Timed(Call call) {
   return [call](const BenchProblem& problem) mutable {
     const auto& data = In(problem, static_cast<const Scalar*>(nullptr));
     const Stopwatch watch;
-    const BenchAnswer<Scalar> answer = call(data);
-    Measure measure{.outcome = answer.outcome, .library_seconds = answer.library_seconds};
-    measure.seconds = watch.Seconds() + answer.library_seconds;
+    const Answer<Scalar> answer = call(data);
+    const double elsewhere = 1e-9 * static_cast<double>(ValueOf(answer.counters, kElsewhere));
+    Measure measure{.outcome = answer.outcome, .library_seconds = elsewhere};
+    measure.seconds = watch.Seconds() + elsewhere;
     if (answer.outcome == Outcome::kSolved) measure.wrong = !Stands(data, answer.f);
     measure.refutes =
         kIsExact<Scalar> && (answer.outcome == Outcome::kRay || answer.outcome == Outcome::kNoSolution);
@@ -100,8 +99,10 @@ BenchMethod Kept(const std::string& name, const std::string& reading, Solver sol
           .reading = reading,
           .arithmetic = kArithmetic<Scalar>,
           .run = Timed<Scalar>([solver](const auto& data) mutable {
-            const Outcome outcome = solver.Run(data).outcome;
-            return BenchAnswer<Scalar>{outcome, ForcesOf(solver)};
+            Answer<Scalar> answer;
+            answer.outcome = solver.Run(data).outcome;
+            answer.f = ForcesOf(solver);
+            return answer;
           })};
 }
 
@@ -119,6 +120,13 @@ BenchMethod Lemke(Cover cover) {
                       LemkeAlgorithm<Scalar>({cover, {}, {}}));
 }
 
+ExactAnswer Ended(Outcome outcome, ExactProblem::Vector f = {}) {
+  ExactAnswer answer;
+  answer.outcome = outcome;
+  answer.f = std::move(f);
+  return answer;
+}
+
 BenchMethod Enumerate() {
   return {.name = "enumerate",
           .reading = "",
@@ -129,10 +137,9 @@ BenchMethod Enumerate() {
             EnumerationOptions options;
             options.first_solution_only = true;
             const Enumeration modes = EnumerateModes(data, options);
-            BenchAnswer<Rational> answer;
-            if (modes.ProvesNoSolution()) answer.outcome = Outcome::kNoSolution;
-            if (!modes.solutions.empty()) answer = {Outcome::kSolved, modes.solutions.front().f};
-            return answer;
+            if (modes.solutions.empty())
+              return Ended(modes.ProvesNoSolution() ? Outcome::kNoSolution : Outcome::kUndecided);
+            return Ended(Outcome::kSolved, modes.solutions.front().f);
           })};
 }
 
@@ -155,9 +162,9 @@ BenchMethod Ipopt(Formulation formulation, int one_in) {
             options.formulation = formulation;
             const Stopwatch watch(ClockOf(proposer->process_id()));
             const auto f = proposer->ProposeSolution(data, options, statistics);
-            BenchAnswer<Rational> answer;
-            if (f) answer = {Outcome::kSolved, *f};
-            answer.library_seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
+            ExactAnswer answer = f ? Ended(Outcome::kSolved, *f) : Ended(Outcome::kUndecided);
+            const double seconds = std::min(watch.Seconds(), statistics.ipopt_seconds);
+            Add(answer.counters, kElsewhere, std::llround(1e9 * seconds));
             return answer;
           })};
 }
@@ -176,22 +183,22 @@ BenchMethod Gauss() {
 
 // CGAL's QP_solver, exact, on a problem over integers; without the proof that A is definite.
 BenchMethod ExactQuadratic() {
-  return {.name = "qp",
-          .reading = "",
-          .arithmetic = "exact",
-          .run = Timed<Rational>([](const auto& problem) {
-            QuadraticProgram program;
-            for (int i = 0; i < problem.rows(); ++i) {
-              program.c.push_back(problem.b[i].get_num());
-              auto& row = program.M.emplace_back();
-              for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j).get_num());
-            }
-            const QuadraticEnd end = Minimize(program);
-            BenchAnswer<Rational> answer;
-            if (end.bounded)
-              answer = {Outcome::kSolved, Eigen::Map<const ExactProblem::Vector>(end.x.data(), problem.rows())};
-            return answer;
-          })};
+  return {.name = "qp", .reading = "", .arithmetic = "exact", .run = Timed<Rational>([](const auto& problem) {
+                                                                QuadraticProgram program;
+                                                                for (int i = 0; i < problem.rows(); ++i) {
+                                                                  program.c.push_back(problem.b[i].get_num());
+                                                                  auto& row = program.M.emplace_back();
+                                                                  for (int j = 0; j < problem.rows(); ++j)
+                                                                    row.push_back(problem.A(i, j).get_num());
+                                                                }
+                                                                const QuadraticEnd end = Minimize(program);
+                                                                if (!end.bounded)
+                                                                  return Ended(Outcome::kUndecided);
+                                                                return Ended(
+                                                                    Outcome::kSolved,
+                                                                    Eigen::Map<const ExactProblem::Vector>(
+                                                                        end.x.data(), problem.rows()));
+                                                              })};
 }
 
 // The first is the unit of times. Starts Ipopt's process: InputError if it cannot be run.

@@ -25,7 +25,7 @@
 #include "corpus/json.h"
 #include "corpus/record/work.h"
 #include "corpus/stopwatch.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/integer_problem.h"
 #include "search/lanes/batch.h"
 #include "search/units/unit.h"
 #include "solver/problem/errors.h"
@@ -184,7 +184,7 @@ OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, do
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(ProblemSeed(o.seed, 1, static_cast<std::uint64_t>(index)));
     generators::DrawFriction(kDefaultPalette, choices, problem);
-    generators::Integers(choices, problem);
+    generators::FillIntegers(choices, problem);
     steps += static_cast<double>(algorithm.Run(problem).statistics.steps);
     const auto& f = algorithm.state().f;
     auto a = problem.b;

@@ -40,7 +40,7 @@ void RequireMethod(const Wanted& wanted) {
 void RequirePathMethod(const Wanted& wanted) {
   std::vector<std::string_view> followed;
   for (const MethodFacts& facts : AllMethods())
-    if (facts.has_path) followed.push_back(facts.name);
+    if (facts.HasPath()) followed.push_back(facts.name);
   if (std::find(followed.begin(), followed.end(), wanted.method) == followed.end())
     throw InputError(fmt::format("{}method: found {}, expected one with a path: {}", wanted.dashes,
                                  wanted.method, fmt::join(followed, ", ")));

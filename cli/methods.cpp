@@ -54,7 +54,7 @@ Json TableInJson() {
   Json json = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
     Json row = {{"name", facts.name},    {"title", facts.title},   {"source", facts.source},
-                {"ends", facts.ends},    {"path", facts.has_path}, {"plane", Json::array()},
+                {"ends", facts.ends},    {"path", facts.HasPath()}, {"plane", Json::array()},
                 {"space", Json::array()}};
     for (const Arithmetic arithmetic : kShown) {
       if (facts.IsBuilt(2, arithmetic)) row["plane"].push_back(Name(arithmetic));

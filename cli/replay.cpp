@@ -267,7 +267,7 @@ int Replay(const ReplayOptions& o) {
 std::vector<AllowedValue> PathMethodChoices() {
   std::vector<AllowedValue> choices;
   for (const MethodFacts& facts : AllMethods()) {
-    if (facts.has_path) choices.push_back({std::string(facts.name), std::string(facts.title)});
+    if (facts.HasPath()) choices.push_back({std::string(facts.name), std::string(facts.title)});
   }
   return choices;
 }

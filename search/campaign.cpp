@@ -212,7 +212,7 @@ void RequireConsistent(const Campaign& campaign) {
     if (campaign.gravity_only && !Row(id).has_gravity) {
       throw InputError(fmt::format("gravity only: found generator {}, expected one of bodies", Row(id).name));
     }
-    const int most = MostMuPart(id);
+    const int most = Row(id).most_mu_part;
     for (const MuChoice& mu : campaign.palette) {
       if (mu.numerator <= most && mu.denominator <= most) continue;
       throw InputError(fmt::format("friction coefficient: found {}/{} for {}, expected p/q of at most {}",

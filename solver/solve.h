@@ -20,11 +20,13 @@
 #ifndef STICTION_SOLVER_SOLVE_H_
 #define STICTION_SOLVER_SOLVE_H_
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "solver/problem/answer.h"
+#include "solver/problem/enclosure.h"
 #include "solver/problem/options.h"
 #include "solver/problem/problem.h"
 
@@ -37,6 +39,7 @@ struct SolveOptions {
   FrictionLaw law = FrictionLaw::kCoulomb;  // in space; of the method baraff it is kBaraff
   int sides = 8;                            // of friction polygons in space, a multiple of 4
   double residual = 0;                      // of an answer that is called solved; 0: that of the arithmetic
+  DependentRows* dependent = nullptr;  // over enclosures: rows that follow from others; null: none are known
 
   bool operator==(const SolveOptions&) const = default;
 };
@@ -50,6 +53,17 @@ inline constexpr double kSolvedResidual<float> = 1e-6;
 template <class Scalar>
 using MethodRun = Answer<Scalar> (*)(const ContactProblem<Scalar>&, const SolveOptions&, Trace<Scalar>*);
 
+// How the steps of a run are told.
+enum class Path : std::uint8_t {
+  kNone,    // it records none
+  kDrives,  // of one contact after another, with the sets of all
+  kPieces,  // of one contact after another, with the cells of all
+  kPivots,  // of a tableau
+};
+
+// The reason of an undecided run over enclosures.
+inline constexpr std::string_view kUnsureSign = "a sign is unsure";
+
 // A method as it is built for one dimension; `run` is null where it is not.
 template <class Scalar>
 struct MethodIn {
@@ -61,12 +75,13 @@ struct MethodIn {
 // A row of the table.
 template <class Scalar>
 struct Method {
-  std::string_view name;    // in --method
-  std::string_view title;   // what the field calls it
-  std::string_view source;  // section of the paper, or reference
-  std::string_view ends;    // what its end proves
-  bool automatic = false;   // `auto` tries these in the order of the table until one solves or refutes
-  bool has_path = false;    // records a trace
+  std::string_view name;          // in --method
+  std::string_view title;         // what the field calls it
+  std::string_view source;        // section of the paper, or reference
+  std::string_view ends;          // what its end proves
+  bool automatic = false;         // `auto` tries these in the order of the table until one solves or refutes
+  Path path = Path::kNone;        // of the trace that it records
+  std::string_view heading = {};  // of a run that is told
   MethodIn<Scalar> plane;
   MethodIn<Scalar> space;
 

@@ -14,6 +14,7 @@
 
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"
+#include "solver/problem/ball.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/remainder.h"
 #include "solver/problem/row_scale.h"
@@ -24,14 +25,27 @@ namespace stiction {
 
 // ---- Runs of path methods in the plane, over any scalar ------------------------------------------
 
+// What run() returns; undecided where an enclosure does not tell a sign.
+template <class Scalar, class Run>
+Answer<Scalar> UnlessUnsure(Run run) {
+  try {
+    return run();
+  } catch (const UnsureSign&) {
+    Answer<Scalar> answer;
+    answer.reason = kUnsureSign;
+    return answer;
+  }
+}
+
 template <class Scalar>
 Answer<Scalar> RunBaraff(const ContactProblem<Scalar>& problem, const SolveOptions& options,
                          Trace<Scalar>* trace) {
   PublishedAlgorithm<Scalar> algorithm({options.policy, options.tolerances, options.limits});
-  const Verdict verdict = algorithm.Run(problem, trace);
-  auto answer = AnswerOf<Scalar>(verdict);
+  algorithm.KnowDependentRows(options.dependent);
+  auto answer = UnlessUnsure<Scalar>([&] { return AnswerOf<Scalar>(algorithm.Run(problem, trace)); });
   answer.f = algorithm.state().f;
-  if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
+  if constexpr (kEncloses<Scalar>) answer.a = algorithm.state().a;
+  if (answer.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
   return answer;
 }
 
@@ -46,10 +60,18 @@ template <class Scalar>
 Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const SolveOptions& options,
                                   Trace<Scalar>* trace) {
   CompleteDriving<Scalar> driving(CompleteOptionsOf(options));
-  auto answer = AnswerOf<Scalar>(driving.Run(problem, trace));
+  driving.KnowDependentRows(options.dependent);
+  auto answer = UnlessUnsure<Scalar>([&] {
+    auto end = AnswerOf<Scalar>(driving.Run(problem, trace));
+    end.word = driving.Word();
+    return end;
+  });
   answer.f = driving.f();
+  if constexpr (kEncloses<Scalar>) answer.a = driving.a();
   if (answer.outcome == Outcome::kRay) answer.ray = driving.ray();
-  answer.word = driving.Word();
+  const bool unsure = answer.reason == kUnsureSign;  // within a step, which is not told
+  if (unsure && trace != nullptr && !trace->pivots.empty() && trace->pivots.back().limiting < 0)
+    trace->pivots.pop_back();
   return answer;
 }
 
@@ -67,12 +89,17 @@ template <class Scalar>
 Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const SolveOptions& options,
                               Trace<Scalar>* trace) {
   LemkeAlgorithm<Scalar> algorithm(LemkeOptionsOf<Scalar>(options));
-  const Verdict verdict = algorithm.Run(problem, trace);
-  auto answer = AnswerOf<Scalar>(verdict);
-  answer.counters = {{"pivots", verdict.statistics.pivots}};
-  if (verdict.outcome == Outcome::kSolved) answer.f = algorithm.f();
-  if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
-  return answer;
+  return UnlessUnsure<Scalar>([&] {
+    const Verdict verdict = algorithm.Run(problem, trace);
+    auto answer = AnswerOf<Scalar>(verdict);
+    answer.counters = {{"pivots", verdict.statistics.pivots}};
+    if (verdict.outcome == Outcome::kSolved) {
+      answer.f = algorithm.f();
+      if constexpr (kEncloses<Scalar>) answer.a = algorithm.a();
+    }
+    if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+    return answer;
+  });
 }
 
 // The rows that every scalar has; `space` by the caller.
@@ -82,7 +109,8 @@ Method<Scalar> BaraffRow(MethodIn<Scalar> space, MethodIn<Scalar> plane = {&RunB
           .title = "the published pivoting algorithm, under a policy",
           .source = "[Baraff94] 4.3, 5.2-5.6",
           .ends = "nothing: it can cycle, and in space take an infinite step",
-          .has_path = true,
+          .path = Path::kDrives,
+          .heading = "The published algorithm",
           .plane = plane,
           .space = space};
 }
@@ -94,7 +122,8 @@ Method<Scalar> CompleteRow(MethodIn<Scalar> space) {
           .source = "solver/complete/complete_driving.md",
           .ends = "a solution wherever A is symmetric positive semidefinite and b in its range",
           .automatic = true,
-          .has_path = true,
+          .path = Path::kPieces,
+          .heading = "Complete driving",
           .plane = {&RunCompleteDriving<Scalar>},
           .space = space};
 }
@@ -106,7 +135,8 @@ Method<Scalar> LemkeRow(MethodIn<Scalar> space) {
           .source = "Cottle, Pang and Stone 1992, 4.4",
           .ends = "a solution wherever A is symmetric positive semidefinite and b in its range",
           .automatic = kIsExact<Scalar>,
-          .has_path = true,
+          .path = Path::kPivots,
+          .heading = "Lemke's method",
           .plane = {&RunLemkeMethod<Scalar>},
           .space = space};
 }

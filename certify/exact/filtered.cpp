@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/filtered.h"
 
+#include <array>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "certify/exact/dependent_rows.h"
@@ -19,81 +21,29 @@
 namespace stiction {
 namespace {
 
-template <class Number>
-using BallProblem = ContactProblem<Ball<Number>>;
-template <class Number>
-using BallAnswer = Answer<Ball<Number>>;
-template <class Number>
-using BallTrace = Trace<Ball<Number>>;
-
 // The rows that may follow from others, where the rung asks for them: the first leaves that to the second.
 template <class Number>
 constexpr bool kAsksForDependentRows = !std::is_same_v<Number, double>;
 
-// ---- One method on one rung ----------------------------------------------------------------------
-
-template <class Algorithm, class Answer>
-void SetEnd(const Algorithm& algorithm, Answer& answer) {
-  answer.f = algorithm.f();
-  answer.a = algorithm.a();
-}
-
 template <class Number>
-BallAnswer<Number> RunPublished(const BallProblem<Number>& problem, const SolveOptions& options,
-                                DependentRows* dependent, BallTrace<Number>* trace) {
-  PublishedAlgorithm<Ball<Number>> algorithm({options.policy, options.tolerances, options.limits});
-  algorithm.KnowDependentRows(dependent);
-  BallAnswer<Number> answer;
-  try {
-    const Verdict verdict = algorithm.Run(problem, trace);
-    answer = AnswerOf<Ball<Number>>(verdict);
-    if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
-  } catch (const UnsureSign&) {
-    answer.reason = kUnsureSign;
-  }
-  answer.f = algorithm.state().f;
-  answer.a = algorithm.state().a;
-  return answer;
+std::span<const Method<Ball<Number>>> EnclosedMethods() {
+  static const std::array rows = {BaraffRow<Ball<Number>>({}), CompleteRow<Ball<Number>>({}),
+                                  LemkeRow<Ball<Number>>({})};
+  return rows;
 }
 
-template <class Number>
-BallAnswer<Number> RunComplete(const BallProblem<Number>& problem, const SolveOptions& options,
-                               DependentRows* dependent, BallTrace<Number>* trace) {
-  CompleteDriving<Ball<Number>> driving(CompleteOptionsOf(options));
-  driving.KnowDependentRows(dependent);
-  BallAnswer<Number> answer;
-  try {
-    answer = AnswerOf<Ball<Number>>(driving.Run(problem, trace));
-    if (answer.outcome == Outcome::kRay) answer.ray = driving.ray();
-    answer.word = driving.Word();
-  } catch (const UnsureSign&) {
-    answer.reason = kUnsureSign;
-    if (trace != nullptr && !trace->pivots.empty() && trace->pivots.back().limiting < 0)
-      trace->pivots.pop_back();
-  }
-  answer.f = driving.f();
-  answer.a = driving.a();
-  return answer;
+}  // namespace
+
+template <>
+std::span<const Method<Ball<double>>> Methods<Ball<double>>() {
+  return EnclosedMethods<double>();
+}
+template <>
+std::span<const Method<Ball<dd_real>>> Methods<Ball<dd_real>>() {
+  return EnclosedMethods<dd_real>();
 }
 
-template <class Number>
-BallAnswer<Number> RunLemke(const BallProblem<Number>& problem, const SolveOptions& options,
-                            BallTrace<Number>* trace) {
-  LemkeAlgorithm<Ball<Number>> lemke(LemkeOptionsOf<Ball<Number>>(options));
-  BallAnswer<Number> answer;
-  try {
-    const Verdict verdict = lemke.Run(problem, trace);
-    answer = AnswerOf<Ball<Number>>(verdict);
-    answer.counters = {{"pivots", verdict.statistics.pivots}};
-    if (answer.outcome == Outcome::kRay) answer.ray = lemke.ray();
-    if (!answer.Solved()) return answer;
-    answer.f = lemke.f();
-    answer.a = lemke.a();
-  } catch (const UnsureSign&) {
-    answer.reason = kUnsureSign;
-  }
-  return answer;
-}
+namespace {
 
 // ---- In the terms of the whole problem ----------------------------------------------------------
 
@@ -123,13 +73,13 @@ InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, co
   }
   std::optional<ExactDependentRows> dependent;
   if (kAsksForDependentRows<Number>) dependent.emplace(remainder.exact());
-  DependentRows* const rows = dependent ? &*dependent : nullptr;
-  BallTrace<Number> trace;
-  BallTrace<Number>* const kept = keep == KeepTrace::kYes ? &trace : nullptr;
-  const BallProblem<Number>& balls = remainder.problem();
-  const BallAnswer<Number> end = method == "baraff"     ? RunPublished(balls, options, rows, kept)
-                                 : method == "complete" ? RunComplete(balls, options, rows, kept)
-                                                        : RunLemke(balls, options, kept);
+  SolveOptions enclosed = options;
+  enclosed.dependent = dependent ? &*dependent : nullptr;
+  Trace<Ball<Number>> trace;
+  const Method<Ball<Number>>* row = FindMethod<Ball<Number>>(method);
+  STICTION_CHECK(row != nullptr, "a method over enclosures");
+  const Answer<Ball<Number>> end =
+      row->plane.run(remainder.problem(), enclosed, keep == KeepTrace::kYes ? &trace : nullptr);
   answer.outcome = end.outcome;
   answer.reason = end.reason;
   answer.start = end.start;

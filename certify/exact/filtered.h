@@ -20,17 +20,23 @@
 #ifndef STICTION_CERTIFY_EXACT_FILTERED_H_
 #define STICTION_CERTIFY_EXACT_FILTERED_H_
 
+#include <span>
 #include <string_view>
 
 #include "certify/exact/exact.h"
 #include "certify/exact/solve.h"
 #include "corpus/exact_problem.h"
+#include "solver/problem/ball.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
 
-// A method of EnclosedMethods that has rungs, over balls: forces and accelerations with their ends, in the
+// The methods over balls, which are those of every rung but the last.
+template <>
+std::span<const Method<Ball<double>>> Methods<Ball<double>>();
+
+// A method of the table over balls: forces and accelerations with their ends, in the
 // middle of them otherwise, as pivots; undecided where a sign was unsure. Its forces are not judged. Lemke's
 // method takes a covering vector of ones. Requires dimension 2, and a rung other than exact. The answer keeps
 // METHOD, which has to outlive it.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "certify/exact/solve.h"
@@ -22,6 +23,13 @@ namespace stiction {
 
 using Interval = CGAL::Interval_nt<>;
 using UnsureComparison = CGAL::Uncertain_conversion_exception;
+
+template <>
+inline constexpr Arithmetic kArithmeticOf<Interval> = Arithmetic::kInterval;
+
+// The methods over intervals alone: those in space (published_space.cpp).
+template <>
+std::span<const Method<Interval>> Methods<Interval>();
 
 template <>
 inline bool IsSurelyZero(const Interval& x) {

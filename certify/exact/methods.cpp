@@ -6,6 +6,8 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
+#include "certify/exact/filtered.h"
+#include "certify/exact/interval.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/qp.h"
 #include "certify/exact/qp_ipopt.h"
@@ -156,7 +158,6 @@ ExactMethod EnumerateRow() {
           .source = "certify/exact/enumerate.h",
           .ends = "a solution, or that there is none; in space that there is none, or nothing",
           .automatic = true,
-          .has_path = false,
           .plane = {&RunEnumeration, true},
           .space = {&RunRefutation, true}};
 }
@@ -167,7 +168,6 @@ ExactMethod IpoptRow() {
           .source = "[Baraff94] 5.1; certify/exact/feasibility_nlp.h",
           .ends = kExactEnd,
           .automatic = false,
-          .has_path = false,
           .plane = {&RunIpopt, true},
           .space = {}};
 }
@@ -178,7 +178,6 @@ ExactMethod FastRow() {
           .source = "solver/numeric/fast.h",
           .ends = kExactEnd,
           .automatic = true,
-          .has_path = false,
           .plane = {&RunFastExactly, true, true},
           .space = {&RunFastInSpace, true}};
 }
@@ -192,7 +191,6 @@ ExactMethod QpRow() {
           .source = kQpSource,
           .ends = "a solution, or a direction that proves that there is none (CGAL)",
           .automatic = false,
-          .has_path = false,
           .plane = {&RunQp, true},
           .space = {&RunQp, true}};
 }
@@ -203,7 +201,6 @@ Method<double> QpByIpoptRow() {
           .source = kQpSource,
           .ends = "nothing (Ipopt); what is called solved has the residual that is asked for",
           .automatic = false,
-          .has_path = false,
           .plane = {&RunQpByIpopt, true},
           .space = {&RunQpByIpopt, true}};
 }
@@ -256,10 +253,12 @@ class FactsList {
     }
   }
 
-  void AddEnclosed(const EnclosedMethod& method) {
-    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
-    Mark(*row, method.dimension, Arithmetic::kInterval, true);
-    Mark(*row, method.dimension, Arithmetic::kFiltered, method.has_rungs);
+  // What is run over balls is a rung of filtered runs, and the one of intervals.
+  void AddEnclosed(std::span<const Method<Ball<double>>> methods) {
+    for (const Method<Ball<double>>& method : methods) {
+      for (const Arithmetic told : {Arithmetic::kInterval, Arithmetic::kFiltered})
+        Mark(RowOf(method), 2, told, method.IsBuilt(2));
+    }
   }
 
   static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
@@ -274,7 +273,7 @@ class FactsList {
     const auto known = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
     if (known != rows_.end()) return *known;
     return rows_.emplace_back(
-        MethodFacts{method.name, method.title, method.source, method.ends, method.has_path, {}});
+        MethodFacts{method.name, method.title, method.source, method.ends, method.path, method.heading, {}});
   }
 
   std::vector<MethodFacts> rows_;
@@ -289,7 +288,8 @@ std::vector<MethodFacts> MakeFacts() {
   list.Add(Methods<long double>());
   list.Add(Methods<Quad>());
   list.Add(MethodsByProcess());
-  for (const EnclosedMethod& method : EnclosedMethods()) list.AddEnclosed(method);
+  list.AddEnclosed(Methods<Ball<double>>());
+  list.Add(Methods<Interval>());
   return list.Take();
 }
 

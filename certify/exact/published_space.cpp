@@ -2,11 +2,13 @@
 #include "certify/exact/published_space.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "certify/exact/enclosed_remainder.h"
 #include "certify/exact/interval.h"
 #include "solver/published/published_space.ipp"
+#include "solver/solve.ipp"
 
 namespace stiction {
 namespace {
@@ -25,31 +27,56 @@ void SetEnd(std::vector<Enclosure> f, std::vector<Enclosure> a, InexactAnswer& a
   answer.a_enclosed = std::move(a);
 }
 
-}  // namespace
-
-InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options) {
-  const EnclosedRemainder<Interval> remainder(problem, Around);
-  PublishedInSpace<Interval> algorithm(options);
-  PublishedSpaceVerdict verdict = {Outcome::kSingular, Reason(remainder.end())};
-  const bool runs = remainder.end() == ReductionEnd::kReduced;
+Answer<Interval> RunOverIntervals(const ContactProblem<Interval>& problem, const SolveOptions& options,
+                                  Trace<Interval>*) {
+  PublishedInSpace<Interval> algorithm({options.policy, options.tolerances, options.limits});
+  PublishedSpaceVerdict verdict;
   try {
-    if (runs) verdict = algorithm.Run(remainder.problem());
+    verdict = algorithm.Run(problem);
   } catch (const UnsureComparison&) {
     verdict = algorithm.verdict();
     verdict.outcome = Outcome::kUndecided;
     verdict.reason = kUnsureSign;
   }
-  auto answer = AnswerOf<double>(verdict);
-  answer.method = "baraff";
+  auto answer = AnswerOf<Interval>(verdict);
+  answer.f = algorithm.f();
+  answer.a = algorithm.a();
+  if (answer.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+  return answer;
+}
+
+}  // namespace
+
+template <>
+std::span<const Method<Interval>> Methods<Interval>() {
+  static const std::array rows = {BaraffRow<Interval>({&RunOverIntervals}, {})};
+  return rows;
+}
+
+InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options) {
+  const EnclosedRemainder<Interval> remainder(problem, Around);
+  const Method<Interval>& method = Methods<Interval>().front();
+  InexactAnswer answer;
+  answer.method = method.name;
   answer.arithmetic = Arithmetic::kInterval;
   answer.first_f = Eigen::VectorXd::Zero(problem.rows());
-  if (!runs) {
+  if (remainder.end() != ReductionEnd::kReduced) {
+    answer.outcome = Outcome::kSingular;
+    answer.reason = Reason(remainder.end());
+    answer.counters = CountersOf(PublishedSpaceVerdict().statistics);
     SetEnd(std::vector<Enclosure>(problem.rows()), Enclosures(problem.b.unaryExpr(&Around)), answer);
     return answer;
   }
-  SetEnd(Enclosures(remainder.Forces(algorithm.f())),
-         Enclosures(remainder.Accelerations(algorithm.f(), algorithm.a())), answer);
-  if (answer.outcome == Outcome::kRay) answer.ray = MiddleOf(Enclosures(remainder.Direction(algorithm.ray())));
+  const Answer<Interval> end = method.space.run(
+      remainder.problem(),
+      {.policy = options.policy, .tolerances = options.tolerances, .limits = options.limits}, nullptr);
+  answer.outcome = end.outcome;
+  answer.reason = end.reason;
+  answer.start = end.start;
+  answer.period = end.period;
+  answer.counters = end.counters;
+  SetEnd(Enclosures(remainder.Forces(end.f)), Enclosures(remainder.Accelerations(end.f, end.a)), answer);
+  if (end.outcome == Outcome::kRay) answer.ray = MiddleOf(Enclosures(remainder.Direction(end.ray)));
   return answer;
 }
 

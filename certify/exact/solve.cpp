@@ -102,7 +102,7 @@ void PreferRest(const ContactProblem<double>& rounded, const ExactProblem& probl
 void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
   const InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
   const MethodFacts* facts = FindMethodFacts(request.method);
-  const bool is_path = facts != nullptr && facts->has_path;
+  const bool is_path = facts != nullptr && facts->HasPath();
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
   if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
   if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
@@ -244,12 +244,6 @@ std::vector<std::string_view> MethodsOf(int dimension, Arithmetic arithmetic) {
 }
 
 }  // namespace
-
-std::span<const EnclosedMethod> EnclosedMethods() {
-  static constexpr std::array rows = {EnclosedMethod{"baraff", 2, true}, EnclosedMethod{"complete", 2, true},
-                                      EnclosedMethod{"lemke", 2, true}, EnclosedMethod{"baraff", 3, false}};
-  return rows;
-}
 
 std::optional<Arithmetic> FindArithmetic(std::string_view name) {
   const auto at = std::find(kArithmeticNames.begin(), kArithmeticNames.end(), name);

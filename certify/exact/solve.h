@@ -27,14 +27,17 @@ namespace stiction {
 
 extern template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&,
                                        Trace<Rational>*);
+extern template const Method<Rational>* FindMethod(std::string_view);
 
 // A row of the table over all arithmetics.
 struct MethodFacts {
   std::string_view name, title, source, ends;
-  bool has_path = false;
+  Path path = Path::kNone;
+  std::string_view heading = {};
   // Whether it is built, by dimension (plane, space) and Arithmetic.
   std::array<std::array<bool, kArithmeticCount>, 2> built = {};
 
+  bool HasPath() const { return path != Path::kNone; }
   bool IsBuilt(int dimension, Arithmetic arithmetic) const {
     return built[dimension - 2][static_cast<int>(arithmetic)];
   }
@@ -62,9 +65,6 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 enum class KeepTrace { kNo, kYes };
 
-// The reason of an undecided run over enclosures.
-inline constexpr std::string_view kUnsureSign = "a sign is unsure";
-
 struct SolveRequest {
   std::string method{kAutomatic};
   Arithmetic arithmetic = Arithmetic::kExact;
@@ -75,14 +75,6 @@ struct SolveRequest {
 
 using ExactAnswer = Answer<Rational>;
 using InexactAnswer = Answer<double>;
-
-// A method over enclosures, in one dimension: `interval` where it has one rung, `filtered` where it has all.
-struct EnclosedMethod {
-  std::string_view name;
-  int dimension;
-  bool has_rungs;
-};
-std::span<const EnclosedMethod> EnclosedMethods();
 
 struct Solution {
   std::variant<ExactAnswer, InexactAnswer> answer;

@@ -37,6 +37,7 @@ std::span<const Method<double>> Methods<double>() {
 }
 
 template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template const Method<Rational>* FindMethod(std::string_view);
 template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
                               Trace<double>*);
 template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,

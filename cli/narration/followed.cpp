@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/narration/followed.h"
 
-#include <algorithm>
-#include <array>
-
 #include "cli/narration/narrate_text.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {
-
-// A row for each path method.
-struct Narrator {
-  std::string_view method;
-  Narration (*exact)(const ProblemFile&, const ExactAnswer&, const Telling&);
-  Narration (*inexact)(const ProblemFile&, const InexactAnswer&, const Telling&);
-
-  Narration operator()(const ProblemFile& file, const ExactAnswer& a, const Telling& how) const {
-    return exact(file, a, how);
-  }
-  Narration operator()(const ProblemFile& file, const InexactAnswer& a, const Telling& how) const {
-    return inexact(file, a, how);
-  }
-};
-
-constexpr std::array kNarrators = {
-    Narrator{"baraff", &NarrateBaraff<Rational>, &NarrateBaraff<double>},
-    Narrator{"complete", &NarrateComplete<Rational>, &NarrateComplete<double>},
-    Narrator{"lemke", &NarrateLemke<Rational>, &NarrateLemke<double>},
-};
 
 // How a run ended, as PrintEnd says it.
 std::string EndOf(const Solution& solution) {
@@ -47,8 +25,8 @@ std::string EndOf(const Solution& solution) {
 }
 
 std::string TitleOf(const PathOptions& o) {
-  if (o.method == "baraff") return "The published algorithm, policy " + PolicyName(ParsePolicy(o.policy));
-  return o.method == "complete" ? "Complete driving" : "Lemke's method";
+  const std::string heading(FindMethod<Rational>(o.method)->heading);
+  return o.method == "baraff" ? heading + ", policy " + PolicyName(ParsePolicy(o.policy)) : heading;
 }
 
 // A page of more takes a browser long to open.
@@ -58,9 +36,21 @@ constexpr std::size_t kMostStepsOfPage = 3000;
 
 Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
                   const Telling& how) {
-  const auto narrator =
-      std::find_if(kNarrators.begin(), kNarrators.end(), [&method](auto& n) { return n.method == method; });
-  return std::visit([&](const auto& answer) { return (*narrator)(file, answer, how); }, solution.answer);
+  const auto narrate = [&](const auto& answer) {
+    switch (FindMethod<Rational>(method)->path) {
+      case Path::kDrives:
+        return NarrateBaraff(file, answer, how);
+      case Path::kPieces:
+        return NarrateComplete(file, answer, how);
+      case Path::kPivots:
+        return NarrateLemke(file, answer, how);
+      case Path::kNone:
+        break;
+    }
+    STICTION_CHECK(false, "a method with a path");
+    return Narration();
+  };
+  return std::visit(narrate, solution.answer);
 }
 
 Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "search/generators/generators.ipp"
+#include "search/generators/drawing.h"
+#include "search/generators/scenes.ipp"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems drawn in lanes: those of search/generators/generators.ipp and search/generators/choices.h, word by
+// Problems drawn in lanes: those of search/generators/drawing.h and search/generators/choices.h, word by
 // word; included once by the file of each instruction set.
 
 #include "search/lanes/lanes.h"

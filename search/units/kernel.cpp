@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "corpus/input_error.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/generators.h"
 #include "search/lanes/batch.h"
 #include "search/units/examiner.h"
 #include "solver/problem/gate.h"

@@ -6,7 +6,7 @@
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/generators.h"
 #include "search/generators/scenes.h"
 
 namespace stiction {

@@ -94,8 +94,7 @@ Decided AgreeOnRungs(std::string_view method, const ExactProblem& problem, const
 
 std::vector<std::string_view> MethodsWithRungs() {
   std::vector<std::string_view> names;
-  for (const EnclosedMethod& method : EnclosedMethods())
-    if (method.has_rungs) names.push_back(method.name);
+  for (const auto& method : Methods<Ball<double>>()) names.push_back(method.name);
   return names;
 }
 

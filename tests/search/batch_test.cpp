@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "search/generators/generators.ipp"
+#include "search/generators/generators.h"
 #include "search/units/unit.h"
 #include "solver/problem/errors.h"
 #include "solver/published/published.ipp"

@@ -17,7 +17,7 @@
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
-#include "search/generators/generators.ipp"
+#include "search/generators/integer_problem.h"
 #include "solver/published/published.ipp"
 #include "tests/methods.h"
 
@@ -216,7 +216,7 @@ TEST_CASE("bench: a double that counts ends as a double does, and counts") {
     Choices choices(ProblemSeed(1, 1, index)), again(ProblemSeed(1, 1, index));
     Generate<double, 4>(GeneratorId::kIntegers, 2, kDefaultPalette, choices, problem);
     generators::DrawFriction(kDefaultPalette, again, same);
-    generators::Integers(again, same);
+    generators::FillIntegers(again, same);
     const Verdict expected = plain.Run(problem), verdict = counted.Run(same);
     CHECK(verdict.outcome == expected.outcome);
     CHECK(verdict.statistics == expected.statistics);

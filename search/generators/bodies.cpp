@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// bodies: rigid bodies, joined at points.
+
+#include <algorithm>
+#include <array>
+
+#include "search/generators/body_problem.h"
+#include "search/generators/generator.h"
+
+namespace stiction::generators {
+namespace {
+
+template <class Scalar>
+Scalar DrawPositive(Choices& choices) {
+  const int numerator = static_cast<int>(choices.Integer(1, 5));
+  const int denominator = static_cast<int>(choices.Integer(1, 5));
+  return Scalar(numerator) / Scalar(denominator);
+}
+
+// Mass and inertia n / d with n, d in [1, 5]; gravity of 10 m/s^2 along -y, applied force and torque in
+// [-20, 20], or both.
+template <class Scalar>
+Body<Scalar> DrawBody(bool gravity, bool applied, Choices& choices) {
+  Body<Scalar> body;
+  body.x = static_cast<int>(choices.Integer(-20, 20));
+  body.y = static_cast<int>(choices.Integer(-20, 20));
+  const Scalar inverse_mass = Scalar(1) / DrawPositive<Scalar>(choices);
+  const Scalar inverse_inertia = Scalar(1) / DrawPositive<Scalar>(choices);
+  body.inverse_mass = {inverse_mass, inverse_mass, inverse_inertia};
+  body.free_acceleration = {Scalar(0), Scalar(gravity ? -10 : 0), Scalar(0)};
+  if (applied) {
+    for (int k = 0; k < 3; ++k) {
+      body.free_acceleration[k] += Scalar(static_cast<int>(choices.Integer(-20, 20))) * body.inverse_mass[k];
+    }
+  }
+  return body;
+}
+
+// Contact point and unit normal (nx, ny); the tangent is (-ny, nx).
+template <class Scalar>
+struct ContactFrame {
+  int x, y;  // in tenths
+  Scalar nx, ny;
+};
+
+// Normals 2pq : p^2 - q^2 over p^2 + q^2, all quadrants; p = q = 0 counts as (1, 0): straight up.
+template <class Scalar>
+ContactFrame<Scalar> DrawContactFrame(Choices& choices) {
+  const int x = static_cast<int>(choices.Integer(-20, 20));
+  const int y = static_cast<int>(choices.Integer(-20, 20));
+  int p = static_cast<int>(choices.Integer(-7, 7));
+  const int q = static_cast<int>(choices.Integer(-7, 7));
+  if (p == 0 && q == 0) p = 1;
+  const Scalar length = Scalar(p * p + q * q);
+  return {x, y, Scalar(2 * p * q) / length, Scalar(p * p - q * q) / length};
+}
+
+// The rows of one contact in the columns of one body: sign * (n, r x n) and sign * (t, r x t).
+template <class Scalar, class Columns>
+void SetContactRows(const ContactFrame<Scalar>& frame, const Body<Scalar>& body, int contact, int index,
+                    int sign, Columns& J) {
+  const Scalar rx = Scalar(frame.x - body.x) / Scalar(10);
+  const Scalar ry = Scalar(frame.y - body.y) / Scalar(10);
+  const Scalar nx = Scalar(sign) * frame.nx;
+  const Scalar ny = Scalar(sign) * frame.ny;
+  J(2 * contact, 3 * index) = nx;
+  J(2 * contact, 3 * index + 1) = ny;
+  J(2 * contact, 3 * index + 2) = rx * ny - ry * nx;
+  J(2 * contact + 1, 3 * index) = -ny;
+  J(2 * contact + 1, 3 * index + 1) = nx;
+  J(2 * contact + 1, 3 * index + 2) = rx * nx + ry * ny;
+}
+
+// J by contacts: contact i < bodies is one of body i, so that each body has one; the partner is the world
+// or another body. One point and one frame per contact, so that all arms fit together.
+template <class Scalar, int Rows>
+BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<Body<Scalar>, kMaxBodies>& body,
+                                        Choices& choices) {
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, bodies);
+  for (int contact = 0; contact < rows / 2; ++contact) {
+    const ContactFrame<Scalar> frame = DrawContactFrame<Scalar>(choices);
+    const int mine = contact < bodies ? contact : static_cast<int>(choices.Integer(0, bodies - 1));
+    const int offset = static_cast<int>(choices.Integer(0, bodies - 1));  // 0: the world
+    SetContactRows(frame, body[mine], contact, mine, 1, J);
+    const int other = (mine + offset) % bodies;
+    if (other != mine) SetContactRows(frame, body[other], contact, other, -1, J);
+  }
+  return J;
+}
+
+// Not modelled: shapes. Bodies may overlap each other and
+// the world, and lie on either side of a contact.
+template <class Scalar, int Rows>
+int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  const int bodies = static_cast<int>(choices.Integer(1, std::min(kMaxBodies, rows / 2)));
+  const int load = gravity_only ? 0 : static_cast<int>(choices.Integer(0, 2));
+  std::array<Body<Scalar>, kMaxBodies> body;
+  for (int i = 0; i < bodies; ++i) body[i] = DrawBody<Scalar>(load != 1, load != 0, choices);
+  const BodyJacobian<Scalar, Rows> J = DrawContacts<Scalar, Rows>(rows, bodies, body, choices);
+  SetFromBodies(J, bodies, body, problem);
+  return 3 * bodies;
+}
+
+struct Bodies {
+  static constexpr GeneratorRow kRow = {
+      .name = "bodies",
+      .distribution =
+          "1 to 3 planar rigid bodies at rest and the world, joined at n points: rational "
+          "masses, inertias, points and unit normals (Pythagorean), under gravity, applied "
+          "forces or both; A = J M^-1 J', b = J M^-1 F. Overlap of shapes is not modelled.",
+      .exact_in_double = false,
+      .has_gravity = true,
+  };
+
+  template <class Scalar, int Rows>
+  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+    return FillBodies(given.gravity_only, choices, problem);
+  }
+};
+
+}  // namespace
+
+Generator MakeBodies() { return GeneratorOf<Bodies>(); }
+
+}  // namespace stiction::generators

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What generators share: a matrix J of drawn numbers, and A = J W J', b = J y or b = A x from it.
+//
+// Arithmetic on small integers stays in int; everything else is done over Scalar, so that rationals redo
+// exactly what doubles do. For the exact generators a bound on every integer that can arise is stated: all
+// partial sums are integers (times one power of two) of at most 53 bits, hence exact in any order.
+//
+//   r <= 24 rows, c <= 24 columns (the plane: 16); abs(J) <= p, abs(x) <= q, abs(y) <= q:
+//   abs(A) <= c p^2,  abs(J y) <= c p q,  abs(A x) <= r c p^2 q
+
+#ifndef STICTION_SEARCH_GENERATORS_DRAWING_H_
+#define STICTION_SEARCH_GENERATORS_DRAWING_H_
+
+#include <array>
+#include <span>
+
+#include "search/generators/choices.h"
+#include "search/generators/generators.h"
+#include "solver/problem/scalar.h"
+
+namespace stiction::generators {
+
+inline constexpr int kMaxRows = 2 * kMaxContacts;  // of the plane
+
+// On the stack for fixed Rows. Only the leading columns in use are ever set or read.
+template <class Scalar, int Rows>
+using Jacobian = Eigen::Matrix<Scalar, Rows, Rows>;
+
+template <class Scalar, int Rows>
+Jacobian<Scalar, Rows> MakeJacobian(int rows, int columns) {
+  Jacobian<Scalar, Rows> J;
+  if constexpr (Rows == Eigen::Dynamic) J.resize(rows, columns);
+  return J;
+}
+
+template <class Scalar, int Rows>
+void Resize(int contacts, int dimension, ContactProblem<Scalar, Rows>& problem) {
+  problem.dimension = dimension;
+  if constexpr (Rows == Eigen::Dynamic) {
+    problem.contacts.resize(contacts);
+    problem.A.resize(dimension * contacts, dimension * contacts);
+    problem.b.resize(dimension * contacts);
+  }
+}
+
+// Makes all contacts static and returns their friction coefficients.
+template <class Scalar, int Rows>
+std::array<MuChoice, kMaxContacts> DrawFriction(std::span<const MuChoice> palette, Choices& choices,
+                                                ContactProblem<Scalar, Rows>& problem) {
+  std::array<MuChoice, kMaxContacts> chosen;
+  const int last = static_cast<int>(palette.size()) - 1;
+  const bool single = choices.Integer(0, 1) == 0;
+  std::size_t pick = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    if (i == 0 || !single) pick = choices.Integer(0, last);
+    chosen[i] = palette[pick];
+    Contact<Scalar>& contact = problem.contacts[i];
+    contact.kind = ContactKind::kStatic;
+    contact.mu = Scalar(chosen[i].numerator);
+    if (chosen[i].denominator != 1) contact.mu /= Scalar(chosen[i].denominator);
+    contact.slip = {Scalar(0), Scalar(0)};
+  }
+  return chosen;
+}
+
+// `columns` columns of uniform integers, column by column.
+template <class Scalar, int Rows, int kLow, int kHigh>
+Jacobian<Scalar, Rows> DrawIntegers(int rows, int columns, Choices& choices) {
+  auto J = MakeJacobian<Scalar, Rows>(rows, columns);
+  Scalar* entries = J.data();
+  choices.ForEach<kLow, kHigh>(rows * columns, [entries](int i, int value) { entries[i] = Scalar(value); });
+  return J;
+}
+
+// A = L R', which is symmetric: L = J W, R = J.
+template <class Scalar, int Rows, class Factor>
+void SetProduct(const Factor& L, const Factor& R, int columns, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  typename ContactProblem<Scalar, Rows>::Vector column(rows);
+  for (int j = 0; j < rows; ++j) {
+    const int first = kIsExact<Scalar> ? j : 0;  // over doubles whole columns are faster
+    for (int i = first; i < rows; ++i) column[i] = L(i, 0) * R(j, 0);
+    for (int k = 1; k < columns; ++k) {
+      for (int i = first; i < rows; ++i) column[i] += L(i, k) * R(j, k);
+    }
+    for (int i = first; i < rows; ++i) problem.A(i, j) = column[i];
+  }
+}
+
+template <class Scalar, int Rows>
+void MirrorLowerTriangle(ContactProblem<Scalar, Rows>& problem) {
+  for (int j = 1; j < problem.rows(); ++j) {
+    for (int i = 0; i < j; ++i) problem.A(i, j) = problem.A(j, i);
+  }
+}
+
+// A = J J'.
+template <class Scalar, int Rows>
+void SetGram(const Jacobian<Scalar, Rows>& J, int columns, ContactProblem<Scalar, Rows>& problem) {
+  SetProduct(J, J, columns, problem);
+  if constexpr (kIsExact<Scalar>) MirrorLowerTriangle(problem);
+}
+
+// b = M times y(0), ..., y(columns - 1).
+template <class Scalar, int Rows, class Factor, class Coefficient>
+void SetImage(const Factor& M, int columns, Coefficient y, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  for (int i = 0; i < rows; ++i) problem.b[i] = Scalar(0);
+  for (int k = 0; k < columns; ++k) {
+    const Scalar coefficient = y(k);
+    for (int i = 0; i < rows; ++i) problem.b[i] += M(i, k) * coefficient;
+  }
+}
+
+// b = M x with uniform integers x.
+template <class Scalar, int Rows, int kLow, int kHigh, class Factor>
+void DrawImage(const Factor& M, int columns, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  std::array<int, 3 * kMaxContacts> x;
+  choices.ForEach<kLow, kHigh>(columns, [&x](int i, int value) { x[i] = value; });
+  SetImage(
+      M, columns, [&x](int k) { return Scalar(x[k]); }, problem);
+}
+
+}  // namespace stiction::generators
+
+#endif  // STICTION_SEARCH_GENERATORS_DRAWING_H_

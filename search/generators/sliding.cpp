@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// sliding: some contacts slide.
+
+#include "search/generators/generator.h"
+#include "search/generators/integer_problem.h"
+
+namespace stiction::generators {
+namespace {
+
+struct Sliding {
+  static constexpr GeneratorRow kRow = {
+      .name = "sliding",
+      .distribution =
+          "As integers, but one contact for certain, and each other with probability 1/2, slides "
+          "(section 6), to either side: there may be no solution. Not part of a campaign that "
+          "names no generators.",
+      .exact_in_double = true,
+      .other_kind = ContactKind::kSliding,
+  };
+
+  template <class Scalar, int Rows>
+  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+    return WithOtherKinds(kRow.other_kind, choices, problem);
+  }
+};
+
+}  // namespace
+
+Generator MakeSliding() { return GeneratorOf<Sliding>(); }
+
+}  // namespace stiction::generators
