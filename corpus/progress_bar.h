@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far something is that takes long, on standard error: a bar on a terminal, cut to its width; in a log a line after ten
-// seconds, then ever more seldom.
+// How far something is that takes long, on standard error: a bar on a terminal, cut to its width; in a log a
+// line after ten seconds, then ever more seldom.
 
 #ifndef STICTION_CORPUS_PROGRESS_BAR_H_
 #define STICTION_CORPUS_PROGRESS_BAR_H_

@@ -9,11 +9,11 @@
 //
 // What acts at a row is b and A f. The sum bounds abs(A f)_i, and so does the root (Cauchy and Schwarz, A
 // semidefinite). In the sum a force counts at least as what b asks for at its row: else a row where nothing
-// acts but the rounding of forces that are zero would be held to that. Forces that only press against each other, a jam, can be as large as they like; they do no
-// work, so the root keeps them from making a unit large. Of a solution f'a is the power of sliding friction, or
-// at most 0 where nothing slides, so f'Af = f'a - b'f is W; of other forces the smaller of the two does not
-// count the work of their errors. (The absolute values of both are taken: an A that is not semidefinite has
-// units, too.)
+// acts but the rounding of forces that are zero would be held to that. Forces that only press against each
+// other, a jam, can be as large as they like; they do no work, so the root keeps them from making a unit large.
+// Of a solution f'a is the power of sliding friction, or at most 0 where nothing slides, so f'Af = f'a - b'f is
+// W; of other forces the smaller of the two does not count the work of their errors. (The absolute values of
+// both are taken: an A that is not semidefinite has units, too.)
 //
 // With a positive factor per contact, A -> D A D, b -> D b, f -> D^-1 f, W stays, and units change as
 // accelerations and forces do. mu is not in them. Groups that are far apart do not see each other.

@@ -68,7 +68,7 @@ class Source:
         return Token(match[0], begin, end, self.masked[begin - 1:begin].isspace(), self.masked[end:end + 1].isspace())
 
     def match_brackets(self):
-        open_, angles = [], []
+        open_, angles = [], [[]]
         for i, token in enumerate(self.tokens):
             if token.text in "([{" and len(token.text) == 1:
                 open_.append(i)
@@ -77,15 +77,15 @@ class Source:
                 self.partner[i], self.partner[open_[-1]] = open_[-1], i
                 open_.pop()
                 angles.pop()
-            elif token.text == "<" and not token.after and angles:
+            elif token.text == "<" and not token.after:
                 angles[-1].append(i)
-            elif token.text in (">", ">>") and not token.before and angles:
+            elif token.text in (">", ">>") and not token.before:
                 for _ in token.text:
                     if angles[-1]:
                         first = angles[-1].pop()
                         self.partner[i], self.partner[first] = first, i
                         self.templates.update(range(first, i))
-            elif token.text == ";" and angles:
+            elif token.text == ";":
                 angles[-1].clear()
 
     def is_binary(self, i):
@@ -140,7 +140,9 @@ class Source:
         behind = self.tokens[last + 1].text if last + 1 < len(self.tokens) else ""
         if last >= len(self.tokens) or behind == "else" or self.declares(first):
             return None
-        return first, last + 1
+        inside = self.masked[self.tokens[first].begin:self.tokens[last].end]
+        whole = all(inside.count(left) == inside.count(right) for left, right in ("()", "[]", "{}"))
+        return (first, last + 1) if whole else None  # the end of a list, or of the head of a loop, is none
 
     def declares(self, first):
         """Two names without an operator between them."""

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MUTANT(k): whether this process runs with the k-th bug (mutate.py), which the environment variable STICTION_MUTANT
-// chooses, read once; without it there is none. That the place was reached is noted in the file that STICTION_REACHED
-// names, a byte for each bug, which the processes of a test share.
+// MUTANT(k): whether this process runs with the k-th bug (mutate.py), which the environment variable
+// STICTION_MUTANT chooses, read once; without it there is none. That the place was reached is noted in the file
+// that STICTION_REACHED names, a byte for each bug, which the processes of a test share.
 
 #ifndef STICTION_TESTS_MUTATION_MUTANT_H_
 #define STICTION_TESTS_MUTATION_MUTANT_H_

@@ -194,7 +194,7 @@ def copy_sources(target, mutants):
     mutated, kept = mutated_files(mutants), set()
     folders = [path for name in SOURCES for path in (ROOT / name).rglob("*")
                if path.is_file() and not {"__pycache__", "node_modules", "examples"} & set(path.parts)]
-    for path in [ROOT / "CMakeLists.txt", ROOT / "CITATION.cff", *folders]:
+    for path in [*filter(Path.exists, (ROOT / "CMakeLists.txt", ROOT / "CITATION.cff")), *folders]:
         name = path.relative_to(ROOT)
         kept.add(target / name)
         data = mutated[str(name)].encode() if str(name) in mutated else path.read_bytes()
@@ -224,7 +224,7 @@ def build(folder, mutants, jobs):
     sources, binary = folder / "sources", folder / "build"
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     copy_sources(sources, mutants)
-    subprocess.run(["cmake", *generator, "-S", sources, "-B", binary, "-DCMAKE_BUILD_TYPE=Release", "-DSTICTION_WERROR=OFF",
+    subprocess.run(["cmake", "--no-warn-unused-cli", *generator, "-S", sources, "-B", binary, "-DCMAKE_BUILD_TYPE=Release", "-DSTICTION_WERROR=OFF",
                     "-DSTICTION_PYTHON=OFF", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
                    check=True, stdout=subprocess.DEVNULL)
     while True:
@@ -232,7 +232,7 @@ def build(folder, mutants, jobs):
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
         if done.returncode == 0:
             return binary, mutants
-        wrong = blamed(done.stdout, [mutant for mutant in mutants if mutant.form != "hand"], sources)
+        wrong = blamed(done.stdout, mutants, sources)
         if not wrong:
             sys.exit("the copy does not compile, and not for a bug in it:\n" + done.stdout[-6000:])
         for mutant in wrong:
