@@ -196,6 +196,8 @@ class Source:
             left = self.piece(begin, token.begin)
             return left and Site("clause", begin, end, left.strip(), "expression")
         if text in ("+=", "-="):
+            if self.tokens[i + 1].text[0] in "\"'" or "fmt::format" in self.text[token.end:self.text.find(";", token.end)]:
+                return None  # text
             return self.with_statement("sign", i, SIGNS[text], None)
         if text in ("true", "false") or re.fullmatch(r"\d+", text):
             if i in self.templates:
