@@ -11,7 +11,9 @@ function(compressed file)
                   COMMAND_ERROR_IS_FATAL ANY)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
 endfunction()
-compressed(${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
+set(manual_of_ipopt ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1)
+configure_file(cmake/debian/stiction-ipopt.1.in ${manual_of_ipopt} @ONLY)
+compressed(${manual_of_ipopt})
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
 
 # The manuals and the completion, written by the program itself.

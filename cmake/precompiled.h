@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What most units read of other libraries, precompiled once (CMakeLists.txt). No unit relies on it: each includes
-// what it uses, and builds without precompiled headers as well.
+// What most units read of other libraries, precompiled once (CMakeLists.txt). No unit relies on it: each
+// includes what it uses, and builds without precompiled headers as well.
 #include <fmt/format.h>
 #include <gmpxx.h>
 

@@ -50,7 +50,8 @@ std::string WithInterval(double value, Interval interval, double scale, const ch
   const double shown = scale * value;
   const Interval ends = {scale * interval.low, scale * interval.high};
   const int digits = DigitsToTell(shown, ends, kFewDigits);
-  return fmt::format("{}{} [{}, {}]", Rounded(shown, digits), unit, Rounded(RoundedDown(ends.low, digits), digits),
+  return fmt::format("{}{} [{}, {}]", Rounded(shown, digits), unit,
+                     Rounded(RoundedDown(ends.low, digits), digits),
                      Rounded(RoundedUp(ends.high, digits), digits));
 }
 
@@ -88,8 +89,12 @@ int DigitsToTell(double value, Interval interval, int at_least) {
   return digits;
 }
 
-double RoundedDown(double x, int digits) { return RoundedTo(x, digits, [](double y) { return std::floor(y); }); }
-double RoundedUp(double x, int digits) { return RoundedTo(x, digits, [](double y) { return std::ceil(y); }); }
+double RoundedDown(double x, int digits) {
+  return RoundedTo(x, digits, [](double y) { return std::floor(y); });
+}
+double RoundedUp(double x, int digits) {
+  return RoundedTo(x, digits, [](double y) { return std::ceil(y); });
+}
 
 std::string RateText(std::int64_t count, std::int64_t total) {
   if (total == 0) return "";

@@ -23,7 +23,8 @@ enum class Occupied { kRefused, kSetAside };  // a target that holds what its wr
 class WholeFolder {
  public:
   // `writer`: the verb. InputError for a target that is no folder, that is occupied, that holds the current
-  // folder or is a mount point, where `.NAME.stiction` is somebody else's, and while another process writes it; OutputError where it cannot be written.
+  // folder or is a mount point, where `.NAME.stiction` is somebody else's, and while another process writes it;
+  // OutputError where it cannot be written.
   WholeFolder(const std::filesystem::path& target, std::string writer, Occupied occupied);
   WholeFolder(const WholeFolder&) = delete;
   WholeFolder& operator=(const WholeFolder&) = delete;

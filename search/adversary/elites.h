@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elites: the best candidates of every behaviour. Every value is one over rationals; how near a candidate without one is
-// to a loop may be one over doubles.
+// Elites: the best candidates of every behaviour. Every value is one over rationals; how near a candidate
+// without one is to a loop may be one over doubles.
 
 #ifndef STICTION_SEARCH_ADVERSARY_ELITES_H_
 #define STICTION_SEARCH_ADVERSARY_ELITES_H_
@@ -21,7 +21,8 @@ class Elites {
       : assessor_(assessor), on_loop_(std::move(on_loop)) {}
 
   // Whether the candidate was taken in: it is no worse than the one of its behaviour, or has a new one and is
-  // not the worst of a full house. What would be taken in with a value is confirmed first, and then asked again.
+  // not the worst of a full house. What would be taken in with a value is confirmed first, and then asked
+  // again.
   bool Admit(Assessed assessed);
 
   bool empty() const { return all_.empty(); }

@@ -351,8 +351,8 @@ void CompleteDriving<Scalar, Rows>::Advance(const Scalar& s) {
   if (stage_ == Stage::kFriction) rho_ += s * rate_;
 }
 
-// Over inexact scalars and enclosures the facet that was reached is met exactly, and so are the equations of the
-// cells, where they are those of single rows.
+// Over inexact scalars and enclosures the facet that was reached is met exactly, and so are the equations of
+// the cells, where they are those of single rows.
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Snap(const Facet& reached) {
   const int row = RowOf(reached.contact);

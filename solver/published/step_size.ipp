@@ -25,7 +25,8 @@ void StepSize<Scalar, Rows>::Offer(Limit& limit, const Scalar& gap, const Scalar
   Scalar s = gap / rate;
   if (!kIsExact<Scalar> && s < 0) s = Scalar(0);  // gap < 0 by rounding only
   if constexpr (kEncloses<Scalar>) {
-    if (limit.exists && !Unsure<Scalar>::TellsSign(s - limit.s)) {  // two of one variable; either may be the first
+    if (limit.exists &&
+        !Unsure<Scalar>::TellsSign(s - limit.s)) {  // two of one variable; either may be the first
       limit.exists = false;
       limit.MayExistFrom(Unsure<Scalar>::Earliest(limit.s, Scalar(1)));
       return limit.MayExistFrom(Unsure<Scalar>::Earliest(s, Scalar(1)));
@@ -118,8 +119,8 @@ int StepSize<Scalar, Rows>::FirstOf(const State& state, int driven, Ties ties, i
   return first;
 }
 
-// Over enclosures: of two limits, which is reached first; 0: both at once. Accelerations may be known to reach zero
-// together where their ends do not tell.
+// Over enclosures: of two limits, which is reached first; 0: both at once. Accelerations may be known to reach
+// zero together where their ends do not tell.
 template <class Scalar, int Rows>
 int StepSize<Scalar, Rows>::Order(int row, int other) const {
   const Scalar later = limits_[row].s - limits_[other].s;

@@ -444,7 +444,7 @@ class Alterations {
   bool few_ = false;
 };
 
-TEST_CASE("certificate: an altered certificate is refused unless it is still true") {
+TEST_CASE("certificate: an altered certificate is refused unless it is still true", "[slow]") {
   for (const Json& original : OneOfEveryClaim()) {
     int refused = 0, k = 0;
     for (const Altered& altered : Alterations(original).Take()) {

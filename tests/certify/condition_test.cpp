@@ -38,7 +38,7 @@ TEST_CASE("condition: the bound is sharp for one contact") {
   }
 }
 
-TEST_CASE("condition: what it calls safe has positive determinants, whatever the generator") {
+TEST_CASE("condition: what it calls safe has positive determinants, whatever the generator", "[slow]") {
   int shown = 0, unsafe = 0;
   for (int index = 0; index < testing::Few(1000); ++index) {
     const auto generator = static_cast<GeneratorId>(index % kOrdinaryGeneratorCount);

@@ -37,7 +37,7 @@ void CheckAgainstBruteForce(const ExactProblem& problem) {
   CHECK(seen.size() == PlanarGrid().size());
 }
 
-TEST_CASE("policy classes: on problems that cycle the grid ends as it does policy by policy") {
+TEST_CASE("policy classes: on problems that cycle the grid ends as it does policy by policy", "[slow]") {
   CheckAgainstBruteForce(ReferenceProblem());
   for (const CyclingSeed& seed : CyclingSeeds()) {
     CAPTURE(seed.index);
@@ -45,7 +45,7 @@ TEST_CASE("policy classes: on problems that cycle the grid ends as it does polic
   }
 }
 
-TEST_CASE("policy classes: on other problems too") {
+TEST_CASE("policy classes: on other problems too", "[slow]") {
   CheckAgainstBruteForce(GiveUpProblem());
   CheckAgainstBruteForce(NoContacts());
   CheckAgainstBruteForce(NoSolution());

@@ -179,7 +179,7 @@ TEST_CASE("ipopt: a process that is killed is replaced") {
   }
 }
 
-TEST_CASE("ipopt: a process killed while it works is replaced") {
+TEST_CASE("ipopt: a process killed while it works is replaced", "[slow]") {
   IpoptProposer proposer(STICTION_IPOPT);
   const int process = proposer.process_id();
   std::thread killer([process] {

@@ -98,7 +98,7 @@ std::vector<std::string_view> MethodsWithRungs() {
   return names;
 }
 
-TEST_CASE("filtered: of 300 generic problems all but a few are decided on the first rung") {
+TEST_CASE("filtered: of 300 generic problems all but a few are decided on the first rung", "[slow]") {
   for (const std::string_view method : MethodsWithRungs()) {
     int decided = 0, bounces = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -225,7 +225,7 @@ bool IsSafeWithKeptFriction(const ExactProblem& problem) {
   return true;
 }
 
-TEST_CASE("safe: the published algorithm gives nothing up in a safe problem, and solves it") {
+TEST_CASE("safe: the published algorithm gives nothing up in a safe problem, and solves it", "[slow]") {
   int safe = 0, safe_with_kept = 0, with_give_ups = 0;
   for (int index = 0; index < testing::Few(400); ++index) {
     CAPTURE(index);
@@ -574,7 +574,7 @@ bool IsTrue(const Json& certificate) {
   return certificate["claim"] == "safe" && witness["determinants"].size() == words.size();
 }
 
-TEST_CASE("safe: an altered certificate is refused unless it is true, and Python says the same") {
+TEST_CASE("safe: an altered certificate is refused unless it is true, and Python says the same", "[slow]") {
   std::vector<Json> altered;
   for (const Json& certificate : Certificates()) {
     if (certificate["problem"]["b"].size() > 4) continue;

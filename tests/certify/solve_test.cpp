@@ -82,7 +82,7 @@ ExactProblem Frictionless(const ExactProblem& planar) {
 
 }  // namespace
 
-TEST_CASE("solve: what any method in any arithmetic calls solved is a solution, at all scales") {
+TEST_CASE("solve: what any method in any arithmetic calls solved is a solution, at all scales", "[slow]") {
   Count count;
   for (int seed = 0; seed < 6; ++seed) {
     const GeneratorId generator = seed % 2 == 0 ? GeneratorId::kIntegers : GeneratorId::kPsd;

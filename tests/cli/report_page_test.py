@@ -74,7 +74,7 @@ class Page(cli.TestCase):
         cls.pages = Path(tempfile.mkdtemp(prefix="stiction-report-"))
         cls.addClassCleanup(shutil.rmtree, cls.pages, ignore_errors=True)
         cls.store = cls.pages / "small.store"
-        for problems, report in ((40000, "earlier"), (100000, "small")):
+        for problems, report in ((40000, "earlier"), (100000 if cli.ALL else 60000, "small")):
             cls.must("search", *CAMPAIGN, "--problems", problems, "--store", cls.store, "--finishing", 100)
             cls.must("report", cls.store, "-o", cls.pages / report)
         cls.report = cls.pages / "small"
@@ -253,6 +253,7 @@ class Page(cli.TestCase):
                      says="x.csv:1: found no column signature, expected findings.csv of a report")
         self.assertFalse((self.folder / "out").exists())
 
+    @unittest.skipUnless(cli.ALL, "long: ./run test --nightly")
     def test_in_a_browser(self):
         browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
         self.assertIsNotNone(browser, "expected a browser: apt-get install chromium")

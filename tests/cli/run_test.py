@@ -29,9 +29,9 @@ class WhileAnotherBuilds(cli.TestCase):
         for tool in ("dirname", "readlink", "mkdir", "flock", "cat", "sleep"):
             (tools / tool).symlink_to(shutil.which(tool))
         self.environment = {**os.environ, "PATH": str(tools)}
-        holder = os.open(self.build, os.O_RDONLY)
-        self.addCleanup(os.close, holder)
-        fcntl.flock(holder, fcntl.LOCK_EX)
+        self.holder = os.open(self.build, os.O_RDONLY)
+        self.addCleanup(os.close, self.holder)
+        fcntl.flock(self.holder, fcntl.LOCK_EX)
 
     def make(self, *names):
         for name in names:
@@ -52,6 +52,37 @@ class WhileAnotherBuilds(cli.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(said, done.stdout)
         self.assertIn("another build is at work", self.called("solve", "x.json").stderr)
+
+    def test_a_search_has_a_program_of_its_own(self):
+        self.make("stiction-search", "stiction-ipopt")
+        for words, said in ((["search", "--minutes", "1"], "called: search --minutes 1"), (["status", "S"], "called: status S"),
+                            (["help", "search"], "called: help search"), (["search", "--help"], "called: help search")):
+            with self.subTest(words=words):
+                done = self.called(*words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(said, done.stdout)
+        self.assertEqual(self.called("help", "solve").returncode, 2)
+        with self.assertRaises(subprocess.TimeoutExpired):  # whose program is built first
+            self.called("solve", "x.json", seconds=2)
+
+    def test_a_build_for_searches_is_taken_further(self):
+        """Without a lock that another build has, and with a cmake that says how it was called."""
+        calls = self.folder / "calls"
+        for tool, text in (("cmake", f'echo "$@" >>{calls}; touch {self.build}/build.ninja'), ("ninja", "exit 0")):
+            path = self.folder / "tools" / tool
+            path.write_text(f"#!{shutil.which('bash')}\n{text}\n")
+            path.chmod(0o755)
+        for tool in ("awk", "nproc", "touch"):
+            (self.folder / "tools" / tool).symlink_to(shutil.which(tool))
+        fcntl.flock(self.holder, fcntl.LOCK_UN)
+        self.make("stiction", "stiction-search", "stiction-ipopt")
+        for verb in ("search", "search", "solve", "solve", "search"):
+            self.assertEqual(self.called(verb).returncode, 0)
+        first, second = calls.read_text().splitlines()
+        self.assertIn("--fresh", first)
+        self.assertIn("-DSTICTION_SEARCH_ONLY=ON", first)
+        self.assertNotIn("--fresh", second)  # which would throw away what is compiled
+        self.assertIn("-DSTICTION_SEARCH_ONLY=OFF", second)
 
     def test_help_of_what_is_not_built(self):
         done = self.called("help")

@@ -73,7 +73,7 @@ void CheckEqual(const SparseProblem& found, const SparseProblem& expected) {
   CHECK((found.b == expected.b));
 }
 
-TEST_CASE("formats: what is written is read back to the same numbers, however it is stored") {
+TEST_CASE("formats: what is written is read back to the same numbers, however it is stored", "[slow]") {
   const Folder folder;
   const std::vector<ContactKind> smooth(4, ContactKind::kFrictionless), rough(3, ContactKind::kStatic);
   std::vector<ContactKind> joined = rough;

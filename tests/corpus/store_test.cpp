@@ -191,7 +191,7 @@ TEST_CASE("store: a seed of all 64 bits comes back") {
 
 // ---- Units and blocks ------------------------------------------------------------------------
 
-TEST_CASE("store: units in any order leave the same content") {
+TEST_CASE("store: units in any order leave the same content", "[slow]") {
   const Scratch scratch;
   std::vector<std::int64_t> units(2 * kBlock + 100);
   std::iota(units.begin(), units.end(), 0);
@@ -210,7 +210,7 @@ TEST_CASE("store: units in any order leave the same content") {
   CHECK((contents[2] == contents[0]));
 }
 
-TEST_CASE("store: a block closes with its last unit, and the total stays") {
+TEST_CASE("store: a block closes with its last unit, and the total stays", "[slow]") {
   const Scratch scratch;
   const Shard shard{1, 3};
   Store store(scratch / "a.store", Identity());
@@ -251,7 +251,7 @@ TEST_CASE("store: a unit is counted once, and only by its own shard") {
 }
 
 // Two searches on one store: both may be at work on the last unit of a block.
-TEST_CASE("store: a unit of a closed block is not counted again") {
+TEST_CASE("store: a unit of a closed block is not counted again", "[slow]") {
   const Scratch scratch;
   const fs::path file = scratch / "a.store";
   Store store(file, Identity());
@@ -262,7 +262,7 @@ TEST_CASE("store: a unit of a closed block is not counted again") {
   CHECK(store.Total() == SumOf(kBlock));
 }
 
-TEST_CASE("store: what was added is there when the file is opened again") {
+TEST_CASE("store: what was added is there when the file is opened again", "[slow]") {
   const Scratch scratch;
   {
     Store store(scratch / "a.store", Identity());
@@ -372,7 +372,7 @@ fs::path Merged(const Scratch& scratch, const std::string& name, const std::vect
   return scratch / name;
 }
 
-TEST_CASE("merge: shards make the whole, in any order and as often as you like") {
+TEST_CASE("merge: shards make the whole, in any order and as often as you like", "[slow]") {
   const Scratch scratch;
   const fs::path a = MakeStore(scratch, "a", {0, 3}, 0, kBlock + 40);
   const fs::path b = MakeStore(scratch, "b", {1, 3}, 0, kBlock);
@@ -390,7 +390,7 @@ TEST_CASE("merge: shards make the whole, in any order and as often as you like")
   CHECK(store.Total() == total);
 }
 
-TEST_CASE("merge: a store with itself stays as it is") {
+TEST_CASE("merge: a store with itself stays as it is", "[slow]") {
   const Scratch scratch;
   const fs::path a = MakeStore(scratch, "a", {}, 0, kBlock + 5);
   const std::string before = Content(a);
@@ -399,7 +399,7 @@ TEST_CASE("merge: a store with itself stays as it is") {
   CHECK((Content(a) == before));
 }
 
-TEST_CASE("merge: a partial and a complete copy of a block make the complete one, either way") {
+TEST_CASE("merge: a partial and a complete copy of a block make the complete one, either way", "[slow]") {
   const Scratch scratch;
   const fs::path whole = MakeStore(scratch, "whole", {}, 0, kBlock);
   const fs::path part = MakeStore(scratch, "part", {}, 100, 300);
@@ -408,7 +408,7 @@ TEST_CASE("merge: a partial and a complete copy of a block make the complete one
   CHECK((Content(Merged(scratch, "2", {whole, part})) == content));
 }
 
-TEST_CASE("merge: two halves of a block close it") {
+TEST_CASE("merge: two halves of a block close it", "[slow]") {
   const Scratch scratch;
   const fs::path left = MakeStore(scratch, "left", {1, 2}, 0, 600);
   const fs::path right = MakeStore(scratch, "right", {1, 2}, 500, kBlock);  // 100 units are in both
@@ -417,7 +417,7 @@ TEST_CASE("merge: two halves of a block close it") {
   CHECK((Content(Merged(scratch, "2", {right, left})) == content));
 }
 
-TEST_CASE("merge: two copies of a block or unit that differ are an internal error that names it") {
+TEST_CASE("merge: two copies of a block or unit that differ are an internal error that names it", "[slow]") {
   const Scratch scratch;
   const Shard shard{1, 2};
   const auto with_other_unit = [&](const std::string& name, std::int64_t units, std::int64_t other) {
@@ -445,7 +445,7 @@ TEST_CASE("merge: two copies of a block or unit that differ are an internal erro
   refused(other_unit, part, "unit 15");
 }
 
-TEST_CASE("merge: a unit that both stores counted for different shards is refused, either way") {
+TEST_CASE("merge: a unit that both stores counted for different shards is refused, either way", "[slow]") {
   const Scratch scratch;
   const std::vector<std::pair<std::string, fs::path>> unsharded = {
       {"block", MakeStore(scratch, "block", {}, 0, kBlock)}, {"units", MakeStore(scratch, "units", {}, 0, 9)}};
@@ -586,7 +586,7 @@ fs::path MakeFullStore(const Scratch& scratch, const std::string& name) {
   return scratch / name;
 }
 
-TEST_CASE("store: a row that is not as it was written is named, and nothing is read") {
+TEST_CASE("store: a row that is not as it was written is named, and nothing is read", "[slow]") {
   const Scratch scratch;
   const fs::path file = MakeFullStore(scratch, "a.store");
   const std::vector<std::pair<std::string, std::string>> damages = {
@@ -613,7 +613,8 @@ TEST_CASE("store: a row that is not as it was written is named, and nothing is r
   }
 }
 
-TEST_CASE("store: pages that do not fit together are refused, though every row is as it was written") {
+TEST_CASE("store: pages that do not fit together are refused, though every row is as it was written",
+          "[slow]") {
   const Scratch scratch;
   const fs::path file = MakeFullStore(scratch, "a.store");
   Execute(file, "PRAGMA wal_checkpoint(TRUNCATE)");
@@ -628,7 +629,7 @@ TEST_CASE("store: pages that do not fit together are refused, though every row i
   CHECK_THROWS_WITH(Store::OpenToRead(file), Contains("pages that do not fit together"));
 }
 
-TEST_CASE("store: of two that make one at the same time both work on the same") {
+TEST_CASE("store: of two that make one at the same time both work on the same", "[slow]") {
   const Scratch scratch;
   for (int k = 0; k < 20; ++k) {
     const fs::path file = scratch / fmt::format("{}.store", k);
@@ -651,7 +652,7 @@ TEST_CASE("store: of two that make one at the same time both work on the same") 
   }
 }
 
-TEST_CASE("store: of one that ends too early salvage saves rows") {
+TEST_CASE("store: of one that ends too early salvage saves rows", "[slow]") {
   const Scratch scratch;
   const fs::path file = MakeFullStore(scratch, "a.store");
   Execute(file, "PRAGMA wal_checkpoint(TRUNCATE)");
@@ -664,7 +665,7 @@ TEST_CASE("store: of one that ends too early salvage saves rows") {
   CHECK(rest.Units().Count() <= whole);
 }
 
-TEST_CASE("store: salvage saves what is sound and names what it leaves out") {
+TEST_CASE("store: salvage saves what is sound and names what it leaves out", "[slow]") {
   const Scratch scratch;
   const fs::path file = MakeFullStore(scratch, "a.store");
   const std::string whole = Content(file);
@@ -730,7 +731,7 @@ TEST_CASE("store: a record with a key that none has is refused, sealed or not") 
 
 Work WorkOf(const std::string& build, std::int64_t exact) { return {{build}, {.doubles = 1, .exact = exact}}; }
 
-TEST_CASE("work: a block has the builds and the time of its units, and of finishing their findings") {
+TEST_CASE("work: a block has the builds and the time of its units, and of finishing their findings", "[slow]") {
   const Scratch scratch;
   const Shard shard{1, 2};
   Store store(scratch / "a.store", Identity());
@@ -750,7 +751,7 @@ TEST_CASE("work: a block has the builds and the time of its units, and of finish
   CHECK(Store::OpenToRead(scratch / "a.store").TotalWork() == expected);
 }
 
-TEST_CASE("work: copies of a unit or block with other work are the same unit or block") {
+TEST_CASE("work: copies of a unit or block with other work are the same unit or block", "[slow]") {
   const Scratch scratch;
   const auto make = [&](const std::string& name, std::int64_t units, const std::string& build,
                         std::int64_t time) {
@@ -769,7 +770,7 @@ TEST_CASE("work: copies of a unit or block with other work are the same unit or 
   CHECK(Store::OpenToRead(Merged(scratch, "2", {a, part})).TotalWork() == Store::OpenToRead(a).TotalWork());
 }
 
-TEST_CASE("work: machines are kept beside builds, and no part of what is compared") {
+TEST_CASE("work: machines are kept beside builds, and no part of what is compared", "[slow]") {
   const Scratch scratch;
   const auto make = [&](const std::string& name, const std::string& machine) {
     Store store(scratch / name, Identity());
@@ -816,7 +817,7 @@ TEST_CASE("machine: the processor's name, and no name of the host") {
 
 // ---- A running search ------------------------------------------------------------------------
 
-TEST_CASE("store: a running search can be read, and each reader sees one state") {
+TEST_CASE("store: a running search can be read, and each reader sees one state", "[slow]") {
   const Scratch scratch;
   const fs::path file = scratch / "a.store";
   Store writer(file, Identity());

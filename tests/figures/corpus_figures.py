@@ -9,7 +9,7 @@ import subprocess
 import sys
 from fractions import Fraction
 
-from markdown import count, prose, table, three
+from markdown import count, front_matter, prose, table, three
 from program import ROOT
 
 sys.path.insert(0, str(ROOT / "tests/setup"))
@@ -272,12 +272,11 @@ def dearest(program):
     return table(["at its limit", "checker", "processor time, s", "memory, MB"], rows)
 
 
-def mutation(program):
-    """The table of a mutation run, and the sentence below it."""
-    program.show("tests/mutation/mutate.py")
-    done = subprocess.run([sys.executable, ROOT / "tests/mutation/mutate.py"], text=True, capture_output=True)
-    rows, said = re.search(r"\n(\| file .*?)\n\n.*?^([\d.]+ % of .*?)$", done.stdout, re.S | re.M).groups()
-    return f"{rows}\n\n{said}."
+def nightly(program):
+    """Steps of a night, and its mutants: what the command wrote."""
+    program.show("./run test --nightly")
+    subprocess.run([ROOT / "run", "test", "--nightly"])
+    return front_matter((ROOT / "reports/measured/nightly.md").read_text())[1].split("\n\n", 1)[1].rstrip("\n")
 
 
 def shown(value):

@@ -154,7 +154,8 @@ MEASUREMENTS = [
     Measurement("peers", "long", bench.peers, "The methods beside the packages of others on random matrices.", PEERS),
     Measurement("structure", "long", bench.structure,
                 "The methods beside the packages of others on problems with structure.", PEERS),
-    Measurement("mutation", "long", corpus.mutation, "Bugs of one line that the tests catch, by the file they are in."),
+    Measurement("nightly", "long", corpus.nightly,
+                "The last `./run test --nightly`: its steps, and bugs of one line that the tests notice."),
     Measurement("structure-large", "long", bench.structure_large,
                 "The methods beside the packages of others on the walls of `corpus/scenes/large`.", PEERS),
 ]

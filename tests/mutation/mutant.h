@@ -1,24 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// MUTANT(k): whether this process runs with the k-th bug (mutate.py). The environment variable STICTION_MUTANT
-// chooses it, and is read once; without it there is none.
+// MUTANT(k): whether this process runs with the k-th bug (mutate.py), which the environment variable
+// STICTION_MUTANT chooses, read once; without it there is none. That the place was reached is noted in the file
+// that STICTION_REACHED names, a byte for each bug, which the processes of a test share.
 
 #ifndef STICTION_TESTS_MUTATION_MUTANT_H_
 #define STICTION_TESTS_MUTATION_MUTANT_H_
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
 namespace stiction::testing {
 
-inline int ChosenMutant() {
-  static const int chosen = [] {
-    const char* text = std::getenv("STICTION_MUTANT");
-    return text == nullptr ? 0 : std::atoi(text);
-  }();
-  return chosen;
-}
+constexpr int kMostMutants = 4096;  // as in mutate.py
+
+struct Mutants {
+  char unnoted[kMostMutants] = {};
+  char* reached = unnoted;
+  int chosen = 0;
+
+  constexpr Mutants() = default;
+
+  void Read() {
+    if (const char* text = std::getenv("STICTION_MUTANT")) chosen = std::atoi(text);
+    const char* name = std::getenv("STICTION_REACHED");
+    const int file = name == nullptr ? -1 : open(name, O_RDWR | O_CLOEXEC);
+    if (file < 0) return;
+    void* shared = mmap(nullptr, kMostMutants, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    close(file);
+    if (shared != MAP_FAILED) reached = static_cast<char*>(shared);
+  }
+};
+
+inline constinit Mutants mutants;
+inline const bool mutants_are_read = (mutants.Read(), true);
 
 }  // namespace stiction::testing
 
-#define MUTANT(k) (::stiction::testing::ChosenMutant() == (k))
+#define MUTANT(k) (::stiction::testing::mutants.reached[k] = 1, ::stiction::testing::mutants.chosen == (k))
 
 #endif  // STICTION_TESTS_MUTATION_MUTANT_H_

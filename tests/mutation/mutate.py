@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Mutation testing: bugs of one line, one at a time, and which test catches each.
+"""Mutation testing: bugs of one line, one at a time, and which test notices each.
 
-The table of bugs is mutants.py. A copy of the sources is made in which every bug stands beside what it replaces,
-chosen at run time by an environment variable (mutant.h), and the copy is built once. All tests have to pass without
-a bug. Then each bug: the tests that the table expects to catch it, the quickest first, and if none does, all others.
-A test that takes too long, or crashes, has caught it. reports/measured/mutation.md has the figures.
+    mutate.py --drawn N [--seed S]    N bugs drawn from what the tests cover (draw.py)
+    mutate.py                         the bugs by hand, one for each clause of the checkers (mutants.py)
+    mutate.py --hand --drawn N        both, in one build
+    mutate.py --check                 only whether those by hand have their places in the sources
 
-exit status: 0 if at least 95 % are caught and every survivor has a reason in the table, otherwise 1.
+A copy of the sources has every bug beside what it replaces, chosen at run time by an environment variable (mutant.h). It
+is built once. A drawn bug that does not compile is dropped. All tests pass without a bug, and note which bugs each of
+them reaches: what none reaches is not covered, and dropped. Each bug then meets the tests that reach it, the quickest
+first, until one fails, crashes or takes too long.
+
+exit status: 0 if at least 90 % of those drawn are noticed and all of those by hand but what has a reason, otherwise 1.
 Python standard library only.
 """
 
@@ -29,106 +34,151 @@ from contextlib import contextmanager
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # beside the sources
+sys.path.insert(1, str(Path(__file__).resolve().parents[1] / "figures"))
 
-from mutants import LABELS, MUTANTS, PROGRAMS, PYTHON  # noqa: E402
+from draw import Source, draw  # noqa: E402
+from intervals import clopper_pearson  # noqa: E402
+from mutants import FOLDERS, HAND  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "python", "reports", "scene", "search", "solver",
-           "tests")
-TARGETS = ("stiction", "stiction-ipopt", "stiction-bench", "stiction_python", "stiction_python_package",
-           *(f"test_{label}" for label in LABELS))
+SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
+DRAWN_FROM = ("solver", "certify", "search", "corpus")
+# The tests of a run: C++ by folder, and programs that drive the program from outside.
+LABELS = ("solver", "certify", "search", "corpus")
+PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "limits_test",
+            "outputs_test", "paths_test", "problem_test", "replay_test", "solve_test", "store_test")
+TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
+PYTHON = '''import os
+_reached = os.environ.get("STICTION_REACHED")
+def MUTANT(k):
+    if _reached:
+        with open(_reached, "r+b") as file:
+            file.seek(k)
+            file.write(b"1")
+    return os.environ.get("STICTION_MUTANT") == str(k)
+'''
 FLAGS = "-O1 -fno-ivopts -DNDEBUG"  # built in half of the time; ivopts of gcc 12 at -O1 miscompiles a generator
-LEAST_SHARE = 0.95
+LEAST_SHARE = 0.9
+MOST_MUTANTS = 4096  # as in mutant.h
 MEMORY = 6 << 30  # bytes of address space of a test
 
+# form: expression, statement, or early, which is put before what is there; number: from 1.
+Mutant = namedtuple("Mutant", "number id file begin end mutated form type breaks equivalent")
 
-# --- The mutated sources -----------------------------------------------------------
 
 class Refused(Exception):
     """The table does not fit the sources."""
 
 
-def place(mutant, text):
-    """Where the original stands: once in the file, or once in the context, which stands once in the file."""
-    within = mutant.context or mutant.original
-    for part, whole, where in ((within, text, mutant.file), (mutant.original, within, "its context")):
-        if whole.count(part) != 1:
-            raise Refused(f"{mutant.id}: found {whole.count(part)} times in {where}, expected once: {part!r}")
-    begin = text.index(within) + within.index(mutant.original)
-    return begin, begin + len(mutant.original)
+# --- Places ------------------------------------------------------------------------
+
+def sources_in(folders):
+    """Texts by name."""
+    paths = [path for folder in folders
+             for path in ([ROOT / folder] if (ROOT / folder).is_file() else sorted((ROOT / folder).rglob("*")))]
+    return {str(path.relative_to(ROOT)): path.read_text() for path in paths if path.suffix in (".h", ".ipp", ".cpp", ".py")}
 
 
-def is_expression(code):
-    """As far as one can tell without a compiler: nothing, half of a ?:, a statement or an operator without its operand is none."""
-    code = re.sub(r'"[^"]*"|\'[^\']*\'', "0", code).strip()
-    body = re.sub(r"\{.*\}", "{}", code)
-    return (code != "" and ";" not in body and not re.match(r"(return|if|for|while|else)\b", code)
-            and not re.match(r"([/%+<>=|^?:,]|[*&-] |&&)", code) and not re.search(r"[&|+*/%<>=^?:,!~-]$", code)
-            and body.count("?") <= len(re.findall(r"(?<!:):(?!:)", body)))
+def bodies_in(file, text, function):
+    """(begin, end) of what the file has of the function, from its head to its end."""
+    if file.endswith(".py"):
+        for match in re.finditer(rf"^def {function}\(.*\n(?:(?:[ \t].*)?\n)*", text, re.M):
+            yield match.span()
+        return
+    source = Source(text)
+    for i, token in enumerate(source.tokens):
+        if token.text != function or i + 1 >= len(source.tokens) or source.tokens[i + 1].text != "(":
+            continue
+        j = source.partner.get(i + 1, i + 1) + 1
+        while j < len(source.tokens) and source.tokens[j].text in ("const", "noexcept", "override"):
+            j += 1
+        if j < len(source.tokens) and source.tokens[j].text == "{" and j in source.partner:
+            yield token.begin, source.tokens[source.partner[j]].end
 
 
-def check_form(mutant):
-    """Only an expression, or statements that declare nothing, can be chosen between."""
-    for code in (mutant.original, mutant.mutated):
-        depth = 0
-        for letter in re.sub(r"'.'", "", code):
-            depth += (letter in "({[") - (letter in ")}]")
-            if depth < 0:
-                break
-        if depth != 0:
-            raise Refused(f"{mutant.id}: found a bracket without its partner in {code!r}")
-        if code.endswith(";") and re.match(r"(const|auto|bool|int)\b", code):
-            raise Refused(f"{mutant.id}: found a declaration, expected its value alone: {code!r}")
-        if not mutant.original.endswith(";") and not is_expression(code):
-            raise Refused(f"{mutant.id}: found {code!r}, expected an expression, since what it replaces ends in no ';'")
+def place(row, texts):
+    """(file, begin, end) of the row's original, which its function has once."""
+    bodies = [(file, *span) for file, text in texts.items() if row.function in text
+              for span in bodies_in(file, text, row.function)]
+    if not bodies:
+        raise Refused(f"{row.id}: found no function {row.function} in {', '.join(FOLDERS)}")
+    found = [(file, begin + match.start()) for file, begin, end in bodies
+             for match in re.finditer(re.escape(row.original), texts[file][begin:end])]
+    if len(found) != 1:
+        raise Refused(f"{row.id}: found {len(found)} times in {row.function}, expected once: {row.original!r}")
+    return found[0][0], found[0][1], found[0][1] + len(row.original)
 
 
-def numbered():
-    """(number, mutant), from 1."""
-    return list(enumerate(MUTANTS, 1))
+def by_hand():
+    texts, mutants = sources_in(FOLDERS), []
+    for number, row in enumerate(HAND, 1):
+        if any(row.id == other.id for other in HAND[:number - 1]):
+            raise Refused(f"{row.id}: an id that stands twice")
+        form = "statement" if row.original.endswith(";") else "expression"
+        mutants.append(Mutant(number, row.id, *place(row, texts), row.mutated, form, row.type, row.breaks, row.equivalent))
+    return mutants
 
+
+def overlap(left, right):
+    return left.file == right.file and left.begin <= right.end and right.begin <= left.end
+
+
+def drawn(count, seed, others):
+    """The first `count` places of the seed that do not overlap, numbered behind the others."""
+    texts, chosen = sources_in(DRAWN_FROM), list(others)
+    texts = {file: text for file, text in texts.items() if not file.endswith(".py")}
+    for file, line, site in draw(texts, seed):
+        shown = f"{' '.join(texts[file][site.begin:site.end].split())}  ->  {site.mutated}" if site.form != "early" \
+            else f"{site.mutated} before  {texts[file][site.begin:].split(chr(10))[0]}"
+        mutant = Mutant(len(chosen) + 1, f"{file}:{line} {site.kind}", file, site.begin, site.end, site.mutated, site.form,
+                        None, shown, None)
+        if not any(overlap(mutant, other) for other in chosen):
+            chosen.append(mutant)
+        if len(chosen) == len(others) + count:
+            break
+    return chosen[len(others):]
+
+
+# --- The mutated sources -----------------------------------------------------------
 
 def replacement(original, alternatives):
-    """The code for the original and the mutants (number, mutant) that replace it."""
-    if original.endswith(";"):
-        chain = "".join(f"if (MUTANT({number})) {{ {mutant.mutated} }} else " for number, mutant in alternatives)
+    """The code for the original and the mutants that replace it, with the lines of the original."""
+    form, number = alternatives[0].form, alternatives[0].number
+    if alternatives[0].file.endswith(".py"):
+        chain = "".join(f"({mutant.mutated}) if MUTANT({mutant.number}) else " for mutant in alternatives)
+        return f"({chain}{original})"
+    if form == "early":
+        return f"if (MUTANT({number})) {alternatives[0].mutated} "
+    if form == "statement":
+        chain = "".join(f"if (MUTANT({mutant.number})) {{ {mutant.mutated} }} else " for mutant in alternatives)
         return f"{{ {chain}{{ {original} }} }}"
-    as_type = alternatives[0][1].type or ""
-    chain = "".join(f"MUTANT({number}) ? {as_type}({mutant.mutated}) : " for number, mutant in alternatives)
+    as_type = alternatives[0].type or ""
+    chain = "".join(f"MUTANT({mutant.number}) ? {as_type}({mutant.mutated}) : " for mutant in alternatives)
     return f"({chain}{as_type}({original}))"
 
 
-def mutated_text(file, text, mutants):
-    """The file with all its mutants (number, mutant) in it."""
+def mutated_text(text, mutants):
+    """The file with all its mutants in it."""
     spots = {}
-    for number, mutant in mutants:
-        spots.setdefault(place(mutant, text), []).append((number, mutant))
+    for mutant in mutants:
+        spots.setdefault((mutant.begin, mutant.end), []).append(mutant)
     order = sorted(spots)
     for left, right in zip(order, order[1:]):
         if left[1] > right[0]:
-            raise Refused(f"{spots[left][0][1].id}, {spots[right][0][1].id}: overlap in {file}")
+            raise Refused(f"{spots[left][0].id}, {spots[right][0].id}: overlap in {mutants[0].file}")
     for begin, end in reversed(order):
         text = text[:begin] + replacement(text[begin:end], spots[begin, end]) + text[end:]
-    first = text.index("#include")
-    return text[:first] + INCLUDE + text[first:]
+    python = mutants[0].file.endswith(".py")
+    first = text.index("\nimport ") + 1 if python else text.index("#include")
+    return text[:first] + (PYTHON if python else INCLUDE) + text[first:]
 
 
-def mutated_files():
+def mutated_files(mutants):
     by_file = {}
-    for number, mutant in numbered():
-        by_file.setdefault(mutant.file, []).append((number, mutant))
-    return {file: mutated_text(file, (ROOT / file).read_text(), mutants) for file, mutants in by_file.items()}
-
-
-def check_table():
-    ids = [mutant.id for mutant in MUTANTS]
-    for name in ids:
-        if ids.count(name) > 1:
-            raise Refused(f"{name}: an id that stands twice")
-    for mutant in MUTANTS:
-        check_form(mutant)
-    return len(mutated_files())
+    for mutant in mutants:
+        by_file.setdefault(mutant.file, []).append(mutant)
+    return {file: mutated_text((ROOT / file).read_text(), here) for file, here in by_file.items()}
 
 
 def write_if_other(path, data):
@@ -139,14 +189,13 @@ def write_if_other(path, data):
     path.write_bytes(data)
 
 
-def copy_sources(target):
+def copy_sources(target, mutants):
     """The sources, with the mutants; what is no longer there goes."""
-    mutated, kept = mutated_files(), set()
-    folders = [path for name in SOURCES for path in (ROOT / name).rglob("*") if path.is_file()]
-    for path in [ROOT / "CMakeLists.txt", ROOT / "CITATION.cff", *folders]:
+    mutated, kept = mutated_files(mutants), set()
+    folders = [path for name in SOURCES for path in (ROOT / name).rglob("*")
+               if path.is_file() and not {"__pycache__", "node_modules", "examples"} & set(path.parts)]
+    for path in [*filter(Path.exists, (ROOT / "CMakeLists.txt", ROOT / "CITATION.cff")), *folders]:
         name = path.relative_to(ROOT)
-        if "__pycache__" in name.parts:
-            continue
         kept.add(target / name)
         data = mutated[str(name)].encode() if str(name) in mutated else path.read_bytes()
         write_if_other(target / name, data)
@@ -155,20 +204,47 @@ def copy_sources(target):
         path.unlink()
 
 
-def build(folder, jobs):
+def lines_of(mutant):
+    """First and last line in the mutated file, which has one line more."""
+    text = (ROOT / mutant.file).read_text()
+    first = text.count("\n", 0, mutant.begin) + 2
+    return first, first + text.count("\n", mutant.begin, mutant.end)
+
+
+def blamed(output, mutants, sources):
+    """The mutants on lines that the compiler names."""
+    named = {(match[1], int(match[2])) for match in
+             re.finditer(rf"{re.escape(str(sources))}/([\w./-]+):(\d+)[:,]", output)}
+    return [mutant for mutant in mutants
+            if any((mutant.file, line) in named for line in range(lines_of(mutant)[0], lines_of(mutant)[1] + 1))]
+
+
+def build(folder, mutants, jobs):
+    """Builds the copy; returns the binary folder and those mutants that compile."""
+    sources, binary = folder / "sources", folder / "build"
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    binary = folder / "build"
-    subprocess.run(["cmake", *generator, "-S", folder / "sources", "-B", binary, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSTICTION_WERROR=OFF", "-DSTICTION_PYTHON=ON", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
+    copy_sources(sources, mutants)
+    subprocess.run(["cmake", "--no-warn-unused-cli", *generator, "-S", sources, "-B", binary, "-DCMAKE_BUILD_TYPE=Release", "-DSTICTION_WERROR=OFF",
+                    "-DSTICTION_PYTHON=OFF", "-DCMAKE_CXX_FLAGS=-w", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}"],
                    check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", binary, "--parallel", str(jobs), "--target", *TARGETS], check=True)
-    return binary
+    while True:
+        command = ["cmake", "--build", binary, "--parallel", str(jobs), "--target", *TARGETS, "--", "-k", "0"]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+        if done.returncode == 0:
+            return binary, mutants
+        wrong = blamed(done.stdout, mutants, sources)
+        if not wrong:
+            sys.exit("the copy does not compile, and not for a bug in it:\n" + done.stdout[-6000:])
+        for mutant in wrong:
+            print(f"does not compile: {mutant.id}: {mutant.breaks}", flush=True)
+        mutants = [mutant for mutant in mutants if mutant not in wrong]
+        copy_sources(sources, mutants)
 
 
 # --- Tests -------------------------------------------------------------------------
 
 Test = namedtuple("Test", "name command folder skip environment")
-Result = namedtuple("Result", "how seconds output")  # how: passed, failed, skipped, crashed, too slow
+Result = namedtuple("Result", "how seconds output reached")  # how: passed, failed, skipped, crashed, too slow
 
 
 def tests_of(binary):
@@ -178,11 +254,7 @@ def tests_of(binary):
     for entry in json.loads(listed.stdout)["tests"]:
         properties = {item["name"]: item["value"] for item in entry.get("properties", [])}
         program = re.fullmatch("program: (.*)", entry["name"])
-        labels = set(properties.get("LABELS", []))
-        if "python" in labels:
-            wanted = Path(entry["command"][1]).name in PYTHON
-        else:
-            wanted = program[1] in PROGRAMS if program else labels & set(LABELS)
+        wanted = program[1] in PROGRAMS if program else set(properties.get("LABELS", [])) & set(LABELS)
         if wanted and "command" in entry:
             name = re.sub(r"^(\w+): *", r"\1: ", entry["name"])  # blanks behind a prefix can get lost
             tests.append(Test(name, entry["command"], properties.get("WORKING_DIRECTORY", binary),
@@ -205,144 +277,160 @@ def scratch_folder():
         yield folder
 
 
-def run_test(test, number, seconds, scratch):
+def run_test(test, number, seconds):
     """One test in a process group of its own, with the bug of this number, 0 for none."""
-    environment = {**os.environ, **test.environment, "STICTION_MUTANT": str(number), "TMPDIR": str(scratch)}
-    before = time.monotonic()
-    process = subprocess.Popen(test.command, cwd=test.folder, env=environment, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-                               preexec_fn=prepare_process)
-    try:
-        output = process.communicate(timeout=seconds)[0].decode(errors="replace")
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.communicate()
-        return Result("too slow", time.monotonic() - before, "")
-    took = time.monotonic() - before
+    with scratch_folder() as scratch, tempfile.NamedTemporaryFile() as reached:
+        reached.write(bytes(MOST_MUTANTS))
+        reached.flush()
+        os.chmod(reached.name, 0o666)
+        environment = {**os.environ, "STICTION_TESTS": "short", **test.environment, "STICTION_MUTANT": str(number),
+                       "TMPDIR": scratch}
+        if number == 0:
+            environment["STICTION_REACHED"] = reached.name
+        before = time.monotonic()
+        process = subprocess.Popen(test.command, cwd=test.folder, env=environment, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+                                   preexec_fn=prepare_process)
+        try:
+            output = process.communicate(timeout=seconds)[0].decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            return Result("too slow", time.monotonic() - before, "", set())
+        took = time.monotonic() - before
+        with open(reached.name, "rb") as file:
+            numbers = {k for k, mark in enumerate(file.read()) if mark}
     if process.returncode < 0 or "SIGFPE" in output or "SIGSEGV" in output or "SIGABRT" in output:
-        return Result("crashed", took, output)
+        return Result("crashed", took, output, numbers)
     skipped = any(re.search(pattern, output) for pattern in test.skip or ())
-    return Result("passed" if process.returncode == 0 else "skipped" if skipped else "failed", took, output)
+    return Result("passed" if process.returncode == 0 else "skipped" if skipped else "failed", took, output, numbers)
 
 
 def run_baseline(tests, jobs):
-    """Seconds by name, of those that are not skipped. Ends the program if a test does not pass without a bug."""
-    def run(test):
-        with scratch_folder() as scratch:
-            return run_test(test, 0, 900, scratch)
-
+    """Results by name, of those that are not skipped. Ends the program if a test does not pass without a bug."""
     with ThreadPoolExecutor(jobs) as pool:
-        results = list(pool.map(run, tests))
+        results = list(pool.map(lambda test: run_test(test, 0, 900), tests))
     failed = [(test, result) for test, result in zip(tests, results) if result.how not in ("passed", "skipped")]
     for test, result in failed:
         print(f"without a bug: {test.name}: {result.how}\n{result.output[-3000:]}")
     if failed or not tests:
         sys.exit(f"{len(failed)} of {len(tests)} tests do not pass without a bug")
-    return {test.name: result.seconds for test, result in zip(tests, results) if result.how == "passed"}
+    return {test.name: result for test, result in zip(tests, results) if result.how == "passed"}
 
 
-# --- Mutants -----------------------------------------------------------------------
+# --- Judging -----------------------------------------------------------------------
 
 Verdict = namedtuple("Verdict", "test how seconds run")  # test None: survived; run: number of tests
 
 
-def judge(number, mutant, tests, seconds):
-    """The likely tests first. One that is known to be equivalent is shown to those alone."""
-    likely = [test for test in tests if re.search(mutant.tests, test.name)]
-    others = [] if mutant.equivalent else [test for test in tests if test not in likely]
-    quickest = sorted(likely, key=lambda test: seconds[test.name]) + sorted(others, key=lambda test: seconds[test.name])
+def judge(mutant, tests, baseline):
+    reaching = [test for test in tests if mutant.number in baseline[test.name].reached]
     before = time.monotonic()
-    with scratch_folder() as scratch:
-        for count, test in enumerate(quickest, 1):
-            result = run_test(test, number, 20 + 10 * seconds[test.name], scratch)
-            if result.how != "passed":
-                return Verdict(test.name, result.how, time.monotonic() - before, count)
-    return Verdict(None, "survived", time.monotonic() - before, len(quickest))
+    for count, test in enumerate(sorted(reaching, key=lambda one: baseline[one.name].seconds), 1):
+        result = run_test(test, mutant.number, 20 + 10 * baseline[test.name].seconds)
+        if result.how != "passed":
+            return Verdict(test.name, result.how, time.monotonic() - before, count)
+    return Verdict(None, "survived", time.monotonic() - before, len(reaching))
 
 
 def describe(mutant, verdict):
     if verdict.test:
         how = "" if verdict.how == "failed" else f" ({verdict.how})"
-        return f"{mutant.id}: caught{how} after {verdict.seconds:.1f} s: {verdict.test}"
+        return f"{mutant.id}: noticed{how} after {verdict.seconds:.1f} s: {verdict.test}"
     return f"{mutant.id}: SURVIVED {verdict.run} tests: {mutant.breaks}"
 
 
-def judge_all(chosen, tests, seconds, jobs):
+def judge_all(chosen, tests, baseline, jobs):
     printing = threading.Lock()
 
-    def run(item):
-        verdict = judge(*item, tests, seconds)
+    def run(mutant):
+        verdict = judge(mutant, tests, baseline)
         with printing:
-            print(describe(item[1], verdict), flush=True)
+            print(describe(mutant, verdict), flush=True)
         return verdict
 
     with ThreadPoolExecutor(jobs) as pool:
-        return dict(zip((mutant.id for _, mutant in chosen), pool.map(run, chosen)))
+        return dict(zip((mutant.id for mutant in chosen), pool.map(run, chosen)))
 
 
-def table(chosen, verdicts):
-    """Markdown: by file, mutants, caught, survivors."""
-    lines = ["| file | mutants | caught | survivors |", "|---|---|---|---|"]
-    for file in dict.fromkeys(mutant.file for _, mutant in chosen):
-        here = [mutant for _, mutant in chosen if mutant.file == file]
-        left = [mutant.id for mutant in here if verdicts[mutant.id].test is None]
-        lines.append(f"| `{file}` | {len(here)} | {len(here) - len(left)} | {', '.join(left)} |")
-    caught = sum(verdict.test is not None for verdict in verdicts.values())
-    lines.append(f"| all | {len(verdicts)} | {caught} | {len(verdicts) - caught} |")
+def table(chosen, verdicts, key):
+    """Markdown: by key, mutants and those that were noticed."""
+    lines = ["| | bugs | noticed |", "|---|---|---|"]
+    for name in sorted({key(mutant) for mutant in chosen}):
+        here = [verdicts[mutant.id] for mutant in chosen if key(mutant) == name]
+        lines.append(f"| {name} | {len(here)} | {sum(one.test is not None for one in here)} |")
     return "\n".join(lines)
 
 
-def report(chosen, verdicts):
-    """Prints the table, and returns the exit status."""
-    print("\n" + table(chosen, verdicts) + "\n")
-    survivors = [mutant for _, mutant in chosen if verdicts[mutant.id].test is None]
-    for mutant in survivors:
-        print(f"{mutant.id}: " + (f"equivalent: {mutant.equivalent}" if mutant.equivalent else "NOT CAUGHT"))
-    for _, mutant in chosen:
-        if mutant.equivalent and mutant not in survivors:
-            print(f"{mutant.id}: called equivalent, but caught by {verdicts[mutant.id].test}")
-    hard = [how for how in ("crashed", "too slow") for verdict in verdicts.values() if verdict.how == how]
-    share = 1 - len(survivors) / len(chosen)
-    print(f"{100 * share:.1f} % of {len(chosen)} caught, {hard.count('crashed')} by a crash, "
-          f"{hard.count('too slow')} by a time limit")
-    return 0 if share >= LEAST_SHARE and all(mutant.equivalent for mutant in survivors) else 1
+def share(noticed, count):
+    low, high = clopper_pearson(noticed, count)
+    return f"{noticed} of {count} noticed, {100 * noticed / count:.1f} % (95 % interval: {100 * low:.1f} to {100 * high:.1f})"
+
+
+def report(title, chosen, verdicts, key, least):
+    """Prints the table; whether enough were noticed."""
+    noticed = [mutant for mutant in chosen if verdicts[mutant.id].test]
+    left = [mutant for mutant in chosen if mutant not in noticed]
+    print(f"\n{table(chosen, verdicts, key)}\n\n{title}: {share(len(noticed), len(chosen))}")
+    for mutant in left:
+        print(f"* {mutant.id}: `{mutant.breaks}`: "
+              + (f"equivalent: {mutant.equivalent}" if mutant.equivalent else f"no test of {verdicts[mutant.id].run} notices"))
+    for mutant in noticed:
+        if mutant.equivalent:
+            print(f"* {mutant.id}: called equivalent, but noticed by {verdicts[mutant.id].test}")
+    return len(noticed) >= least * len(chosen) or all(mutant.equivalent for mutant in left)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--drawn", type=int, default=0, metavar="N", help="N bugs drawn")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="which (default 1)")
+    parser.add_argument("--hand", action="store_true", help="those by hand, too")
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutation", metavar="DIR",
                         help="where the copy and its build stand (default build/mutation)")
-    parser.add_argument("--only", nargs="+", metavar="ID", help="these mutants only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="(default: the number of cores)")
-    parser.add_argument("--check", action="store_true", help="only whether the table fits the sources")
-    parser.add_argument("--prepare", action="store_true", help="copy, build and run without a bug, no more")
+    parser.add_argument("--check", action="store_true", help="only whether those by hand have their places")
+    parser.add_argument("--list", action="store_true", help="only print what would be drawn")
     arguments = parser.parse_args()
     try:
-        files = check_table()
+        hand = by_hand()
+        mutated_files(hand)
     except Refused as refused:
         sys.exit(f"mutants.py: {refused}")
     if arguments.check:
-        print(f"{len(MUTANTS)} mutants in {files} files, each in its place")
+        print(f"{len(hand)} bugs in {len({mutant.file for mutant in hand})} files, each in its place")
         return 0
-    unknown = set(arguments.only or ()) - {mutant.id for mutant in MUTANTS}
-    if unknown:
-        sys.exit(f"no such mutant: {', '.join(sorted(unknown))}")
+    if arguments.drawn and not arguments.hand:
+        hand = []
+    # Some are not covered, some do not compile.
+    from_seed = drawn(2 * arguments.drawn, arguments.seed, hand) if arguments.drawn else []
+    if arguments.list:
+        print(*(f"{mutant.id}: {mutant.breaks}" for mutant in from_seed), sep="\n")
+        return 0
     before = time.monotonic()
-    folder = arguments.build.resolve()
-    copy_sources(folder / "sources")
-    binary = build(folder, arguments.jobs)
+    binary, mutants = build(arguments.build.resolve(), hand + from_seed, arguments.jobs)
     built = time.monotonic()
     tests = tests_of(binary)
-    seconds = run_baseline(tests, arguments.jobs)
-    tests = [test for test in tests if test.name in seconds]
-    print(f"built in {built - before:.0f} s; {len(tests)} tests pass without a bug, {sum(seconds.values()):.0f} s")
-    if arguments.prepare:
-        return 0
-    chosen = [(number, mutant) for number, mutant in numbered() if mutant.id in (arguments.only or [mutant.id])]
-    verdicts = judge_all(chosen, tests, seconds, arguments.jobs)
-    status = report(chosen, verdicts)
-    print(f"{time.monotonic() - built:.0f} s of tests")
-    return status
+    baseline = run_baseline(tests, arguments.jobs)
+    tests = [test for test in tests if test.name in baseline]
+    reached = set().union(*(result.reached for result in baseline.values()))
+    print(f"built in {built - before:.0f} s; {len(tests)} tests pass without a bug, "
+          f"{sum(result.seconds for result in baseline.values()):.0f} s")
+    compiled = [mutant for mutant in from_seed if mutant in mutants]
+    chosen = [mutant for mutant in compiled if mutant.number in reached][:arguments.drawn]
+    uncovered = [mutant for mutant in compiled if mutant.number not in reached]
+    for mutant in uncovered:
+        print(f"not covered: {mutant.id}")
+    verdicts = judge_all(hand + chosen, tests, baseline, arguments.jobs)
+    enough = True
+    if hand:
+        enough &= report("by hand", hand, verdicts, lambda mutant: mutant.file, 1)
+    if chosen:
+        enough &= report(f"drawn, seed {arguments.seed}", chosen, verdicts, lambda mutant: mutant.id.split()[-1], LEAST_SHARE)
+        print(f"Of {len(from_seed)} places drawn {len(from_seed) - len(compiled)} do not compile with their bug and "
+              f"{len(uncovered)} are reached by no test.")
+    print(f"{built - before:.0f} s of building, {time.monotonic() - built:.0f} s of tests")
+    return 0 if enough else 1
 
 
 if __name__ == "__main__":

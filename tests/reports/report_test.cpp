@@ -865,7 +865,8 @@ TEST_CASE("report: a policy in a command is a single shell word") {
             "--policy &#39;x; rm &#39;\\&#39;&#39;y&#39;\\&#39;&#39;&#39; --step"));
 }
 
-TEST_CASE("report: of many findings some stand in the page as text, and all as data and in findings.csv") {
+TEST_CASE("report: of many findings some stand in the page as text, and all as data and in findings.csv",
+          "[slow]") {
   const Scratch scratch;
   Record record = SampleRecord();
   record.signatures.clear();

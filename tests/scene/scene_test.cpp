@@ -422,7 +422,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("assemble: minimal forces, extended by zeros, solve the full problem of every scene") {
+TEST_CASE("assemble: minimal forces, extended by zeros, solve the full problem of every scene", "[slow]") {
   int extended = 0;
   for (const std::string& name : SceneNames()) {
     INFO(name);

@@ -103,8 +103,8 @@ TEST_CASE("simulate in space: dominoes fall one after the other") {
   for (std::size_t i = 1; i < fell.size(); ++i) CHECK(fell[i] > fell[i - 1]);
 }
 
-TEST_CASE(
-    "simulate in space: no scene overlaps by more than its gap, or has problems that are solved loosely") {
+TEST_CASE("simulate in space: no scene overlaps by more than its gap, or has problems that are solved loosely",
+          "[slow]") {
   const double part = testing::Short() ? 4 : 1;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(STICTION_SCENES) / "space")) {
@@ -252,7 +252,8 @@ TEST_CASE("simulate in space: a conical pendulum keeps its height, a joint its b
   CHECK(DriftOf(simulation.scene()).joints < 1e-3);
 }
 
-TEST_CASE("simulate in space: a wall pushed at the top, its A sparse, moves as with a dense one, and stands") {
+TEST_CASE("simulate in space: a wall pushed at the top, its A sparse, moves as with a dense one, and stands",
+          "[slow]") {
   const auto wall = std::get<SceneFileInSpace>(
       ReadAnyScene(std::filesystem::path(STICTION_SCENES) / "large" / "brick-wall-in-space.json"));
   SceneInSpace<double> scene = Round(wall.scene);

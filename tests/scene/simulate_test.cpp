@@ -490,7 +490,7 @@ TEST_CASE("simulate: a wall of many bricks stands, its A sparse") {
   CHECK(LargestMove(Wall(8), simulation.scene()) < 1e-8);
 }
 
-TEST_CASE("simulate: no scene of the plane overlaps by more than its gap") {
+TEST_CASE("simulate: no scene of the plane overlaps by more than its gap", "[slow]") {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(STICTION_SCENES)) {
     const auto& path = entry.path();

@@ -259,7 +259,7 @@ TEST_CASE("adversary: one body loops at low friction") {
   }
 }
 
-TEST_CASE("adversary: what is learned beats what is drawn at random") {
+TEST_CASE("adversary: what is learned beats what is drawn at random", "[slow]") {
   const auto best = [](const char* optimizer, const char* objective) {
     const Optimized result = FindOptimizer(optimizer)->run(Problem(objective, GeneratorId::kPsd, 3, 8000));
     return result.elites.front().worth;

@@ -421,7 +421,7 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
   CHECK(Met(wrongs, "wrong-answer") > 10);
 }
 
-TEST_CASE("alarms: signs that do not sum to one are counted") {
+TEST_CASE("alarms: signs that do not sum to one are counted", "[slow]") {
   UnitSolvers solvers;
   std::int64_t missing = 0;
   solvers.exact.modes = [&missing](const ExactProblem& problem) {

@@ -101,7 +101,8 @@ TEST_CASE("finish: what Ipopt says is written down, and decides nothing") {
   CHECK(ClaimIn(finished->existence) == "solution-exists");
 }
 
-TEST_CASE("finish: what the whole grid shows is minimized for the whole grid, and certified under all of it") {
+TEST_CASE("finish: what the whole grid shows is minimized for the whole grid, and certified under all of it",
+          "[slow]") {
   const auto seed =
       std::find_if(CyclingSeeds().begin(), CyclingSeeds().end(), [](const CyclingSeed& candidate) {
         return AllEndIn(Outcome::kCycle, Cycling(candidate), PlanarGrid(), kBudget);

@@ -237,7 +237,7 @@ TEST_CASE("generators: the table is in the order of the ids and found by name") 
   CHECK_FALSE(FindGenerator("nothing").has_value());
 }
 
-TEST_CASE("generators: A is symmetric and semidefinite, b in its range, and every rank occurs") {
+TEST_CASE("generators: A is symmetric and semidefinite, b in its range, and every rank occurs", "[slow]") {
   ForEachKind([](GeneratorId id, int contacts) {
     std::set<int> ranks, drawn_ranks;
     int as_drawn = 0;
@@ -286,7 +286,7 @@ TEST_CASE("generators: the check of these tests sees an indefinite A and a b out
   CHECK_FALSE(Eliminate(problem).semidefinite);
 }
 
-TEST_CASE("generators: where the table says so, the double problem is the rational one") {
+TEST_CASE("generators: where the table says so, the double problem is the rational one", "[slow]") {
   ForEachKind([](GeneratorId id, int contacts) {
     int different = 0;
     for (int index = 0; index < SeedCount(contacts); ++index) {
@@ -321,7 +321,7 @@ TEST_CASE("generators: the largest problems are exact in double too") {
   });
 }
 
-TEST_CASE("generators: the double problem is near the rational one where it is only a filter") {
+TEST_CASE("generators: the double problem is near the rational one where it is only a filter", "[slow]") {
   for (const GeneratorId id : {GeneratorId::kConditioned, GeneratorId::kBodies, GeneratorId::kScenes}) {
     const double rounding = id == GeneratorId::kScenes ? 1e-12 : 1e-14;
     for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
@@ -375,7 +375,7 @@ TEST_CASE("generators: a problem depends on nothing that was in its memory befor
   }
 }
 
-TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals") {
+TEST_CASE("generators: recorded choices make the same problem again, over doubles and rationals", "[slow]") {
   ForEachKind([](GeneratorId id, int contacts) {
     for (int index = 0; index < 50; ++index) {
       RangedChoices record, again;

@@ -56,7 +56,7 @@ TEST_CASE("minimize candidate: a scene becomes a simpler scene with the same out
 }
 
 // What rounding all at once and changing one entry at a time leave with entries of two digits and more.
-TEST_CASE("minimize: a loop under the whole grid comes down to single digits, mostly") {
+TEST_CASE("minimize: a loop under the whole grid comes down to single digits, mostly", "[slow]") {
   int small = 0, tried = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Choices random(seed);

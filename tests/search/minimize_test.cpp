@@ -29,7 +29,8 @@ std::string Lack(const ExactProblem& problem, const MinimizeOptions& options) {
   return "accepted";
 }
 
-TEST_CASE("minimize: outcome and assumptions are kept, the problem becomes simpler and cannot become simpler") {
+TEST_CASE("minimize: outcome and assumptions are kept, the problem becomes simpler and cannot become simpler",
+          "[slow]") {
   for (const CyclingSeed& seed : CyclingSeeds()) {
     CAPTURE(seed.index, seed.contacts);
     const ExactProblem problem = Cycling(seed);

@@ -78,7 +78,8 @@ ExactProblem FullModel(const Scene<Rational>& scene) {
   return model.Problem(0);
 }
 
-TEST_CASE("scenes: contact finding sees the contacts asked for and no other, all of them without gap") {
+TEST_CASE("scenes: contact finding sees the contacts asked for and no other, all of them without gap",
+          "[slow]") {
   ForEachScene([](int contacts, Made made) {
     for (const Rational& gap : {Rational(0), made.scene.gap}) {
       made.scene.gap = gap;
@@ -89,7 +90,7 @@ TEST_CASE("scenes: contact finding sees the contacts asked for and no other, all
   });
 }
 
-TEST_CASE("scenes: the full model of the scene is the problem, contacts in the same order") {
+TEST_CASE("scenes: the full model of the scene is the problem, contacts in the same order", "[slow]") {
   ForEachScene([](int, const Made& made) {
     const ExactProblem problem = FullModel(made.scene);
     REQUIRE(problem.A == made.problem.A);

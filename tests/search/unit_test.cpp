@@ -338,7 +338,8 @@ Finding FinishedLoop(const UnitResult& result, const Campaign& campaign) {
   return *finished;
 }
 
-TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certified, and nothing disagrees") {
+TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certified, and nothing disagrees",
+          "[slow]") {
   for (const GeneratorId id : {GeneratorId::kBilateral, GeneratorId::kSliding}) {
     Campaign campaign = Small(id, 3, 20000);
     campaign.enumerate_every = 10;
@@ -551,7 +552,7 @@ std::int64_t AllocationsOf(GeneratorId generator, int contacts, std::int64_t pro
   return tally.outcomes[static_cast<int>(Outcome::kSolved)] == problems && tally.wrong == 0 ? count : -1;
 }
 
-TEST_CASE("unit: the path of a problem without suspicion allocates nothing") {
+TEST_CASE("unit: the path of a problem without suspicion allocates nothing", "[slow]") {
   const std::int64_t before = allocations;
   int* volatile memory = new int;
   const std::int64_t counted = allocations - before;

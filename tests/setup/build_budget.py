@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TARGETS = ["stiction", "stiction-ipopt"]
+TARGETS = ["stiction-search", "stiction-ipopt"]
 # In reference units.
 MOST_IN_ALL = 300
 MOST_OF_ONE_UNIT = 40

@@ -453,7 +453,7 @@ TEST_CASE("complete: frictionless, static and smooth contacts mix, degenerate or
 
 // ---- Singular and degenerate problems --------------------------------------------------------
 
-TEST_CASE("complete: every problem of every generator is solved exactly, within the bound") {
+TEST_CASE("complete: every problem of every generator is solved exactly, within the bound", "[slow]") {
   std::int64_t tied = 0, degenerate_directions = 0;
   for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
     for (int n = 1; n <= 5; ++n) {

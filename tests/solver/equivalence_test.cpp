@@ -81,7 +81,8 @@ void CheckFollows(const Points& path, const Points& points) {
   CHECK(reached + 1 == path.size());
 }
 
-TEST_CASE("equivalence: Lemke's method with a graded covering vector takes the path of complete driving") {
+TEST_CASE("equivalence: Lemke's method with a graded covering vector takes the path of complete driving",
+          "[slow]") {
   int folded = 0, descended = 0, apart = 0;
   for (std::uint64_t index = 0; folded < 60 || descended < 20; ++index) {
     REQUIRE(index < 20000);

@@ -24,7 +24,7 @@ ExactVector RandomForces(int rows, Choices& choices) {
   return f;
 }
 
-TEST_CASE("errors: zero exactly on solutions, positive elsewhere") {
+TEST_CASE("errors: zero exactly on solutions, positive elsewhere", "[slow]") {
   int solutions = 0;
   for (int index = 0; index < 400; ++index) {
     CAPTURE(index);

@@ -95,7 +95,7 @@ TEST_CASE("proximal: problems of every generator are solved, or undecided, never
   CHECK(solved > 0.9 * runs);
 }
 
-TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction and without") {
+TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction and without", "[slow]") {
   for (const Rational& mu : {Rational(1, 5), Rational(0), Rational(3, 2)}) {
     if (Short() && mu != Rational(1, 5)) continue;
     CAPTURE(mu);
