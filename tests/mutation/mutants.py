@@ -992,7 +992,7 @@ bug("scene-of-another", "!AreSame(model.Problem(0), problem)", "false",
 PYTHON_TESTS = "^python: "
 
 bug = in_file("certify/request.cpp", PYTHON_TESTS)
-bug("follow-without-path", "if (facts.has_path) followed.push_back(facts.name);", "followed.push_back(facts.name);",
+bug("follow-without-path", "if (facts.HasPath()) followed.push_back(facts.name);", "followed.push_back(facts.name);",
     "methods without a path are followed")
 bug("policy-of-any-method", 'wanted.method != "baraff" && request.options.policy != Policy{}', "false",
     "a reading of the published algorithm is asked of another method, and ignored")
