@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "solver/numeric/admm.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
 #include "solver/numeric/proximal.h"
@@ -50,6 +51,15 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOpt
   ProximalNewton<Scalar> solver(proximal);
   SparseContactProblem<Scalar> sparse{problem.dimension, problem.contacts, problem.A.sparseView(), problem.b};
   auto answer = AnswerOf<Scalar>(solver.Run(sparse));
+  answer.f = solver.f();
+  return answer;
+}
+
+template <class Scalar>
+Answer<Scalar> RunAdmm(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
+  Admm<Scalar> solver({.limits = options.limits, .residual = AimOf<Scalar>(options)});
+  auto answer = AnswerOf<Scalar>(solver.Run(problem));
+  answer.law = FrictionLaw::kCoulomb;
   answer.f = solver.f();
   return answer;
 }
@@ -121,6 +131,16 @@ Method<Scalar> ProximalRow() {
 }
 
 template <class Scalar>
+Method<Scalar> AdmmRow() {
+  return {.name = "admm",
+          .title = "alternating directions of multipliers on the cone of friction, over-relaxed and balanced",
+          .source = "solver/numeric/admm.h",
+          .ends = "nothing; what is called solved has the residual that is asked for",
+          .plane = {&RunAdmm<Scalar>},
+          .space = {&RunAdmm<Scalar>}};
+}
+
+template <class Scalar>
 std::span<const Method<Scalar>> FloatingMethods() {
   static const std::array rows = {
       FastRow<Scalar>(),
@@ -128,6 +148,7 @@ std::span<const Method<Scalar>> FloatingMethods() {
       CompleteRow<Scalar>({&RunCoulomb<Scalar, CoulombStart::kComplete>, true}),
       LemkeRow<Scalar>({&RunLemkeInSpace<Scalar>}),
       BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}),
+      AdmmRow<Scalar>(),
   };
   return rows;
 }
