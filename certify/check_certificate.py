@@ -21,7 +21,7 @@ code or tables with the C++.
 import sys
 from fractions import Fraction
 from itertools import product
-from math import prod
+from math import lcm, prod
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
@@ -345,6 +345,138 @@ def check_no_solution(problem, witness):
     return f"{following[-1]} words, {len(prefixes)} prefixes"
 
 
+# --- Coulomb's law in space, exactly: Krawczyk's test (certify/certificates.md, Within a box) -------------
+#
+# Polynomials of degree 2: the sorted numbers of a monomial's unknowns -> its coefficient.
+
+def total(factors, polynomials):
+    result = {}
+    for factor, p in zip(factors, polynomials):
+        for monomial, c in p.items() if factor else ():
+            result[monomial] = result.get(monomial, 0) + factor * c
+    return result
+
+
+def by(p, q):
+    pairs = list(product(p.items(), q.items()))
+    return total([c * d for (_, c), (_, d) in pairs], [{tuple(sorted(m + k)): 1} for (m, _), (k, _) in pairs])
+
+
+def taylor(p, x):
+    """At x: the value, the slope in every unknown, and half of all second derivatives' absolute values."""
+    value, slope, curvature = Fraction(0), {}, Fraction(0)
+    for monomial, c in p.items():
+        value += c * prod(x[j] for j in monomial)
+        for at, j in enumerate(monomial):
+            slope[j] = slope.get(j, Fraction(0)) + c * prod(x[k] for k in monomial[:at] + monomial[at + 1:])
+        curvature += abs(c) * (len(monomial) == 2)
+    return value, slope, curvature
+
+
+def least(p, x, radius):
+    """No value is smaller where no unknown is further than the radius from x."""
+    value, slope, curvature = taylor(p, x)
+    return value - radius * sum(map(abs, slope.values())) - radius**2 * curvature
+
+
+def strict_modes(contact):
+    if contact.kind == "static" and contact.mu > 0:
+        return ("break", "stick", "slip")
+    return ("hold",) if contact.kind == "bilateral" else ("break", "touch")
+
+
+def read_fixed(problem, witness, zero):
+    """Row -> (force, weights, place) of those of the rows `zero` that follow from the others; and these."""
+    fixed, last = {}, -1
+    for at, entry in items(witness["fixed"], "$.witness.fixed"):
+        fields(entry, at, "row", "f", "weights")
+        last = integer(entry["row"], at + ".row", last + 1, len(problem.b))
+        need(last in zero, at + ".row", last, "a row whose acceleration is zero")
+        fixed[last] = entry, at
+    kept = [row for row in zero if row not in fixed]
+    return kept, {row: (exact(entry["f"], at + ".f"), vector(entry["weights"], at + ".weights", len(kept)), at)
+                  for row, (entry, at) in fixed.items()}
+
+
+def require_dependence(problem, kept, fixed):
+    """Where the rows that are kept have no acceleration, these have none, whatever the forces."""
+    columns = [*zip(*problem.A), problem.b]
+    for row, (_, weights, at) in fixed.items():
+        for column in columns:
+            need(dot(weights, [column[k] for k in kept]) == column[row], at + ".weights", column[row],
+                 f"the sum by these weights, in every column of A and in b (row {row})")
+
+
+def over(numbers):
+    """Integers, and the denominator that they have in common."""
+    denominator = lcm(*(x.denominator for x in numbers))
+    return [x.numerator * (denominator // x.denominator) for x in numbers], denominator
+
+
+def require_zero_in_box(equations, x, inverse, radius):
+    """Krawczyk's test: x - Y F(x) + (I - Y F'(X))(X - x) is inside the box X, which therefore has a zero of F."""
+    expanded = [taylor(p, x) for p in equations]
+    values, curvatures = [value for value, _, _ in expanded], [curvature for _, _, curvature in expanded]
+    columns = [over([slope.get(j, Fraction(0)) for _, slope, _ in expanded]) for j in range(len(x))]
+    for i, row in enumerate(inverse):
+        integers, denominator = over(row)
+        defects = [Fraction(dot(integers, column), denominator * below) - (i == j)
+                   for j, (column, below) in enumerate(columns)]
+        image = abs(dot(row, values)) + radius * sum(map(abs, defects)) + 2 * radius**2 * dot(map(abs, row), curvatures)
+        need(image < radius, f"$.witness.inverse[{i}]", image, "a distance below the radius, as Krawczyk's test asks for")
+
+
+def check_coulomb_exact(problem, witness):
+    need(problem.dimension == 3, "$.problem.dimension", problem.dimension, "3")
+    named = items(witness["modes"], "$.witness.modes", len(problem.contacts))
+    contacts = [(one_of(mode, at, strict_modes(contact)), contact, span)
+                for (at, mode), (_, contact, span) in zip(named, contacts_of(problem))]
+    radius = exact(witness["radius"], "$.witness.radius")
+    need(radius > 0, "$.witness.radius", radius, "a number > 0")
+    still = [span if mode == "stick" else span[:mode != "break"] for mode, _, span in contacts]  # a = 0, f an unknown
+    kept, fixed = read_fixed(problem, witness, [row for span in still for row in span])
+    n, size = len(problem.b), len(kept) + 3 * sum(mode == "slip" for mode, _, _ in contacts)
+    cost = Cost(product_operations(n, len(fixed) + 2) + product_operations(size, size + 2))
+    x, inverse = vector(witness["x"], "$.witness.x", size), rows(witness["inverse"], "$.witness.inverse", size)
+    cost.longest_row(problem).numbers([*x, radius, *(f for f, _, _ in fixed.values())], 2)
+    cost.numbers([part for contact in problem.contacts for part in (contact.mu or Fraction(0), *contact.slip)], 2)
+    cost.numbers([y for row in inverse for y in row]).numbers([w for _, weights, _ in fixed.values() for w in weights])
+    require_dependence(problem, kept, fixed)
+
+    unknowns = ({(k,): Fraction(1)} for k in range(size))
+    f, slips = [{} for _ in range(n)], {}
+    for i, (mode, contact, span) in enumerate(contacts):
+        for row in still[i]:
+            f[row] = {(): fixed[row][0]} if row in fixed else next(unknowns)
+        direction = []
+        if mode == "slip":
+            *direction, speed = slips[i] = [next(unknowns) for _ in range(3)]
+        if mode == "touch" and contact.kind == "sliding":
+            direction = [{(): part} for part in contact.slip]
+        for row, part in zip(span[1:], direction):
+            f[row] = total([-contact.mu], [by(part, f[span[0]])])
+    a = [total([*row, right], [*f, {(): Fraction(1)}]) for row, right in zip(problem.A, problem.b)]
+
+    equations, positive = [], []
+    for i, (mode, contact, span) in enumerate(contacts):
+        equations += [a[row] for row in still[i] if row in kept]
+        if mode == "slip":
+            c, s, v = slips[i]
+            equations += [total([1, 1, -1], [by(c, c), by(s, s), {(): Fraction(1)}])]
+            equations += [total([1, -1], [a[row], by(v, part)]) for row, part in zip(span[1:], (c, s))]
+            positive.append((i, "the speed of slip", v))
+        if mode == "stick":
+            friction = [by(f[row], f[row]) for row in span]
+            positive.append((i, "mu^2 fN^2 - fF.fF", total([contact.mu**2, -1, -1], friction)))
+        if mode != "hold":
+            positive.append((i, "aN" if mode == "break" else "fN", (a if mode == "break" else f)[span[0]]))
+    require_zero_in_box(equations, x, inverse, radius)
+    for i, what, p in positive:
+        bound = least(p, x, radius)
+        need(bound > 0, f"$.witness.modes[{i}]", bound, f"> 0 in the whole box: {what} of contact {i + 1}")
+    return f"{len(contacts)} contacts in space, {size} unknowns, radius {brief(radius)}"
+
+
 # --- Safe and unsafe: determinants of the reduced matrix (certify/certificates.md) -----------
 
 def determinant(M):
@@ -466,6 +598,7 @@ def check_counterexample(problem, witness):
 CLAIMS = {  # the keys of the witness, and what checks it
     "solution-exists": ("f a", check_solution),
     "coulomb-solution": ("f a bound", check_coulomb),
+    "coulomb-exact": ("modes fixed x inverse radius", check_coulomb_exact),
     "no-solution": ("prefixes", check_no_solution),
     "symmetric": ("", check_symmetric),
     "not-symmetric": ("i j", check_not_symmetric),

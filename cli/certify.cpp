@@ -243,18 +243,18 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
-// What a certificate proves about solutions, "" if it speaks of something else.
-std::string_view ProvedOfSolutions(std::string_view claim) {
-  if (claim == "solution-exists") return ": forces that meet all conditions";
-  if (claim == "coulomb-solution") return ": forces that meet Coulomb's law up to the bound";
-  if (claim == "exists")
-    return ": there is a solution, by the theorem of certify/existence.md; its forces are not given";
-  if (claim == "no-solution") return ": no forces meet all conditions";
+// ": " and what a certificate proves about solutions, "" if it speaks of something else.
+std::string ProvedOfSolutions(std::string_view name) {
+  for (const Claim& claim : AllClaims())
+    if (claim.name == name && !claim.proves.empty()) return fmt::format(": {}", claim.proves);
   return "";
 }
 
-// `certify --claim exists` where one of its two parts is not shown.
-constexpr std::string_view kPartsOfExists = " ('--claim psd' and '--claim h' say what is missing)";
+// Where nothing that was run shows the claim; `why`: a text, or null.
+std::string UndecidedText(const std::string& claim, const Json& why) {
+  const std::string reason = why.is_string() ? fmt::format(" ({})", why.get<std::string>()) : "";
+  return fmt::format("undecided: nothing that was run shows '{}'{}\n", claim, reason);
+}
 
 void RequireAffordable(const Json& certificate, const std::string& file) {
   const CheckReport report = CheckCertificate(certificate, file);
@@ -278,7 +278,7 @@ int RunCertify(const CertifyOptions& o) {
   ProgressBar bar;
   const Json certificate = CertificateOf(o, file.problem, o.file, Shown(bar));
   bar.Clear();
-  const bool certified = !certificate.is_null();
+  const bool certified = certificate.is_object();
   if (certified) RequireAffordable(certificate, o.file);
   if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");
@@ -290,8 +290,7 @@ int RunCertify(const CertifyOptions& o) {
     const std::string name = claim.get<std::string>();
     out << Folded(fmt::format("{}: {}{}\n", o.output, name, ProvedOfSolutions(name)));
   } else {
-    out << Folded(fmt::format("undecided: nothing that was run shows '{}'{}\n", o.claim,
-                              o.claim == "exists" ? kPartsOfExists : ""));
+    out << Folded(UndecidedText(o.claim, certificate));
   }
   return certified ? kExitDone : kExitUndecided;
 }

@@ -332,7 +332,7 @@ std::optional<std::string> CertifyProblem(const PythonProblem& problem, const st
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
     return CertificateOf(wanted, problem.file.problem, kSource, enumeration);
   });
-  if (certificate.is_null()) return std::nullopt;
+  if (!certificate.is_object()) return std::nullopt;
   return JsonText(certificate, 1) + "\n";
 }
 

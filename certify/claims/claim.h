@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A claim: what it says, of which problems, and side by side what makes its certificate and what checks it.
 //
-// Each file <name>.cpp of this folder has the claims of one idea, a row for each, and is named in claims.cpp.
+// A file <name>.cpp of this folder with a function `ClaimRows <Name>Claims()` has the claims of one idea, a row
+// for each. The build finds it; nothing else names it.
 
 #ifndef STICTION_CERTIFY_CLAIMS_CLAIM_H_
 #define STICTION_CERTIFY_CLAIMS_CLAIM_H_
@@ -26,17 +27,26 @@ struct ClaimOptions {
   FrictionLaw law = FrictionLaw::kCoulomb;  // in space, of `existence`
 };
 
+inline void RequireAny(const ExactProblem&, const std::string&) {}
+
 struct Claim {
   std::string_view name;
   WitnessCheck* check = nullptr;  // null where certificates bear other names
 
   // Of what can be asked for by name; negations come in their place.
   std::string_view meaning = {};
-  // The certificate of the claim or of its negation; null where nothing that was run shows either.
+  // The certificate of the claim or of its negation. Where nothing that was run shows either: null, or a text
+  // that says why.
   Json (*certify)(const ExactProblem&, const ClaimOptions&) = nullptr;
   // InputError, by its place in `source`, for a problem of which it is not made.
-  void (*require)(const ExactProblem&, const std::string& source) = [](const ExactProblem&,
-                                                                       const std::string&) {};
+  void (*require)(const ExactProblem&, const std::string& source) = RequireAny;
+  std::string_view proves = {};  // in words, of solutions; empty for what speaks of something else
+};
+
+// The claims of a file. Files are told in the order of their places.
+struct ClaimRows {
+  int place;
+  std::span<const Claim> claims;
 };
 
 // Makers that take the problem alone.
@@ -45,9 +55,10 @@ Json Alone(const ExactProblem& problem, const ClaimOptions&) {
   return Make(problem);
 }
 
-// What claims are made of: planar problems; planar problems of frictionless and static contacts, of which alone
-// `what` is said. InputError that names the place in `source` otherwise.
+// What claims are made of: planar problems; those in space; planar problems of frictionless and static
+// contacts, of which alone `what` is said. InputError that names the place in `source` otherwise.
 void RequirePlanar(const ExactProblem& problem, const std::string& source);
+void RequireSpace(const ExactProblem& problem, const std::string& source);
 void RequireHandled(const ExactProblem& problem, const std::string& source, const std::string& what);
 
 // ---- Shared by several claims; Rejected for what is not so -------------------------------------

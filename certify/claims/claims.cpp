@@ -3,25 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 
 namespace stiction {
 
-// Of <name>.cpp, one file an idea.
-std::span<const Claim> SolutionClaims();
-std::span<const Claim> NoSolutionClaims();
-std::span<const Claim> MatrixClaims();
-std::span<const Claim> HypothesisClaims();
-std::span<const Claim> SafetyClaims();
-std::span<const Claim> ConditionClaims();
-std::span<const Claim> CycleClaims();
+// Of every file; CMakeLists.txt writes it.
+std::vector<ClaimRows> RowsOfAllClaims();
 
 std::vector<Claim> AllClaims() {
+  std::vector<ClaimRows> files = RowsOfAllClaims();
+  std::ranges::sort(files, {}, &ClaimRows::place);
   std::vector<Claim> all;
-  for (const auto claims : {SolutionClaims(), NoSolutionClaims(), MatrixClaims(), HypothesisClaims(),
-                            SafetyClaims(), ConditionClaims(), CycleClaims()})
-    all.insert(all.end(), claims.begin(), claims.end());
+  for (const ClaimRows& file : files) all.insert(all.end(), file.claims.begin(), file.claims.end());
   return all;
 }
 
@@ -41,6 +37,11 @@ Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::s
 void RequirePlanar(const ExactProblem& problem, const std::string& source) {
   if (problem.dimension != 2)
     throw InputError(source, "dimension", std::to_string(problem.dimension), "2: built for the plane only");
+}
+
+void RequireSpace(const ExactProblem& problem, const std::string& source) {
+  if (problem.dimension != 3)
+    throw InputError(source, "dimension", "2", "3: in the plane the claim is solution-exists");
 }
 
 void RequireHandled(const ExactProblem& problem, const std::string& source, const std::string& what) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of claims. A new claim is a row in a file of its own (claim.h) and a name here; the checkers in
-// Python have its check once more.
+// The table of claims. A new claim is a row in a file of its own (claim.h); the checkers in Python have its
+// check once more.
 
 #ifndef STICTION_CERTIFY_CLAIMS_CLAIMS_H_
 #define STICTION_CERTIFY_CLAIMS_CLAIMS_H_
@@ -16,8 +16,9 @@ namespace stiction {
 // Every claim, in the order in which they are told.
 std::vector<Claim> AllClaims();
 
-// The certificate of a claim or of its negation; null where nothing that was run shows either. InputError for a
-// name that is not in the table, and, by its place in `source`, for a problem of which the claim is not made.
+// The certificate of a claim or of its negation; null, or a text that says why, where nothing that was run
+// shows either. InputError for a name that is not in the table, and, by its place in `source`, for a problem of
+// which the claim is not made.
 Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view claim,
                   const ClaimOptions& options);
 

@@ -209,11 +209,11 @@ void RequireConditionIsSaid(const ExactProblem& problem, const std::string& sour
 
 }  // namespace
 
-std::span<const Claim> ConditionClaims() {
+ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,
                                             "its condition number alone shows that it is", Alone<ByCondition>,
                                             RequireConditionIsSaid}};
-  return kClaims;
+  return {60, kClaims};
 }
 
 }  // namespace stiction

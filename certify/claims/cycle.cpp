@@ -253,14 +253,14 @@ Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
 
 }  // namespace
 
-std::span<const Claim> CycleClaims() {
+ClaimRows CycleClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"cycle", CheckCycle, "the published algorithm repeats a state of its outer loop", OfCycle,
             RequirePlanar},
       Claim{"counterexample", CheckCounterexample,
             "it does, though A is definite and there is a solution: all in one file", OfCounterexample,
             RequirePlanar}};
-  return kClaims;
+  return {70, kClaims};
 }
 
 }  // namespace stiction

@@ -108,17 +108,23 @@ void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& sour
                      "bilateral, frictionless or static: with sliding contacts there may be no solution");
 }
 
+Json OfExists(const ExactProblem& problem, const ClaimOptions&) {
+  const Json certificate = ExistsCertificate(problem);
+  return certificate.is_null() ? Json("'--claim psd' and '--claim h' say what is missing") : certificate;
+}
+
 }  // namespace
 
-std::span<const Claim> HypothesisClaims() {
+ClaimRows HypothesisClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0",
             Alone<HypothesisCertificate>},
       Claim{"not-h", CheckNotHypothesis},
       Claim{"exists", CheckExists,
-            "psd and h: by a theorem there is a solution, of any size; no forces are given",
-            Alone<ExistsCertificate>, RequireTheoremSpeaksOf}};
-  return kClaims;
+            "psd and h: by a theorem there is a solution, of any size; no forces are given", OfExists,
+            RequireTheoremSpeaksOf,
+            "there is a solution, by the theorem of certify/existence.md; its forces are not given"}};
+  return {40, kClaims};
 }
 
 }  // namespace stiction

@@ -214,7 +214,7 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
 
 }  // namespace
 
-std::span<const Claim> MatrixClaims() {
+ClaimRows MatrixClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"symmetric", CheckSymmetric, "A = A'", Alone<SymmetryCertificate>},
       Claim{"not-symmetric", CheckNotSymmetric},
@@ -224,7 +224,7 @@ std::span<const Claim> MatrixClaims() {
       Claim{"not-definite", CheckNotDefinite},
       Claim{"in-range", CheckInRange, "b is in the range of A", Alone<RangeCertificate>},
       Claim{"not-in-range", CheckNotInRange}};
-  return kClaims;
+  return {30, kClaims};
 }
 
 }  // namespace stiction

@@ -70,9 +70,10 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
   return {{"words", Completions(problem, 0).get_str()}, {"prefixes", prefixes.size()}};
 }
 
-std::span<const Claim> NoSolutionClaims() {
-  static constexpr Claim kClaims[] = {Claim{"no-solution", CheckNoSolution}};
-  return kClaims;
+ClaimRows NoSolutionClaims() {
+  static constexpr Claim kClaims[] = {
+      Claim{.name = "no-solution", .check = CheckNoSolution, .proves = "no forces meet all conditions"}};
+  return {20, kClaims};
 }
 
 }  // namespace stiction

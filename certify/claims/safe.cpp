@@ -256,12 +256,12 @@ void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source)
 
 }  // namespace
 
-std::span<const Claim> SafetyClaims() {
+ClaimRows SafetyClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
             Alone<SafetyCertificate>, RequireSafetyIsSaid},
       Claim{"unsafe", CheckUnsafe}};
-  return kClaims;
+  return {50, kClaims};
 }
 
 }  // namespace stiction

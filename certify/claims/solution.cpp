@@ -74,11 +74,6 @@ Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-void RequireSpace(const ExactProblem& problem, const std::string& source) {
-  if (problem.dimension != 3)
-    throw InputError(source, "dimension", "2", "3: in the plane the claim is solution-exists");
-}
-
 Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
   return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
 }
@@ -104,15 +99,16 @@ Json OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
 
 }  // namespace
 
-std::span<const Claim> SolutionClaims() {
+ClaimRows SolutionClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"existence", nullptr,
             "solution-exists, in space by default coulomb-solution (--law), exists or no-solution",
             OfExistence},
       Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
-            OfSolution},
-      Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space", OfCoulomb, RequireSpace}};
-  return kClaims;
+            OfSolution, RequireAny, "forces that meet all conditions"},
+      Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space", OfCoulomb, RequireSpace,
+            "forces that meet Coulomb's law up to the bound"}};
+  return {10, kClaims};
 }
 
 }  // namespace stiction

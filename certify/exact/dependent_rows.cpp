@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/dependent_rows.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "solver/linear/elimination.ipp"
 
 namespace stiction {
@@ -39,6 +42,34 @@ void ExactDependentRows::ScaleToIntegers() {
     const auto scale = CommonDenominator<Rational>(row);
     for (int j = 0; j <= rows; ++j) integers_(i, j) = Fractions<Rational>::Numerator(row[j], scale);
   }
+}
+
+std::map<int, ExactProblem::Vector> WeightsOfDependent(const ExactProblem& problem,
+                                                       const std::vector<int>& listed) {
+  const int rows = problem.rows(), count = static_cast<int>(listed.size());
+  ExactProblem::Matrix columns(rows + 1, count);
+  const auto set = [&](int k, int row) { columns.col(k) << problem.A.row(row).transpose(), problem.b[row]; };
+  for (int k = 0; k < count; ++k) set(k, listed[k]);
+  Elimination<Rational> elimination;
+  elimination.Assign(columns);
+  elimination.Run(rows + 1, count, count);
+  std::vector<int> kept, others;
+  for (int k = 0; k < elimination.rank(); ++k) kept.push_back(listed[elimination.pivot_column(k)]);
+  std::ranges::sort(kept);
+  std::ranges::copy_if(listed, std::back_inserter(others),
+                       [&](int row) { return !std::ranges::binary_search(kept, row); });
+  const int unknowns = static_cast<int>(kept.size());
+  for (int k = 0; k < count; ++k) set(k, k < unknowns ? kept[k] : others[k - unknowns]);
+  elimination.Assign(columns);
+  elimination.Run(rows + 1, unknowns, count);
+  std::map<int, ExactProblem::Vector> weights;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    ExactProblem::Vector& own = weights[others[k]];
+    own.resize(unknowns);
+    elimination.BackSubstitute(unknowns + static_cast<int>(k));
+    for (int j = 0; j < unknowns; ++j) own[j] = elimination.Solution(j);
+  }
+  return weights;
 }
 
 }  // namespace stiction

@@ -33,6 +33,11 @@ class ExactDependentRows final : public DependentRows {
   std::map<std::pair<std::vector<bool>, int>, bool> known_;
 };
 
+// Of the rows of (A b) that are listed, the first that follow from none before are kept; of each other, by row,
+// how it follows: weights of those that are kept, in the order of rows.
+std::map<int, ExactProblem::Vector> WeightsOfDependent(const ExactProblem& problem,
+                                                       const std::vector<int>& listed);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_

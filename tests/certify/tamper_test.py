@@ -392,7 +392,7 @@ def load_script(folder):
     return script
 
 
-def judge(stiction, script, folder, original, failures):
+def judge(stiction, script, folder, original, failures, is_true=is_true):
     """Returns how many were refused, and how many were accepted because they are true."""
     refused = accepted = 0
     altered = [("nothing", False, original)]
