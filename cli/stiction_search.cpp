@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
-// The program `stiction-search`: searches and their stores, which is all that `./run search` has to build. `stiction` has
-// these verbs, too. As a whole it links GPL parts of CGAL and is under the GPLv3.
+// The program `stiction-search`: searches and their stores, which is all that `./run search` has to build.
+// `stiction` has these verbs, too. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
+#include "cli/help.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
