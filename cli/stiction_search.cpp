@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR Apache-2.0
-// The program `stiction-search`: searches and their stores, which is all that `./run search` has to build. `stiction` has
-// these verbs, too. As a whole it links GPL parts of CGAL and is under the GPLv3.
+// The program `stiction-search`: searches and their stores, which is all that `./run search` has to build.
+// `stiction` has these verbs, too. As a whole it links GPL parts of CGAL and is under the GPLv3.
 
 #include "cli/command_line.h"
 #include "cli/help.h"
