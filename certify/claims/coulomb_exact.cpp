@@ -36,6 +36,7 @@
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
 #include "certify/exact/properties.h"
+#include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/units.h"
 #include "solver/solve.h"
