@@ -130,7 +130,7 @@ struct Bodies {
   }
   Vector DrawArm(Choices& choices) const { return DrawVector(dimension, 9, choices) / Rational(4); }
 
-  // Of a body with another, or with the ground (-1).
+  // A contact of a body with another, or with the ground (-1).
   void TouchBoth(int contact, int body, int other, const Matrix& frame, Choices& choices) {
     Touch(contact, body, frame, DrawArm(choices));
     if (other >= 0) Touch(contact, other, -frame, DrawArm(choices));

@@ -283,7 +283,7 @@ Quartiles Microseconds(const std::vector<Measure>& measures, double Measure::*se
   return QuartilesOf(values);
 }
 
-// Of the problems that both were given.
+// Ratios of the seconds of problems that both were given.
 Quartiles RatioOf(const std::vector<Measure>& left, const std::vector<Measure>& right,
                   double Measure::*seconds = &Measure::seconds) {
   std::vector<double> ratios;

@@ -45,7 +45,7 @@ Json ThreadsJson();
 std::string ThreadsText();
 
 Json ToJson(const Clocks& clocks);
-// Of a run that is over, with ThreadCount(): where a second thread would show.
+// The clocks of a run that is over, with ThreadCount(): where a second thread would show.
 std::string ClocksText(const Clocks& clocks);
 
 }  // namespace stiction

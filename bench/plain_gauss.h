@@ -27,7 +27,7 @@ class PlainGauss {
   const Eigen::VectorXd& x() const { return x_; }
 
  private:
-  // Of row k from row i, what makes its entry in column k zero.
+  // Takes from row i what of row k makes its entry in column k zero.
   void Subtract(int k, int i) {
     const double* from = &M_(k, 0);
     double* to = &M_(i, 0);

@@ -176,7 +176,7 @@ std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
 
 // ---- Roofline --------------------------------------------------------------------------------
 
-// Of one problem of `integers` at two contacts: drawing it, the run, the errors of its forces.
+// The operations of one problem of `integers` at two contacts: drawing it, the run, the errors of its forces.
 OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, double& steps) {
   ContactProblem<Counted, kBatchRows> problem;
   PublishedAlgorithm<Counted, kBatchRows> algorithm;

@@ -49,7 +49,7 @@ Json FixedJson(const std::string& name, const Json& position, const Json& size) 
       {"name", name}, {"fixed", true}, {"position", position}, {"shapes", Json::array({Json{{"box", size}}})}};
 }
 
-// Of the bodies given; friction and the direction of gravity are drawn.
+// The problem of the bodies given; friction and the direction of gravity are drawn.
 Json SceneJson(const Building& building, const Json& bodies, Choices& choices) {
   const std::string mu = building.friction ? fmt::format("{}/10", choices.Integer(3, 10)) : "0";
   const std::string aside = fmt::format("{}/10", choices.Integer(-5, 5));

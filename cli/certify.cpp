@@ -34,7 +34,7 @@ struct CertifyOptions : WantedClaim {
   bool json = false;
 };
 
-// Of an enumeration, from when it begins to when the bar goes.
+// Options of an enumeration that is shown from when it begins to when the bar goes.
 EnumerationOptions Shown(ProgressBar& bar) {
   EnumerationOptions options;
   options.progress = [&bar](const EnumerationProgress& progress) {

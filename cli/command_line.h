@@ -43,7 +43,7 @@ class CommandLine {
   std::deque<Verb> verbs;  // a reference to a verb stays good
 
  private:
-  // Of the program, or of a verb.
+  // Help of the program, or of a verb.
   int Help(const std::string& verb) const;
 };
 

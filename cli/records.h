@@ -12,11 +12,11 @@
 
 namespace stiction {
 
-// Of the repository that the program was built in, or of the package that installed it.
+// The folder of the repository that the program was built in, or of the package that installed it.
 std::filesystem::path RecordsFolder();
 // As a report tells them; none where there is no such folder. InputError if a record cannot be read.
 std::vector<FrontierLine> KnownFrontiers();
-// Of a store of an optimized search what a report tells beside them; none of another.
+// What a report tells of the store of an optimized search beside them; nothing of another store.
 OwnSearch OwnSearchOf(const Store& store);
 
 }  // namespace stiction

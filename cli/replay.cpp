@@ -122,7 +122,7 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
                                {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
-// Of a loop its period, for ever; of another run all of it.
+// The period of a loop, again and again; all of another run.
 void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
   constexpr std::size_t kMostStills = 200;
   constexpr double kSeconds = 1.1;

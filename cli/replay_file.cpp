@@ -13,7 +13,7 @@ bool AreSame(const ExactProblem& left, const ExactProblem& right) {
   return ProblemToJson(left) == ProblemToJson(right);
 }
 
-// Of the scene, if this is its one problem.
+// The picture of the scene, if this is its one problem.
 template <class Kind>
 Json PictureOf(const SceneFileIn<Kind>& scene, const ExactProblem& problem, const std::string& source) {
   const auto contacts = FindContacts(scene.scene);
@@ -22,7 +22,8 @@ Json PictureOf(const SceneFileIn<Kind>& scene, const ExactProblem& problem, cons
   return PictureOfProblem(RoundedScene(scene, source), contacts, model, model.islands[0]);
 }
 
-// Of the scene that a problem brings along, unless the problem has changed since, or the scene is none.
+// The picture of the scene that a problem brings along, unless the problem has changed since, or the scene is
+// none.
 Json PictureBeside(const ProblemFile& file, const std::string& source) {
   if (!file.scene) return nullptr;
   try {

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 // ---- assemble --------------------------------------------------------------------------------
 
-// Of them `draw` takes scene, output and json.
+// The words of `assemble`; `draw` takes scene, output and json alone.
 struct AssembleCommand {
   std::string scene, output, given, level = "forces";
   bool explain = false, full = false, json = false;
@@ -223,7 +223,7 @@ class SimulationWriter {
     has_room_ = room_ > 0;
   }
 
-  // Where a file is while the folder of the output is not whole.
+  // The place of a file while the folder of the output is not whole.
   fs::path Place(const fs::path& path) const { return folder_.Place(path); }
 
   void WritePictures(const SceneType& scene) {

@@ -50,7 +50,7 @@ void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
       {{"assumption", "h"}, {"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
 }
 
-// Of the first setting that names no switch or none of its values, the switch or value that is meant.
+// The switch or value that is meant by the first setting that names no switch or none of its values.
 std::string NearestPolicyWord(const std::string& text) {
   std::istringstream settings(text);
   for (std::string setting; std::getline(settings, setting, ',');) {
@@ -133,7 +133,7 @@ Json FailedSemidefinite(const NegativeCurvature& negative) {
   return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
 }
 
-// Of many contacts an answer has the quotient x'Ax / x'x alone, and names the verb that writes x.
+// An answer of many contacts has the quotient x'Ax / x'x alone, and names the verb that writes x.
 Json FailedSemidefinite(const CurvatureBounds& bounds, std::size_t contacts) {
   if (contacts <= kWitnessContacts) return FailedSemidefinite(*bounds.negative);
   return {{"assumption", "psd"}, {"quotient", bounds.most}, {"witness", "certify --claim psd"}};

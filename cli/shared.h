@@ -37,10 +37,10 @@ void AddPolicyOption(Verb& verb, std::string& policy, Grid grid);
 void AddLimits(Verb& verb, Limits& limits);
 void AddTolerances(Verb& verb, Tolerances& tolerances);
 
-// Of --sides: empty, or what is wrong with the text.
+// The value of --sides: empty, or what is wrong with the text.
 std::string CheckSides(const std::string& text);
 
-// What `expect` says of a policy: by its canonical name, then "*", otherwise empty.
+// The outcome that `expect` has for a policy: by its canonical name, then "*", otherwise empty.
 std::string Expected(const ProblemFile& file, const Policy& policy);
 
 // --replace, of verbs that write a folder.
@@ -74,7 +74,7 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
 // contacts stand a number, and the verb that writes the vector.
 Json FailedAssumptions(const ExactProblem& problem);
-// Of a large one what bounds decide.
+// The same of a large problem, as far as bounds decide.
 Json FailedAssumptions(const SparseProblem& problem);
 
 // What FILE is, in help.

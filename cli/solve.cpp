@@ -228,7 +228,7 @@ Answered SolveOne(const SolveVerb& o) {
   return {result, ExitOf(solution.outcome())};
 }
 
-// Of many files each answer has the name of its file, and one that is refused does not keep the others from
+// Each answer of many files has the name of its file, and one that is refused does not keep the others from
 // being solved. Exit: 2 if one was refused, else 1 if one is not solved, else 3 if one is undecided.
 int SolveMany(SolveVerb o) {
   constexpr std::array kWorst = {kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};

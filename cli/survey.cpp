@@ -73,7 +73,7 @@ void PrintSurveyed(const Json& entry) {
   if (entry.contains("symmetrized")) PrintRuns("with (A + A')/2 in place of A:", "0", entry["symmetrized"]);
 }
 
-// Of many problems, how many meet the assumptions.
+// How many of the problems meet the assumptions.
 std::string MeetingText(const Json& entries) {
   int meet = 0, fail = 0, open = 0, unread = 0;
   for (const Json& entry : entries) {
@@ -90,16 +90,7 @@ std::string MeetingText(const Json& entries) {
   return text + ".\n";
 }
 
-// Of one problem: what it meets, and what became of it.
-void PrintSurveySentences(const Json& entry) {
-  Tell("\nThe problem {}.\nOf the methods: {}.\n", AssumptionsMetText(entry), RunsText(entry));
-  if (!entry.contains("symmetrized")) return;
-  const Json& symmetrized = entry["symmetrized"];
-  Tell("With (A + A')/2 in place of A it {}.\nOf the methods: {}.\n", AssumptionsMetText(symmetrized),
-       RunsText(symmetrized));
-}
-
-// Of many: how many meet the paper's assumptions, and how often each method ended how.
+// The counts of many problems: how many meet the paper's assumptions, and how often each method ended how.
 void PrintSurveyCounts(const Json& entries, bool suspicions) {
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Json& entry : entries) {
@@ -169,7 +160,6 @@ int Survey(const SurveyVerb& o) {
   }
   if (o.json) std::cout << JsonText(entries) << "\n";
   if (!o.json && entries.size() > 1) PrintSurveyCounts(entries, o.suspicions);
-  if (!o.json && entries.size() == 1 && entries[0].contains("runs")) PrintSurveySentences(entries[0]);
   return exit;
 }
 

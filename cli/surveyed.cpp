@@ -29,9 +29,9 @@ namespace {
 
 constexpr int kExactContacts = 50;  // up to here, if A couples them, everything is decided over rationals
 constexpr int kExactSpatialContacts = 10;
-constexpr int kPublishedContacts = 32;     // up to here the published algorithm runs over rationals
-constexpr double kWrong = 1e-6;            // a larger error is no solution
-constexpr std::int64_t kPrograms = 10000;  // linear programs of an enumeration
+constexpr int kPublishedContacts = 32;           // up to here the published algorithm runs over rationals
+constexpr double kWrong = 1e-6;                  // a larger error is no solution
+constexpr std::int64_t kSurveyPrograms = 10000;  // linear programs of an enumeration
 
 // ---- Assumptions -----------------------------------------------------------------------------
 
@@ -209,7 +209,7 @@ std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& con
 std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
                                             const std::vector<std::vector<int>>& groups, const Limits& limits) {
   EnumerationOptions options;
-  options.programs = kPrograms;
+  options.programs = kSurveyPrograms;
   if (groups.size() == 1) {
     Existence existence = DecideExistence(problem, limits, options);
     return {std::move(existence.certificate), std::string(existence.method)};

@@ -11,7 +11,7 @@
 namespace stiction {
 
 // Whether the margins leave a choice: trials on both sides, and an event seen in some of them all, not in all.
-// Where they do not, no test can say anything.
+// If they leave none, no test can say anything.
 bool CanDiffer(const Ratio& a, const Ratio& b);
 
 // Fisher's exact test, two-sided: were the chances equal, the probability of tables that are no more probable

@@ -104,7 +104,7 @@ Html Tiles(const ReportContent& content) {
   return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
 }
 
-// Of an optimized search.
+// The best of an optimized search.
 Html BestSentence(const ReportContent& content) {
   if (content.Objective().empty()) return {};
   std::vector<std::string> bests;

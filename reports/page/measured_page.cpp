@@ -32,7 +32,7 @@ constexpr char kHowMeasured[] =
     "answer. Problems whose numbers an arithmetic cannot hold are not asked of it. Times are those of the "
     "machine that measured, medians of the settings’ medians.</p>";
 
-// Of all rows of a kind of arithmetic.
+// Sums over all rows of a kind of arithmetic.
 struct Runs {
   std::int64_t asked = 0, wrong = 0, silent = 0;
 

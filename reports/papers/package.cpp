@@ -21,7 +21,7 @@ std::string TextOf(const Bytes& bytes) {
   return {std::begin(bytes), std::end(bytes)};
 }
 
-// Where what is said of a problem's own files stands: name of the certificate, name of the problem.
+// The place of what is said of a problem's own files: name of the certificate, name of the problem.
 std::vector<std::pair<std::string, std::string>> CertificatesOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   const FindingFiles& files = discovery.files;

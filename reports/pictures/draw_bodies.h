@@ -30,7 +30,7 @@ struct Screen {
   double Y(const Vector2<double>& p) const { return scale * (top - p[1]); }
 };
 
-// Where a point of the world, or a vector, is in the picture's plane.
+// The place of a point of the world, or of a vector, in the picture's plane.
 inline Vector2<double> Seen(const Vector2<double>& p) { return p; }
 Vector2<double> Seen(const Vector3<double>& p);
 

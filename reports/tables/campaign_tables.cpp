@@ -35,7 +35,7 @@ std::vector<Group> GroupsAndAll(const Record& record, const By& by) {
   return groups;
 }
 
-// Of so many in a million, a colour: one class per factor of ten.
+// The colour of so many in a million: one class per factor of ten.
 std::string Heat(std::int64_t count, std::int64_t of) {
   if (count == 0 || of == 0) return "";
   const double rate = 1e6 * static_cast<double>(count) / static_cast<double>(of);
@@ -105,7 +105,7 @@ Table FindingsTable(const std::vector<Discovery>& discoveries) {
                       "existence_file* original_existence_file* safe* minimized_safe* words words_exact*")};
   for (const Discovery& d : discoveries) {
     std::vector<TableCell> cells = {d.signature, d.kind, d.met};
-    // Where there is nothing to tell the cells are empty.
+    // The cells are empty where there is nothing to tell.
     const auto add = [&cells](bool told, std::size_t count, auto more) {
       const std::size_t end = cells.size() + count;
       if (told) more();

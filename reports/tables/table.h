@@ -90,8 +90,8 @@ struct Table {
   void TotalIsLast();  // the last row becomes the total
 };
 
-// Of a text of names, "signature* starts": those of texts have a star. "found_@" stands for a column per
-// outcome, "sum_#" for one per counter of a run.
+// Columns by a text of their names, "signature* starts": those of texts have a star. "found_@" stands for a
+// column per outcome, "sum_#" for one per counter of a run.
 std::vector<Column> Columns(const std::string& names);
 
 // ---- Tables of tables ----

@@ -128,19 +128,9 @@ class Formats(cli.TestCase):
             self.assertEqual([run["outcome"] for run in runs[-1:]], ["solved"])
             self.assertEqual(runs[-1]["certificate"], "solution-exists")
 
-    def test_survey_ends_in_sentences(self):
-        words = lambda *files: " ".join(self.succeeds("survey", *files).out.split())  # noqa: E731
-        loop = cli.ROOT / "corpus" / "two-contact-cycle.json"
-        said = words(loop)
-        self.assertIn("The problem meets the paper's assumptions: A is symmetric and semidefinite, b in its range.", said)
-        self.assertIn("the published algorithm loops for ever (policy paper, exactly)", said)
-        self.assertIn("complete solves it over doubles, with an error of ", said)
-        rough = self.file("fc.dat", FRICTION)
-        self.assertIn("The problem does not meet the paper's assumptions: A is not symmetric, A is not semidefinite.", words(rough))
-        self.assertIn("With (A + A')/2 in place of A it ", words(rough))
-        none = words(cli.ROOT / "corpus" / "no-solution-scripted-wedge.json")
-        self.assertIn("it has no solution, as a certificate says", none)
-        self.assertIn("Of 2 problems 1 meet the paper's assumptions, 1 do not, 0 are undecided.", words(loop, rough))
+    def test_survey_of_several_counts_those_that_meet_the_assumptions(self):
+        done = self.succeeds("survey", cli.ROOT / "corpus" / "two-contact-cycle.json", self.file("fc.dat", FRICTION))
+        self.assertIn("Of 2 problems 1 meet the paper's assumptions, 1 do not, 0 are undecided.", " ".join(done.out.split()))
 
     def test_survey_of_a_problem_that_meets_all_assumptions(self):
         symmetric, = self.survey(self.file("fc.dat", FRICTION.replace("1.0001", "1")))
@@ -207,7 +197,7 @@ class Formats(cli.TestCase):
         self.assertIn("line 1", bad["error"])
         self.assertIs(good["meets assumptions"], True)
         text = cli.run("survey", self.folder / "b.dat")
-        self.assertEqual((text.code, len(text.out.splitlines())), (0, 9))
+        self.assertEqual((text.code, len(text.out.splitlines())), (0, 6))
 
     def test_survey_of_more_than_fifty_contacts_gives_bounds_that_hold(self):
         size = 60
