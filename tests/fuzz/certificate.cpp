@@ -62,6 +62,7 @@ const std::map<std::string, Contradicts>& Contradictions() {
   static const std::map<std::string, Contradicts> contradictions = {
       {"solution-exists", ProvesNoSolution},
       {"coulomb-solution", ProvesNoSolution},
+      {"coulomb-exact", ProvesNoSolution},
       {"no-solution", HasSolution},
       {"symmetric", [](P p) { return !IsSymmetric(p); }},
       {"not-symmetric", [](P p) { return IsSymmetric(p); }},

@@ -126,6 +126,12 @@ class Studies(unittest.TestCase):
             self.assertGreater(float(row["rationals, times doubles"].replace(",", "")), 1)
         self.assertEqual([row["search of"] for row in searches], ["`conditioned`", "`near-degenerate`"])
 
+    def test_coulomb_exact(self):
+        rows, = tables("coulomb_exact", "--contacts", 1, 4, "--problems", 40)
+        self.assertEqual([row["contacts"] for row in rows], ["1", "4"])
+        for row in rows:
+            self.assertGreaterEqual(whole(row["certified"]), 36, row)
+
     def test_linear_algebra(self):
         systems, runs = tables("linear_algebra", "--contacts", 2, "--sizes", 3, 8, "--problems", 5)
         self.assertEqual([row["rows"] for row in systems], ["3", "8", "3", "8"])
