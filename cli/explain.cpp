@@ -385,7 +385,20 @@ const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
       "contact mode, too; "
       "of larger problems what `survey` finds is told.";
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json,
+              "one problem: what it is, what the methods do on it, what can be certified, what to type next",
+              R"({
+      file: text, kinds: {*: integer}, mu?: [exact, exact], diagonal?: [exact, exact],
+      survey: object,  // an entry of survey --json, without its file
+      rank?: integer,
+      methods?: [{method: method, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
+                  period?: integer}],
+      policies?: {all: integer, outcomes: {*: integer},
+                  loops: {outcome: outcome, start: integer, period: integer, policy: text, proved: truth} | null},
+      solutions?: {complete: truth, modes: [[text]], unique: truth},
+      safe_below?: exact | null, radius?: exact | null,
+      claims?: [{claim: text, meaning: text, certificate: text | null, command: text}],
+      next: [{command: text, shows: text}]})");
   AddLimits(verb, o.limits);
 });
 

@@ -75,7 +75,11 @@ int List(const bool& json) {
 const ListedVerb kMethodsVerb("About stiction", 10, [](CommandLine& program) {
   auto [verb, json] =
       program.Add("methods", "The methods, what their ends prove, and where they are built", List);
-  verb.Flag("-j,--json", json, "machine output");
+  verb.Prints(json, "the methods, and in which arithmetics they are built", R"([{
+      name: method, title: text, source: text,
+      ends: text,  // what its end proves
+      path: truth,  // whether it can be replayed
+      plane: [arithmetic], space: [arithmetic]}])");
 });
 
 }  // namespace stiction

@@ -150,7 +150,8 @@ const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
   verb.Flag("--as-scene", o.as_scene,
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "how much smaller a problem has become; the problem itself where -o is -",
+              "{keep: text, before: size, after: size, candidates: integer, accepted: integer} | problem");
   AddLimits(verb, o.limits);
 });
 

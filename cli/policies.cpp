@@ -39,7 +39,10 @@ int ListPolicies(const bool& json) {
 
 const ListedVerb kPoliciesVerb("About stiction", 20, [](CommandLine& program) {
   auto [verb, json] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
-  verb.Flag("-j,--json", json, "machine output");
+  verb.Prints(json, "the switches of the policies", R"([{
+      switch: text, question: text, planar: truth,
+      reads: text,  // the sentence of the paper
+      values: [{value: text, meaning: text}+]}])");
 });
 
 }  // namespace stiction

@@ -138,7 +138,10 @@ std::string GlossaryOf(std::string_view text) {
 
 const ListedVerb kWordsVerb("About stiction", 30, [](CommandLine& program) {
   auto [verb, in_json] = program.Add("words", "What the words of answers and replays mean", List);
-  verb.Flag("-j,--json", in_json, "machine output");
+  verb.Prints(in_json, "what words mean", R"([{
+      word: text, meaning: text,
+      source: text  // a section of the paper, or a page here
+    }])");
 });
 
 }  // namespace stiction
