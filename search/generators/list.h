@@ -21,6 +21,7 @@
   X(OneBody)                   \
   X(Bilateral)                 \
   X(Sliding)                   \
-  X(Space)
+  X(Space)                     \
+  X(Exceptional)
 
 #endif  // STICTION_SEARCH_GENERATORS_LIST_H_
