@@ -24,6 +24,8 @@
 namespace stiction {
 namespace {
 
+using namespace testing;
+
 constexpr int kRecordedVersion = 1, kRecordedCounts = 2;
 
 [[maybe_unused]] const bool kRecorded = AddRecorded({
