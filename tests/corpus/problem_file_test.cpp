@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/exact_number.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"
@@ -462,6 +463,13 @@ TEST_CASE("problem file: a value that is not a number is refused with its place"
     CHECK(Refusal(WithNumber(literal)) == "p.json: b[1]: found " + literal + expected);
     CHECK(Refusal(WithA("[[0, 0], [0, " + literal + "]]")) == "p.json: A[1][1]: found " + literal + expected);
   }
+}
+
+TEST_CASE("problem file: a number of a certificate has as many characters as are allowed, and no more") {
+  const std::string source = "c.json";
+  const Json most = std::string(kMostCharactersOfNumber, '1'), more = most.get<std::string>() + "1";
+  CHECK(ToString(ExactNumber(JsonPlace(most, source, "b[1]"), true)) == most.get<std::string>());
+  CHECK_THROWS_AS(ExactNumber(JsonPlace(more, source, "b[1]"), true), InputError);
 }
 
 TEST_CASE("problem file: an infinite number is refused") {
