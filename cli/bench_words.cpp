@@ -68,7 +68,7 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
   verb.Option("-t,--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")
       .Range(1, 1024);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "the rows of a suite, each suite its own", "[any] | object");
 }
 
 }  // namespace stiction

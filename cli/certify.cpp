@@ -374,7 +374,19 @@ void AddCertify(CommandLine& program) {
           "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
           "the scene is built of may be off at once. Exit 3 unless each is proved. Writes no certificate");
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json,
+              "what was certified; with --all, all solutions; with --safe, safety; with --robust, radii; the "
+              "certificate itself where -o is -",
+              R"(
+      {claim: claim | "undecided", assumptions: [assumption]} |
+      {complete: truth, words: [{modes: [mode], f: [exact], unique: truth}], distinct_witnesses: integer,
+       programs: integer  // linear programs
+      } |
+      {safe: truth | null,  // null: undecided
+       condition?: {number: exact, scaling: [exact], mu: exact | null}, threshold?: threshold,
+       weakly_safe?: truth, vanishing_words?: integer, negative_word?: [mode],
+       limit?: {safe: truth, word?: [mode], threshold?: threshold}} |
+      certificate | [{policy: text, radius: exact | null, scene_radius?: exact | null}])");
   AddLimits(verb, o.limits);
 }
 
@@ -382,7 +394,8 @@ void AddCheck(CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
   verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a row for each certificate",
+              "[{file: text, accepted: truth, claim?: text, problem?: digest, facts?: object, reason?: text}]");
 }
 
 }  // namespace stiction

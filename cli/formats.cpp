@@ -84,7 +84,10 @@ void AddImport(CommandLine& program) {
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a problem that was read from another format", R"({
+      written: written, contacts: integer, dimension: 2 | 3,
+      asymmetry: exact  // the largest difference of A and its transpose
+    })");
 }
 
 void AddExport(CommandLine& program) {
@@ -95,7 +98,9 @@ void AddExport(CommandLine& program) {
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a problem that was written in another format", R"({
+      written: written, rounded: integer,  // numbers that are no doubles
+      largest_change: exact})");
 }
 
 }  // namespace stiction

@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
 #include "cli/help.h"
+#include "cli/schema.h"
 #include "cli/verbs.h"
 #include "cli/words.h"
+#include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
+#include "search/campaign.h"
 
 namespace stiction {
 namespace {
@@ -118,6 +122,7 @@ Json RowInJson(const OptionRow& row) {
 struct ManualOptions {
   const CommandLine* program = nullptr;
   std::string format = "man";
+  std::string schemas;  // folder
   bool json = false;
 };
 
@@ -126,7 +131,22 @@ std::string TextIn(const std::string& format, const CommandLine& program) {
   return format == "man" ? ManPage(program) : ManPageOfBench(program);
 }
 
+// A file VERB.schema.json for each verb, and one for campaign files.
+void WriteSchemas(const std::string& folder, const CommandLine& program) {
+  const auto write = [&folder](const std::string& name, const Json& schema) {
+    WriteText(fmt::format("{}/{}.schema.json", folder, name), JsonText(schema, 1) + "\n");
+  };
+  std::filesystem::create_directories(folder);
+  for (const Verb& verb : program.verbs)
+    write(verb.name, SchemaOf(fmt::format("stiction {} --json", verb.name), verb.answer, verb.answer_shape));
+  write("campaign", SchemaOf("stiction-campaign", "what a search tries", ShapeOfCampaign()));
+}
+
 int Write(const ManualOptions& o) {
+  if (!o.schemas.empty()) {
+    WriteSchemas(o.schemas, *o.program);
+    return kExitDone;
+  }
   std::cout << (o.json ? JsonText(TablesInJson(*o.program)) + "\n" : TextIn(o.format, *o.program));
   return kExitDone;
 }
@@ -237,7 +257,15 @@ void AddManual(CommandLine& program) {
       .Choices({{"man", "a page for man, with all verbs and words"},
                 {"man-bench", "a page for man, of the program stiction-bench"},
                 {"bash", "completion for bash"}});
-  verb.Flag("-j,--json", o.json, "all verbs with their options, as a program reads them");
+  verb.Option("--schemas", o.schemas,
+              "instead: a folder to write JSON schemas into: of what --json of each verb prints, and of "
+              "campaign files");
+  verb.Prints(o.json, "the command line", R"([{
+      verb: text, purpose: text,
+      words: [{kind: "positional" | "option" | "flag", names: [text+], type: "" | "TEXT" | "INTEGER" | "NUMBER",
+               help: text, required: truth, repeated: truth, default: text,
+               choices: [{name: text, meaning: text}]}]}])")
+      .help = "all verbs with their options, as a program reads them";
 }
 
 }  // namespace stiction

@@ -78,7 +78,11 @@ int List(const MethodsOptions& o) {
 
 void AddMethods(CommandLine& program) {
   auto [verb, o] = program.Add("methods", "The methods, what their ends prove, and where they are built", List);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "the methods, and in which arithmetics they are built", R"([{
+      name: method, title: text, source: text,
+      ends: text,  // what its end proves
+      path: truth,  // whether it can be replayed
+      plane: [arithmetic], space: [arithmetic]}])");
 }
 
 }  // namespace stiction

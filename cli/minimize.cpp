@@ -179,13 +179,17 @@ void AddMinimize(CommandLine& program) {
   verb.Flag("--as-scene", o.as_scene,
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "how much smaller a problem has become; the problem itself where -o is -",
+              "{keep: text, before: size, after: size, candidates: integer, accepted: integer} | problem");
   AddLimits(verb, o.limits);
 }
 
 void AddPolicies(CommandLine& program) {
   auto [verb, o] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "the switches of the policies", R"([{
+      switch: text, question: text, planar: truth,
+      reads: text,  // the sentence of the paper
+      values: [{value: text, meaning: text}+]}])");
 }
 
 }  // namespace stiction

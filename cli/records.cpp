@@ -150,7 +150,13 @@ void AddRecords(CommandLine& program) {
   verb.Option("--random", o.random, "the best of random problems at equal cost; without it nothing was found");
   verb.Option("--random-evaluations", o.random_evaluations, "how many of them").AtLeast(0);
   verb.Option("--random-command", o.random_command, "what drew them");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "the worst problems that are known", R"([{
+      frontier: text, what: text, objective: text, value: exact, status: text, command: text,
+      processor_seconds: number,
+      random: text | null,  // what random problems reached; null: nothing
+      random_evaluations: integer, random_command: text,
+      fault?: text | null  // of --check: what is wrong; null: nothing
+    }])");
   AddLimits(verb, o.limits);
 }
 

@@ -294,7 +294,19 @@ void AddReplay(CommandLine& program) {
   verb.Option("--html", o.html,
               "write a page to step through the run, beside complete driving; - is standard output");
   verb.Option("--svg", o.svg, "write a picture that moves, of a scene: the forces of a loop, again and again");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a run, step by step; or how it ends under every policy", R"({
+      ...solution, start: integer, period: integer,
+      expected: text,  // what the file expects; empty: nothing
+      initial?: {f: vector, a: vector}, over_intervals?: end,
+      pivots: [{  // steps of the published algorithm, pieces of complete driving, or pivots of Lemke's method
+        drive?: integer, driven?: text, goal?: "establish" | "zero", step: any_number, limiting?: text,
+        from?: text, to?: text, df?: vector, f?: vector, a?: vector, word?: text, determinant?: -1 | 0 | 1,
+        event?: text, pivot?: integer, entering?: text, leaving?: text, z0?: any_number, sets?: {*: text},
+        recorded?: {*: [any_number]}, turned_away?: truth}]
+    } | {
+      policies: {*: end}, counts: counters,
+      unexpected: [text]  // policies that end otherwise than the file expects, or, without, unsolved
+    })");
   AddLimits(verb, o.options.limits);
 }
 

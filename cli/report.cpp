@@ -83,6 +83,14 @@ int CompareStores(const ReportVerb& o) {
   return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
 }
 
+// Of fields of a campaign, by their names.
+std::map<std::string, std::string> CampaignLabels() {
+  std::map<std::string, std::string> labels;
+  for (const FieldOf<Campaign>& field : kCampaignFields)
+    if (!field.label.empty()) labels.emplace(field.name, field.label);
+  return labels;
+}
+
 // What is made of one store.
 int ReportStore(const ReportVerb& o) {
   ReportProgress progress;
@@ -97,6 +105,7 @@ int ReportStore(const ReportVerb& o) {
                                     o.files.value_or(ReportExtras().files),
                                     KnownFrontiers(),
                                     OwnSearchOf(store),
+                                    CampaignLabels(),
                                     progress.Writing()});
     progress.Clear();
     TellAside(aside);
@@ -170,8 +179,14 @@ void AddReport(CommandLine& program) {
   verb.Option("--files", o.files,
               "findings that have files of their own; tables and page have all; by default all")
       .AtLeast(0);
-  verb.Flag("-j,--json", o.json,
-            "machine output: what was written, with two stores the comparison, with --text the summary");
+  verb.Prints(o.json,
+              "what a report wrote; with two stores, how they compare; with --text, what the store holds",
+              R"({written: written} | {
+      differences: [text],  // of the two campaigns by design
+      tests: integer, only_a: [group], only_b: [group],
+      rates: [{...group, friction: text, measure: text, a: share, b: share, p: number | null,
+               p_corrected: number | null, more_than_noise: truth}]} | summary | optimized)")
+      .help = "machine output: what was written, with two stores the comparison, with --text the summary";
   AddReplace(verb, o.replace);
 }
 

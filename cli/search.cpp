@@ -24,6 +24,7 @@
 #include "corpus/json_text.h"
 #include "corpus/machine.h"
 #include "corpus/record/counts.h"
+#include "corpus/record/fields.ipp"
 #include "corpus/record/kinds.h"
 #include "corpus/store/store_lock.h"
 #include "reports/text/text_report.h"
@@ -41,20 +42,35 @@ constexpr double kDefaultMinutes = 1;
 constexpr const char* kUsualStore = "stiction.store";
 constexpr double kLook = 2;  // seconds between looks at a store that is watched
 
+// What a field of a campaign was given as, by its kind.
+struct Given {
+  std::optional<std::uint64_t> seed;
+  std::optional<std::int64_t> number;
+  bool truth = false;
+  std::string text;
+
+  bool operator==(const Given&) const = default;
+};
+
+// Of a campaign; what is empty is the campaign's.
+struct CampaignWords {
+  std::array<Given, kCampaignFields.size()> fields;
+  std::vector<std::string> generators, mu, policies;
+  std::vector<int> contacts;
+  std::string arithmetic, objective, optimizer;
+  std::vector<std::string> parents;  // files
+
+  bool operator==(const CampaignWords&) const = default;
+};
+
 struct SearchVerb {
   std::string campaign;
   std::string store;  // empty: the usual one
-  std::vector<std::string> generators, mu, policies;
-  std::vector<int> contacts;
-  std::optional<std::uint64_t> seed;
+  CampaignWords words;
   std::optional<double> minutes;
-  std::optional<std::int64_t> problems, audit_every, enumerate_every;
-  std::string arithmetic;  // empty: the campaign's
+  std::optional<std::int64_t> problems;
   std::string shard = "0/1";
   int threads = 0;
-  std::string objective, optimizer;
-  std::vector<std::string> parents;  // files
-  bool gravity_only = false;
   std::optional<double> finishing;  // percent
   bool finish = false;
   std::string on_finding;
@@ -79,12 +95,22 @@ Shard ParseShard(const std::string& text) {
   throw InputError(fmt::format("--shard: found '{}', expected i/N with 0 <= i < N", text));
 }
 
-Campaign CampaignOf(const SearchVerb& o) {
-  Campaign campaign = o.campaign.empty() ? Campaign{} : ReadCampaign(o.campaign);
-  if (o.seed) campaign.seed = *o.seed;
-  if (o.audit_every) campaign.audit_every = *o.audit_every;
+void Set(const FieldOf<Campaign>& field, const Given& given, Campaign& campaign) {
+  WithValue(field, campaign, [&given](auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::uint64_t>) value = given.seed.value_or(value);
+    if constexpr (std::is_same_v<Value, std::int64_t>) value = given.number.value_or(value);
+    if constexpr (std::is_same_v<Value, bool>) value |= given.truth;
+    if constexpr (std::is_same_v<Value, std::string>)
+      if (!given.text.empty()) value = given.text;
+  });
+}
+
+Campaign CampaignOf(const SearchVerb& verb) {
+  Campaign campaign = verb.campaign.empty() ? Campaign{} : ReadCampaign(verb.campaign);
+  const CampaignWords& o = verb.words;
+  for (std::size_t i = 0; i < kCampaignFields.size(); ++i) Set(kCampaignFields[i], o.fields[i], campaign);
   if (!o.arithmetic.empty()) campaign.arithmetic = ParseSearchArithmetic(o.arithmetic);
-  if (o.enumerate_every) campaign.enumerate_every = *o.enumerate_every;
   if (!o.contacts.empty()) campaign.contacts = o.contacts;
   if (!o.generators.empty()) {
     campaign.generators.clear();
@@ -107,7 +133,6 @@ Campaign CampaignOf(const SearchVerb& o) {
       }
     }
   }
-  campaign.gravity_only |= o.gravity_only;
   if (!o.objective.empty()) campaign.objective = o.objective;
   if (!o.optimizer.empty()) campaign.optimizer = o.optimizer;
   if (!o.optimizer.empty() && campaign.objective.empty())
@@ -141,12 +166,7 @@ int ExitOf(const Store& store, const std::string& file) {
 // What --finish works on: the campaign of the store, and no other.
 Campaign CampaignToFinish(const SearchVerb& o) {
   const Campaign campaign = CampaignOf(Store::OpenToRead(o.store).identity(), o.store);
-  const bool asks_for_more = !o.campaign.empty() || !o.generators.empty() || !o.mu.empty() ||
-                             !o.policies.empty() || !o.contacts.empty() || o.seed || o.problems ||
-                             o.audit_every || o.enumerate_every || !o.arithmetic.empty() ||
-                             !o.objective.empty() || !o.optimizer.empty() || !o.parents.empty() ||
-                             o.gravity_only || o.finishing;
-  if (asks_for_more)
+  if (!o.campaign.empty() || o.words != CampaignWords{} || o.problems || o.finishing)
     throw InputError(
         "--finish: found options of a campaign or of its size, expected --store, --shard, --minutes, "
         "--threads, --on-finding and --json alone: the campaign is that of the store");
@@ -428,7 +448,8 @@ int RunMerge(const MergeVerb& o) {
   const auto open = [&](const std::string& file) { return OpenSound(file, progress.Reading(file)); };
   std::optional<Store> first;
   if (!o.salvage) first = open(o.stores.front());
-  const CampaignIdentity identity = first ? first->identity() : IdentityOfAny(o.stores);
+  CampaignIdentity identity = first ? first->identity() : IdentityOfAny(o.stores);
+  identity.remarks.clear();  // those of the first store that has some
   const StoreLock lock(o.out, Shard{});
   NewStore made(o.out);
   {
@@ -471,10 +492,35 @@ std::string HelpOf(const Rows& rows) {
   return help;
 }
 
-void AddCampaignOptions(Verb& verb, SearchVerb& o) {
+// "--audit-every" of "audit_every".
+std::string OptionOf(std::string_view name) {
+  std::string option = fmt::format("--{}", name);
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+// Of a field that is a number, a truth or a text.
+void AddOption(Verb& verb, const FieldOf<Campaign>& field, Given& given) {
+  Campaign campaign;
+  const std::string name = OptionOf(field.name);
+  OptionRow* row = nullptr;
+  WithValue(field, campaign, [&](const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::uint64_t>) row = &verb.Option(name, given.seed, field.help);
+    if constexpr (std::is_same_v<Value, std::int64_t>)
+      row = &verb.Option(name, given.number, field.help).Range(field.least, field.most);
+    if constexpr (std::is_same_v<Value, bool>) row = &verb.Flag(name, given.truth, field.help);
+    if constexpr (std::is_same_v<Value, std::string>)
+      row = &verb.Option(name, given.text, field.help).Check([](const std::string& text) {
+        return IsLine(text) ? "" : "expected " + kLineExpected;
+      });
+  });
+  row->Details(std::string(field.details));
+}
+
+void AddCampaignOptions(Verb& verb, CampaignWords& o) {
   std::vector<std::string> names;
   for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
-  verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
   verb.Option("-g,--generator", o.generators, "only these generators").OneOf(names);
   verb.Option("-c,--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
   verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
@@ -485,26 +531,21 @@ void AddCampaignOptions(Verb& verb, SearchVerb& o) {
       .Choices({{"double", "rounded numbers; what they do not solve is decided again, filtered"},
                 {"filtered", "certified signs at once, rationals where nothing less tells them"},
                 {"exact", "rationals"}});
-  verb.Option("--audit-every", o.audit_every, "run one problem in so many exactly though nothing is suspected")
-      .AtLeast(1)
-      .Details("Existence included; 1 audits all");
-  verb.Option("--enumerate-every", o.enumerate_every, "try all contact modes of one problem in so many")
-      .AtLeast(1)
-      .Details("Of those of at most three contacts that are run exactly");
-  verb.Flag("--gravity-only", o.gravity_only, "bodies without applied forces: of generators of bodies");
+  for (std::size_t i = 0; i < kCampaignFields.size(); ++i)
+    if (!kCampaignFields[i].help.empty()) AddOption(verb, kCampaignFields[i], o.fields[i]);
   verb.Option("--objective", o.objective, "optimize instead of drawing at random: one of the objectives below")
       .OneOf(NamesOf(Objectives()))
       .Details("A unit starts from the best of earlier ones");
   verb.Option("--optimizer", o.optimizer, "how; by default evolution").OneOf(NamesOf(Optimizers()));
   verb.Option("--from", o.parents, "problems to start from, as `problem STORE --best` writes them");
-  verb.Option("--seed", o.seed, "the one source of randomness; by default 1");
 }
 
 }  // namespace
 
 void AddSearch(CommandLine& program) {
   auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
-  AddCampaignOptions(verb, o);
+  verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
+  AddCampaignOptions(verb, o.words);
   verb.Option("-s,--store", o.store,
               "SQLite file; by default stiction.store, or stiction-2.store, ... if that is of another search")
       .Details("A search goes on where its store stopped");
@@ -529,7 +570,7 @@ void AddSearch(CommandLine& program) {
           "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
           "fails, "
           "or takes a minute, is reported");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "what a store holds", "summary | optimized");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
@@ -540,7 +581,7 @@ void AddStatus(CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "what a store holds", "summary | optimized");
 }
 
 void AddMerge(CommandLine& program) {
@@ -548,7 +589,7 @@ void AddMerge(CommandLine& program) {
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "what a store holds", "summary | optimized");
 }
 
 void AddProblem(CommandLine& program) {
@@ -562,7 +603,8 @@ void AddProblem(CommandLine& program) {
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
   verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a problem of a store, or of a family",
+              "{written: written, contacts: integer, name: text}");
   verb.Flag("--scaled", o.scaled, "of it the form that is so for scan=most-violated too");
   verb.Option("-o,--output", o.output, "file to write; - is standard output");
 }

@@ -221,14 +221,6 @@ std::string Filled(std::string_view text, const std::map<std::string, std::strin
   return filled;
 }
 
-// The whole campaign as a file.
-Json CampaignToJson(const Campaign& campaign) {
-  Json json = DefinitionToJson(campaign);
-  json["seed"] = campaign.seed;
-  for (const Policy& policy : campaign.policies) json["policies"].push_back(PolicyName(policy));
-  return json;
-}
-
 int RunSlurm(const SlurmVerb& o) {
   namespace fs = std::filesystem;
   const Campaign campaign = ReadCampaign(o.campaign);
@@ -256,7 +248,7 @@ int RunSlurm(const SlurmVerb& o) {
   values["COMMON"] = Filled(kCommon, values);
   values["ARRAYS"] = kArrays;
   WholeFolder whole(folder, "slurm", OccupiedIf(o.replace));
-  whole.Write("campaign.json", JsonText(CampaignToJson(campaign), 1) + "\n");
+  whole.Write("campaign.json", JsonText(ToJson(campaign), 1) + "\n");
   for (const auto& [name, text] : {std::pair("task.sh", kTask), {"merge.sh", kMerge}, {"submit.sh", kSubmit}}) {
     whole.Write(name, Filled(text, values));
     fs::permissions(whole.Place(folder / name), fs::perms(0755));
@@ -294,7 +286,7 @@ void AddSlurm(CommandLine& program) {
   verb.Option("-o,--output", o.folder, "folder to write, which every node sees").Required();
   verb.Option("--cpus", o.cpus, "cores of a task").Range(1, 1024);
   verb.Option("--time", o.time, "limit of a task").Unit("min").Range(1, 100000);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a job array", "{written: written, submit: text, shards: integer, units: integer}");
   AddReplace(verb, o.replace);
 }
 

@@ -284,7 +284,8 @@ void AddSolve(CommandLine& program) {
       .Range(0, 1e9);
   verb.Flag("--fractions", o.fractions,
             "long fractions in full, which are rounded otherwise, in text for people");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "forces of one problem, or why there are none; of many files a row for each",
+              "answer | [{file: text, answer: answer} | {file: text, error: text}]");
   AddLimits(verb, o.options.limits);
   AddTolerances(verb, o.options.tolerances);
 }

@@ -449,7 +449,14 @@ void AddSurvey(CommandLine& program) {
       .Range(0, kMostDenseRows);
   verb.Flag("--suspicions", o.suspicions, "in the plane: also the published algorithm over doubles")
       .Details("Over rationals only what no run over doubles solves with a residual of at most 1e-6");
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "a row for each problem: assumptions, and what solves it",
+              R"([{file: text, error: text} | {
+      file: text, contacts: integer, dimension: 2 | 3, rows: integer, asymmetry: object,
+      curvature: {psd: truth | null, how: "bound" | "exact", least: rounded, most?: rounded},
+      range: {"in-range": truth | null, distance: rounded, "rough distance": rounded, regular: truth},
+      "meets assumptions"?: truth | null, symmetrized?: object,
+      runs: [{method: method | "none", arithmetic?: arithmetic, outcome: outcome | "not tried", seconds?: number,
+              statistics?: counters, residual?: rounded, certificate?: text, reason?: text, ...}]}])");
   AddLimits(verb, o.limits);
 }
 

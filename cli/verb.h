@@ -100,10 +100,16 @@ class Verb {
   OptionRow& Flag(std::string_view name, bool& field, std::string_view help) {
     return Add(RowKind::kFlag, name, &field, help);
   }
+  // The flag --json, and what it prints: in words, and as a shape (cli/schema.h).
+  OptionRow& Prints(bool& json, std::string_view what, std::string_view shape) {
+    answer = what, answer_shape = shape;
+    return Flag("-j,--json", json, "machine output");
+  }
 
   std::string name;
   std::string purpose;                       // one line
   std::string group;                         // in the list of verbs
+  std::string answer, answer_shape;          // of --json
   std::string footer;                        // behind the rows of the help
   std::vector<std::string>* rest = nullptr;  // takes all words as they are, --help too
   std::deque<OptionRow> rows;                // a reference to a row stays good

@@ -142,7 +142,10 @@ std::string GlossaryOf(std::string_view text) {
 
 void AddWords(CommandLine& program) {
   auto [verb, o] = program.Add("words", "What the words of answers and replays mean", List);
-  verb.Flag("-j,--json", o.json, "machine output");
+  verb.Prints(o.json, "what words mean", R"([{
+      word: text, meaning: text,
+      source: text  // a section of the paper, or a page here
+    }])");
 }
 
 }  // namespace stiction

@@ -14,16 +14,19 @@ endfunction()
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/stiction-ipopt.1)
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
 
-# The manuals and the completion, written by the program itself.
+# The manuals, the completion and the schemas, written by the program itself.
 set(manual ${PROJECT_BINARY_DIR}/packages/stiction.1)
 set(manual_of_bench ${PROJECT_BINARY_DIR}/packages/stiction-bench.1)
 set(completion ${PROJECT_BINARY_DIR}/packages/completion)
+set(schemas ${PROJECT_BINARY_DIR}/packages/schemas)
 add_custom_command(OUTPUT ${manual} ${manual}.gz ${manual_of_bench} ${manual_of_bench}.gz ${completion}
   COMMAND stiction manual > ${manual}
   COMMAND gzip -9nc ${manual} > ${manual}.gz
   COMMAND stiction manual --format man-bench > ${manual_of_bench}
   COMMAND gzip -9nc ${manual_of_bench} > ${manual_of_bench}.gz
   COMMAND stiction manual --format bash > ${completion}
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${schemas}
+  COMMAND stiction manual --schemas ${schemas}
   DEPENDS stiction COMMENT "Writing the manual" VERBATIM)
 add_custom_target(stiction_manual ALL DEPENDS ${manual}.gz ${manual_of_bench}.gz ${completion})
 
@@ -39,7 +42,7 @@ install(DIRECTORY corpus/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/corpus C
                        PATTERN "space" EXCLUDE)
 install(DIRECTORY search/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
         FILES_MATCHING PATTERN "*.json")
-install(DIRECTORY cli/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
+install(DIRECTORY ${schemas} DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction COMPONENT program
         FILES_MATCHING PATTERN "*.schema.json")
 
 set(components program library)

@@ -52,25 +52,9 @@ bool RunCampaign(const std::string& campaign_text, const std::string& store,
 
 py::dict ToPython(const Discovery& discovery) {
   py::dict dict;
-  dict["signature"] = discovery.signature;
-  dict["kind"] = discovery.kind;
   dict["count"] = discovery.met;
-  const Finding& finding = *discovery.representative;
-  dict["finished"] = finding.done;
-  dict["generator"] = finding.generator;
-  dict["contacts"] = finding.contacts;
-  dict["policy"] = finding.policy;
-  dict["inexact_outcome"] = finding.inexact_outcome;
-  dict["exact_outcome"] = finding.exact_outcome;
-  dict["unit"] = finding.unit;
-  dict["index"] = finding.index;
-  dict["problem"] = finding.problem;
-  dict["minimized"] = finding.minimized;
-  dict["certificate"] = finding.certificate;
-  dict["minimized_certificate"] = finding.minimized_certificate;
-  dict["existence"] = finding.existence;
-  dict["minimized_existence"] = finding.minimized_existence;
-  dict["facts"] = finding.facts;
+  ForEachColumn(*discovery.representative,
+                [&dict](const char* name, const auto& value) { dict[py::str(name)] = value; });
   return dict;
 }
 
@@ -82,11 +66,7 @@ class PythonStore {
   // The text of a campaign file.
   std::string Campaign() const {
     const stiction::Campaign campaign = CampaignOf(store_.identity(), file_);
-    Json json = DefinitionToJson(campaign);
-    json["seed"] = campaign.seed;
-    json["policies"] = Json::array();
-    for (const Policy& policy : campaign.policies) json["policies"].push_back(PolicyName(policy));
-    return JsonText(json, 1) + "\n";
+    return JsonText(ToJson(campaign), 1) + "\n";
   }
 
   // Of a search with an objective the best of each generator and number of contacts, the best first.

@@ -26,7 +26,7 @@ namespace {
 
 // What was searched, as stiction search reads it; the definition as it stands if that is no JSON object.
 std::string CampaignFile(const CampaignIdentity& identity) {
-  Json campaign = Json::parse(identity.definition, nullptr, false);
+  Json campaign = ToldDefinition(identity);
   const Json policies = Json::parse(identity.policies, nullptr, false);
   if (!campaign.is_object()) return identity.definition + "\n";
   if (policies.is_array()) campaign["policies"] = policies;
@@ -94,6 +94,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   content.rungs = ReadAllRungs(extras.benches);
   content.frontiers = extras.frontiers;
   content.own = extras.own;
+  content.labels = extras.labels;
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole, extras.show);
   const std::vector<Finding> findings = store.Findings();

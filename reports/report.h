@@ -25,6 +25,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "corpus/store/store.h"
@@ -41,9 +43,10 @@ struct ReportExtras {
   bool latex = false;                               // tables and figures for papers, too (latex.h)
   // Only so many findings have files, those of most interest (discovery.h); tables and page have all.
   std::int64_t files = std::numeric_limits<std::int64_t>::max();
-  std::vector<FrontierLine> frontiers = {};  // records, told on the page
-  OwnSearch own = {};                        // of an optimized search, told beside them
-  ShowWriting show = {};                     // told how far it is
+  std::vector<FrontierLine> frontiers = {};        // records, told on the page
+  OwnSearch own = {};                              // of an optimized search, told beside them
+  std::map<std::string, std::string> labels = {};  // of fields of a campaign, where they are not their names
+  ShowWriting show = {};                           // told how far it is
 };
 
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same

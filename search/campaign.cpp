@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "corpus/json_text.h"
+#include "corpus/record/fields.ipp"
 #include "search/adversary/optimizer.h"
 #include "search/algorithm_version.h"
 #include "solver/published/published_space.h"
@@ -53,6 +54,13 @@ auto ReadList(const JsonPlace& list, Read read) {
   return values;
 }
 
+template <class Values, class Write>
+Json WriteList(const Values& values, Write write) {
+  Json list = Json::array();
+  for (const auto& value : values) list.push_back(write(value));
+  return list;
+}
+
 }  // namespace
 
 GeneratorId ReadGenerator(const JsonPlace& place) {
@@ -97,90 +105,106 @@ Arithmetic ParseSearchArithmetic(const std::string& text) {
   throw InputError(fmt::format("arithmetic: found '{}', expected double, filtered or exact", text));
 }
 
+// ---- Fields that have a form of their own in files -------------------------------------------
+
+const FormOf<Campaign> kGeneratorsForm = {
+    "[text+]",
+    [](const JsonPlace& list, Campaign& campaign) { campaign.generators = ReadList(list, ReadGenerator); },
+    [](const Campaign& campaign) {
+      return WriteList(campaign.generators, [](GeneratorId id) { return Row(id).name; });
+    }};
+
+const FormOf<Campaign> kContactsForm = {
+    "[integer+]",
+    [](const JsonPlace& list, Campaign& campaign) {
+      campaign.contacts = ReadList(list, [](const JsonPlace& place) {
+        return static_cast<int>(
+            place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
+      });
+    },
+    [](const Campaign& campaign) { return Json(campaign.contacts); }};
+
+const FormOf<Campaign> kPaletteForm = {
+    "[text+]", [](const JsonPlace& list, Campaign& campaign) { campaign.palette = ReadList(list, ReadMu); },
+    [](const Campaign& campaign) {
+      return WriteList(campaign.palette, [](const MuChoice& mu) {
+        return ToString(Rational(mu.numerator) / Rational(mu.denominator));
+      });
+    }};
+
+const FormOf<Campaign> kPoliciesForm = {
+    R"("*" | [text+])",
+    [](const JsonPlace& list, Campaign& campaign) {
+      if (list.json() == "*") {
+        campaign.policies = PlanarGrid();
+        return;
+      }
+      const std::vector<Policy>& policies = campaign.policies = ReadList(list, ReadPolicy);
+      for (std::size_t i = 0; i < policies.size(); ++i) {
+        const auto here = policies.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::find(policies.begin(), here, *here) != here) list[i].Refuse("each policy once");
+      }
+    },
+    [](const Campaign& campaign) { return WriteList(campaign.policies, PolicyName); }};
+
+const FormOf<Campaign> kArithmeticForm = {
+    R"("double" | "filtered" | "exact")",
+    [](const JsonPlace& place, Campaign& campaign) {
+      try {
+        campaign.arithmetic = ParseSearchArithmetic(place.Text("an arithmetic"));
+      } catch (const InputError& error) {
+        place.Refuse(error.what());
+      }
+    },
+    [](const Campaign& campaign) {
+      return campaign.arithmetic == Arithmetic::kDouble ? Json() : Json(Name(campaign.arithmetic));
+    }};
+
+const FormOf<Campaign> kObjectiveForm = {
+    "text",
+    [](const JsonPlace& place, Campaign& campaign) {
+      campaign.objective = place.Text("the name of an objective");
+      if (FindObjective(campaign.objective) == nullptr) place.Refuse("one of " + NamesOf(Objectives()));
+    },
+    [](const Campaign& campaign) { return campaign.objective.empty() ? Json() : Json(campaign.objective); }};
+
+const FormOf<Campaign> kOptimizerForm = {
+    "text",
+    [](const JsonPlace& place, Campaign& campaign) {
+      campaign.optimizer = place.Text("the name of an optimizer");
+      if (FindOptimizer(campaign.optimizer) == nullptr) place.Refuse("one of " + NamesOf(Optimizers()));
+    },
+    [](const Campaign& campaign) { return campaign.objective.empty() ? Json() : Json(campaign.optimizer); }};
+
+const FormOf<Campaign> kParentsForm = {
+    "[object+]",
+    [](const JsonPlace& list, Campaign& campaign) { campaign.parents = ReadList(list, CandidateFromJson); },
+    [](const Campaign& campaign) {
+      return campaign.parents.empty()
+                 ? Json()
+                 : WriteList(campaign.parents, [](const Candidate& parent) { return ToJson(parent); });
+    }};
+
+namespace {
+
+constexpr std::span<const FieldOf<Campaign>> kFields = kCampaignFields;
+
+Json FieldsOf(const Campaign& campaign, FieldUse use, Json json = Json::object()) {
+  WriteFields(kFields, use, campaign, json);
+  return json;
+}
+
+}  // namespace
+
 Campaign ParseCampaign(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
-  root.AllowKeys({"format",
-                  "version",
-                  "seed",
-                  "generators",
-                  "contacts",
-                  "mu",
-                  "policies",
-                  "unit_problems",
-                  "audit_every",
-                  "complete_every",
-                  "lemke_every",
-                  "enumerate_every",
-                  "representatives_per_unit",
-                  "max_drives",
-                  "max_pivots",
-                  "max_bits",
-                  "arithmetic",
-                  "gravity_only",
-                  "objective",
-                  "optimizer",
-                  "parents"});
   root.Required("version", "1").Integer(1, 1, "1");
   Campaign campaign;
-  const auto integer = [&root](const char* key, std::int64_t least, std::int64_t most, auto& value) {
-    using Value = std::remove_reference_t<decltype(value)>;
-    if (const auto place = root.Optional(key)) {
-      value =
-          static_cast<Value>(place->Integer(least, most, fmt::format("an integer from {} to {}", least, most)));
-    }
-  };
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  integer("seed", 0, std::numeric_limits<std::int64_t>::max(), campaign.seed);
-  integer("unit_problems", 1, kMost, campaign.unit_problems);
-  integer("audit_every", 1, kMost, campaign.audit_every);
-  integer("complete_every", 1, kMost, campaign.complete_every);
-  integer("lemke_every", 1, kMost, campaign.lemke_every);
-  integer("enumerate_every", 1, kMost, campaign.enumerate_every);
-  integer("representatives_per_unit", 1, kMost, campaign.representatives_per_unit);
-  integer("max_drives", 1, kMost, campaign.limits.drives);
-  integer("max_pivots", 1, kMost, campaign.limits.pivots);
-  integer("max_bits", 1, kMost, campaign.limits.bits);
-  if (const auto list = root.Optional("generators")) campaign.generators = ReadList(*list, ReadGenerator);
-  if (const auto list = root.Optional("mu")) campaign.palette = ReadList(*list, ReadMu);
-  if (const auto list = root.Optional("policies"); list && list->json() == "*") {
-    campaign.policies = PlanarGrid();
-  } else if (list) {
-    campaign.policies = ReadList(*list, ReadPolicy);
-    for (std::size_t i = 0; i < campaign.policies.size(); ++i) {
-      const auto here = campaign.policies.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::find(campaign.policies.begin(), here, *here) != here) (*list)[i].Refuse("each policy once");
-    }
-  }
-  if (const auto list = root.Optional("contacts")) {
-    campaign.contacts = ReadList(*list, [](const JsonPlace& place) {
-      return static_cast<int>(
-          place.Integer(1, kMaxContacts, fmt::format("a number of contacts, 1 to {}", kMaxContacts)));
-    });
-  }
-  if (const auto place = root.Optional("gravity_only")) {
-    if (!place->json().is_boolean()) place->Refuse("true or false");
-    campaign.gravity_only = place->json().get<bool>();
-  }
-  if (const auto place = root.Optional("arithmetic")) {
-    try {
-      campaign.arithmetic = ParseSearchArithmetic(place->Text("an arithmetic"));
-    } catch (const InputError& error) {
-      place->Refuse(error.what());
-    }
-  }
-  if (const auto place = root.Optional("objective")) {
-    campaign.objective = place->Text("the name of an objective");
-    if (FindObjective(campaign.objective) == nullptr) place->Refuse("one of " + NamesOf(Objectives()));
-  }
-  if (const auto place = root.Optional("optimizer")) {
-    campaign.optimizer = place->Text("the name of an optimizer");
-    if (FindOptimizer(campaign.optimizer) == nullptr) place->Refuse("one of " + NamesOf(Optimizers()));
-  }
-  if (const auto list = root.Optional("parents")) campaign.parents = ReadList(*list, CandidateFromJson);
+  ReadFields(kFields, root, campaign, {"format", "version"});
   return campaign;
 }
 
@@ -256,43 +280,34 @@ Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source)
   const std::string place = source + ": policies";
   const Json policies = ParseJson(identity.policies, place);
   campaign.policies = ReadList(JsonPlace(policies, place, ""), ReadPolicy);
+  if (!identity.remarks.empty()) {
+    const std::string of_remarks = source + ": remarks";
+    const Json remarks = ParseJson(identity.remarks, of_remarks);
+    const JsonPlace root(remarks, of_remarks, "");
+    root.RequireObject();
+    std::vector<FieldOf<Campaign>> told;
+    std::ranges::copy_if(kFields, std::back_inserter(told),
+                         [](const auto& f) { return f.use == FieldUse::kRemark; });
+    ReadFields(std::span<const FieldOf<Campaign>>(told), root, campaign);
+  }
   return campaign;
 }
 
 Json DefinitionToJson(const Campaign& campaign) {
-  Json generators = Json::array(), palette = Json::array();
-  for (const GeneratorId id : campaign.generators) generators.push_back(Row(id).name);
-  for (const MuChoice& mu : campaign.palette) {
-    palette.push_back(ToString(Rational(mu.numerator) / Rational(mu.denominator)));
-  }
-  Json definition = {{"format", "stiction-campaign"},
-                     {"version", 1},
-                     {"generators", generators},
-                     {"contacts", campaign.contacts},
-                     {"mu", palette},
-                     {"unit_problems", campaign.unit_problems},
-                     {"audit_every", campaign.audit_every},
-                     {"lemke_every", campaign.lemke_every},
-                     {"enumerate_every", campaign.enumerate_every},
-                     {"representatives_per_unit", campaign.representatives_per_unit},
-                     {"max_drives", campaign.limits.drives},
-                     {"max_pivots", campaign.limits.pivots},
-                     {"max_bits", campaign.limits.bits}};
-  if (campaign.complete_every != 1) definition["complete_every"] = campaign.complete_every;
-  if (campaign.arithmetic != Arithmetic::kDouble) definition["arithmetic"] = Name(campaign.arithmetic);
-  if (campaign.gravity_only) definition["gravity_only"] = true;
-  if (!campaign.objective.empty()) {
-    definition["objective"] = campaign.objective;
-    definition["optimizer"] = campaign.optimizer;
-  }
-  for (const Candidate& parent : campaign.parents) definition["parents"].push_back(ToJson(parent));
-  return definition;
+  return FieldsOf(campaign, FieldUse::kDefines, {{"format", "stiction-campaign"}, {"version", 1}});
 }
 
+Json ToJson(const Campaign& campaign) {
+  return FieldsOf(campaign, FieldUse::kRemark,
+                  FieldsOf(campaign, FieldUse::kApart, DefinitionToJson(campaign)));
+}
+
+std::string ShapeOfCampaign() { return ShapeOf(kFields, R"(format: "stiction-campaign", version: 1)"); }
+
 CampaignIdentity IdentityOf(const Campaign& campaign) {
-  Json policies = Json::array();
-  for (const Policy& policy : campaign.policies) policies.push_back(PolicyName(policy));
-  return {DefinitionToJson(campaign).dump(), campaign.seed, policies.dump(), kCountsVersion};
+  const Json remarks = FieldsOf(campaign, FieldUse::kRemark);
+  return {DefinitionToJson(campaign).dump(), campaign.seed, kPoliciesForm.write(campaign).dump(),
+          kCountsVersion, remarks.empty() ? "" : remarks.dump()};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {

@@ -4,10 +4,13 @@
 #ifndef STICTION_SEARCH_CAMPAIGN_H_
 #define STICTION_SEARCH_CAMPAIGN_H_
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "corpus/record/fields.h"
 #include "corpus/store/store.h"
 #include "search/adversary/candidate.h"
 #include "search/generators/generators.h"
@@ -16,10 +19,7 @@
 
 namespace stiction {
 
-// Files: {"format": "stiction-campaign", "version": 1, ...} with any of "seed", "generators", "contacts", "mu",
-// "policies" (a list, or "*" for the planar grid), "unit_problems", "audit_every", "complete_every",
-// "lemke_every", "enumerate_every", "representatives_per_unit", "max_drives", "max_pivots", "max_bits",
-// "arithmetic", "gravity_only", "objective", "optimizer", "parents".
+// Files: {"format": "stiction-campaign", "version": 1, ...} with any of the fields below.
 struct Campaign {
   std::uint64_t seed = 1;
   std::vector<GeneratorId> generators;  // default: all ordinary ones (generators.h)
@@ -51,6 +51,38 @@ struct Campaign {
   bool operator==(const Campaign&) const = default;
 };
 
+extern const FormOf<Campaign> kGeneratorsForm, kContactsForm, kPaletteForm, kPoliciesForm, kArithmeticForm,
+    kObjectiveForm, kOptimizerForm, kParentsForm;
+
+// In the order of a definition.
+inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
+    {"seed", &Campaign::seed, "", "the one source of randomness; by default 1", "", FieldUse::kApart, 0,
+     std::numeric_limits<std::int64_t>::max()},
+    {"generators", &kGeneratorsForm},
+    {"contacts", &kContactsForm, "numbers of contacts"},
+    {"mu", &kPaletteForm, "friction palette"},
+    {"policies", &kPoliciesForm, "", "", "", FieldUse::kApart},
+    {"unit_problems", &Campaign::unit_problems, "problems of a unit"},
+    {"audit_every", &Campaign::audit_every, "audited: one problem in",
+     "run one problem in so many exactly though nothing is suspected", "Existence included; 1 audits all"},
+    {"lemke_every", &Campaign::lemke_every, "by Lemke’s method too, of the suspicions: one in"},
+    {"enumerate_every", &Campaign::enumerate_every, "all modes tried, of exact runs of few contacts: one in",
+     "try all contact modes of one problem in so many",
+     "Of those of at most three contacts that are run exactly"},
+    {"representatives_per_unit", &Campaign::representatives_per_unit, "new representatives per unit, at most"},
+    {"max_drives", [](Campaign& c) -> std::int64_t& { return c.limits.drives; }, "budget, drives"},
+    {"max_pivots", [](Campaign& c) -> std::int64_t& { return c.limits.pivots; }, "budget, pivots"},
+    {"max_bits", [](Campaign& c) -> std::int64_t& { return c.limits.bits; }, "budget, bits of a number"},
+    {"complete_every", &Campaign::complete_every, "given to complete driving, of the suspicions: one in", "",
+     "", FieldUse::kDefines, 1, kMostOfField, 1},
+    {"arithmetic", &kArithmeticForm},
+    {"gravity_only", &Campaign::gravity_only, "bodies under gravity alone",
+     "bodies without applied forces: of generators of bodies"},
+    {"objective", &kObjectiveForm},
+    {"optimizer", &kOptimizerForm},
+    {"parents", &kParentsForm},
+});
+
 Campaign ReadCampaign(const std::filesystem::path& file);
 // The same of a text; `source` names it in errors.
 Campaign ParseCampaign(const std::string& text, const std::string& source);
@@ -62,8 +94,11 @@ inline Surroundings SurroundingsOf(const Campaign& campaign) {
 }
 // The campaign of a store. InputError if it holds none.
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
-// Everything but the seed and the policies, canonical.
+// Everything but the seed, the policies and remarks, canonical; and the whole, as a file.
 Json DefinitionToJson(const Campaign& campaign);
+Json ToJson(const Campaign& campaign);
+// Of a campaign file (cli/schema.h).
+std::string ShapeOfCampaign();
 CampaignIdentity IdentityOf(const Campaign& campaign);
 
 // A unit tries one generator at one size.

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "corpus/program_name.h"
 #include "corpus/record/counts.h"
+#include "corpus/record/fields.ipp"
 #include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
 
@@ -86,33 +91,134 @@ std::string ValueText(const Objective& objective, const Worth& worth) {
                      objective.unit);
 }
 
-Json OptimizedToJson(const Store& store, const Campaign& campaign) {
-  const Objective& objective = *FindObjective(campaign.objective);
-  const Yield yield = YieldOf(store);
-  const Kept kept = KeptOf(store);
-  const Work work = store.TotalWork();
+// What is told of the store of a search with an objective.
+struct OptimizedStore {
+  const Store& store;
+  Campaign campaign;
+  Yield yield;
+  Kept kept;
+  Work work;
+};
+
+Json BestToJson(const OptimizedStore& s) {
+  const Objective& objective = *FindObjective(s.campaign.objective);
   Json best = Json::array();
-  for (const Elite& elite : BestOf(store, 1)) {
+  for (const Elite& elite : BestOf(s.store, 1)) {
     Json row = {{"candidate", ToJson(elite.candidate)}};
-    const auto value = ValueOf(elite, campaign);
+    const auto value = ValueOf(elite, s.campaign);
     row["value"] = value ? Json(*value) : Json();
     if (!elite.worth.value && objective.of_loops) row["distance"] = -elite.worth.nearness;
     best.push_back(std::move(row));
   }
-  return {{"seed", campaign.seed},
-          {"objective", objective.name},
-          {"optimizer", campaign.optimizer},
-          {"units", yield.units},
-          {"candidates", yield.evaluations},
-          {"confirmations", yield.confirmations},
-          {"denied", yield.denied},
-          {"best", best},
-          {"finished", kept.finished},
-          {"pending", kept.pending},
-          {"builds", work.builds},
-          {"machines", work.machines},
-          {"processor_seconds", TimeToJson(work.time)}};
+  return best;
 }
+
+Json RemarksToJson(const Store& store) {
+  Json remarks = RemarksOf(store.identity());
+  return remarks.empty() ? Json() : remarks;
+}
+
+using O = OptimizedStore;
+constexpr auto kOptimizedMembers = std::to_array<ToldOf<O>>({
+    {"seed", "integer", "", [](const O& s) -> Json { return s.campaign.seed; }},
+    {"objective", "text", "", [](const O& s) -> Json { return s.campaign.objective; }},
+    {"optimizer", "text", "", [](const O& s) -> Json { return s.campaign.optimizer; }},
+    {"units", "integer", "", [](const O& s) -> Json { return s.yield.units; }},
+    {"candidates", "integer", "", [](const O& s) -> Json { return s.yield.evaluations; }},
+    {"confirmations", "integer", "candidates whose value was confirmed exactly",
+     [](const O& s) -> Json { return s.yield.confirmations; }},
+    {"denied", "integer", "candidates whose value was not", [](const O& s) -> Json { return s.yield.denied; }},
+    {"best", "[{candidate: object, value: rounded | null, distance?: rounded}]", "", BestToJson},
+    {"finished", "integer", "", [](const O& s) -> Json { return s.kept.finished; }},
+    {"pending", "integer", "", [](const O& s) -> Json { return s.kept.pending; }},
+    {"builds", "[text]", "", [](const O& s) -> Json { return s.work.builds; }},
+    {"machines", "[text]", "", [](const O& s) -> Json { return s.work.machines; }},
+    {"processor_seconds", "times", "", [](const O& s) { return TimeToJson(s.work.time); }},
+    {"remarks?", "{*: any}", "", [](const O& s) { return RemarksToJson(s.store); }},
+});
+
+// ---- Of a search at random -------------------------------------------------------------------------
+
+struct SearchedStore {
+  const Store& store;
+  StoreTotals totals;
+
+  const Counts& counts() const { return totals.counts; }
+};
+
+Json GraveToJson(const SearchedStore& s) {
+  Json grave = Json::array();
+  for (const Finding& finding : s.totals.grave)
+    grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
+  return grave;
+}
+
+Json SimplestToJson(const SearchedStore& s) {
+  Json simplest = Json::array();
+  for (const Finding& finding : s.totals.simplest)
+    simplest.push_back(
+        {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
+  return simplest;
+}
+
+using S = SearchedStore;
+constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
+    {"seed", "integer", "", [](const S& s) -> Json { return s.store.identity().seed; }},
+    {"algorithm", "integer", "the version of what searches compute",
+     [](const S& s) -> Json { return s.store.identity().algorithm; }},
+    {"builds", "[text]", "that worked on it", [](const S& s) -> Json { return s.totals.work.builds; }},
+    {"machines", "[text]", "that worked on it: processor, cores, memory, system; empty if none was recorded",
+     [](const S& s) -> Json { return s.totals.work.machines; }},
+    {"processor_seconds", "times", "", [](const S& s) { return TimeToJson(s.totals.work.time); }},
+    {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }},
+    {"problems", "integer", "", [](const S& s) -> Json { return s.totals.problems; }},
+    {"runs", "integer", "problems, each under every policy",
+     [](const S& s) -> Json { return s.counts().runs; }},
+    {"failures", "counters",
+     "runs that fail in exact arithmetic, by outcome; doubles-differ: doubles end otherwise than exact "
+     "arithmetic; "
+     "wrong-answer: doubles call solved what is not",
+     [](const S& s) -> Json { return FailuresOf(s.counts()); }},
+    {"groups", "counters", "how many different findings of each kind",
+     [](const S& s) -> Json { return s.totals.groups; }},
+    {"rates", "{*: {per_million: number, interval: interval}}", "",
+     [](const S& s) { return RatesToJson(s.counts()); }},
+    {"rates_are_lower_bounds", "truth",
+     "whether not every run was exact, so that some loops may have been taken for solutions",
+     [](const S& s) -> Json { return s.counts().audited + s.counts().suspicious < s.counts().runs; }},
+    {"finished", "integer", "", [](const S& s) -> Json { return s.totals.finished; }},
+    {"pending", "integer", "", [](const S& s) -> Json { return s.totals.pending; }},
+    {"finished_loops", "integer", "loops that are minimized, with their outcomes over the policy grid",
+     [](const S& s) -> Json { return s.totals.finished_loops; }},
+    {"whole_grid", "integer", "findings that loop under every policy of the planar grid",
+     [](const S& s) -> Json { return s.totals.whole_grid; }},
+    {"suspicions", "integer", "", [](const S& s) -> Json { return s.counts().suspicious; }},
+    {"confirmed", "integer", "", [](const S& s) -> Json { return s.counts().confirmed; }},
+    {"audited", "integer", "", [](const S& s) -> Json { return s.counts().audited; }},
+    {"misjudged", "integer", "", [](const S& s) -> Json { return s.counts().misjudged; }},
+    {"misjudged_share", "interval", "",
+     [](const S& s) { return IntervalToJson(ShareInterval(s.counts().misjudged, s.counts().audited)); }},
+    {"wrong", "integer", "wrong answers of doubles", [](const S& s) -> Json { return s.counts().wrong; }},
+    {"existence_checked", "integer", "", [](const S& s) -> Json { return s.totals.existence.problems; }},
+    {"existence_solved", "integer", "", [](const S& s) -> Json { return s.totals.existence.solved; }},
+    {"compared", "integer", "", [](const S& s) -> Json { return s.totals.agreement.compared; }},
+    {"enumerated", "integer", "", [](const S& s) -> Json { return s.totals.agreement.enumerated; }},
+    {"disagreements_of_methods", "integer", "",
+     [](const S& s) -> Json { return s.totals.agreement.disagreements; }},
+    {"safety_decided", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safety_decided; }},
+    {"safe", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe; }},
+    {"safe_gave_up", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe_gave_up; }},
+    {"loops", "integer", "", [](const S& s) -> Json { return s.totals.loops.loops; }},
+    {"loops_without_zero_steps", "integer", "",
+     [](const S& s) -> Json { return s.totals.loops.without_zero_steps; }},
+    {"loops_of_zero_steps_alone", "integer", "",
+     [](const S& s) -> Json { return s.totals.loops.of_zero_steps_alone; }},
+    {"grave", "[{signature: text, kind: text}]", "findings that cannot be, if what is proved is right",
+     GraveToJson},
+    {"minimized", "[{signature: text, facts: facts}]", "", SimplestToJson},
+    {"remarks?", "{*: any}", "fields of the campaign that say nothing of what is done",
+     [](const S& s) { return RemarksToJson(s.store); }},
+});
 
 }  // namespace
 
@@ -142,53 +248,14 @@ ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
 }
 
 Json SummaryToJson(const Store& store) {
-  const Campaign campaign = CampaignOf(store.identity(), "summary");
-  if (!campaign.objective.empty()) return OptimizedToJson(store, campaign);
-  const StoreTotals totals = TotalsOf(store);
-  const Counts& counts = totals.counts;
-  Json simplest = Json::array();
-  for (const Finding& finding : totals.simplest) {
-    simplest.push_back(
-        {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
+  Campaign campaign = CampaignOf(store.identity(), "summary");
+  Json summary;
+  if (campaign.objective.empty()) {
+    WriteTold<S>(kSummaryMembers, {store, TotalsOf(store)}, summary);
+  } else {
+    WriteTold<O>(kOptimizedMembers,
+                 {store, std::move(campaign), YieldOf(store), KeptOf(store), store.TotalWork()}, summary);
   }
-  Json grave = Json::array();
-  for (const Finding& finding : totals.grave)
-    grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
-  Json summary = {{"seed", store.identity().seed},
-                  {"algorithm", store.identity().algorithm},
-                  {"builds", totals.work.builds},
-                  {"machines", totals.work.machines},
-                  {"processor_seconds", TimeToJson(totals.work.time)},
-                  {"units", totals.units},
-                  {"problems", totals.problems},
-                  {"runs", counts.runs},
-                  {"failures", FailuresOf(counts)},
-                  {"groups", totals.groups},
-                  {"rates", RatesToJson(counts)},
-                  {"rates_are_lower_bounds", counts.audited + counts.suspicious < counts.runs},
-                  {"finished", totals.finished},
-                  {"pending", totals.pending},
-                  {"finished_loops", totals.finished_loops},
-                  {"whole_grid", totals.whole_grid},
-                  {"suspicions", counts.suspicious},
-                  {"confirmed", counts.confirmed},
-                  {"audited", counts.audited},
-                  {"misjudged", counts.misjudged},
-                  {"misjudged_share", IntervalToJson(ShareInterval(counts.misjudged, counts.audited))},
-                  {"wrong", counts.wrong},
-                  {"existence_checked", totals.existence.problems},
-                  {"existence_solved", totals.existence.solved},
-                  {"compared", totals.agreement.compared},
-                  {"enumerated", totals.agreement.enumerated},
-                  {"disagreements_of_methods", totals.agreement.disagreements},
-                  {"safety_decided", totals.agreement.safety_decided},
-                  {"safe", totals.agreement.safe},
-                  {"safe_gave_up", totals.agreement.safe_gave_up},
-                  {"loops", totals.loops.loops},
-                  {"loops_without_zero_steps", totals.loops.without_zero_steps},
-                  {"loops_of_zero_steps_alone", totals.loops.of_zero_steps_alone},
-                  {"grave", grave},
-                  {"minimized", simplest}};
   try {
     summary.dump();
   } catch (const Json::exception&) {
@@ -196,6 +263,16 @@ Json SummaryToJson(const Store& store) {
         "summary: found a signature or another text of the store that is no UTF-8, which JSON asks for");
   }
   return summary;
+}
+
+std::string ShapeOfSummary() { return ShapeOf<S>(kSummaryMembers); }
+std::string ShapeOfOptimized() { return ShapeOf<O>(kOptimizedMembers); }
+std::string ShapeOfTimes() {
+  std::string members;
+  ForEachPart(ProcessorTime{}, [&members](const char* name, const char* meaning, std::int64_t) {
+    members += fmt::format("{}: number,  // {}\n", name, meaning);
+  });
+  return "{" + members + "}";
 }
 
 std::string OptimizedText(const Store& store, const std::string& file) {
@@ -209,6 +286,8 @@ std::string OptimizedText(const Store& store, const std::string& file) {
       file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
       objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
       Grouped(yield.confirmations), Grouped(yield.denied));
+  const Json remarks = RemarksOf(store.identity());
+  for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
   for (const BestLine& best : BestLines(store))
     text +=
         fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);

@@ -26,6 +26,10 @@ struct BestLine {
 std::vector<BestLine> BestLines(const Store& store);
 
 Json SummaryToJson(const Store& store);
+// Of what it gives (cli/schema.h): of random problems, of a search with an objective; and of processor times.
+std::string ShapeOfSummary();
+std::string ShapeOfOptimized();
+std::string ShapeOfTimes();
 // Requires a search with an objective. `file` is named in the commands that it proposes.
 std::string OptimizedText(const Store& store, const std::string& file);
 

@@ -244,7 +244,8 @@ void RequireSound(const Finding& finding, const Campaign& campaign, const std::s
 }
 
 void RequireSound(const Record& total, const Campaign& campaign, const std::string& file) {
-  for (const auto& [key, tally] : total.tallies) RequireTally(key, tally, campaign, file);
+  total.ForEachTally(
+      [&](const TallyKey& key, const Tally& tally) { RequireTally(key, tally, campaign, file); });
   const Witness witness(file);
   for (const auto& [signature, count] : total.signatures) {
     witness.RequireOneOf("signatures", signature, IsKind(KindOf(signature)),

@@ -9,9 +9,25 @@
 
 namespace stiction {
 
-// {"outcome", "method", "arithmetic", "word", "f", "a", "ray", "residual", "statistics", "suspected", ...}:
-// exact numbers are strings, inexact ones numbers, enclosures pairs. What a method does not have is left out,
-// and `unique_accelerations` is told where it is known to be false.
+// Shapes (cli/schema.h) of what stands below, each by its name in the one after it: exact numbers are strings,
+// inexact ones numbers, enclosures pairs; what a method does not have is left out.
+inline constexpr const char* kEndShape = "{outcome: outcome, start?: integer, period?: integer, reason?: text}";
+inline constexpr const char* kErrorsShape = R"({
+  residual?: rounded, acceleration_error?: rounded, force_error?: rounded, backward_error?: rounded,
+  amplification?: rounded,
+  worst_contact?: integer | null,  // the first is 1; null where nothing is missed
+})";
+inline constexpr const char* kSuspicionShape = "{...end, ...errors, arithmetic: arithmetic}";
+inline constexpr const char* kSolutionShape = R"({
+  ...end, ...errors, method: method, arithmetic: arithmetic, f: vector | null, a: vector | null,
+  statistics: counters, ray?: vector, bound?: exact, law?: law, evidence?: text, suspected?: suspected,
+  policy?: text,
+  word?: text,  // the cells of the contacts at the end
+  why?: text,  // why `auto` chose this method
+  rung?: rung,
+  unique_accelerations?: false  // another solution with other accelerations is known; this is the one at rest
+})";
+
 Json SolutionToJson(const Solution& solution, int dimension);
 
 // {"outcome", "reason", "start", "period"} of an answer or a suspicion.

@@ -37,6 +37,22 @@ std::string Brief(const std::string& value) {
 
 }  // namespace
 
+Json JsonOrText(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_discarded() ? Json(text) : json;
+}
+
+Json RemarksOf(const CampaignIdentity& identity) {
+  Json remarks = JsonOrText(identity.remarks);
+  return remarks.is_object() ? remarks : Json::object();
+}
+
+Json ToldDefinition(const CampaignIdentity& identity) {
+  Json definition = JsonOrText(identity.definition);
+  if (definition.is_object()) definition.update(RemarksOf(identity));
+  return definition;
+}
+
 std::vector<CampaignDifference> DifferencesOf(const CampaignIdentity& a, const CampaignIdentity& b) {
   auto of_a = PartsOf(a), of_b = PartsOf(b);
   std::vector<CampaignDifference> differences;

@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a campaign is, as its store says it, and what two campaigns differ in.
+// What a campaign is, as its store says it; what is told of it; and what two campaigns differ in.
 
 #ifndef STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_
 #define STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 namespace stiction {
 
-// Two stores belong together if all of this is equal. Shards and builds are no part of it.
+// Two stores belong together if all of this but the remarks is equal. Shards and builds are no part of it.
 struct CampaignIdentity {
   std::string definition;  // canonical JSON: generators, sizes, palette, unit size, ...
   std::uint64_t seed = 0;
-  std::string policies;  // JSON list of canonical names
-  int algorithm = 1;     // version of what a search computes (search/algorithm_version.h)
+  std::string policies;      // JSON list of canonical names
+  int algorithm = 1;         // version of what a search computes (search/algorithm_version.h)
+  std::string remarks = {};  // JSON object; empty where there are none
 
-  bool operator==(const CampaignIdentity&) const = default;
+  bool operator==(const CampaignIdentity& other) const {
+    return definition == other.definition && seed == other.seed && policies == other.policies &&
+           algorithm == other.algorithm;
+  }
 };
+
+// What JSON a text stands for; the text itself where it is none.
+nlohmann::ordered_json JsonOrText(const std::string& text);
+// The remarks of a campaign, by name; and its definition with them, which is no object if it was damaged.
+nlohmann::ordered_json RemarksOf(const CampaignIdentity& identity);
+nlohmann::ordered_json ToldDefinition(const CampaignIdentity& identity);
 
 // What two campaigns differ in: "seed", "1", "2". Of a part that one has not its text is empty.
 struct CampaignDifference {

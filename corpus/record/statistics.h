@@ -225,6 +225,11 @@ struct Record {
   std::map<std::string, WordSketch> words;         // of groups whose signature has no word, by signature
 
   void Merge(const Record& other);
+  // visit(key, tally)
+  template <class Visit>
+  void ForEachTally(const Visit& visit) const {
+    for (const auto& [key, tally] : tallies) visit(key, tally);
+  }
   bool operator==(const Record&) const = default;
 };
 

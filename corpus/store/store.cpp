@@ -166,6 +166,10 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   identity_ = *stored;
   if (*stored == identity) {
     RequireSound();
+    if (identity.remarks.empty() || identity.remarks == identity_.remarks) return;
+    Transaction transaction(db_.get());
+    TakeRemarks(identity.remarks);
+    transaction.Commit();
     return;
   }
   throw InputError(
@@ -249,12 +253,14 @@ namespace {
 
 // What makes a campaign, by key.
 std::map<std::string, std::string> CampaignRows(const CampaignIdentity& identity) {
-  return {{"format", kStoreFormat},
-          {"version", std::to_string(kStoreVersion)},
-          {"definition", identity.definition},
-          {"seed", std::to_string(identity.seed)},
-          {"policies", identity.policies},
-          {"algorithm", std::to_string(identity.algorithm)}};
+  std::map<std::string, std::string> rows = {{"format", kStoreFormat},
+                                             {"version", std::to_string(kStoreVersion)},
+                                             {"definition", identity.definition},
+                                             {"seed", std::to_string(identity.seed)},
+                                             {"policies", identity.policies},
+                                             {"algorithm", std::to_string(identity.algorithm)}};
+  if (!identity.remarks.empty()) rows["remarks"] = identity.remarks;
+  return rows;
 }
 
 std::string CampaignSeal(const std::map<std::string, std::string>& rows) {
@@ -293,7 +299,16 @@ void Store::WriteIdentity(const CampaignIdentity& identity) {
   std::map<std::string, std::string> rows = CampaignRows(identity);
   rows["seal"] = CampaignSeal(rows);
   for (const auto& [key, value] : rows)
-    Statement(db_.get(), "INSERT INTO campaign (key, value) VALUES (?, ?)").Bind(key).Bind(value).Step();
+    Statement(db_.get(), "INSERT OR REPLACE INTO campaign (key, value) VALUES (?, ?)")
+        .Bind(key)
+        .Bind(value)
+        .Step();
+}
+
+// In the place of those before.
+void Store::TakeRemarks(const std::string& remarks) {
+  identity_.remarks = remarks;
+  WriteIdentity(identity_);
 }
 
 // Its version first: a store of another one has other rows.
@@ -318,7 +333,8 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
   return CampaignIdentity{
       values["definition"],
       NumberOf<std::uint64_t>(file, "seed", values["seed"], "an integer from 0 to 2^64 - 1"),
-      values["policies"], NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm")};
+      values["policies"], NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm"),
+      values["remarks"]};
 }
 
 // Pages that SQLite cannot reach any more hide rows without a word.

@@ -76,6 +76,28 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
+// visit(column, member), of a Finding or a const one, in the order of the table.
+template <class OfFinding, class Visit>
+void ForEachColumn(OfFinding& f, Visit visit) {
+  visit("signature", f.signature);
+  visit("kind", f.kind);
+  visit("unit", f.unit);
+  visit("idx", f.index);
+  visit("generator", f.generator);
+  visit("contacts", f.contacts);
+  visit("policy", f.policy);
+  visit("inexact_outcome", f.inexact_outcome);
+  visit("exact_outcome", f.exact_outcome);
+  visit("problem", f.problem);
+  visit("done", f.done);
+  visit("certificate", f.certificate);
+  visit("minimized", f.minimized);
+  visit("minimized_certificate", f.minimized_certificate);
+  visit("existence", f.existence);
+  visit("minimized_existence", f.minimized_existence);
+  visit("facts", f.facts);
+}
+
 // The units of a store: whole blocks, and single units of blocks that are not complete.
 class UnitSet {
  public:
@@ -93,10 +115,10 @@ class Store {
  public:
   static constexpr std::int64_t kUnitsPerBlock = 1024;
 
-  // Opens a store for a campaign, making it where no file is. A file that is none, a store of another campaign,
-  // and a row that is not as it was written, is an InputError that names the difference and the way out. Here
-  // and in all that changes a store: OutputError if the disk is full or the store cannot be written; nothing
-  // that was committed is lost then.
+  // Opens a store for a campaign, making it where no file is. Its remarks take the place of those of the store.
+  // A file that is none, a store of another campaign, and a row that is not as it was written, is an InputError
+  // that names the difference and the way out. Here and in all that changes a store: OutputError if the disk is
+  // full or the store cannot be written; nothing that was committed is lost then.
   Store(const std::filesystem::path& file, const CampaignIdentity& identity);
   // Opens an existing store to read, while others write or not, in a folder that can be written or not. The
   // same errors.
@@ -137,7 +159,8 @@ class Store {
 
   // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless
   // as the same block; a block in both with different content is an InternalError that names it.
-  // The work of two copies is that of the longer one, with the builds and machines of both.
+  // The work of two copies is that of the longer one, with the builds and machines of both; remarks are taken
+  // where there are none.
   void MergeFrom(const Store& other);
   // Takes in what is sound of a store that need not be, and what fits to what is here. Returns a line for
   // everything that is left out. InputError if not even its campaign can be read, or is another one.
@@ -156,6 +179,7 @@ class Store {
   static Store OpenUnchecked(const std::filesystem::path& file);
   void CreateTables();
   void WriteIdentity(const CampaignIdentity& identity);
+  void TakeRemarks(const std::string& remarks);
   std::optional<CampaignIdentity> ReadIdentity() const;
   void RequireSound() const;
   void InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record);

@@ -21,6 +21,7 @@ void Store::MergeFrom(const Store& other) {
     throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
   }
   Transaction transaction(db_.get());
+  if (identity_.remarks.empty() && !other.identity_.remarks.empty()) TakeRemarks(other.identity_.remarks);
   for (const StoreTable& table : StoreTables()) {
     Statement rows(other.db_.get(), SelectFrom(table.name, ""));
     while (rows.Step()) MergeRow(table.name, rows);
@@ -189,6 +190,7 @@ std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
   }
   std::vector<std::string> left_out;
   Transaction transaction(db_.get());
+  if (identity_.remarks.empty() && !other.identity_.remarks.empty()) TakeRemarks(other.identity_.remarks);
   for (const StoreTable& table : StoreTables()) SalvageTable(table, other, left_out);
   CloseBlocksOf(*this);  // the other may not be read to its end
   transaction.Commit();

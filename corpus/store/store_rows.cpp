@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <new>
+#include <type_traits>
 
 #include "corpus/json_text.h"
 #include "corpus/output_error.h"
@@ -75,15 +76,22 @@ std::string Statement::Text(int column) const {
 
 // ---- Tables and seals ------------------------------------------------------------------------
 
+namespace {
+
+std::vector<std::string_view> ColumnsOfFinding() {
+  std::vector<std::string_view> names;
+  const Finding any;
+  ForEachColumn(any, [&names](const char* name, const auto&) { names.emplace_back(name); });
+  return names;
+}
+
+}  // namespace
+
 const std::vector<StoreTable>& StoreTables() {
   static const std::vector<StoreTable> tables = {
       {"blocks", {"shards", "shard", "block", "record"}, 3},
       {"units", {"unit", "shards", "shard", "block", "record"}, 1},
-      {"findings",
-       {"signature", "kind", "unit", "idx", "generator", "contacts", "policy", "inexact_outcome",
-        "exact_outcome", "problem", "done", "certificate", "minimized", "minimized_certificate", "existence",
-        "minimized_existence", "facts"},
-       1},
+      {"findings", ColumnsOfFinding(), 1},
       {"elites", {"unit", "elites"}, 1},
       {"work", {"shards", "shard", "block", "unit", "builds", "time"}, 4}};
   return tables;
@@ -173,33 +181,33 @@ std::int64_t ReadUnit(const Statement& row, int column) {
   return row.Integer(column, 0, std::int64_t{1} << 62, "unit");
 }
 
+namespace {
+
+void ReadValue(const Statement& row, int column, std::string& text) { text = row.Text(column); }
+void ReadValue(const Statement& row, int column, std::int64_t& number) { number = row.Integer(column); }
+void ReadValue(const Statement& row, int column, bool& truth) { truth = row.Integer(column) != 0; }
+void ReadValue(const Statement& row, int column, int& contacts) {
+  contacts = static_cast<int>(row.Integer(column, 0, 1 << 20, "contacts"));
+}
+
+}  // namespace
+
 Finding ReadFinding(const Statement& row) {
   Finding finding;
-  finding.signature = row.Text(0);
-  finding.kind = row.Text(1);
-  finding.unit = row.Integer(2);
-  finding.index = row.Integer(3);
-  finding.generator = row.Text(4);
-  finding.contacts = static_cast<int>(row.Integer(5, 0, 1 << 20, "contacts"));
-  finding.policy = row.Text(6);
-  finding.inexact_outcome = row.Text(7);
-  finding.exact_outcome = row.Text(8);
-  finding.problem = row.Text(9);
-  finding.done = row.Integer(10) != 0;
-  finding.certificate = row.Text(11);
-  finding.minimized = row.Text(12);
-  finding.minimized_certificate = row.Text(13);
-  finding.existence = row.Text(14);
-  finding.minimized_existence = row.Text(15);
-  finding.facts = row.Text(16);
+  int column = 0;
+  ForEachColumn(finding, [&](const char*, auto& value) { ReadValue(row, column++, value); });
   return finding;
 }
 
-void WriteFinding(sqlite3* db, const Finding& f) {
-  PutRow(db, "findings",
-         {f.signature, f.kind, f.unit, f.index, f.generator, std::int64_t{f.contacts}, f.policy,
-          f.inexact_outcome, f.exact_outcome, f.problem, std::int64_t{f.done}, f.certificate, f.minimized,
-          f.minimized_certificate, f.existence, f.minimized_existence, f.facts});
+void WriteFinding(sqlite3* db, const Finding& finding) {
+  std::vector<StoreValue> values;
+  ForEachColumn(finding, [&values](const char*, const auto& value) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(value)>>)
+      values.emplace_back(std::int64_t{value});
+    else
+      values.emplace_back(value);
+  });
+  PutRow(db, "findings", values);
 }
 
 // ---- Work ------------------------------------------------------------------------------------

@@ -64,7 +64,7 @@ def _finding(row: Mapping[str, Any], seed: int) -> Finding:
     of = "minimized_" if minimized is not None else ""
     return Finding(
         row["signature"], row["kind"], row["count"], row["exact_outcome"], row["inexact_outcome"], row["generator"],
-        row["contacts"], row["policy"], seed, row["unit"], row["index"], row["finished"], problem, minimized,
+        row["contacts"], row["policy"], seed, row["unit"], row["idx"], bool(row["done"]), problem, minimized,
         _certificate(row[of + "certificate"]), _certificate(row[of + "existence"]),
         facts.get("found", {}).get("grid", {}), facts)
 

@@ -28,30 +28,6 @@ std::string PlainText(const Json& json, const char* separator = ", ") {
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-std::string CampaignLabel(const std::string& key) {
-  static const std::map<std::string, std::string> labels = {
-      {"contacts", "numbers of contacts"},
-      {"mu", "friction palette"},
-      {"unit_problems", "problems of a unit"},
-      {"audit_every", "audited: one problem in"},
-      {"complete_every", "given to complete driving, of the suspicions: one in"},
-      {"gravity_only", "bodies under gravity alone"},
-      {"lemke_every", "by Lemke’s method too, of the suspicions: one in"},
-      {"enumerate_every", "all modes tried, of exact runs of few contacts: one in"},
-      {"representatives_per_unit", "new representatives per unit, at most"},
-      {"max_drives", "budget, drives"},
-      {"max_pivots", "budget, pivots"},
-      {"max_bits", "budget, bits of a number"}};
-  const auto label = labels.find(key);
-  return label == labels.end() ? key : label->second;
-}
-
-// A text that is JSON by intention; as it is if it is not.
-Json Lenient(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
-  return json.is_discarded() ? Json(text) : json;
-}
-
 class Definitions {
  public:
   void Add(const std::string& term, const std::string& text) {
@@ -63,12 +39,13 @@ class Definitions {
   Html rows_;
 };
 
-void AddDefinition(Definitions& list, const std::string& definition) {
-  const Json json = Lenient(definition);
+void AddDefinition(Definitions& list, const ReportContent& content) {
+  const Json json = ToldDefinition(content.identity);
   if (!json.is_object()) return list.Add("definition", PlainText(json));
   for (const auto& [key, value] : json.items()) {
     if (key == "format" || key == "version") continue;
-    list.Add(CampaignLabel(key), PlainText(value));
+    const auto label = content.labels.find(key);
+    list.Add(label == content.labels.end() ? key : label->second, PlainText(value));
   }
 }
 
@@ -175,7 +152,7 @@ Json PageData(const ReportContent& content, const std::vector<Table>& figures) {
 }  // namespace
 
 std::string ReportContent::Objective() const {
-  const Json definition = Lenient(identity.definition);
+  const Json definition = JsonOrText(identity.definition);
   return definition.is_object() ? definition.value("objective", "") : "";
 }
 
@@ -199,8 +176,8 @@ Html AgainCommands(const ReportContent& content) {
 Html AgainSection(const ReportContent& content) {
   Definitions list;
   list.Add("seed", std::to_string(content.identity.seed));
-  AddDefinition(list, content.identity.definition);
-  list.Add("policies", PlainText(Lenient(content.identity.policies), "; "));
+  AddDefinition(list, content);
+  list.Add("policies", PlainText(JsonOrText(content.identity.policies), "; "));
   list.Add("version of the algorithm", std::to_string(content.identity.algorithm));
   for (const std::string& build : content.work.builds) list.Add("searched by", build);
   list.Add("problems", Grouped(AskedProblems(content)));

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct ReportContent {
   std::string Objective() const;
 
   CampaignIdentity identity;
+  std::map<std::string, std::string> labels;  // of fields of a campaign, where they are not their names
   std::int64_t units = 0;
   std::int64_t blocks = 0;
   Record total;

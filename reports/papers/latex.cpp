@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "corpus/intervals.h"
+#include "corpus/json_text.h"
+#include "corpus/plain_text.h"
 #include "reports/tables/campaign_tables.h"
 
 namespace stiction {
@@ -146,6 +148,10 @@ std::string StepFigure(const std::vector<Group>& sizes) {
 }
 
 std::string Document(const CampaignIdentity& identity) {
+  std::string remarks;
+  const Json told = RemarksOf(identity);
+  for (const auto& [name, value] : told.items())
+    remarks += fmt::format("\\\\\n{}: {}\n", LatexText(name), LatexText(PlainValue(value)));
   return fmt::format(R"(% Written by stiction: pdflatex report.tex, twice.
 \documentclass[a4paper]{{article}}
 \usepackage[utf8]{{inputenc}}
@@ -160,7 +166,7 @@ std::string Document(const CampaignIdentity& identity) {
 \begin{{document}}
 \maketitle
 \noindent Seed {}, version {} of the algorithm.
-\input{{loops.tex}}
+{}\input{{loops.tex}}
 \input{{contacts.tex}}
 \input{{methods.tex}}
 \begin{{figure}}\centering\input{{figure-loops.tex}}
@@ -170,7 +176,7 @@ no mark.}}\end{{figure}}
 \caption{{Steps of a run of the published algorithm, by number of contacts.}}\end{{figure}}
 \end{{document}}
 )",
-                     identity.seed, identity.algorithm);
+                     identity.seed, identity.algorithm, remarks);
 }
 
 }  // namespace

@@ -60,15 +60,9 @@ Json Entry(const Discovery& discovery, const std::map<std::string, std::string>&
           {"certificates", certificates}};
 }
 
-// What is JSON by intention as JSON, otherwise as text.
-Json JsonOrText(const std::string& text) {
-  Json json = Json::parse(text, nullptr, false);
-  return json.is_discarded() ? Json(text) : json;
-}
-
 Json Campaign(const Store& store) {
   const CampaignIdentity& identity = store.identity();
-  return {{"definition", JsonOrText(identity.definition)},
+  return {{"definition", ToldDefinition(identity)},
           {"seed", identity.seed},
           {"policies", JsonOrText(identity.policies)},
           {"algorithm", identity.algorithm},

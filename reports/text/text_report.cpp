@@ -67,6 +67,14 @@ std::string HeadLine(const StoreTotals& t, const Store& store, const std::string
   return Paragraph(text, 0);
 }
 
+std::string RemarkLines(const CampaignIdentity& identity) {
+  std::string text;
+  const Json remarks = RemarksOf(identity);
+  for (const auto& [name, value] : remarks.items())
+    text += Paragraph(fmt::format("{}: {}", name, PlainValue(value)));
+  return text;
+}
+
 std::string GraveLines(const StoreTotals& t) {
   std::string text;
   for (const Finding& finding : t.grave)
@@ -298,7 +306,7 @@ std::string WithoutFlags(const std::string& build) {
 std::string SearchedText(const Store& store, const StoreTotals& t) {
   const CampaignIdentity& identity = store.identity();
   std::string text = "\n" + Heading("What was searched");
-  const Json definition = Json::parse(identity.definition, nullptr, false);
+  const Json definition = ToldDefinition(identity);
   if (definition.is_object()) {
     for (const auto& [key, value] : definition.items()) {
       if (key != "format" && key != "version") text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
@@ -321,8 +329,8 @@ std::string Findings(const StoreTotals& t) {
 
 std::string SummaryText(const Store& store, const std::string& file) {
   const StoreTotals t = TotalsOf(store);
-  return HeadLine(t, store, file) + GraveLines(t) + Findings(t) + FinishText(t, file) +
-         Paragraph(TimeText(t.work.time)) + SimplestText(t) +
+  return HeadLine(t, store, file) + GraveLines(t) + RemarkLines(store.identity()) + Findings(t) +
+         FinishText(t, file) + Paragraph(TimeText(t.work.time)) + SimplestText(t) +
          Paragraph(
              "More, as text, and all, as a page with files to replay and check; the same search again goes on:",
              0) +

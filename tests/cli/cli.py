@@ -70,7 +70,9 @@ def run(*arguments, cwd=None, timeout=120):
 
 def refused_by_schemas():
     """What is wrong with the answers of --json so far. Debian's Python has jsonschema, the one that runs this may not."""
-    done = subprocess.run(["/usr/bin/python3", ROOT / "cli/schemas/validate.py"], input=json.dumps(answers), text=True,
+    if not answers:
+        return ""
+    done = subprocess.run(["/usr/bin/python3", ROOT / "cli/validate.py", program], input=json.dumps(answers), text=True,
                           capture_output=True)
     return done.stderr if done.returncode else ""
 

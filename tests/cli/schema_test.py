@@ -9,11 +9,9 @@ import subprocess
 
 import cli
 
-SCHEMAS = "cli/schemas"
-
 
 def validated(answers):
-    done = subprocess.run(["/usr/bin/python3", cli.ROOT / SCHEMAS / "validate.py"], input=json.dumps(answers), text=True,
+    done = subprocess.run(["/usr/bin/python3", cli.ROOT / "cli/validate.py", cli.program], input=json.dumps(answers), text=True,
                           capture_output=True)
     return done.returncode, done.stderr
 
@@ -24,8 +22,12 @@ class Schemas(cli.TestCase):
         for verb in verbs:
             names = [name for row in verb["words"] for name in row["names"]]
             self.assertIn("--json", names, verb["verb"])
-        files = {file.name.split(".")[0] for file in (cli.ROOT / SCHEMAS).glob("*.schema.json")}
-        self.assertEqual(files, {verb["verb"] for verb in verbs} | {"shared"})
+        self.assertEqual(set(self.schemas()), {verb["verb"] for verb in verbs} | {"campaign"})
+
+    def schemas(self):
+        """By verb, as the program writes them."""
+        self.succeeds("manual", "--schemas", self.folder / "schemas")
+        return {file.name.split(".")[0]: json.loads(file.read_text()) for file in (self.folder / "schemas").glob("*.schema.json")}
 
     def answers(self):
         problem, scene = cli.ROOT / "corpus/two-contact-cycle.json", cli.ROOT / "corpus/scenes/two-towers.json"
@@ -70,10 +72,26 @@ class Schemas(cli.TestCase):
             self.assertRegex(says, "^solve: ")
         self.assertRegex(validated([["xyzzy", "{}"]])[1], "xyzzy: has no schema")
 
-    def test_schemas_refer_to_nothing_elsewhere(self):
-        for file in (cli.ROOT / SCHEMAS).glob("*.schema.json"):
-            for reference in re.findall(r'"\$ref": "([^"]*)"', file.read_text()):
-                self.assertRegex(reference, r"^(shared\.schema\.json)?#/\$defs/\w+$")
+    def test_names_of_tables_are_those_of_the_program(self):
+        shapes = self.schemas()["solve"]["$defs"]
+        methods = [row["name"] for row in self.succeeds("methods", "--json").json()]
+        self.assertEqual(shapes["method"]["enum"], methods)
+        self.assertEqual(shapes["answer"]["properties"]["why"],
+                         {"type": "string", "description": "why `auto` chose this method"})
+
+    def test_campaign_files_fit_theirs(self):
+        files = list((cli.ROOT / "search/campaigns").glob("*.json"))
+        self.assertGreater(len(files), 10)
+        self.assertEqual(validated([["campaign", file.read_text()] for file in files]), (0, ""))
+        for member in ('"audit_every": 0', '"audits": 1', '"generators": []', '"arithmetic": "float"'):
+            code, says = validated([["campaign", '{"format": "stiction-campaign", "version": 1, %s}' % member]])
+            self.assertEqual(code, 1, member)
+
+    def test_a_schema_stands_by_itself(self):
+        for verb, schema in self.schemas().items():
+            self.assertEqual(schema["title"], "stiction-campaign" if verb == "campaign" else f"stiction {verb} --json")
+            for reference in re.findall(r'"\$ref": "([^"]*)"', json.dumps(schema)):
+                self.assertIn(reference.removeprefix("#/$defs/"), schema["$defs"], verb)
 
 
 if __name__ == "__main__":

@@ -477,6 +477,29 @@ TEST_CASE("merge: stores of different campaigns are refused") {
   CHECK_THROWS_WITH(merge(), Contains("seed 8, not 7"));
 }
 
+TEST_CASE("store: remarks make no other campaign; a search's last ones stay, and of a merge the first") {
+  const Scratch scratch;
+  const auto remarks_in = [&scratch](const char* name) {
+    return Store::OpenToRead(scratch / name).identity().remarks;
+  };
+  CampaignIdentity told = Identity();
+  for (const char* remarks : {R"({"why":"one"})", "", R"({"why":"two"})", ""}) {
+    told.remarks = remarks;
+    CHECK(told == Identity());
+    const Store store(scratch / "told", told);
+  }
+  CHECK(remarks_in("told") == R"({"why":"two"})");
+  Merged(scratch, "plain", {scratch / "told"});
+  CHECK(remarks_in("plain") == R"({"why":"two"})");
+  told.remarks = R"({"why":"three"})";
+  { Store(scratch / "other", told).MergeFrom(Store::OpenToRead(scratch / "told")); }
+  CHECK(remarks_in("other") == R"({"why":"three"})");
+  { Store(scratch / "saved", Identity()).Salvage(scratch / "other"); }
+  CHECK(remarks_in("saved") == R"({"why":"three"})");
+  const Store untold(scratch / "untold", Identity());
+  CHECK(remarks_in("untold").empty());
+}
+
 TEST_CASE("merge: the smaller representative stays, and of two copies the finished one") {
   const Scratch scratch;
   const auto make = [&scratch](const std::string& name, std::int64_t unit, const Finding& finding) {

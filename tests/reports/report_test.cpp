@@ -25,6 +25,7 @@
 #include "reports/html/template.h"
 #include "reports/page/figures.h"
 #include "reports/page/page.h"
+#include "reports/papers/package.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/finding_picture.h"
 #include "reports/tables/discovery.h"
@@ -852,6 +853,29 @@ TEST_CASE("report: whatever stands in a store is shown as text") {
     CHECK(FindingRow(out, "cycle-2c-" + evil).at("policy") == evil);
     CHECK(Contents(out / "findings").size() == (done ? 5 : 2));
   }
+}
+
+TEST_CASE("report: remarks of a campaign are told as text, in every medium") {
+  const Scratch scratch;
+  CampaignIdentity identity = kIdentity;
+  identity.remarks = Json{{"why", "<b>50 % & more"}}.dump();
+  Store store(scratch / "s", identity);
+  store.AddUnit({}, 0, SampleRecord(), {});
+  WriteReport(store, scratch / "out", Occupied::kRefused,
+              {.latex = true, .labels = {{"why", "reason"}, {"mu", "palette"}}});
+  const std::string page = ReadText(scratch / "out/index.html");
+  RequireWellFormed(page);
+  CHECK(Has(page, "<dt>reason</dt><dd>&lt;b&gt;50 % &amp; more</dd>"));
+  CHECK(Has(page, "<dt>palette</dt><dd>1/2, 5</dd>"));
+  CHECK(Has(page, "<dt>unit_problems</dt><dd>10,000</dd>"));
+  CHECK(Json::parse(ReadText(scratch / "out/campaign.json"))["why"] == "<b>50 % & more");
+  CHECK(Has(ReadText(scratch / "out/latex/report.tex"), "why: \\textless{}b\\textgreater{}50 \\% \\& more\n"));
+  CHECK(Has(TextReport(store, "s", [](std::string_view) { return std::string_view("case"); }),
+            "\n  why: <b>50 % & more\n"));
+  CHECK(Has(SummaryText(store, "s"), "\n  why: <b>50 % & more\n"));
+  WritePackage(store, scratch / "package", {});
+  CHECK(Json::parse(ReadText(scratch / "package/manifest.json"))["campaign"]["definition"]["why"] ==
+        "<b>50 % & more");
 }
 
 TEST_CASE("report: a policy in a command is a single shell word") {

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds answers of --json against the schemas beside this file.
+"""Holds answers of --json against the schemas of the program that gave them.
 
-  stiction solve FILE --json | cli/schemas/validate.py solve
-  cli/schemas/validate.py             [[VERB, TEXT], ...] on standard input, as the tests have it
+  stiction solve FILE --json | cli/validate.py stiction solve
+  cli/validate.py stiction            [[VERB, TEXT], ...] on standard input, as the tests have it
 
 Needs jsonschema (Debian: python3-jsonschema). Exit 1, and what is wrong on standard error, if an answer does not fit.
 """
 import json
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 try:
@@ -16,29 +18,26 @@ try:
 except ImportError:
     sys.exit("expected jsonschema: apt-get install python3-jsonschema")
 
-HERE = Path(__file__).resolve().parent
-
-
 def refuse(place, found):
     raise ValueError(f"{place}: found {found}")
 
 
-def validators():
-    """By verb. References are to files beside this one."""
+def validators(program):
+    """By verb."""
     read = {}
-    for file in HERE.glob("*.schema.json"):
-        schema = json.loads(file.read_text())
-        jsonschema.Draft202012Validator.check_schema(schema)
-        resolver = jsonschema.RefResolver(file.as_uri(), schema)
-        read[file.name.split(".")[0]] = jsonschema.Draft202012Validator(schema, resolver=resolver)
-    del read["shared"]
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "manual", "--schemas", folder], check=True)
+        for file in Path(folder).glob("*.schema.json"):
+            schema = json.loads(file.read_text())
+            jsonschema.Draft202012Validator.check_schema(schema)
+            read[file.name.split(".")[0]] = jsonschema.Draft202012Validator(schema)
     return read
 
 
 def main():
     text = sys.stdin.read()
-    answers = [[sys.argv[1], text]] if len(sys.argv) > 1 else json.loads(text)
-    read, wrong = validators(), []
+    answers = [[sys.argv[2], text]] if len(sys.argv) > 2 else json.loads(text)
+    read, wrong = validators(sys.argv[1]), []
     for verb, answer in answers:
         if verb not in read:
             wrong.append(f"{verb}: has no schema")
