@@ -46,6 +46,7 @@ struct Campaign {
   std::string objective;
   std::string optimizer = "evolution";
   std::vector<Candidate> parents;  // that an optimizer starts from, besides random ones
+  std::string note;                // why it is run, for people
 
   Campaign();
   bool operator==(const Campaign&) const = default;
@@ -81,6 +82,8 @@ inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
     {"objective", &kObjectiveForm},
     {"optimizer", &kOptimizerForm},
     {"parents", &kParentsForm},
+    {"note", &Campaign::note, "note", "one line that says why this is searched",
+     "Told by status and reports; the same search with another note is the same", FieldUse::kRemark},
 });
 
 Campaign ReadCampaign(const std::filesystem::path& file);

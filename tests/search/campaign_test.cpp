@@ -213,6 +213,28 @@ TEST_CASE("campaign: the identity is the same however the file is written, and d
   CHECK(identity(R"("policies": ["ties=contacts"])").definition == identity("").definition);
 }
 
+TEST_CASE("campaign: a note is told, comes back from the store, and makes no other campaign") {
+  const Campaign campaign = Read(With(R"("note": "near mu = 1, \u00e0 la Baraff <1994>")"));
+  CHECK(campaign.note == "near mu = 1, \u00e0 la Baraff <1994>");
+  const CampaignIdentity identity = IdentityOf(campaign);
+  CHECK(identity == IdentityOf(Campaign{}));
+  CHECK(identity.definition == IdentityOf(Campaign{}).definition);
+  CHECK(IdentityOf(Campaign{}).remarks.empty());
+  CHECK(CampaignOf(identity, "store") == campaign);
+  CHECK(Read(ToJson(campaign).dump()) == campaign);
+  CHECK(RemarksOf(identity) == Json{{"note", campaign.note}});
+  CHECK(ToldDefinition(identity)["note"] == campaign.note);
+  for (const std::string& wrong : std::vector<std::string>{R"("note": 3)", R"("note": "two\nlines")",
+                                                           R"("note": ")" + std::string(201, 'x') + '"'}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_WITH(Read(With(wrong)),
+                      Contains("note: found") && Contains("expected one line of text of at most 200 bytes"));
+  }
+  CampaignIdentity changed = identity;
+  changed.remarks = R"({"seed": 3})";
+  CHECK_THROWS_WITH(CampaignOf(changed, "a.store"), Contains("a.store: remarks: seed: found an unknown key"));
+}
+
 TEST_CASE("campaign: a store from before lots for complete driving goes on as it began") {
   CampaignIdentity identity = IdentityOf(Campaign{});
   CHECK(CampaignOf(identity, "store").complete_every == 100);
