@@ -6,8 +6,8 @@
 
 Lines are those of files, blank ones and comments among them. Types are what stands behind struct, class, enum
 and union.
-The product is what a user runs: tests, and the peers that bench measures, are not in it. A recipe of CONTRIBUTING.md has
-a commit that follows it, with `Recipe: NAME` in its message. Where something cannot be known, as in a clone without
+The product is what a user runs: tests, and the peers that bench measures, are not in it. A recipe of CONTRIBUTING.md
+names a commit that follows it. Where something cannot be known, as in a clone without
 history or a build that noted nothing, it is "unknown". Exit 1 if a bar is passed."""
 
 import csv
@@ -88,11 +88,11 @@ def build_seconds(build, *targets):
 
 
 def recipe_files(recipe):
-    """How many files the last commit of the recipe touches; None where Git has none."""
-    commit = ["git", "log", "-1", "--format=%H", f"--grep=^Recipe: {recipe}$"]
-    found = subprocess.run(commit, cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    listed = ["git", "show", "--format=", "--name-only", "--no-renames", found]
-    return len(subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()) if found else None
+    """How many files the commit of the recipe touches that CONTRIBUTING.md names; None where Git does not have it."""
+    commit = re.search(rf"^\*\*A {recipe}\b[^*]*\*\* \(([0-9a-f]+)\)", text("CONTRIBUTING.md"), re.M)[1]
+    show = ["git", "show", "--format=", "--name-only", "--no-renames", commit, "--"]
+    listed = subprocess.run(show, cwd=ROOT, capture_output=True, text=True)
+    return None if listed.returncode else len(listed.stdout.split())
 
 
 def survivors():
