@@ -118,7 +118,7 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
   return error.what();
 }
 
-FrontierRecord ParseRecord(std::string_view json_text, const std::string& source) {
+FrontierRecord ParseFrontierRecord(std::string_view json_text, const std::string& source) {
   const Json json = ParseJson(json_text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
@@ -162,7 +162,7 @@ FrontierRecord ParseRecord(std::string_view json_text, const std::string& source
 }
 
 FrontierRecord ReadRecord(const std::filesystem::path& file) {
-  return ParseRecord(ReadText(file), file.string());
+  return ParseFrontierRecord(ReadText(file), file.string());
 }
 
 std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder) {

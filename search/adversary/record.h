@@ -45,8 +45,8 @@ struct FrontierRecord {
   Json certificate;
 };
 
-FrontierRecord ParseRecord(std::string_view text, const std::string& source);  // InputError
-FrontierRecord ReadRecord(const std::filesystem::path& file);                  // InputError
+FrontierRecord ParseFrontierRecord(std::string_view text, const std::string& source);  // InputError
+FrontierRecord ReadRecord(const std::filesystem::path& file);                          // InputError
 // Of a folder, in the order of their names. InputError if there is none.
 std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder);
 std::string Print(const FrontierRecord& record);
