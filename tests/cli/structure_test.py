@@ -33,7 +33,7 @@ ROOMS = {
                "adversary": ["generators", "units"]},
 }
 MOST_LEVELS = 10
-UNITED = ("bench", "certify", "cli", "corpus", "reports", "scene", "search")  # several sources to a unit
+UNITED = ("certify", "cli", "corpus", "reports", "scene", "search")  # several sources to a unit
 CONSTANT = re.compile(r"^(?:static |inline )?constexpr [^=;(]*?\b(k\w+)\s*(?:\[[^\]]*\])*\s*[={]", re.M)
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)\b(?! ?[;<])", re.M)
 FUNCTION = re.compile(r"^(?! |return|using|namespace|template)[\w:<>,&*\[\] ]*?[\w>&*] (\w+)\([^{};]*?\)(?: const)? \{", re.M)
