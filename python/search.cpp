@@ -9,6 +9,7 @@
 #include "cli/version.h"
 #include "corpus/json.h"
 #include "corpus/machine.h"
+#include "corpus/record/problem_file.h"
 #include "python/signals.h"
 #include "reports/tables/campaign_tables.h"
 #include "search/adversary/optimized_unit.h"
