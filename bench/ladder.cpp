@@ -32,6 +32,7 @@
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/stopwatch.h"
+#include "solver/linear/direction.h"
 #include "solver/problem/gate.h"
 
 namespace stiction {

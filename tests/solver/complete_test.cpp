@@ -656,7 +656,7 @@ TEST_CASE("complete: where no sign stands out of the tolerance no stage is enter
 
 // The problem that a Scalar sees, exactly.
 template <class Scalar>
-ExactProblem Rounded(ExactProblem problem) {
+ExactProblem RoundedTo(ExactProblem problem) {
   const auto round = [](Rational& x) { x = Rational(static_cast<double>(To<Scalar>(x))); };
   for (auto& contact : problem.contacts) round(contact.mu);
   for (Rational& x : problem.b) round(x);
@@ -672,7 +672,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
     for (int index = 0; index < 300; ++index) {
       CAPTURE(g, index);
       const ExactProblem exact =
-          Rounded<TestType>(Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index));
+          RoundedTo<TestType>(Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index));
       const CompleteVerdict verdict = algorithm.Run(As<TestType>(exact));
       ++counts[verdict.outcome];
       CHECK((verdict.outcome == Outcome::kUndecided) == !verdict.reason.empty());
