@@ -271,8 +271,8 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
   Comparison comparison;
   comparison.differences = Differences(a.identity(), b.identity());
   std::map<TallyKey, Group> of_b;
-  for (Group& group : Groups(b.Total(), kByAll)) of_b.emplace(KeyOf(group), std::move(group));
-  for (const Group& group : Groups(a.Total(), kByAll)) {
+  for (Group& group : GroupsBy(b.Total(), kByAll)) of_b.emplace(KeyOf(group), std::move(group));
+  for (const Group& group : GroupsBy(a.Total(), kByAll)) {
     const TallyKey key = KeyOf(group);
     const auto found = of_b.find(key);
     if (found == of_b.end()) {

@@ -21,7 +21,7 @@ struct Asking {
   std::set<std::string> generators;
 
   explicit Asking(const Record& total) {
-    for (const Group& group : Groups(total, {"generator", "contacts"})) {
+    for (const Group& group : GroupsBy(total, {"generator", "contacts"})) {
       generators.insert(group.Text(0));
       contacts.insert(group.Number(1));
     }

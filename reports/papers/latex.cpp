@@ -57,7 +57,7 @@ using LoopCurves = std::map<std::string, std::map<int, Ratio>>;
 LoopCurves LoopCurvesOf(const Record& record) {
   LoopCurves curves;
   std::set<std::string> with_loops;
-  for (const Group& g : Groups(record, {"policy", "generator", "contacts"})) {
+  for (const Group& g : GroupsBy(record, {"policy", "generator", "contacts"})) {
     if (g.Text(0) != "paper") continue;
     curves[g.Text(1)][g.Number(2)] = RateOf(g.counts.Loops(), g.counts.runs);
     if (g.counts.Loops() > 0) with_loops.insert(g.Text(1));
@@ -184,7 +184,7 @@ no mark.}}\end{{figure}}
 std::map<std::string, std::string> LatexFiles(const Store& store) {
   const Record record = store.Total();
   const LoopCurves curves = LoopCurvesOf(record);
-  std::vector<Group> sizes = Groups(record, kBySize);
+  std::vector<Group> sizes = GroupsBy(record, kBySize);
   std::erase_if(sizes, [](const Group& size) { return size.Text(0) != "paper"; });
   return {{"latex/report.tex", Document(store.identity())},
           {"latex/loops.tex", ToLatex(PaperLoops(record))},

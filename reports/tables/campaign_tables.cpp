@@ -28,8 +28,8 @@ void AddAll(std::vector<TableCell>& cells, const Statistics& statistics) {
 
 // Groups, and at last that of all runs.
 std::vector<Group> GroupsAndAll(const Record& record, const By& by) {
-  std::vector<Group> groups = Groups(record, by);
-  groups.push_back(Groups(record, {}).front());
+  std::vector<Group> groups = GroupsBy(record, by);
+  groups.push_back(GroupsBy(record, {}).front());
   groups.back().key.assign(by.size(), "");
   groups.back().key.front() = "all";
   return groups;
@@ -60,7 +60,7 @@ TableCell Exception(std::int64_t count) { return {count, "", count == 0 ? "" : "
 Table StatisticsTable(const Record& record) {
   Table table = Keyed("statistics", "", kByAll,
                       Columns("problems @ audited misjudged wrong with_zero_steps with_give_ups sum_# max_#"));
-  for (const Group& g : Groups(record, kByAll)) {
+  for (const Group& g : GroupsBy(record, kByAll)) {
     const Tally& t = g.tally;
     std::vector<TableCell> cells = {t.problems};
     AddAll(cells, t.outcomes);
@@ -75,7 +75,7 @@ Table StatisticsTable(const Record& record) {
 Table StrataTable(const Record& record) {
   Table table = Keyed("strata", "", kByAll,
                       Columns("friction* rank problems steps zero_steps audited misjudged @ exact_@"));
-  for (const Group& g : Groups(record, kByAll)) {
+  for (const Group& g : GroupsBy(record, kByAll)) {
     for (const auto& [key, s] : g.tally.strata) {
       std::vector<TableCell> cells = {key.friction, key.rank,  s.problems, s.steps,
                                       s.zero_steps, s.audited, s.misjudged};
@@ -148,7 +148,7 @@ Table IpoptTable(const std::vector<Discovery>& discoveries) {
 
 Table VerdictsTable(const Record& record, const std::string& name, const By& by, const std::string& columns) {
   Table table = Keyed(name, "", by, Columns(columns));
-  for (const Group& g : Groups(record, by)) {
+  for (const Group& g : GroupsBy(record, by)) {
     for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
       for (int exact = 0; exact < kOutcomeCount; ++exact) {
         const std::int64_t runs = g.tally.verdicts[inexact][exact];
@@ -161,7 +161,7 @@ Table VerdictsTable(const Record& record, const std::string& name, const By& by,
 
 Table StepsTable(const Record& record, const std::string& name, const By& by, const std::string& runs) {
   Table table = Keyed(name, "", by, Columns("steps or_more* " + runs));
-  for (const Group& g : Groups(record, by)) {
+  for (const Group& g : GroupsBy(record, by)) {
     for (int steps = 0; steps < Tally::kBins; ++steps) {
       if (g.tally.steps[steps] == 0) continue;
       table.Add(Behind(g, {steps, steps == Tally::kBins - 1, g.tally.steps[steps]}));
@@ -182,7 +182,7 @@ Table RatesFigure(const Record& record) {
   Table table{"rates", "",
               Columns("by* generator* policy* contacts value* outcome* runs count,,rate,low,high")};
   for (const char* by : {"contacts", "friction", "rank"}) {
-    for (const Group& g : Groups(record, {"generator", "policy", "contacts", by})) {
+    for (const Group& g : GroupsBy(record, {"generator", "policy", "contacts", by})) {
       const Counts& c = g.counts;
       const std::string value = std::visit([](const auto& part) { return fmt::format("{}", part); }, g.key[3]);
       for (const auto& [outcome, count] : {std::pair("loop", c.Loops()),
@@ -198,7 +198,7 @@ Table RatesFigure(const Record& record) {
 
 Table TrustFigure(const Record& record) {
   Table table = Keyed("trust", "", {"generator"}, {{"audited runs, misjudged"}, {"runs with a wrong answer"}});
-  for (const Group& g : Groups(record, {"generator"})) {
+  for (const Group& g : GroupsBy(record, {"generator"})) {
     const Counts& c = g.counts;
     table.Add(Behind(g, {ShareOf(c.misjudged, c.audited), ShareOf(c.wrong, c.runs)}));
   }
@@ -309,7 +309,7 @@ Table MethodsTable(const Record& record, const std::vector<Discovery>& discoveri
       complete{"complete driving", "problems given to it"}, lemke{"Lemke’s method", "problems compared"},
       again{"published, exact", kFinished}, ipopt{"Ipopt", kFinished},
       certified{"certified to have a solution", kFinished};
-  for (const Group& g : Groups(record, {"contacts"})) {
+  for (const Group& g : GroupsBy(record, {"contacts"})) {
     doubles.Add(g.Number(0), g.tally.problems, g.tally.outcomes[kSolvedOutcome] - g.tally.wrong);
     exact.Add(g.Number(0), g.counts.suspicious, g.counts.Of(Outcome::kSolved));
   }
@@ -351,7 +351,7 @@ Table FailuresTable(const Record& record, const By& by) {
              {"ray", hint},
              {"audited", "run again exactly without a suspicion, as a sample"},
              {"misjudged", "audited with another exact outcome; below: their share, with the interval"}});
-  for (const Group& g : Groups(record, by)) {
+  for (const Group& g : GroupsBy(record, by)) {
     const Counts& c = g.counts;
     table.Add(Behind(g, {c.runs, RateOf(c.Loops(), c.runs), RateOf(c.Of(Outcome::kSingular), c.runs),
                          RateOf(c.Of(Outcome::kRay), c.runs), c.audited, ShareOf(c.misjudged, c.audited)}));
@@ -390,7 +390,7 @@ Table OutcomesTable(const Record& record) {
 Table UnsolvedTable(const Record& record) {
   Table table =
       Keyed("unsolved", "Runs not solved in doubles, per million", {"generator", "contacts"}, {{"unsolved"}});
-  for (const Group& g : Groups(record, {"generator", "contacts"})) {
+  for (const Group& g : GroupsBy(record, {"generator", "contacts"})) {
     const std::int64_t runs = g.tally.problems, count = runs - g.tally.outcomes[kSolvedOutcome];
     table.Add(Behind(g, {{RateText(count, runs), "", count == 0 ? "zero" : Heat(count, runs)}}));
   }
@@ -407,7 +407,7 @@ Table SuspicionsTable(const Record& record) {
                {"runs", "all of these are repeated exactly"}}};
   for (int i = 0; i < kOutcomeCount; ++i) table.columns.push_back({NameOf(i), "outcome of the exact run"});
   table.columns.push_back({"confirmed", "the exact run ended in the same outcome"});
-  const Tally all = Groups(record, {}).front().tally;
+  const Tally all = GroupsBy(record, {}).front().tally;
   for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
     const Outcomes& exact = all.verdicts[inexact];
     const std::int64_t runs = std::accumulate(exact.begin(), exact.end(), std::int64_t{0});
@@ -469,7 +469,7 @@ Table PivotsTable(const Record& record) {
 
 Table ContactsTable(const Record& record, const By& by) {
   Table table = Keyed("contacts", "", by, Columns("runs steps with_zero_steps with_give_ups loops"));
-  for (const Group& g : Groups(record, by)) {
+  for (const Group& g : GroupsBy(record, by)) {
     const Counts& c = g.counts;
     table.Add(Behind(g, {c.runs, MeanOf(g.tally.sums.steps, c.runs), ShareOf(c.with_zero_steps, c.runs),
                          ShareOf(c.with_give_ups, c.runs), RateOf(c.Loops(), c.runs)}));

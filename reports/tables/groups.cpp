@@ -32,7 +32,7 @@ struct InOrder {
 
 }  // namespace
 
-std::vector<Group> Groups(const Record& record, const By& by) {
+std::vector<Group> GroupsBy(const Record& record, const By& by) {
   std::map<std::vector<KeyPart>, Group, InOrder> groups;
   const auto group_of = [&](const TallyKey& key, const StratumKey& stratum) -> Group& {
     std::vector<KeyPart> parts;

@@ -32,7 +32,7 @@ inline const By kByAll = {"generator", "contacts", "policy", "method", "arithmet
 
 // In the order of the key: numbers by value, friction coefficients before `mixed`. By nothing: one group of
 // all.
-std::vector<Group> Groups(const Record& record, const By& by);
+std::vector<Group> GroupsBy(const Record& record, const By& by);
 
 // A table whose rows are named by such keys.
 Table Keyed(const std::string& name, const std::string& caption, const By& by,

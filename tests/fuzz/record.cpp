@@ -15,7 +15,7 @@ constexpr Limits kLimits = {50, 500, 4096};
 }  // namespace
 
 bool FuzzRecord(std::string_view bytes) {
-  const auto record = Unrefused([bytes] { return ParseRecord(bytes, "input"); });
+  const auto record = Unrefused([bytes] { return ParseFrontierRecord(bytes, "input"); });
   if (!record) return false;
   if (record->problem.problem.rows() > kMostRowsPrinted) return true;
   const Json json = Json::parse(bytes);
@@ -23,7 +23,7 @@ bool FuzzRecord(std::string_view bytes) {
                      json["command"] == record->command && json["random"]["command"] == record->random_command,
                  "a text that is not read");
   const std::string text = Print(*record);
-  const FrontierRecord again = ParseRecord(text, "what was written");
+  const FrontierRecord again = ParseFrontierRecord(text, "what was written");
   STICTION_CHECK(IsSame(again.problem.problem, record->problem.problem), "a record of another problem");
   STICTION_CHECK(again.value == record->value && again.bounds == record->bounds &&
                      again.random_value == record->random_value && again.certificate == record->certificate,
