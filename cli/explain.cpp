@@ -161,7 +161,7 @@ Json ClaimsOf(const ExactProblem& problem, const ExplainVerb& o, const std::stri
       claims.push_back(
           {{"claim", claim.name},
            {"meaning", claim.meaning},
-           {"certificate", certificate.is_null() ? Json() : certificate["claim"]},
+           {"certificate", certificate.is_object() ? certificate["claim"] : Json()},
            {"command", fmt::format("stiction certify {} --claim {}{} -o {}", ShellWord(o.file), claim.name,
                                    of_runs && policy != "paper" ? " --policy " + policy : "",
                                    ShellWord(fmt::format("{}-{}.json", stem, claim.name)))}});

@@ -11,9 +11,8 @@ function(compressed file)
                   COMMAND_ERROR_IS_FATAL ANY)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
 endfunction()
-set(manual_of_ipopt ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1)
-configure_file(cmake/debian/stiction-ipopt.1.in ${manual_of_ipopt} @ONLY)
-compressed(${manual_of_ipopt})
+configure_file(cmake/debian/stiction-ipopt.1.in ${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1 @ONLY)
+compressed(${PROJECT_BINARY_DIR}/packages/stiction-ipopt.1)
 compressed(${PROJECT_SOURCE_DIR}/cmake/debian/changelog)
 
 # The manuals, the completion and the schemas, written by the program itself.
