@@ -53,7 +53,7 @@ std::string Facts() {
 Json TableInJson() {
   Json json = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
-    Json row = {{"name", facts.name},    {"title", facts.title},   {"source", facts.source},
+    Json row = {{"name", facts.name},    {"title", facts.title},    {"source", facts.source},
                 {"ends", facts.ends},    {"path", facts.HasPath()}, {"plane", Json::array()},
                 {"space", Json::array()}};
     for (const Arithmetic arithmetic : kShown) {
