@@ -478,7 +478,7 @@ TEST_CASE("merge: stores of different campaigns are refused") {
   CHECK_THROWS_WITH(merge(), Contains("seed 8, not 7"));
 }
 
-TEST_CASE("store: remarks make no other campaign; a search's last ones stay, and of a merge the first") {
+TEST_CASE("store: remarks make no other campaign, a search's last ones stay, and of a merge the first") {
   const Scratch scratch;
   const auto remarks_in = [&scratch](const char* name) {
     return Store::OpenToRead(scratch / name).identity().remarks;
