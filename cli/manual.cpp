@@ -121,7 +121,7 @@ Json RowInJson(const OptionRow& row) {
   return json;
 }
 
-// "stiction 0.1.0" of "stiction 0.1.0 COMMIT, ..."
+// "stiction VERSION" of "stiction VERSION COMMIT, ..."
 std::string NameAndNumber(const std::string& version) {
   return version.substr(0, version.find(' ', version.find(' ') + 1));
 }

@@ -21,6 +21,9 @@ class Version(cli.TestCase):
             "the packages' changelog": found("cmake/debian/changelog", r"^stiction \(([\d.]+)-\d+\)"),
         }
         self.assertEqual(said, dict.fromkeys(said, version))
+        # A library of 0.x fits those that ask for the same minor version.
+        asked = found("tests/install/consumer/CMakeLists.txt", r"find_package\(stiction ([\d.]+) REQUIRED\)")
+        self.assertEqual(asked, version.rpartition(".")[0])
 
     def test_nothing_else_writes_it_down(self):
         for name, pattern in (("python/build_backend.py", r"^VERSION = (re\.search)"),
