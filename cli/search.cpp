@@ -511,7 +511,7 @@ void AddOption(Verb& verb, const FieldOf<Campaign>& field, Given& given) {
     if constexpr (std::is_same_v<Value, bool>) row = &verb.Flag(name, given.truth, field.help);
     if constexpr (std::is_same_v<Value, std::string>)
       row = &verb.Option(name, given.text, field.help).Check([](const std::string& text) {
-        return IsLine(text) ? "" : "expected " + kLineExpected;
+        return IsLine(text) ? "" : fmt::format("found {}, expected {}", Shown(Json(text)), kLineExpected);
       });
   });
   row->Details(std::string(field.details));

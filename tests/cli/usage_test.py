@@ -303,6 +303,11 @@ class Usage(cli.TestCase):
         self.assertNotIn("internal error", done.stderr)
         self.assertIn(done.stdout.split()[-1], ["1", "141"])  # all was written before, or SIGPIPE
 
+    def test_a_note_that_is_no_line_is_refused_with_what_was_found(self):
+        self.refuses("search", "--note", "two\nlines", "--store", self.folder / "a.store",
+                     says=["--note: found", "expected one line of text"])
+        self.assertFalse((self.folder / "a.store").exists())
+
 
 if __name__ == "__main__":
     cli.main()
