@@ -44,7 +44,7 @@
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/exact/judge.h"
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 #include "corpus/exit_code.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"

@@ -14,7 +14,7 @@
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/shared.h"
@@ -226,7 +226,7 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   const auto scene = ReadTouchingScene(o, file);
   Json rows = Json::array();
   bool all = true;
-  for (const Policy& policy : PoliciesNamed(o.policy)) {
+  for (const Policy& policy : ParsePolicies(o.policy)) {
     const PublishedOptions options = {policy, {}, o.limits};
     const std::string name = PolicyName(policy);
     const auto radius = RadiusOfLoop(file.problem, options);

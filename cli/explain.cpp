@@ -19,8 +19,8 @@
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
 #include "certify/exact/answer_json.h"
-#include "certify/exact/solve.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
+#include "certify/request/solve_in.h"
 #include "cli/command_line.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/over_intervals.h"
@@ -148,7 +148,7 @@ void AddMargins(const ExactProblem& problem, const ExplainVerb& o, Json& found) 
 Json ClaimsOf(const ExactProblem& problem, const ExplainVerb& o, const std::string& policy) {
   Json claims = Json::array();
   ClaimOptions options;
-  options.policies = PoliciesNamed(policy);
+  options.policies = ParsePolicies(policy);
   options.limits = o.limits;
   options.enumeration.programs = kPrograms;
   const std::string stem = std::filesystem::path(o.file).stem().string();

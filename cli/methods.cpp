@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 #include "cli/command_line.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"

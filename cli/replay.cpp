@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include "certify/exact/solve.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
+#include "certify/request/solve_in.h"
 #include "cli/command_line.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"

@@ -12,7 +12,7 @@
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/modes.h"
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 #include "corpus/json_text.h"
 #include "search/summary.h"
 #include "solver/problem/check.h"

@@ -14,7 +14,6 @@
 #include <set>
 #include <thread>
 
-#include "certify/request.h"
 #include "cli/command_line.h"
 #include "cli/night.h"
 #include "cli/shared.h"
@@ -123,7 +122,7 @@ Campaign CampaignOf(const SearchVerb& verb) {
   if (!o.policies.empty()) {
     campaign.policies.clear();
     for (const std::string& text : o.policies) {
-      for (const Policy& policy : PoliciesNamed(text)) {
+      for (const Policy& policy : ParsePolicies(text)) {
         const auto& all = campaign.policies;
         if (std::find(all.begin(), all.end(), policy) != all.end()) {
           throw InputError(

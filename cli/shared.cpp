@@ -13,7 +13,7 @@
 #include "certify/exact/bounds.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/properties.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
 #include "cli/help.h"
 #include "corpus/json.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // stiction solve: one problem, one method, one arithmetic, one answer.
 
-#include "certify/exact/solve.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +16,9 @@
 #include <vector>
 
 #include "certify/exact/answer_json.h"
-#include "certify/exact/solve_sparse.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
+#include "certify/request/solve_in.h"
+#include "certify/request/solve_sparse.h"
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"

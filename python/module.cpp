@@ -19,7 +19,7 @@
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/solve.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/over_intervals.h"

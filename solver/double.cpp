@@ -2,6 +2,7 @@
 // Every method over double. A unit for each scalar: what methods share of Eigen is compiled once for it.
 
 #include "solver/complete/complete.ipp"
+#include "solver/floating_methods.ipp"
 #include "solver/lemke/lemke.ipp"
 #include "solver/numeric/coulomb.ipp"
 #include "solver/numeric/fast.ipp"
@@ -21,5 +22,16 @@ template class FastSolver<double>;
 template class CoulombSolver<double>;
 template class CoulombSolver<double, SparseContactProblem<double>>;
 template class ProximalNewton<double>;
+
+template <>
+std::span<const Method<double>> Methods<double>() {
+  return FloatingMethods<double>();
+}
+template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
+                              Trace<double>*);
+template const Method<double>* FindMethod(std::string_view);
+template void JudgeAnswer(const ContactProblem<double>&, double, Answer<double>&);
+template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
+                                Trace<double>*);
 
 }  // namespace stiction

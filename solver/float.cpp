@@ -2,6 +2,7 @@
 // Every method over float. A unit for each scalar: what methods share of Eigen is compiled once for it.
 
 #include "solver/complete/complete.ipp"
+#include "solver/floating_methods.ipp"
 #include "solver/lemke/lemke.ipp"
 #include "solver/numeric/coulomb.ipp"
 #include "solver/numeric/fast.ipp"
@@ -20,5 +21,14 @@ template class LemkeAlgorithm<float>;
 template class FastSolver<float>;
 template class CoulombSolver<float>;
 template class ProximalNewton<float>;
+
+template <>
+std::span<const Method<float>> Methods<float>() {
+  return FloatingMethods<float>();
+}
+template Answer<float> Solve(const ContactProblem<float>&, std::string_view, const SolveOptions&,
+                             Trace<float>*);
+template const Method<float>* FindMethod(std::string_view);
+template void JudgeAnswer(const ContactProblem<float>&, double, Answer<float>&);
 
 }  // namespace stiction

@@ -57,16 +57,6 @@ InexactAnswer InDoubles(const Answer<Scalar>& answer, const ContactProblem<Scala
   return result;
 }
 
-// The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
-inline InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
-  Tolerances& t = request.options.tolerances;
-  for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
-  t.loop_grain = std::min(t.loop_grain, 1e-12);
-  request.trace = KeepTrace::kNo;
-  const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
-  return InDoubles(SolveWithPath(wide, request), wide, BoundOf<double>(request.options));
-}
-
 // InputError where the published algorithm in space has no such reading.
 inline void RequireReading(const ExactProblem& problem, const SolveRequest& request) {
   const bool concerned = problem.dimension == 3 && request.method == "baraff";
@@ -75,15 +65,6 @@ inline void RequireReading(const ExactProblem& problem, const SolveRequest& requ
       fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
                   "slip=polygon alone; no other reading of these is built",
                   PolicyName(request.options.policy)));
-}
-
-// The suspicion of a run of the published algorithm in space: the same problem, more finely.
-inline void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request,
-                            Solution& solution) {
-  InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
-  InexactAnswer again = RunFinely(ran, request);
-  again.pivots = std::move(first.pivots);
-  solution.suspected = std::exchange(first, std::move(again));
 }
 
 }  // namespace stiction

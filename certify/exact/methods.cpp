@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of methods over rationals, and all of it. A new exact method is a row here and its run.
+// The table of methods over rationals. A new exact method is a row here and its run.
 
 #include <algorithm>
 
@@ -7,11 +7,9 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/filtered.h"
-#include "certify/exact/interval.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/qp.h"
 #include "certify/exact/qp_ipopt.h"
-#include "certify/exact/quad.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "corpus/rounded.h"
@@ -227,83 +225,6 @@ template const ExactMethod* FindMethod(std::string_view);
 std::span<const Method<double>> MethodsByProcess() {
   static const std::array rows = {QpByIpoptRow()};
   return rows;
-}
-
-// ---- All arithmetics ---------------------------------------------------------------------------
-
-namespace {
-
-class FactsList {
- public:
-  template <class Scalar>
-  void Add(std::span<const Method<Scalar>> methods) {
-    for (const Method<Scalar>& method : methods) {
-      MethodFacts& facts = RowOf(method);
-      for (const int dimension : {2, 3})
-        Mark(facts, dimension, kArithmeticOf<Scalar>, method.IsBuilt(dimension));
-    }
-  }
-
-  // What is decided exactly can be told in floating-point numbers, too.
-  void AddToldExactly() {
-    for (MethodFacts& facts : rows_) {
-      for (const Arithmetic told :
-           {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble, Arithmetic::kQuad})
-        Mark(facts, 2, told, facts.IsBuilt(2, Arithmetic::kExact));
-    }
-  }
-
-  // What is run over balls is a rung of filtered runs, and the one of intervals.
-  void AddEnclosed(std::span<const Method<Ball<double>>> methods) {
-    for (const Method<Ball<double>>& method : methods) {
-      for (const Arithmetic told : {Arithmetic::kInterval, Arithmetic::kFiltered})
-        Mark(RowOf(method), 2, told, method.IsBuilt(2));
-    }
-  }
-
-  static void Mark(MethodFacts& facts, int dimension, Arithmetic arithmetic, bool built) {
-    facts.built[dimension - 2][static_cast<int>(arithmetic)] |= built;
-  }
-
-  std::vector<MethodFacts> Take() { return std::move(rows_); }
-
- private:
-  template <class Scalar>
-  MethodFacts& RowOf(const Method<Scalar>& method) {
-    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](auto& m) { return m.name == method.name; });
-    if (known != rows_.end()) return *known;
-    return rows_.emplace_back(
-        MethodFacts{method.name, method.title, method.source, method.ends, method.path, method.heading, {}});
-  }
-
-  std::vector<MethodFacts> rows_;
-};
-
-std::vector<MethodFacts> MakeFacts() {
-  FactsList list;
-  list.Add(Methods<Rational>());
-  list.AddToldExactly();
-  list.Add(Methods<float>());
-  list.Add(Methods<double>());
-  list.Add(Methods<long double>());
-  list.Add(Methods<Quad>());
-  list.Add(MethodsByProcess());
-  list.AddEnclosed(Methods<Ball<double>>());
-  list.Add(Methods<Interval>());
-  return list.Take();
-}
-
-}  // namespace
-
-const std::vector<MethodFacts>& AllMethods() {
-  static const std::vector<MethodFacts> facts = MakeFacts();
-  return facts;
-}
-
-const MethodFacts* FindMethodFacts(std::string_view name) {
-  const auto& all = AllMethods();
-  const auto row = std::find_if(all.begin(), all.end(), [name](auto& m) { return m.name == name; });
-  return row == all.end() ? nullptr : &*row;
 }
 
 }  // namespace stiction

@@ -5,7 +5,7 @@
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/exact.h"
-#include "certify/request.h"
+#include "certify/request/request.h"
 #include "corpus/json.h"
 #include "solver/published/published_space.h"
 

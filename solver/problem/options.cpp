@@ -203,6 +203,10 @@ const std::vector<Policy>& PlanarGrid() {
   return grid;
 }
 
+std::vector<Policy> ParsePolicies(std::string_view text) {
+  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
+}
+
 bool AgreeOn(SwitchMask mask, const Policy& left, const Policy& right) {
   for (const PolicySwitchRow& row : PolicySwitches()) {
     if ((mask & Bit(row.id)) != 0 && row.get(left) != row.get(right)) return false;

@@ -88,6 +88,9 @@ Policy ParsePolicy(std::string_view text);
 // The whole planar grid in table order, the last switch varying fastest: 1536 policies.
 const std::vector<Policy>& PlanarGrid();
 
+// A policy as ParsePolicy reads it, or "*": the planar grid.
+std::vector<Policy> ParsePolicies(std::string_view text);
+
 // A set of switches as bits.
 using SwitchMask = std::uint16_t;
 inline constexpr SwitchMask Bit(PolicySwitch s) { return static_cast<SwitchMask>(1u << static_cast<int>(s)); }

@@ -10,6 +10,7 @@
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/verify_solution.h"
+#include "certify/request/solve_in.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 

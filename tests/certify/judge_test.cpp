@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/dials.h"
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 #include "corpus/rounded.h"
 #include "tests/judge.h"
 #include "tests/support.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rest: where accelerations are not unique, the solution that has none.
 
-#include "certify/exact/rest.h"
+#include "certify/request/rest.h"
 
 #include <catch2/catch.hpp>
 
 #include "certify/exact/enumerate.h"
 #include "certify/exact/hypothesis.h"
-#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
+#include "certify/request/solve_in.h"
 #include "tests/support.h"
 
 namespace stiction {

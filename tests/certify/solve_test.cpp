@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every method in every arithmetic: what is called solved is a solution, whatever the scales of the problem.
 
-#include "certify/exact/solve.h"
-
 #include <catch2/catch.hpp>
 
+#include "certify/request/solve_in.h"
 #include "corpus/rounded.h"
 #include "search/generators/choices.h"
 #include "tests/judge.h"

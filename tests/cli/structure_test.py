@@ -27,7 +27,7 @@ ROOMS = {
         "lemke": ["complete", "published", "linear", "problem"],
         "numeric": ["complete", "lemke", "published", "linear", "problem"],
     },
-    "certify": {"exact": [], "claims": ["exact"]},
+    "certify": {"exact": [], "claims": ["exact"], "request": ["claims", "exact"]},
     "corpus": {"record": [], "store": ["record"], "formats": ["record", "store"]},
     "search": {"generators": ["lanes"], "lanes": ["generators"], "units": ["generators", "lanes"],
                "adversary": ["generators", "units"]},

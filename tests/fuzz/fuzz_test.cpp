@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "certify/claims/certificate.h"
+#include "certify/request/solve_in.h"
 #include "corpus/input_file.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every method in every arithmetic on problems at extremes.
 
-#include "certify/exact/solve.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/properties.h"
+#include "certify/request/solve_in.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/extreme.h"
 #include "tests/fuzz/targets.h"

@@ -43,10 +43,11 @@ from mutants import FOLDERS, HAND  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
 DRAWN_FROM = ("solver", "certify", "search", "corpus")
+NOT_DRAWN_FROM = "certify/ipopt/"  # a program that includes nothing of the others
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "certify", "search", "corpus")
-PROGRAMS = ("attacks_test", "certificate_test", "existence_test", "false_claims_test", "formats_test", "limits_test",
-            "outputs_test", "paths_test", "problem_test", "replay_test", "solve_test", "store_test")
+PROGRAMS = ("attacks_test", "certificate_test", "coulomb_exact_test", "existence_test", "false_claims_test", "formats_test",
+            "limits_test", "outputs_test", "paths_test", "problem_test", "replay_test", "solve_test", "store_test")
 TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 PYTHON = '''import os
@@ -127,7 +128,7 @@ def overlap(left, right):
 def drawn(count, seed, others):
     """The first `count` places of the seed that do not overlap, numbered behind the others."""
     texts, chosen = sources_in(DRAWN_FROM), list(others)
-    texts = {file: text for file, text in texts.items() if not file.endswith(".py")}
+    texts = {file: text for file, text in texts.items() if not file.endswith(".py") and not file.startswith(NOT_DRAWN_FROM)}
     for file, line, site in draw(texts, seed):
         shown = f"{' '.join(texts[file][site.begin:site.end].split())}  ->  {site.mutated}" if site.form != "early" \
             else f"{site.mutated} before  {texts[file][site.begin:].split(chr(10))[0]}"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "certify/exact/quad.h"
+#include "certify/request/quad.h"
 #include "corpus/rounded.h"
 #include "solver/solve.h"
 #include "tests/support.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/request/solve_in.h"
 #include "solver/problem/errors.h"
 #include "solver/published/published.h"
 #include "tests/support.h"

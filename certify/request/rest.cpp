@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/rest.h"
+#include "certify/request/rest.h"
 
 #include <algorithm>
 

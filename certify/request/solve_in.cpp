@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "certify/exact/escalate.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/inexact.h"
 #include "certify/exact/interval.h"
 #include "certify/exact/published_space.h"
-#include "certify/exact/quad.h"
-#include "certify/exact/rest.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
+#include "certify/request/escalate.h"
+#include "certify/request/quad.h"
+#include "certify/request/rest.h"
 #include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -97,6 +97,24 @@ void PreferRest(const ContactProblem<double>& rounded, const ExactProblem& probl
 }
 
 // ---- Floating point ------------------------------------------------------------------------------
+
+// The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
+InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
+  Tolerances& t = request.options.tolerances;
+  for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
+  t.loop_grain = std::min(t.loop_grain, 1e-12);
+  request.trace = KeepTrace::kNo;
+  const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
+  return InDoubles(SolveWithPath(wide, request), wide, BoundOf<double>(request.options));
+}
+
+// The suspicion of a run of the published algorithm in space: the same problem, more finely.
+void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
+  InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
+  InexactAnswer again = RunFinely(ran, request);
+  again.pivots = std::move(first.pivots);
+  solution.suspected = std::exchange(first, std::move(again));
+}
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
 void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {

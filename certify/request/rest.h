@@ -10,8 +10,8 @@
 // corners are added where the programs say; there none may be found though there are some. A group with a
 // sliding contact is left.
 
-#ifndef STICTION_CERTIFY_EXACT_REST_H_
-#define STICTION_CERTIFY_EXACT_REST_H_
+#ifndef STICTION_CERTIFY_REQUEST_REST_H_
+#define STICTION_CERTIFY_REQUEST_REST_H_
 
 #include <optional>
 #include <vector>
@@ -33,4 +33,4 @@ std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const Exa
 
 }  // namespace stiction
 
-#endif  // STICTION_CERTIFY_EXACT_REST_H_
+#endif  // STICTION_CERTIFY_REQUEST_REST_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/request.h"
+#include "certify/request/request.h"
 
 #include <fmt/format.h>
 
@@ -111,10 +111,6 @@ Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, co
 
 // ---- Certificates ----
 
-std::vector<Policy> PoliciesNamed(const std::string& text) {
-  return text == "*" ? PlanarGrid() : std::vector<Policy>{ParsePolicy(text)};
-}
-
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration) {
   const FrictionLaw law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
@@ -123,7 +119,7 @@ Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const
         fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
                     wanted.dashes, wanted.law, wanted.claim));
   return CertifyClaim(problem, source, wanted.claim,
-                      {PoliciesNamed(wanted.policy), wanted.limits, enumeration, law});
+                      {ParsePolicies(wanted.policy), wanted.limits, enumeration, law});
 }
 
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {

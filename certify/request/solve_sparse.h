@@ -5,8 +5,8 @@
 // (solver/numeric/coulomb.h), both by Coulomb's law. Errors are those of the returned doubles, evaluated over
 // rationals on the problem itself; `solved` means that they are at most `residual`, by default 1e-8.
 
-#ifndef STICTION_CERTIFY_EXACT_SOLVE_SPARSE_H_
-#define STICTION_CERTIFY_EXACT_SOLVE_SPARSE_H_
+#ifndef STICTION_CERTIFY_REQUEST_SOLVE_SPARSE_H_
+#define STICTION_CERTIFY_REQUEST_SOLVE_SPARSE_H_
 
 #include "certify/exact/solve.h"
 
@@ -19,4 +19,4 @@ InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& opti
 
 }  // namespace stiction
 
-#endif  // STICTION_CERTIFY_EXACT_SOLVE_SPARSE_H_
+#endif  // STICTION_CERTIFY_REQUEST_SOLVE_SPARSE_H_

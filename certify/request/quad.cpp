@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/quad.h"
+#include "certify/request/quad.h"
 
 #include "solver/complete/complete.ipp"
 #include "solver/floating_methods.ipp"

@@ -2,8 +2,8 @@
 // What is asked by names, by the program and from Python: of a solver, of a run that is followed, of a
 // certificate. Whatever the names do not fit is refused here, so that both refuse the same.
 
-#ifndef STICTION_CERTIFY_REQUEST_H_
-#define STICTION_CERTIFY_REQUEST_H_
+#ifndef STICTION_CERTIFY_REQUEST_REQUEST_H_
+#define STICTION_CERTIFY_REQUEST_REQUEST_H_
 
 #include <array>
 #include <string>
@@ -12,7 +12,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/enumerate.h"
-#include "certify/exact/solve.h"
+#include "certify/request/solve_in.h"
 
 namespace stiction {
 
@@ -54,9 +54,6 @@ struct WantedClaim {
   std::string_view dashes = "--";
 };
 
-// "paper" -> one policy, "*" -> the planar grid. std::invalid_argument for what is neither.
-std::vector<Policy> PoliciesNamed(const std::string& text);
-
 // CertifyClaim of what is asked for.
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration);
@@ -66,4 +63,4 @@ CheckReport CheckText(const std::string& text, const std::string& source, const 
 
 }  // namespace stiction
 
-#endif  // STICTION_CERTIFY_REQUEST_H_
+#endif  // STICTION_CERTIFY_REQUEST_REQUEST_H_

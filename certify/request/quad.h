@@ -2,8 +2,8 @@
 // Quad: Boost's binary floating point of 113 bits, IEEE's binary128, the same on every compiler; all methods
 // that floating-point scalars have run over it.
 
-#ifndef STICTION_CERTIFY_EXACT_QUAD_H_
-#define STICTION_CERTIFY_EXACT_QUAD_H_
+#ifndef STICTION_CERTIFY_REQUEST_QUAD_H_
+#define STICTION_CERTIFY_REQUEST_QUAD_H_
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
@@ -36,4 +36,4 @@ extern template void JudgeAnswer(const ContactProblem<Quad>&, double, Answer<Qua
 
 }  // namespace stiction
 
-#endif  // STICTION_CERTIFY_EXACT_QUAD_H_
+#endif  // STICTION_CERTIFY_REQUEST_QUAD_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/escalate.h"
+#include "certify/request/escalate.h"
 
 #include <algorithm>
 
 #include "certify/exact/inexact.h"
-#include "certify/exact/quad.h"
+#include "certify/request/quad.h"
 #include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/problem/row_scale.h"

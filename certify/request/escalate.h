@@ -7,8 +7,8 @@
 // A step over quad costs about rows^3 / 3 operations, and kQuadOperations are spent at most. Where nothing
 // solves, the forces of the smallest errors are told, undecided.
 
-#ifndef STICTION_CERTIFY_EXACT_ESCALATE_H_
-#define STICTION_CERTIFY_EXACT_ESCALATE_H_
+#ifndef STICTION_CERTIFY_REQUEST_ESCALATE_H_
+#define STICTION_CERTIFY_REQUEST_ESCALATE_H_
 
 #include "certify/exact/solve.h"
 
@@ -21,4 +21,4 @@ Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptio
 
 }  // namespace stiction
 
-#endif  // STICTION_CERTIFY_EXACT_ESCALATE_H_
+#endif  // STICTION_CERTIFY_REQUEST_ESCALATE_H_

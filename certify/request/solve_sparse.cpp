@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/solve_sparse.h"
+#include "certify/request/solve_sparse.h"
 
 #include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solving a problem file's problem by any method in any arithmetic, both chosen at run time. AllMethods() is
+// what programs show and choose from.
+//
+//   inexact   the problem is rounded, and it is the rounded problem that is solved. Where a path method does
+//             not solve it, that is a suspicion: the same rounded problem is run again, exactly, or in space,
+//             where the published algorithm takes roots, over long double with finer tolerances. The answer is
+//             then that of the second run, forces and all; `suspected` says what the first one said.
+//   exact     exact/solve.h.
+
+#ifndef STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
+#define STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/exact/solve.h"
+
+namespace stiction {
+
+// A row of the table over all arithmetics.
+struct MethodFacts {
+  std::string_view name, title, source, ends;
+  Path path = Path::kNone;
+  std::string_view heading = {};
+  // Whether it is built, by dimension (plane, space) and Arithmetic.
+  std::array<std::array<bool, kArithmeticCount>, 2> built = {};
+
+  bool HasPath() const { return path != Path::kNone; }
+  bool IsBuilt(int dimension, Arithmetic arithmetic) const {
+    return built[dimension - 2][static_cast<int>(arithmetic)];
+  }
+};
+const std::vector<MethodFacts>& AllMethods();
+// The row of that name; null if there is none.
+const MethodFacts* FindMethodFacts(std::string_view name);
+
+// The arithmetic of that name; empty if there is none.
+std::optional<Arithmetic> FindArithmetic(std::string_view name);
+
+// Why a method is not to be had so, and what is; empty if it is.
+std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic);
+
+// Where nobody asks for an arithmetic: exact, unless the method is not built so, or problem and method are of
+// the kind that doubles are for; then double or interval. And why, in words.
+struct ArithmeticChoice {
+  Arithmetic arithmetic = Arithmetic::kExact;
+  std::string why;
+};
+ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem);
+
+// Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
+// InputError where the published algorithm in space has no such reading.
+Solution SolveIn(const ExactProblem& problem, const SolveRequest& request);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
