@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "solver/problem/gate.h"
 #include "solver/problem/reduction.ipp"
@@ -140,12 +139,9 @@ bool SceneSolver::TryInTurn(const Step<Problem> (&steps)[Count], const Problem& 
 
 // ---- Methods ---------------------------------------------------------------------------------
 
-// Without complete driving: limits.pivots bounds it. (Without friction it would bound the active set as well.)
 bool SceneSolver::GuessCells(const Dense& problem, const std::vector<Cell>& guess) {
-  const Limits limits = std::exchange(fast_.options().limits, {.pivots = 0});
-  const bool solved = fast_.Run(problem, guess).outcome == Outcome::kSolved;
-  fast_.options().limits = limits;
-  return solved;
+  fast_.options().drives = false;
+  return fast_.Run(problem, guess).outcome == Outcome::kSolved;
 }
 
 bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
@@ -179,6 +175,7 @@ bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
+  fast_.options().drives = true;
   const FastVerdict verdict = fast_.Run(problem);
   Add(answer.counters, "fallbacks", verdict.statistics.fallbacks);
   answer.f = fast_.f();

@@ -3,13 +3,14 @@
 // its turn until one ends in a solution.
 //
 //   of A with all its entries, after reduction.h, in the plane with friction
-//     cells       FastSolver without complete driving
+//     cells       FastSolver's guesses alone
 //     near cells  the same at two or three proximal points, f -> the solution for (A + eps I, b - eps f), from
 //                 f = 0: two contacts of one face give A dependent rows of friction, so that a choice of cells
 //                 need not determine its forces; these it does determine, and their accelerations agree with
 //                 the problem's to rounding
 //     proximal    more proximal points, from large eps to small, with A sparse: counted
-//     complete    FastSolver with complete driving: counted
+//     complete    FastSolver, with the published algorithm and complete driving behind guesses: the latter
+//     counted
 //   in space with friction
 //     Coulomb     CoulombSolver: a few Gauss-Seidel sweeps from f = 0, then Newton's method, on the law and on
 //                 smoothed ones; complete driving on polygons behind it, counted

@@ -110,8 +110,8 @@ template <class Scalar>
 Method<Scalar> FastRow() {
   return {.name = "fast",
           .title =
-              "projected Gauss-Seidel, then block pivoting; in space semismooth Newton; complete driving "
-              "behind them",
+              "projected Gauss-Seidel, then block pivoting; in space semismooth Newton; the published "
+              "algorithm and complete driving behind them",
           .source = "solver/numeric/fast.h, solver/numeric/coulomb.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
           .automatic = true,

@@ -70,6 +70,14 @@ inline Cell PlanarCell(const LawCell& cell) {
   return cell.law == Law::kFree || cell.law == Law::kHold ? Cell::kFree : Cell::kNone;
 }
 
+// The planar cell of a contact whose normal and friction are in these sets.
+inline constexpr Cell CellOf(IndexSet normal, IndexSet friction) {
+  if (normal != IndexSet::kClamped) return Cell::kBreak;
+  if (friction == IndexSet::kSticking) return Cell::kStick;
+  if (friction == IndexSet::kAtUpper) return Cell::kUpper;
+  return friction == IndexSet::kAtLower ? Cell::kLower : Cell::kFree;
+}
+
 // The sets that a planar cell stands for: of the normal, and of its friction.
 inline std::array<IndexSet, 2> SetsOf(const LawCell& cell) {
   switch (cell.law) {

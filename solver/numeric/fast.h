@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fast method: guess the cells of all contacts, verify, and drive completely where guessing fails.
+// The fast method: guess the cells of all contacts, verify, and drive where guessing fails.
 //
 // For planar problems over floating-point scalars, with contacts of any kind. Cells are those of complete.h; a
 // bilateral contact and a closed sliding one are in the cell 0 (free), where a sliding contact has
@@ -14,13 +14,16 @@
 //             violation above the tolerance only, so that M stays regular where A is singular; M is updated,
 //             not factored.
 //   resweep   with friction, where exchanging has not ended: more sweeps, and again
-//   complete  complete driving, for the kinds that it is built for
+//   published the published algorithm, for the kinds that it is built for, within a budget of pivots
+//   complete  complete driving, for the same
 //
 // Whatever is found is called solved only if the errors of (f, A f + b), computed from f alone, are at most
 // `residual` (problem/errors.h); otherwise the outcome is `undecided`. How the cells were found is of no
-// account. Shapes      f, a: rows x 1. Units: f in N, a in m/s^2. Cost        a factorization of the free rows
-// per exchange; typically 1 to 5 of them. Source      exchange: J. J. Judice, F. M. Pires, Computers and
-// Operations Research 21, 1994, 587-596; active:
+// account.
+//
+// Shapes      f, a: rows x 1. Units: f in N, a in m/s^2.
+// Cost        a factorization of the free rows per exchange; typically 1 to 5 of them.
+// Source      exchange: J. J. Judice, F. M. Pires, Computers and Operations Research 21, 1994, 587-596; active:
 //             C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23.
 
 #ifndef STICTION_SOLVER_NUMERIC_FAST_H_
@@ -36,13 +39,15 @@
 #include "solver/complete/complete.h"
 #include "solver/linear/dense_factor.h"
 #include "solver/problem/units.h"
+#include "solver/published/published.h"
 
 namespace stiction {
 
 struct FastOptions {
   Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
-  Limits limits;           // of complete driving; limits.pivots bounds `active` too
+  Limits limits;           // of what is behind guesses; limits.pivots bounds `active` too
   double residual = 1e-8;  // largest error of an answer that is called solved
+  bool drives = true;      // whether the published algorithm and complete driving are behind guesses
   double noise = 0;        // accelerations up to it are rounding of b, and no error; m/s^2
 
   bool operator==(const FastOptions&) const = default;
@@ -54,6 +59,7 @@ struct FastStatistics {
   std::int64_t exchanges = 0;
   std::int64_t factorizations = 0;
   std::int64_t updates = 0;
+  std::int64_t published = 0;
   std::int64_t fallbacks = 0;
 
   bool operator==(const FastStatistics&) const = default;
@@ -67,6 +73,7 @@ void ForEachField(S& s, Visit visit) {
   visit("exchanges", "guesses of all cells", s.exchanges);
   visit("factorizations", "reduced matrices factored", s.factorizations);
   visit("updates", "contacts that entered or left a factored matrix", s.updates);
+  visit("published", "1 if the published algorithm was called", s.published);
   visit("fallbacks", "1 if complete driving was called", s.fallbacks);
 }
 
@@ -78,7 +85,7 @@ bool FastHandles(const Problem& problem) {
   return problem.dimension == 2;
 }
 
-// Reusable: a run of a problem no larger than one before allocates nothing, unless complete driving is called.
+// Reusable: a run of a problem no larger than one before allocates nothing, unless another method is called.
 template <class Scalar>
 class FastSolver {
  public:
@@ -96,7 +103,7 @@ class FastSolver {
   // Forces in which the last run ended, and a = A f + b.
   const Vector& f() const { return f_; }
   const Vector& a() const { return a_; }
-  // Cell of every contact; of use after a solved run.
+  // Cell of every contact; of use after a solved run. Those of the published algorithm may leave forces open.
   const std::vector<Cell>& cells() const { return cells_; }
   std::string Word() const;
 
@@ -105,6 +112,7 @@ class FastSolver {
   void Guess(std::span<const Cell> guess);
   bool Find();
   void FallBack();
+  bool SolveAsPublished();
   bool Verify();
   bool IsSymmetric(Scalar tolerance) const;
   bool Project();
@@ -159,6 +167,7 @@ class FastSolver {
   DenseFactor<Scalar> factor_;
   Units<Scalar> units_;
 
+  PublishedAlgorithm<Scalar> published_;
   CompleteDriving<Scalar> driving_;
 };
 

@@ -22,6 +22,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/linear/direction.h"
 #include "solver/published/step_size.h"
 
 namespace stiction {

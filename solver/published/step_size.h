@@ -23,11 +23,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/linear/direction.h"
 #include "solver/problem/enclosure.h"
 #include "solver/problem/solution.h"
+#include "solver/problem/state.h"
 
 namespace stiction {
+
+template <class Scalar, int Rows>
+class DirectionSystem;  // solver/linear/direction.h
 
 template <class Scalar>
 struct Step {

@@ -4,6 +4,7 @@
 #ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
 #define STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
 
+#include "solver/linear/direction.h"
 #include "solver/published/step_size.h"
 
 namespace stiction {

@@ -170,7 +170,7 @@ class Solve(cli.TestCase):
                     self.assertAlmostEqual(found, expected, 5)
                 self.assertLessEqual(result["residual"], 1e-6)
                 self.assertEqual(set(result["statistics"]),
-                                 {"sweeps", "exchanges", "factorizations", "updates", "fallbacks"})
+                                 {"sweeps", "exchanges", "factorizations", "updates", "published", "fallbacks"})
         exact = self.succeeds("solve", file, "--json", "--method", "fast", "--arithmetic", "exact").json()
         self.assertEqual(exact["f"], ["1", "-6/7", "25/14", "-25/14"])
         none = self.file("n.json", changed(cli.SOLVED, contacts=[{"kind": "static", "mu": "1"}],

@@ -153,15 +153,29 @@ ExactProblem CirclingProblem() {
   return MakeProblem({1, 1}, {{5, -4, -4, -6}, {-4, 7, 1, 6}, {-4, 1, 5, 5}, {-6, 6, 5, 10}}, {-1, -3, -2, 2});
 }
 
-TEST_CASE("fast: where guessing goes round in circles, complete driving finds the solution") {
+TEST_CASE("fast: where guessing goes round in circles, the published algorithm finds the solution") {
   FastSolver<double> solver;
   const FastVerdict verdict = solver.Run(As<double>(CirclingProblem()));
   CHECK(verdict.outcome == Outcome::kSolved);
-  CHECK(verdict.statistics.fallbacks == 1);
+  CHECK(verdict.statistics.published == 1);
+  CHECK(verdict.statistics.fallbacks == 0);
   CHECK(verdict.statistics.exchanges > 0);
   CHECK(solver.Word() == "SS");
   CHECK(solver.f().isApprox(Eigen::Vector4d(27, 65.0 / 3, 88.0 / 3, -35.0 / 3)));
   CHECK_FALSE(FindViolation(CirclingProblem(), CompleteForces(CirclingProblem())));
+}
+
+TEST_CASE("fast: where the published algorithm loops, too, complete driving finds the solution") {
+  FastSolver<double> solver;
+  const ExactProblem both = Decoupled(CirclingProblem(), ReferenceProblem());
+  const FastVerdict verdict = solver.Run(As<double>(both));
+  CHECK(verdict.outcome == Outcome::kSolved);
+  CHECK(verdict.statistics.published == 1);
+  CHECK(verdict.statistics.fallbacks == 1);
+  solver.options().drives = false;
+  const FastVerdict guessed = solver.Run(As<double>(both));
+  CHECK(guessed.outcome == Outcome::kUndecided);
+  CHECK(guessed.statistics.published == 0);
 }
 
 TEST_CASE("fast: a budget of complete driving ends the run, and says which") {
@@ -178,7 +192,7 @@ TEST_CASE("fast: started in the cells of the solution it factors once, sweeps ne
   for (int index = 0; index < 200; ++index) {
     const auto problem = Random<double>(GeneratorId::kIntegers, 1 + index % 8, index);
     const FastVerdict cold = solver.Run(problem);
-    if (cold.outcome != Outcome::kSolved) continue;
+    if (cold.outcome != Outcome::kSolved || cold.statistics.published > 0) continue;
     exchanged += cold.statistics.exchanges > 0;
     const std::vector<Cell> cells = solver.cells();
     const Eigen::VectorXd f = solver.f();
