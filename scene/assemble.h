@@ -78,8 +78,8 @@ struct SceneModel {
   ContactProblem<Scalar> Problem(std::size_t island) const {
     return DenseProblemOf(bodies, constraints, islands[island]);
   }
-  SparseContactProblem<Scalar> SparseProblem(std::size_t island) const {
-    return SparseProblemOf(bodies, constraints, islands[island]);
+  FactoredProblem<Scalar> InFactors(std::size_t island) const {
+    return FactoredProblemOf(bodies, constraints, islands[island]);
   }
 };
 

@@ -16,6 +16,14 @@ namespace stiction {
 // ---- Bodies and rows -------------------------------------------------------------------------
 
 template <class Scalar>
+Scalar Inertia(const RigidBody<Scalar>& body) {
+  return body.inertia;
+}
+template <class Scalar>
+Matrix3<Scalar> Inertia(const BodyInSpace<Scalar>& body) {
+  return WorldInertia(body);
+}
+template <class Scalar>
 Scalar InverseInertia(const RigidBody<Scalar>& body) {
   return Scalar(1) / body.inertia;
 }
@@ -42,12 +50,16 @@ BodyDynamics<Scalar, Kind::kDof> DynamicsOf(const SceneIn<Kind, Scalar>& scene,
   constexpr int kSpins = Kind::kDof - Kind::kDimension;
   Dynamics d;
   d.fixed = body.fixed;
-  d.W = Zero<typename Dynamics::Matrix>();
+  d.M = d.W = Zero<typename Dynamics::Matrix>();
   d.force = Zero<typename Dynamics::Vector>();
   d.velocity << body.velocity, body.spin;
   d.imposed.template head<Kind::kDimension>() = body.acceleration;
   if (body.fixed) return d;
-  for (int i = 0; i < Kind::kDimension; ++i) d.W(i, i) = Scalar(1) / body.mass;
+  for (int i = 0; i < Kind::kDimension; ++i) {
+    d.M(i, i) = body.mass;
+    d.W(i, i) = Scalar(1) / body.mass;
+  }
+  d.M.template bottomRightCorner<kSpins, kSpins>() << Inertia(body);
   d.W.template bottomRightCorner<kSpins, kSpins>() << InverseInertia(body);
   d.force << body.mass * scene.gravity + body.force, MomentOn(body);
   return d;

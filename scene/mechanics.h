@@ -9,7 +9,7 @@
 //
 // An island is a set of bodies that constraints connect; fixed bodies connect nothing. Each island is a problem
 // of its own: the A of all is the block diagonal of theirs. An island keeps J; A is formed when a method asks
-// for it, as the method wants it, dense or sparse, and only from rows that share a body which can move.
+// for it, and only from rows that share a body which can move.
 
 #ifndef STICTION_SCENE_MECHANICS_H_
 #define STICTION_SCENE_MECHANICS_H_
@@ -17,7 +17,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/problem/problem.h"
+#include "solver/problem/factored.h"
 
 namespace stiction {
 
@@ -27,7 +27,7 @@ struct BodyDynamics {
   using Matrix = Eigen::Matrix<Scalar, Dof, Dof>;
 
   bool fixed = false;
-  Matrix W;         // inverse mass matrix, zero if fixed
+  Matrix M, W;      // mass matrix and its inverse, zero if fixed
   Vector velocity;  // and spin
   Vector force;     // gravity, applied and gyroscopic forces and moments; zero if fixed
   Vector imposed = Vector::Constant(Scalar(0));  // acceleration of a fixed body, whatever acts on it
@@ -76,16 +76,16 @@ template <class Scalar, int Dof>
 std::vector<Island> FindIslands(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
                                 const std::vector<Constraint<Scalar, Dof>>& constraints, bool together);
 
-// The island's problem from its constraints' laws, rows and b: with all of A, rows x rows, and with its nonzero
-// blocks only.
+// The island's problem from its constraints' laws, rows and b: with all of A, rows x rows, and in factors,
+// whose velocities are those of the island's bodies in their order.
 template <class Scalar, int Dof>
 ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
                                       const std::vector<Constraint<Scalar, Dof>>& constraints,
                                       const Island& island);
 template <class Scalar, int Dof>
-SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                             const std::vector<Constraint<Scalar, Dof>>& constraints,
-                                             const Island& island);
+FactoredProblem<Scalar> FactoredProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                          const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                          const Island& island);
 
 // W J' f of an island's forces, added to `change`, a vector per body.
 template <class Scalar, int Dof>

@@ -112,18 +112,58 @@ ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof
   return problem;
 }
 
+// The blocks of the island's bodies, which are matrix(body), as one sparse matrix.
+template <class Scalar, int Dof, class Block>
+Eigen::SparseMatrix<Scalar> BlockDiagonal(const Island& island, const Block& matrix) {
+  constexpr int kMoves = Dof == 3 ? 2 : 3;  // before the spins, with which they share no entry
+  const int size = Dof * static_cast<int>(island.bodies.size());
+  Eigen::SparseMatrix<Scalar> blocks(size, size);
+  blocks.reserve(size * kMoves);
+  for (int column = 0; column < size; ++column) {
+    const auto& block = matrix(island.bodies[column / Dof]);
+    const int k = column % Dof, begin = column - k;
+    blocks.startVec(column);
+    for (int i = k < kMoves ? k : kMoves; i < (k < kMoves ? k + 1 : Dof); ++i)
+      blocks.insertBack(begin + i, column) = block(i, k);
+  }
+  blocks.finalize();
+  return blocks;
+}
+
 template <class Scalar, int Dof>
-SparseContactProblem<Scalar> SparseProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
-                                             const std::vector<Constraint<Scalar, Dof>>& constraints,
-                                             const Island& island) {
-  auto problem = WithoutMatrix<SparseContactProblem<Scalar>>(constraints, island);
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  ForEachEntry(bodies, constraints, island, [&entries](int i, int j, const Scalar& value) {
-    entries.emplace_back(i, j, value);
-    if (j < i) entries.emplace_back(j, i, value);
-  });
-  problem.A.resize(island.rows, island.rows);
-  problem.A.setFromTriplets(entries.begin(), entries.end());
+FactoredProblem<Scalar> FactoredProblemOf(const std::vector<BodyDynamics<Scalar, Dof>>& bodies,
+                                          const std::vector<Constraint<Scalar, Dof>>& constraints,
+                                          const Island& island) {
+  auto problem = WithoutMatrix<FactoredProblem<Scalar>>(constraints, island);
+  const int velocities = Dof * static_cast<int>(island.bodies.size());
+  problem.w.resize(velocities);
+  std::vector<int> first(bodies.size(), -1);  // velocity of a body
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const int body = island.bodies[k];
+    first[body] = Dof * static_cast<int>(k);
+    problem.w.template segment<Dof>(first[body]) = bodies[body].FreeAcceleration();
+  }
+  typename FactoredMatrix<Scalar>::Rows J(island.rows, velocities);
+  J.reserve(2 * Dof * island.rows);
+  int at = 0;
+  for (const int i : island.constraints) {
+    const auto& ends = constraints[i].bodies;
+    const int lower = first[ends[1]] < first[ends[0]] ? 1 : 0;
+    for (const auto& row : constraints[i].rows) {
+      J.startVec(at);
+      for (const int side : {lower, 1 - lower}) {
+        if (first[ends[side]] < 0) continue;
+        for (int k = 0; k < Dof; ++k) J.insertBack(at, first[ends[side]] + k) = row.J[side][k];
+      }
+      ++at;
+    }
+  }
+  J.finalize();
+  problem.M = BlockDiagonal<Scalar, Dof>(
+      island, [&](int body) -> const auto& { return bodies[body].M; });
+  problem.A = {std::move(J), BlockDiagonal<Scalar, Dof>(
+                                 island, [&](int body) -> const auto& { return bodies[body].W; })};
+  problem.c = problem.b - problem.A.J() * problem.w;
   return problem;
 }
 

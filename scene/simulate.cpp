@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -15,8 +16,9 @@ namespace stiction {
 namespace {
 
 constexpr int kHoldRounds = 8;
-constexpr int kSparseRows = 400;   // from which on a sparse A costs less
-constexpr double kDeep = 1e-3;     // m; where the scene has no gap
+constexpr int kLargeRows = 400;                        // from which on no A costs less, whatever the start
+constexpr int kWarmRows = 100, kWarmRowsInSpace = 10;  // from which on a start is worth more than it costs
+constexpr double kDeep = 1e-3;                         // m; where the scene has no gap
 constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
 // The derivative of the gap: negative where the contact closes.
@@ -26,19 +28,42 @@ double ApproachOf(const SceneType& scene, const Touch& contact) {
   return contact.normal.dot(a.VelocityAt(contact.point) - b.VelocityAt(contact.point));
 }
 
+// The direction of a row's unit force on its first body.
+template <class Scalar, int Dof>
+auto WayOf(const ConstraintRow<Scalar, Dof>& row) {
+  constexpr int kDimension = Dof == 3 ? 2 : 3;
+  return Eigen::Matrix<Scalar, kDimension, 1>(row.J[0].template head<kDimension>());
+}
+
+// 1 where its first body is the lower, -1 where it is the higher.
+template <class Scalar, int Dof>
+int SideOf(const Constraint<Scalar, Dof>& constraint) {
+  return constraint.bodies[0] < constraint.bodies[1] ? 1 : -1;
+}
+
 template <class Body>
 auto MotionOf(const Body& body) {
   return std::tuple(body.position, body.rotation, body.velocity, body.spin);
 }
 
-// Of a large island A stays sparse, if that gives an answer.
+// From the start, if there is one; then, of a large island, without A; then with it. What has no answer, or a
+// loose one, is tried without A, too.
 template <class Model>
-SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island) {
-  if (model.islands[island].rows >= kSparseRows) {
-    SceneAnswer answer = solver.Solve(model.SparseProblem(island));
+SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island,
+                        const Eigen::VectorXd& start) {
+  const bool is_large = model.islands[island].rows >= kLargeRows;
+  if (start.size() > 0) {
+    SceneAnswer answer = solver.Solve(model.InFactors(island), &start);
     if (answer.Solved()) return answer;
   }
-  return solver.Solve(model.Problem(island));
+  if (is_large) {
+    SceneAnswer answer = solver.Solve(model.InFactors(island));
+    if (answer.Solved()) return answer;
+  }
+  SceneAnswer answer = solver.Solve(model.Problem(island));
+  if (is_large || (answer.Solved() && ValueOf(answer.counters, "loose") == 0)) return answer;
+  SceneAnswer other = solver.Solve(model.InFactors(island));
+  return other.Solved() ? other : answer;
 }
 
 }  // namespace
@@ -184,7 +209,9 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
 
   f.resize(count);
   std::vector<SceneAnswer> answers(count);
-  const auto solve = [&](std::size_t i) { answers[i] = SolveIsland(solvers_.local(), model, i); };
+  const auto solve = [&](std::size_t i) {
+    answers[i] = SolveIsland(solvers_.local(), model, i, StartOf(model, level, i));
+  };
   if (count > 1 && largest >= kParallelRows) {
     ForEachInParallel(count, solve);
   } else {
@@ -195,10 +222,65 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
     statistics_.fallbacks += ValueOf(answers[i].counters, "fallbacks");
     statistics_.loose += ValueOf(answers[i].counters, "loose");
     statistics_.sparse += ValueOf(answers[i].counters, "sparse");
+    statistics_.warm += ValueOf(answers[i].counters, "warm");
     if (!answers[i].Solved()) failed_ = i;
     f[i] = std::move(answers[i].f);
   }
   return failed_ == count;
+}
+
+// Forces of the step before, by row of the island; empty where no constraint of it was there. The force of a
+// contact goes to the nearest of those between the same pieces, as seen from the lower body: so none counts
+// twice.
+template <class Kind>
+Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std::size_t island) const {
+  const int least = Kind::kDimension == 2 ? kWarmRows : kWarmRowsInSpace;
+  if (!options_.warm || level != Level::kForces || model.islands[island].rows < least || remembered_.empty())
+    return {};
+  std::vector<Remembered> now;
+  int row = 0;
+  for (const int k : model.islands[island].constraints) {
+    now.push_back(Known(model.constraints[k], row));
+    row += static_cast<int>(model.constraints[k].rows.size());
+  }
+  std::stable_sort(now.begin(), now.end(), IsBefore);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(row);
+  bool found = false;
+  auto from = now.begin();
+  for (const Remembered& before : remembered_) {
+    while (from != now.end() && IsBefore(*from, before)) ++from;
+    auto nearest = from;
+    for (auto at = from; at != now.end() && at->key == before.key; ++at) {
+      if ((at->place - before.place).squaredNorm() < (nearest->place - before.place).squaredNorm())
+        nearest = at;
+    }
+    if (nearest == now.end() || nearest->key != before.key) continue;
+    found = true;
+    const auto& constraint = *nearest->constraint;
+    for (std::size_t k = 0; k < constraint.rows.size(); ++k)
+      start[nearest->row + static_cast<int>(k)] +=
+          constraint.from_joint ? before.along
+                                : SideOf(constraint) * before.force.dot(WayOf(constraint.rows[k]));
+  }
+  if (!found) start.resize(0);
+  return start;
+}
+
+template <class Kind>
+auto SimulationIn<Kind>::Known(const ConstraintIn<Kind, double>& constraint, int row) const -> Remembered {
+  Remembered known;
+  known.constraint = &constraint;
+  known.row = row;
+  if (constraint.from_joint) {
+    known.key = {-1, constraint.source, constraint.part, 0, 0};
+    return known;
+  }
+  const Touch& contact = contacts_[constraint.source];
+  const std::array<int, 2> a = {contact.a, contact.shape_a}, b = {contact.b, contact.shape_b};
+  const auto [lower, higher] = std::minmax(a, b);
+  known.key = {0, lower[0], lower[1], higher[0], higher[1]};
+  known.place = contact.point - scene_.bodies[lower[0]].position;
+  return known;
 }
 
 template <class Kind>
@@ -326,6 +408,7 @@ int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerat
 template <class Kind>
 void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
   forces_.clear();
+  remembered_.clear();
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     int at = 0;
     for (const int k : model.islands[i].constraints) {
@@ -336,7 +419,7 @@ void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
       force.force.setZero();
       force.law = constraint.law;
       for (const auto& row : constraint.rows) {
-        force.ways.push_back(row.J[0].template head<Kind::kDimension>());
+        force.ways.push_back(WayOf(row));
         force.rows.push_back(f[i][at++]);
         force.force += force.ways.back() * force.rows.back();
       }
@@ -346,9 +429,14 @@ void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
       } else {
         force.point = contacts_[constraint.source].point;
       }
+      Remembered& remembered = remembered_.emplace_back(Known(constraint, 0));
+      remembered.force = SideOf(constraint) * force.force;
+      remembered.along = force.rows[0];
+      remembered.constraint = nullptr;
       forces_.push_back(std::move(force));
     }
   }
+  std::stable_sort(remembered_.begin(), remembered_.end(), IsBefore);
   model_ = std::move(model);
 }
 

@@ -36,16 +36,17 @@
 // was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
 // were taken back too, and all counters but `frames` and `contacts` count them.
 //
-// Which solution. Forces and accelerations need not be unique. The answer is that of SceneSolver, started
-// afresh in each frame from f = 0. So it depends on the state alone, not on how the state was reached. In the
-// plane f = 0 is taken where it is a solution: no sweep leaves it, and no contact violates its cell. Nothing
-// else is promised: the answer need not be the solution nearest to f = 0.
+// Which solution. Forces and accelerations need not be unique. The forces of a step start from those of the
+// step before: each contact's goes to the nearest of the contacts between the same pieces, each joint's row
+// keeps its own. What is found is a solution near them; where none is, and in the first step, it is that of
+// SceneSolver from f = 0 (`warm`: false: in every step, and the answer depends on the state alone). f = 0 is
+// taken where it is a solution. Nothing else is promised.
 //
 // Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
 // or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
 // miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
-// the step, one of positions where there are joints, one of impulses in a collision. The A of an island of 400
-// rows and more stays sparse.
+// the step, one of positions where there are joints, one of impulses in a collision. With a start, and for an
+// island of 400 rows and more, no A is formed.
 
 #ifndef STICTION_SCENE_SIMULATE_H_
 #define STICTION_SCENE_SIMULATE_H_
@@ -69,6 +70,7 @@ struct SimulationOptions {
   // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
   double rest = 0;
   bool minimal = true;
+  bool warm = true;   // whether a step's forces start from those of the step before
   int halvings = 10;  // of a step, one within the other; 0: none
   SceneSolverOptions solver;
 };
@@ -85,7 +87,8 @@ struct SimulationStatistics {
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
-  std::int64_t sparse = 0;       // problems solved with a sparse A, large ones and hard ones
+  std::int64_t sparse = 0;       // problems solved in the space of bodies, without A
+  std::int64_t warm = 0;         // of these those solved from the forces of the step before
   std::int64_t halved = 0;       // steps, or parts of one, that were taken back and done in two halves
   std::int64_t deep = 0;         // frames that ran out of halvings
 
@@ -106,7 +109,8 @@ void ForEachField(S& s, Visit visit) {
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
-  visit("sparse", "problems solved with a sparse A, large ones and hard ones", s.sparse);
+  visit("sparse", "problems solved in the space of bodies, without A", s.sparse);
+  visit("warm", "of these those solved from the forces of the step before", s.warm);
   visit("halved", "steps that ended too deep and were done in two halves", s.halved);
   visit("deep", "frames that ran out of halvings", s.deep);
 }
@@ -177,6 +181,17 @@ class SimulationIn {
   using Model = ModelIn<Kind, double>;
   using Forces = std::vector<ContactProblem<double>::Vector>;
   using Changes = std::vector<Eigen::Matrix<double, Kind::kDof, 1>>;
+  using Vector = typename Kind::template Vector<double>;
+
+  // A constraint of this step, or of the last with its force. Contacts between two pieces have one key.
+  struct Remembered {
+    std::array<int, 5> key = {};
+    Vector place = Vector::Zero(), force = Vector::Zero();  // m; N, of a contact, on the lower of its bodies
+    double along = 0;                                       // N or N m, of a joint's row
+    const ConstraintIn<Kind, double>* constraint = nullptr;
+    int row = 0;
+  };
+  static bool IsBefore(const Remembered& one, const Remembered& other) { return one.key < other.key; }
 
   void StepBy(double h, int halvings);
   void TakeStep();
@@ -185,6 +200,8 @@ class SimulationIn {
   Model AssembleAt(Level level, const std::vector<bool>& held = {},
                    const std::vector<bool>& closing = {}) const;
   bool Solve(const Model& model, Level level, Forces& f);
+  Eigen::VectorXd StartOf(const Model& model, Level level, std::size_t island) const;
+  Remembered Known(const ConstraintIn<Kind, double>& constraint, int row) const;
   [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
   void FindNear();
   void FindStepContacts();
@@ -214,6 +231,7 @@ class SimulationIn {
   std::vector<Touch> contacts_;
   std::vector<Touch> beyond_;  // what else is so near that it might touch within the step
   std::vector<Applied> forces_;
+  std::vector<Remembered> remembered_;  // by key
   Model model_;
   std::size_t failed_ = 0;  // island
 };

@@ -18,6 +18,10 @@ constexpr int kProximalPoints = 3;
 // error: rows that nothing else acts on, as the second hinge of an axis has some, would be held to rounding.
 constexpr double kNoise = 1e-11;
 
+// From forces of the step before Newton's method may fail once for so many rows: of a small problem, whose
+// contacts have just changed, other methods cost less.
+constexpr int kRowsPerFailure = 40, kAnyFailures = 1000;
+
 template <class Problem>
 double NoiseOf(const Problem& problem) {
   return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
@@ -42,6 +46,18 @@ bool HasFriction(const Problem& problem) {
                      [](const auto& contact) { return contact.HasFrictionRows(); });
 }
 
+// Whether f = 0 is a solution.
+template <class Problem>
+bool IsAtRestWithoutForces(const Problem& problem) {
+  int row = 0;
+  for (const auto& contact : problem.contacts) {
+    const double normal = problem.b[row];
+    if (contact.kind == ContactKind::kBilateral ? normal != 0 : !(normal >= 0)) return false;
+    row += contact.HasFrictionRows() ? problem.dimension : 1;
+  }
+  return true;
+}
+
 // Joints that repeat each other, as two hinges of a door do, contradict each other by rounding, which may be
 // much beside a small drift; the residual of the whole problem has the last word.
 Tolerances ForReduction(Tolerances tolerances, int dimension) {
@@ -52,40 +68,31 @@ Tolerances ForReduction(Tolerances tolerances, int dimension) {
 }  // namespace
 
 // The order is that of the turns.
-const SceneSolver::Step<ContactProblem<double>> SceneSolver::kDenseSteps[] = {
+const SceneSolver::Turn SceneSolver::kTurns[] = {
     {2, true, &SceneSolver::Cells},     {2, true, &SceneSolver::NearCells}, {2, true, &SceneSolver::Proximal},
     {2, true, &SceneSolver::Complete},  {3, true, &SceneSolver::Coulomb},   {2, false, &SceneSolver::Complete},
     {2, false, &SceneSolver::Proximal},
-};
-const SceneSolver::Step<SparseContactProblem<double>> SceneSolver::kSparseSteps[] = {
-    {2, true, &SceneSolver::SparseProximal},
-    {3, true, &SceneSolver::SparseCoulomb},
-    {2, false, &SceneSolver::SparseProximal},
 };
 
 SceneSolver::SceneSolver(const SceneSolverOptions& options)
     : fast_(options.fast),
       proximal_({.residual = options.fast.residual, .aim = kProximalAim}),
       coulomb_(options.coulomb),
-      sparse_coulomb_(options.coulomb) {}
+      bodies_({.residual = options.fast.residual}) {}
 
-template <class Problem>
-SceneAnswer SceneSolver::SolveScaled(const Problem& problem) {
+SceneAnswer SceneSolver::Solve(const Dense& problem) {
   const RowScale scale = FindScale(problem);
-  SceneAnswer answer = SolveAsIs(Scaled(problem, scale));
+  SceneAnswer answer = SolveScaled(Scaled(problem, scale));
   ScaleBy(answer.f, scale.f);
   return answer;
 }
 
-SceneAnswer SceneSolver::Solve(const Dense& problem) { return SolveScaled(problem); }
-SceneAnswer SceneSolver::Solve(const Sparse& problem) { return SolveScaled(problem); }
-
-SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
+SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
   SceneAnswer answer;
   fast_.options().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
   if (!Reduction<double>::Concerns(problem)) {
     const auto of = [&](const Dense::Vector& f) { return ErrorOf(problem, f); };
-    if (TryInTurn(kDenseSteps, problem, answer, of)) answer.outcome = Outcome::kSolved;
+    if (TryInTurn(problem, answer, of)) answer.outcome = Outcome::kSolved;
     return answer;
   }
   const Reduction<double> reduction(problem, ForReduction(fast_.options().tolerances, problem.dimension));
@@ -93,8 +100,7 @@ SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
   answer.f.resize(0);
   // What remains may be held to the rounding of what was taken out; the whole is not.
   const auto of_whole = [&](const Dense::Vector& f) { return ErrorOf(problem, reduction.Forces(f)); };
-  if (reduction.problem().rows() > 0 && !TryInTurn(kDenseSteps, reduction.problem(), answer, of_whole))
-    return answer;
+  if (reduction.problem().rows() > 0 && !TryInTurn(reduction.problem(), answer, of_whole)) return answer;
   answer.f = reduction.Forces(answer.f);
   const double error = ErrorOf(problem, answer.f);
   if (!(error <= kLooseWholeResidual)) return answer;
@@ -103,27 +109,36 @@ SceneAnswer SceneSolver::SolveAsIs(const Dense& problem) {
   return answer;
 }
 
-SceneAnswer SceneSolver::SolveAsIs(const Sparse& problem) {
+SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
   SceneAnswer answer;
-  const auto of = [&](const Sparse::Vector& f) { return ErrorOf(problem, f); };
-  if (TryInTurn(kSparseSteps, problem, answer, of)) answer.outcome = Outcome::kSolved;
+  if (start != nullptr && IsAtRestWithoutForces(problem)) {
+    answer.f.setZero(problem.rows());
+    answer.outcome = Outcome::kSolved;
+  } else {
+    bodies_.options().noise = NoiseOf(problem);
+    bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kAnyFailures;
+    answer.outcome = bodies_.Run(problem, start).outcome;
+    answer.f = bodies_.f();
+  }
+  if (!answer.Solved()) return answer;
+  Add(answer.counters, "sparse");
+  Add(answer.counters, "warm", start != nullptr);
   return answer;
 }
 
-template <class Problem, std::size_t Count, class Error>
-bool SceneSolver::TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer,
-                            Error error_of) {
+template <class Error>
+bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of) {
   const bool friction = HasFriction(problem);
   if (!friction && problem.dimension == 3) {
-    Problem planar = problem;  // one row each, as in the plane
+    Dense planar = problem;  // one row each, as in the plane
     planar.dimension = 2;
-    return TryInTurn(steps, planar, answer, error_of);
+    return TryInTurn(planar, answer, error_of);
   }
-  typename Problem::Vector best;
+  Dense::Vector best;
   double least = kLooseResidual;
-  for (const Step<Problem>& step : steps) {
-    if (step.friction != friction || step.dimension != problem.dimension) continue;
-    if ((this->*step.run)(problem, answer)) return true;
+  for (const Turn& turn : kTurns) {
+    if (turn.friction != friction || turn.dimension != problem.dimension) continue;
+    if ((this->*turn.run)(problem, answer)) return true;
     if (answer.f.size() != problem.rows() || !answer.f.allFinite()) continue;
     const double error = error_of(answer.f);
     if (error <= kWholeResidual) return true;
@@ -171,7 +186,11 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
-  return SparseProximal({2, problem.contacts, problem.A.sparseView(), problem.b}, answer);
+  const bool solved =
+      proximal_.Run({2, problem.contacts, problem.A.sparseView(), problem.b}).outcome == Outcome::kSolved;
+  answer.f = proximal_.f();
+  Add(answer.counters, "sparse", solved);
+  return solved;
 }
 
 bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
@@ -187,20 +206,6 @@ bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
   Add(answer.counters, "fallbacks", verdict.statistics.polygons > 0);
   answer.f = coulomb_.f();
   return verdict.outcome == Outcome::kSolved;
-}
-
-bool SceneSolver::SparseProximal(const Sparse& problem, SceneAnswer& answer) {
-  const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
-  answer.f = proximal_.f();
-  Add(answer.counters, "sparse", solved);
-  return solved;
-}
-
-bool SceneSolver::SparseCoulomb(const Sparse& problem, SceneAnswer& answer) {
-  const bool solved = sparse_coulomb_.Run(problem).outcome == Outcome::kSolved;
-  answer.f = sparse_coulomb_.f();
-  Add(answer.counters, "sparse", solved);
-  return solved;
 }
 
 }  // namespace stiction

@@ -17,8 +17,10 @@
 //   without friction, where plane and space have the same rows
 //     complete, proximal
 //
-//   of a sparse A, in which joints and sliding contacts stay: counted
-//     proximal in the plane and without friction, Coulomb without polygons in space
+//   in factors, in which joints and sliding contacts stay: counted
+//     bodies      Newton's method in the space of bodies, from forces near a solution, which is counted, or
+//     from
+//                 f = 0; f = 0 itself where that is a solution
 //
 // Where none ends in a solution, the forces of the smallest errors are taken up to kLooseResidual, and counted.
 // A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the
@@ -29,6 +31,7 @@
 
 #include <cstdint>
 
+#include "solver/numeric/body_newton.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
 #include "solver/numeric/proximal.h"
@@ -58,7 +61,7 @@ struct SceneSolverOptions {
 };
 
 // solved or undecided; f is of no meaning if not solved. Counters: fallbacks, runs of complete driving; loose,
-// solved to kLooseResidual only; sparse, solved with a sparse A.
+// solved to kLooseResidual only; sparse, solved in the space of bodies; warm, from given forces.
 using SceneAnswer = Answer<double>;
 
 // Reusable. Memory is kept between runs; answers do not depend on earlier ones.
@@ -68,31 +71,24 @@ class SceneSolver {
 
   // Of contacts of any kinds.
   SceneAnswer Solve(const ContactProblem<double>& problem);
-  SceneAnswer Solve(const SparseContactProblem<double>& problem);
+  // With `start` (rows x 1, N) from these forces.
+  SceneAnswer Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start = nullptr);
 
  private:
   using Dense = ContactProblem<double>;
-  using Sparse = SparseContactProblem<double>;
 
   // A method, and whose turn it is.
-  template <class Problem>
-  struct Step {
+  struct Turn {
     int dimension;
     bool friction;
-    bool (SceneSolver::*run)(const Problem&, SceneAnswer&);
+    bool (SceneSolver::*run)(const Dense&, SceneAnswer&);
   };
-  template <class Problem>
-  SceneAnswer SolveScaled(const Problem& problem);
-  SceneAnswer SolveAsIs(const Dense& problem);
-  SceneAnswer SolveAsIs(const Sparse& problem);
+  static const Turn kTurns[];
 
-  static const Step<Dense> kDenseSteps[];
-  static const Step<Sparse> kSparseSteps[];
-
+  SceneAnswer SolveScaled(const Dense& problem);
   // error_of(f): by which forces are taken where no method ends in a solution.
-  template <class Problem, std::size_t Count, class Error>
-  bool TryInTurn(const Step<Problem> (&steps)[Count], const Problem& problem, SceneAnswer& answer,
-                 Error error_of);
+  template <class Error>
+  bool TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of);
   bool GuessCells(const Dense& problem, const std::vector<Cell>& guess);
 
   bool Cells(const Dense& problem, SceneAnswer& answer);
@@ -100,13 +96,11 @@ class SceneSolver {
   bool Proximal(const Dense& problem, SceneAnswer& answer);
   bool Complete(const Dense& problem, SceneAnswer& answer);
   bool Coulomb(const Dense& problem, SceneAnswer& answer);
-  bool SparseProximal(const Sparse& problem, SceneAnswer& answer);
-  bool SparseCoulomb(const Sparse& problem, SceneAnswer& answer);
 
   FastSolver<double> fast_;
   ProximalNewton<double> proximal_;
   CoulombSolver<double> coulomb_;
-  CoulombSolver<double, Sparse> sparse_coulomb_;
+  BodyNewton<double> bodies_;
 };
 
 }  // namespace stiction

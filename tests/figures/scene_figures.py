@@ -46,7 +46,7 @@ def halved_steps(program):
         rows.append((f"`{scene}`" + (f", `--step {options[1]}`" if options else ""), *(
             count(counters[key]) for key in ("frames", "halved", "deep", "problems", "sparse", "fallbacks", "loose")),
             f"{1000 * overlap:.2g}"))
-    return table(["scene", "frames", "halved steps", "deep", "problems", "solved with a sparse A",
+    return table(["scene", "frames", "halved steps", "deep", "problems", "solved without A",
                   "by complete driving", "to 1e-5 only", "worst overlap, mm"], rows)
 
 

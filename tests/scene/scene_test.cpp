@@ -15,6 +15,7 @@
 #include "corpus/record/sparse_problem.h"
 #include "scene/assemble.h"
 #include "solver/problem/reduction.h"
+#include "tests/factored.h"
 #include "tests/methods.h"
 
 namespace stiction {
@@ -417,7 +418,7 @@ TEST_CASE(
       CHECK(IsSymmetric(problem));
       CHECK(IsPositiveSemidefinite(problem));
       if (!IsDriven(scene)) CHECK(IsInRange(problem));
-      CHECK(ExactMatrix(model.SparseProblem(i).A) == problem.A);
+      CHECK(testing::AllOf(model.InFactors(i)) == problem.A);
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "corpus/record/sparse_problem.h"
 #include "scene/assemble.h"
 #include "scene/polyhedron.h"
+#include "tests/factored.h"
 
 namespace stiction {
 namespace {
@@ -521,7 +522,7 @@ TEST_CASE(
       CHECK(IsSymmetric(problem));
       CHECK(IsPositiveSemidefinite(problem));
       CHECK(IsInRange(problem));
-      CHECK(ExactMatrix(solved.model.SparseProblem(i).A) == problem.A);
+      CHECK(testing::AllOf(solved.model.InFactors(i)) == problem.A);
     }
     AssembleOptions<Rational> options;
     options.minimal = false;

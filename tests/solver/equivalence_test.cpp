@@ -23,15 +23,15 @@ bool AreNear(const ExactVector& x, const ExactVector& y) {
 }
 
 // f = 0, and f at the end of every piece.
-struct Path {
+struct DrivenPath {
   Points points;
   CompleteStatistics statistics;
 };
 
-Path Driven(const ExactProblem& problem) {
+DrivenPath Driven(const ExactProblem& problem) {
   CompleteDriving<Rational> driving;
   Trace<Rational> trace;
-  Path path;
+  DrivenPath path;
   const CompleteVerdict verdict = driving.Run(problem, &trace);
   REQUIRE(verdict.outcome == Outcome::kSolved);
   path.statistics = verdict.statistics;
@@ -87,7 +87,7 @@ TEST_CASE("equivalence: Lemke's method with a graded covering vector takes the p
   for (std::uint64_t index = 0; folded < 60 || descended < 20; ++index) {
     REQUIRE(index < 20000);
     const ExactProblem problem = Random<Rational>(GeneratorId::kPsd, 2 + static_cast<int>(index % 3), index);
-    const Path path = Driven(problem);
+    const DrivenPath path = Driven(problem);
     const bool chosen =
         path.statistics.ties == 0 && (path.statistics.folds > 0 || path.statistics.descents > 0);
     if (!chosen && index >= 60) continue;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coulomb's law by Newton's method in the space of bodies, for problems in factors, in the plane and in space.
+//
+//   proximal   from f, the problem with A + eps D and b - eps D f; D has one number a contact, its largest
+//   A_ii.
+//              Its forces are a function of the accelerations v of the bodies alone, contact by contact:
+//                a = J v + c,   p = f - inv(eps D) a,   f+ = the point of the law's cone that p asks for
+//              (fN+ = max(0, pN); fF+ the nearest point to pF of the interval or disc of radius mu fN+).
+//              At a fixed point f the problem itself is solved, whatever eps is.
+//   Newton     on R(v) = M (v - w) - J' f+(v), which is piecewise smooth, in the plane piecewise linear. Its
+//              matrix is M + J' S J with a block S = -df+/da per contact: as large as the bodies' velocities,
+//              whatever the number of contacts, with entries where two bodies touch. Where nothing slips it is
+//              symmetric and positive definite. Its ordering is kept as long as the same bodies touch.
+//
+// The method of multipliers in other words: J. C. Simo, T. A. Laursen, Computers and Structures 42, 1992; P.
+// Alart, A. Curnier, Computer Methods in Applied Mechanics and Engineering 92, 1991 (both cited from memory).
+//
+// From forces near a solution, as those of the frame before, one or two points with small eps end it; of forces
+// that are not unique it takes some near the start. Called solved are forces whose errors (problem/errors.h)
+// are at most `residual`; whatever else is undecided, and the best forces are returned.
+// Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Floating-point scalars.
+// Cost    a sparse LDL' or, where something slips, LU factorization per step of Newton's method.
+
+#ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
+#define STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <cstdint>
+#include <vector>
+
+#include "solver/problem/errors.h"
+#include "solver/problem/factored.h"
+
+namespace stiction {
+
+struct BodyNewtonOptions {
+  double residual = 1e-8;   // largest error of an answer that is called solved
+  double aim = 1e-12;       // error at which it ends; between the two it ends when points gain nothing
+  double first_eps = 1e-2;  // without a start
+  double warm_eps = 1e-6;   // with one
+  double least_eps = 1e-7;
+  int points = 100;     // proximal problems tried
+  int newton = 20;      // steps of Newton's method for each of them
+  int failures = 1000;  // proximal problems that Newton's method may not solve
+  int halvings = 3;     // of a step that does not make R smaller
+  double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2
+};
+
+struct BodyNewtonStatistics {
+  std::int64_t points = 0;
+  std::int64_t newton_steps = 0;
+  std::int64_t factorizations = 0;
+
+  bool operator==(const BodyNewtonStatistics&) const = default;
+};
+
+// visit(name, help, counter)
+template <class S, class Visit>
+requires std::is_same_v<std::remove_const_t<S>, BodyNewtonStatistics>
+void ForEachField(S& s, Visit visit) {
+  visit("points", "proximal problems tried", s.points);
+  visit("newton_steps", "steps of Newton's method", s.newton_steps);
+  visit("factorizations", "factorizations of its matrix", s.factorizations);
+}
+
+using BodyNewtonVerdict = RunEnd<BodyNewtonStatistics>;  // solved, undecided
+
+// Reusable. Memory and the ordering are kept between runs; answers do not depend on earlier ones.
+template <class Scalar>
+class BodyNewton {
+ public:
+  using Problem = FactoredProblem<Scalar>;
+  using Vector = typename Problem::Vector;
+
+  explicit BodyNewton(const BodyNewtonOptions& options = {}) : options_(options) {}
+
+  BodyNewtonOptions& options() { return options_; }
+
+  // With `start` (rows x 1, N) it begins there.
+  BodyNewtonVerdict Run(const Problem& problem, const Vector* start = nullptr);
+
+  // The best forces that the last run found, and a = A f + b.
+  const Vector& f() const { return best_f_; }
+  const Vector& a() const { return best_a_; }
+
+ private:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Block = std::array<std::array<Scalar, 3>, 3>;
+
+  // A contact's rows of J, dense in the columns that they have entries in.
+  struct Piece {
+    int row = 0, rows = 0;
+    int column = 0, columns = 0;  // where its columns begin in columns_
+    int slot = 0;                 // where its columns x columns places in K begin in slots_
+    int entry = 0;                // where its rows x columns numbers begin in entries_
+  };
+
+  void Start(const Problem& problem, const Vector* start);
+  void TakePieces();
+  void TakePattern();
+  Scalar Measured();
+  bool Settle();
+  void Backtrack(const Vector& step);
+  void Evaluate();
+  void Law(int contact, const std::array<Scalar, 3>& p, Scalar slope);
+  bool Factor();
+  Vector Solved(const Vector& y);
+
+  BodyNewtonOptions options_;
+  BodyNewtonVerdict verdict_;
+  const Problem* problem_ = nullptr;
+  std::vector<Piece> pieces_;
+  std::vector<int> columns_;
+  std::vector<Scalar> entries_;
+  std::vector<int> slots_, mass_slots_;
+  std::vector<int> known_columns_, known_rows_;  // of the pattern that K has
+  std::vector<int> known_mass_;
+  std::vector<Scalar> D_;  // by contact
+
+  Scalar eps_ = Scalar(0);
+  Vector center_;  // of the proximal point
+  Vector v_, f_, a_, R_;
+  Vector told_a_;                         // a_ without noise
+  std::vector<Block> slopes_, factored_;  // S by contact, now and of the factors
+  Scalar factored_eps_ = Scalar(0);
+  bool symmetric_ = true, is_factored_ = false, uses_lu_ = false, lu_knows_ = false;
+  Scalar size_ = Scalar(0);  // what R is made of
+  Vector best_f_, best_a_;
+  Units<Scalar> units_;
+
+  Matrix K_;
+  Eigen::SimplicialLDLT<Matrix> ldlt_;
+  Eigen::SparseLU<Matrix> lu_;
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// FactoredProblem: a = A f + b with A = J W J' and b = J w + c, where A is not formed.
+//
+//   J   rows x velocities, 1 or m: what the contacts make of the bodies' velocities; sparse
+//   M   velocities x velocities, kg or kg m^2: the masses; symmetric, positive definite, in blocks of a body
+//   each W   the inverse of M w   velocities x 1, m/s^2 or 1/s^2: accelerations of the bodies without contact
+//   forces c   rows x 1, m/s^2: accelerations of the contacts where the bodies have none
+//
+// A is symmetric and positive semidefinite, whatever J is; with c = 0 or in the range of J, b is in range(A).
+
+#ifndef STICTION_SOLVER_PROBLEM_FACTORED_H_
+#define STICTION_SOLVER_PROBLEM_FACTORED_H_
+
+#include <utility>
+#include <vector>
+
+#include "solver/problem/problem.h"
+
+namespace stiction {
+
+// J W J', entry by entry where they are asked for.
+template <class Scalar>
+class FactoredMatrix {
+ public:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Rows = Eigen::SparseMatrix<Scalar, Eigen::RowMajor>;
+
+  FactoredMatrix() = default;
+  FactoredMatrix(Rows J, Matrix W) : J_(std::move(J)), W_(std::move(W)), JW_(J_ * W_), columns_(J_) {}
+
+  const Rows& J() const { return J_; }
+  const Matrix& W() const { return W_; }
+
+  Scalar coeff(int i, int j) const { return JW_.row(i).dot(J_.row(j)); }
+
+  // visit(i, j, A_ij) for the entries that a shared velocity makes, row by row.
+  template <class Visit>
+  void ForEach(Visit visit) const {
+    std::vector<Scalar> row(J_.rows(), Scalar(0));
+    std::vector<int> touched, last(J_.rows(), -1);
+    for (int i = 0; i < J_.rows(); ++i) {
+      touched.clear();
+      for (typename Rows::InnerIterator of(JW_, i); of; ++of) {
+        for (typename Matrix::InnerIterator other(columns_, of.col()); other; ++other) {
+          const int j = static_cast<int>(other.row());
+          if (last[j] != i) {
+            last[j] = i;
+            row[j] = Scalar(0);
+            touched.push_back(j);
+          }
+          row[j] += of.value() * other.value();
+        }
+      }
+      for (const int j : touched) visit(i, j, row[j]);
+    }
+  }
+
+ private:
+  Rows J_;
+  Matrix W_;
+  Rows JW_;
+  Matrix columns_;  // J
+};
+
+template <class Scalar, class Visit>
+void ForEachEntry(const FactoredMatrix<Scalar>& A, Visit visit) {
+  A.ForEach(visit);
+}
+
+template <class Scalar>
+struct FactoredProblem {
+  using Matrix = FactoredMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  int dimension = 2;
+  std::vector<Contact<Scalar>> contacts;
+  Matrix A;
+  typename Matrix::Matrix M;
+  Vector w, c;
+  Vector b;  // J w + c
+
+  int rows() const { return static_cast<int>(b.size()); }
+
+  // w + W J' f: of the bodies.
+  Vector Accelerations(const Vector& f) const { return w + A.W() * (A.J().transpose() * f); }
+};
+
+}  // namespace stiction
+
+#endif  // STICTION_SOLVER_PROBLEM_FACTORED_H_

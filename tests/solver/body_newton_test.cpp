@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Newton's method in the space of bodies: solved means solved; from a solution nothing is left to do; answers
+// do not depend on earlier runs.
+
+#include "solver/numeric/body_newton.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "solver/problem/gate.h"
+#include "tests/factored.h"
+
+namespace stiction {
+namespace {
+
+using testing::InFactors;
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+
+  double Number() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
+  int Integer(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random_); }
+
+  // Contacts of the kinds given on fewer velocities than rows, so that A is singular. Without sliding contacts
+  // it has solutions: b is in range(A).
+  FactoredProblem<double> Problem(int dimension, const std::vector<ContactKind>& kinds) {
+    std::vector<Contact<double>> contacts;
+    for (int i = Integer(1, 8); i > 0; --i) {
+      Contact<double> contact;
+      contact.kind = kinds[static_cast<std::size_t>(Integer(0, static_cast<int>(kinds.size()) - 1))];
+      if (contact.HasFrictionRows()) contact.mu = Integer(0, 4) / 4.0;
+      if (contact.kind == ContactKind::kSliding) contact.slip = {1, 0};
+      contacts.push_back(contact);
+    }
+    const int rows = RowCount(contacts, dimension), velocities = Integer(1, rows);
+    const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(rows, velocities, [this] { return Number(); });
+    const Eigen::VectorXd w = Eigen::VectorXd::NullaryExpr(velocities, [this] { return Number(); });
+    return InFactors(dimension, contacts, J, w, Eigen::VectorXd::Zero(rows));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
+  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
+}
+
+TEST_CASE("body newton: A of factors is J W J', entry by entry") {
+  Draw draw(1);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    FactoredProblem<double> problem = draw.Problem(3, {ContactKind::kStatic, ContactKind::kBilateral});
+    for (int k = 0; k < problem.M.cols(); ++k) problem.M.coeffRef(k, k) = 1 + k;
+    Eigen::SparseMatrix<double> W = problem.M;
+    for (int k = 0; k < W.cols(); ++k) W.coeffRef(k, k) = 1 / W.coeff(k, k);
+    const Eigen::MatrixXd J = problem.A.J();
+    problem.A = {problem.A.J(), W};
+    const Eigen::MatrixXd A = J * W * J.transpose();
+    CHECK((testing::AllOf(problem) - A).norm() <= 1e-14 * A.norm());
+    CHECK(problem.A.coeff(0, 0) == Approx(A(0, 0)));
+    CHECK((problem.A.J() * problem.Accelerations(Eigen::VectorXd::Ones(problem.rows())) - problem.b -
+           A.rowwise().sum())
+              .norm() <= 1e-13 * A.norm());
+  }
+}
+
+TEST_CASE("body newton: what it calls solved is solved, in the plane and in space, for all kinds of contacts") {
+  Draw draw(2);
+  const std::vector<ContactKind> no_slides = {ContactKind::kStatic, ContactKind::kStatic,
+                                              ContactKind::kFrictionless, ContactKind::kBilateral};
+  std::vector<ContactKind> all = no_slides;
+  all.push_back(ContactKind::kSliding);
+  BodyNewton<double> method;
+  for (const int dimension : {2, 3}) {
+    for (const bool slides : {false, true}) {
+      INFO(dimension << (slides ? " with sliding contacts" : ""));
+      int solved = 0;
+      for (int repeat = 0; repeat < 200; ++repeat) {
+        const FactoredProblem<double> problem = draw.Problem(dimension, slides ? all : no_slides);
+        if (method.Run(problem).outcome != Outcome::kSolved) continue;
+        ++solved;
+        CHECK(GateErrorOf(problem, method.f()) < 1e-8);
+        CHECK((testing::AllOf(problem) * method.f() + problem.b - method.a()).norm() < 1e-9);
+      }
+      CHECK(solved >= (slides ? 150 : 190));
+    }
+  }
+}
+
+TEST_CASE("body newton: from a solution it factors nothing, and stays there") {
+  Draw draw(3);
+  BodyNewton<double> method;
+  int solved = 0;
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    const FactoredProblem<double> problem = draw.Problem(2 + repeat % 2, {ContactKind::kStatic});
+    BodyNewtonOptions options;
+    options.aim = 1e-11;
+    method.options() = options;
+    if (method.Run(problem).outcome != Outcome::kSolved || GateErrorOf(problem, method.f()) > 1e-12) continue;
+    ++solved;
+    const Eigen::VectorXd f = method.f();
+    const BodyNewtonVerdict again = method.Run(problem, &f);
+    CHECK(again.outcome == Outcome::kSolved);
+    CHECK(again.statistics.factorizations == 0);
+    CHECK(method.f() == f);
+  }
+  CHECK(solved > 30);
+}
+
+TEST_CASE("body newton: answers do not depend on the runs before") {
+  Draw draw(4);
+  std::vector<FactoredProblem<double>> problems;
+  for (int repeat = 0; repeat < 40; ++repeat)
+    problems.push_back(draw.Problem(2 + repeat % 2, {ContactKind::kStatic}));
+  problems.push_back(problems.back());  // of the same pattern
+  problems.back().contacts[0].mu = 3;
+  BodyNewton<double> used;
+  for (const auto& problem : problems) {
+    BodyNewton<double> fresh;
+    const BodyNewtonVerdict one = used.Run(problem), other = fresh.Run(problem);
+    CHECK(one.statistics == other.statistics);
+    CHECK(used.f() == fresh.f());
+  }
+}
+
+TEST_CASE("body newton: without a solution it is undecided, and says why") {
+  // One contact that nothing can keep from closing: its row is zero, and b < 0.
+  FactoredProblem<double> problem =
+      InFactors(2, {{ContactKind::kFrictionless, 0.0, {0, 0}}}, Eigen::MatrixXd::Zero(1, 1),
+                Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, -1));
+  BodyNewton<double> method;
+  const BodyNewtonVerdict verdict = method.Run(problem);
+  CHECK(verdict.outcome == Outcome::kUndecided);
+  CHECK(!verdict.reason.empty());
+  problem.c[0] = problem.b[0] = 1;
+  CHECK(method.Run(problem).outcome == Outcome::kSolved);
+  CHECK(method.f()[0] == 0);
+}
+
+TEST_CASE("body newton: a block on a slope in space rests inside its cone, and slides outside it") {
+  // J = identity on one contact; w is gravity turned by the slope.
+  for (const double down : {0.49, 0.51}) {
+    const FactoredProblem<double> problem =
+        InFactors(3, {{ContactKind::kStatic, 0.5, {0, 0}}}, Eigen::MatrixXd::Identity(3, 3),
+                  Eigen::Vector3d(-1, down, 0), Eigen::VectorXd::Zero(3));
+    BodyNewton<double> method;
+    REQUIRE(method.Run(problem).outcome == Outcome::kSolved);
+    CHECK(method.f()[0] == Approx(1));
+    CHECK(method.f()[1] == Approx(-std::min(down, 0.5)));
+    CHECK(method.a()[1] == Approx(std::max(0.0, down - 0.5)).margin(1e-9));
+  }
+}
+
+}  // namespace
+}  // namespace stiction
