@@ -46,6 +46,15 @@ bool HasFriction(const Problem& problem) {
                      [](const auto& contact) { return contact.HasFrictionRows(); });
 }
 
+SparseContactProblem<double> ToSparse(const FactoredProblem<double>& problem) {
+  std::vector<Eigen::Triplet<double>> entries;
+  ForEachEntry(problem.A, [&entries](int i, int j, double x) { entries.emplace_back(i, j, x); });
+  SparseContactProblem<double> sparse{problem.dimension, problem.contacts, {}, problem.b};
+  sparse.A.resize(problem.rows(), problem.rows());
+  sparse.A.setFromTriplets(entries.begin(), entries.end());
+  return sparse;
+}
+
 // Whether f = 0 is a solution.
 template <class Problem>
 bool IsAtRestWithoutForces(const Problem& problem) {
@@ -119,6 +128,10 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
     bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kAnyFailures;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
+    if (!answer.Solved() && start == nullptr && problem.dimension == 2) {
+      if (RunProximal(ToSparse(problem), answer)) answer.outcome = Outcome::kSolved;
+      return answer;
+    }
   }
   if (!answer.Solved()) return answer;
   Add(answer.counters, "sparse");
@@ -186,8 +199,11 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
-  const bool solved =
-      proximal_.Run({2, problem.contacts, problem.A.sparseView(), problem.b}).outcome == Outcome::kSolved;
+  return RunProximal({2, problem.contacts, problem.A.sparseView(), problem.b}, answer);
+}
+
+bool SceneSolver::RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer) {
+  const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
   answer.f = proximal_.f();
   Add(answer.counters, "sparse", solved);
   return solved;

@@ -21,6 +21,7 @@
 //     bodies      Newton's method in the space of bodies, from forces near a solution, which is counted, or
 //     from
 //                 f = 0; f = 0 itself where that is a solution
+//     proximal    in the plane, without a start, with A sparse
 //
 // Where none ends in a solution, the forces of the smallest errors are taken up to kLooseResidual, and counted.
 // A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the
@@ -94,6 +95,7 @@ class SceneSolver {
   bool Cells(const Dense& problem, SceneAnswer& answer);
   bool NearCells(const Dense& problem, SceneAnswer& answer);
   bool Proximal(const Dense& problem, SceneAnswer& answer);
+  bool RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer);
   bool Complete(const Dense& problem, SceneAnswer& answer);
   bool Coulomb(const Dense& problem, SceneAnswer& answer);
 
