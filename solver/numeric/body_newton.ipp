@@ -123,6 +123,7 @@ void BodyNewton<Scalar>::TakePattern() {
   for (const Piece& piece : pieces_) rows.push_back(piece.columns);
   const Matrix& M = problem_->M;
   std::vector<int> mass(M.innerIndexPtr(), M.innerIndexPtr() + M.nonZeros());
+  mass.insert(mass.end(), M.outerIndexPtr(), M.outerIndexPtr() + M.outerSize() + 1);
   if (rows == known_rows_ && columns_ == known_columns_ && mass == known_mass_ && K_.cols() == M.cols()) return;
   known_rows_ = rows;
   known_columns_ = columns_;

@@ -5,6 +5,7 @@
 #include "solver/numeric/body_newton.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "solver/problem/gate.h"
@@ -121,6 +122,31 @@ TEST_CASE("body newton: answers do not depend on the runs before") {
     const BodyNewtonVerdict one = used.Run(problem), other = fresh.Run(problem);
     CHECK(one.statistics == other.statistics);
     CHECK(used.f() == fresh.f());
+  }
+}
+
+TEST_CASE("body newton: a contact in other units is the same contact") {
+  // J -> D J, c -> D c with a power of two per contact: the same run, forces over D, to the bit.
+  Draw draw(5);
+  BodyNewton<double> method;
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const FactoredProblem<double> problem =
+        draw.Problem(2 + repeat % 2, {ContactKind::kStatic, ContactKind::kBilateral});
+    Eigen::VectorXd D(problem.rows());
+    int row = 0;
+    for (const auto& contact : problem.contacts) {
+      const double unit = std::ldexp(1.0, draw.Integer(-30, 30));
+      for (int k = contact.HasFrictionRows() ? problem.dimension : 1; k > 0; --k) D[row++] = unit;
+    }
+    const Eigen::MatrixXd J = problem.A.J();
+    const FactoredProblem<double> scaled = InFactors(problem.dimension, problem.contacts, D.asDiagonal() * J,
+                                                     problem.w, D.cwiseProduct(problem.c));
+    const BodyNewtonVerdict one = method.Run(problem);
+    const Eigen::VectorXd f = method.f();
+    const BodyNewtonVerdict other = method.Run(scaled);
+    CHECK(one.outcome == other.outcome);
+    CHECK(one.statistics == other.statistics);
+    CHECK(f == D.cwiseProduct(method.f()));
   }
 }
 
