@@ -16,9 +16,7 @@ namespace stiction {
 namespace {
 
 constexpr int kHoldRounds = 8;
-constexpr int kLargeRows = 400;                        // from which on no A costs less, whatever the start
-constexpr int kWarmRows = 100, kWarmRowsInSpace = 10;  // from which on a start is worth more than it costs
-constexpr double kDeep = 1e-3;                         // m; where the scene has no gap
+constexpr double kDeep = 1e-3;     // m; where the scene has no gap
 constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
 // The derivative of the gap: negative where the contact closes.
@@ -46,24 +44,29 @@ auto MotionOf(const Body& body) {
   return std::tuple(body.position, body.rotation, body.velocity, body.spin);
 }
 
-// From the start, if there is one; then, of a large island, without A; then with it. What has no answer, or a
-// loose one, is tried without A, too.
-template <class Model>
+// From which rows on an island is solved in factors before A is formed, and a start is worth more than it
+// costs.
+template <class Kind>
+constexpr int kFactorRows = Kind::kDimension == 2 ? 100 : 10;
+
+// In factors, from the start if there is one, then without; then with A. A small island the other way round:
+// in factors what has no answer, or a loose one.
+template <class Kind, class Model>
 SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island,
                         const Eigen::VectorXd& start) {
-  const bool is_large = model.islands[island].rows >= kLargeRows;
+  if (model.islands[island].rows < kFactorRows<Kind>) {
+    SceneAnswer answer = solver.Solve(model.Problem(island));
+    if (answer.Solved() && ValueOf(answer.counters, "loose") == 0) return answer;
+    SceneAnswer other = solver.Solve(model.InFactors(island));
+    return other.Solved() ? other : answer;
+  }
+  const auto problem = model.InFactors(island);
   if (start.size() > 0) {
-    SceneAnswer answer = solver.Solve(model.InFactors(island), &start);
+    SceneAnswer answer = solver.Solve(problem, &start);
     if (answer.Solved()) return answer;
   }
-  if (is_large) {
-    SceneAnswer answer = solver.Solve(model.InFactors(island));
-    if (answer.Solved()) return answer;
-  }
-  SceneAnswer answer = solver.Solve(model.Problem(island));
-  if (is_large || (answer.Solved() && ValueOf(answer.counters, "loose") == 0)) return answer;
-  SceneAnswer other = solver.Solve(model.InFactors(island));
-  return other.Solved() ? other : answer;
+  SceneAnswer answer = solver.Solve(problem);
+  return answer.Solved() ? answer : solver.Solve(model.Problem(island));
 }
 
 }  // namespace
@@ -210,7 +213,7 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   f.resize(count);
   std::vector<SceneAnswer> answers(count);
   const auto solve = [&](std::size_t i) {
-    answers[i] = SolveIsland(solvers_.local(), model, i, StartOf(model, level, i));
+    answers[i] = SolveIsland<Kind>(solvers_.local(), model, i, StartOf(model, level, i));
   };
   if (count > 1 && largest >= kParallelRows) {
     ForEachInParallel(count, solve);
@@ -234,9 +237,8 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
 // twice.
 template <class Kind>
 Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std::size_t island) const {
-  const int least = Kind::kDimension == 2 ? kWarmRows : kWarmRowsInSpace;
-  if (!options_.warm || level != Level::kForces || model.islands[island].rows < least || remembered_.empty())
-    return {};
+  const bool is_small = model.islands[island].rows < kFactorRows<Kind>;
+  if (!options_.warm || level != Level::kForces || is_small || remembered_.empty()) return {};
   std::vector<Remembered> now;
   int row = 0;
   for (const int k : model.islands[island].constraints) {

@@ -45,8 +45,8 @@
 // Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
 // or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
 // miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
-// the step, one of positions where there are joints, one of impulses in a collision. With a start, and for an
-// island of 400 rows and more, no A is formed.
+// the step, one of positions where there are joints, one of impulses in a collision. For an island of 100 rows
+// and more in the plane, 10 in space, no A is formed.
 
 #ifndef STICTION_SCENE_SIMULATE_H_
 #define STICTION_SCENE_SIMULATE_H_

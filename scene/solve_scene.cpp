@@ -22,6 +22,8 @@ constexpr double kNoise = 1e-11;
 // contacts have just changed, other methods cost less.
 constexpr int kRowsPerFailure = 40, kAnyFailures = 1000;
 
+constexpr int kLargeRows = 400;  // from which on A is better sparse in the plane, too
+
 template <class Problem>
 double NoiseOf(const Problem& problem) {
   return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
@@ -128,7 +130,7 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
     bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kAnyFailures;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
-    if (!answer.Solved() && start == nullptr && problem.dimension == 2) {
+    if (!answer.Solved() && start == nullptr && problem.dimension == 2 && problem.rows() >= kLargeRows) {
       if (RunProximal(ToSparse(problem), answer)) answer.outcome = Outcome::kSolved;
       return answer;
     }

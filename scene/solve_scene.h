@@ -20,7 +20,7 @@
 //   in factors, in which joints and sliding contacts stay: counted
 //     bodies      Newton's method in the space of bodies, from forces near a solution, which is counted, or
 //                 from f = 0; f = 0 itself where that is a solution
-//     proximal    in the plane, without a start, with A sparse
+//     proximal    large ones in the plane, without a start, with A sparse
 //
 // Where none ends in a solution, the forces of the smallest errors are taken up to kLooseResidual, and counted.
 // A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the

@@ -3,11 +3,12 @@
 //
 //   proximal   from f, the problem with A + eps D and b - eps D f; D has one number a contact, its largest
 //   A_ii.
-//              Its forces are a function of the accelerations v of the bodies alone, contact by contact:
-//                a = J v + c,   p = f - inv(eps D) a,   f+ = the point of the law's cone that p asks for
+//              Its forces are a function of what they change of the bodies' accelerations, v, alone, contact
+//              by contact:
+//                a = J v + b,   p = f - inv(eps D) a,   f+ = the point of the law's cone that p asks for
 //              (fN+ = max(0, pN); fF+ the nearest point to pF of the interval or disc of radius mu fN+).
 //              At a fixed point f the problem itself is solved, whatever eps is.
-//   Newton     on R(v) = M (v - w) - J' f+(v), which is piecewise smooth, in the plane piecewise linear. Its
+//   Newton     on R(v) = M v - J' f+(v), which is piecewise smooth, in the plane piecewise linear. Its
 //              matrix is M + J' S J with a block S = -df+/da per contact: as large as the bodies' velocities,
 //              whatever the number of contacts, with entries where two bodies touch. Where nothing slips it is
 //              symmetric and positive definite. Its ordering is kept as long as the same bodies touch.
@@ -37,11 +38,11 @@ namespace stiction {
 struct BodyNewtonOptions {
   double residual = 1e-8;   // largest error of an answer that is called solved
   double aim = 1e-12;       // error at which it ends; between the two it ends when points gain nothing
-  double first_eps = 1e-2;  // without a start
-  double warm_eps = 1e-6;   // with one
+  double first_eps = 1;     // without a start
+  double warm_eps = 1e-5;   // with one
   double least_eps = 1e-7;
   int points = 100;     // proximal problems tried
-  int newton = 20;      // steps of Newton's method for each of them
+  int newton = 12;      // steps of Newton's method for each of them
   int failures = 1000;  // proximal problems that Newton's method may not solve
   int halvings = 3;     // of a step that does not make R smaller
   double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2

@@ -15,7 +15,7 @@ namespace stiction {
 template <class Scalar>
 BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
+  constexpr int kIdle = 1;  // points that gain nothing before a solution is good enough
   const Scalar kHopeless(1e4), least(options_.least_eps);
   eps_ = Scalar(start != nullptr ? options_.warm_eps : options_.first_eps);
   Scalar best = Measured();
@@ -42,7 +42,7 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
       continue;
     }
     center_ = f_;
-    eps_ = std::max(std::min(least, eps_), Scalar(eps_ / 10));
+    eps_ = std::max(std::min(least, eps_), Scalar(eps_ / 3));
     const Scalar now = Measured();
     if (now < best / 2) idle = 0;
     if (!(now < best)) continue;
@@ -67,7 +67,7 @@ void BodyNewton<Scalar>::Start(const Problem& problem, const Vector* start) {
     center_.setZero(problem.rows());
   }
   f_ = center_;
-  v_ = problem.Accelerations(f_);
+  v_ = problem.Responses(f_);
 }
 
 // The rows of J by contact, and D.
@@ -163,7 +163,7 @@ void BodyNewton<Scalar>::TakePattern() {
 // The largest error of f_, with the rounding of its accelerations.
 template <class Scalar>
 Scalar BodyNewton<Scalar>::Measured() {
-  a_ = problem_->A.J() * problem_->Accelerations(f_) + problem_->c;
+  a_ = problem_->A.J() * problem_->Responses(f_) + problem_->b;
   told_a_ = a_;
   for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, units_, Scalar(0));
@@ -209,7 +209,7 @@ void BodyNewton<Scalar>::Evaluate() {
   slopes_.resize(pieces_.size());
   f_.resize(problem_->rows());
   symmetric_ = true;
-  R_ = problem_->M * (v_ - problem_->w);
+  R_ = problem_->M * v_;
   size_ = R_.size() > 0 ? R_.cwiseAbs().maxCoeff() : Scalar(0);
   for (std::size_t c = 0; c < pieces_.size(); ++c) {
     const Piece& piece = pieces_[c];
@@ -218,7 +218,7 @@ void BodyNewton<Scalar>::Evaluate() {
     const Scalar slope = 1 / (eps_ * D_[c]);
     std::array<Scalar, 3> p{};
     for (int i = 0; i < piece.rows; ++i) {
-      Scalar a = problem_->c[piece.row + i];
+      Scalar a = problem_->b[piece.row + i];
       for (int k = 0; k < piece.columns; ++k) a += J[i * piece.columns + k] * v_[columns[k]];
       p[i] = center_[piece.row + i] - a * slope;
     }

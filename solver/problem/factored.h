@@ -81,8 +81,8 @@ struct FactoredProblem {
 
   int rows() const { return static_cast<int>(b.size()); }
 
-  // w + W J' f: of the bodies.
-  Vector Accelerations(const Vector& f) const { return w + A.W() * (A.J().transpose() * f); }
+  // W J' f, what the forces change of the bodies' accelerations.
+  Vector Responses(const Vector& f) const { return A.W() * (A.J().transpose() * f); }
 };
 
 }  // namespace stiction
