@@ -366,10 +366,20 @@ auto SimulationIn<Kind>::Accelerations() -> Changes {
     statistics_.stopped += reversing;
     const int back = KeepClosing(model, accelerations, closing);
     if ((reversing == 0 && back == 0) || round >= kHoldRounds) {
-      KeepForces(std::move(model), f);
+      KeepForces(std::move(model), f, accelerations);
       return accelerations;
     }
   }
+}
+
+// Of a row, with the velocities of this step.
+template <class Kind>
+double SimulationIn<Kind>::SpeedAfter(const Model& model, const ConstraintIn<Kind, double>& constraint, int row,
+                                      const Changes& accelerations) const {
+  double speed = Velocity(constraint, row, model.bodies) + step_ / 2 * constraint.rows[row].bias;
+  for (int side = 0; side < 2; ++side)
+    speed += Kick() * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
+  return speed;
 }
 
 // Marks the sliding contacts whose tangential velocity would turn round within the step.
@@ -380,12 +390,8 @@ int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& acceler
   for (const auto& constraint : model.constraints) {
     if (constraint.law.kind != ContactKind::kSliding) continue;
     double along = 0;  // the slip
-    for (int row = 1; row < Kind::kDimension; ++row) {
-      double speed = Velocity(constraint, row, model.bodies) + step_ / 2 * constraint.rows[row].bias;
-      for (int side = 0; side < 2; ++side)
-        speed += Kick() * constraint.rows[row].J[side].dot(accelerations[constraint.bodies[side]]);
-      along += speed * constraint.law.slip[row - 1];
-    }
+    for (int row = 1; row < Kind::kDimension; ++row)
+      along += SpeedAfter(model, constraint, row, accelerations) * constraint.law.slip[row - 1];
     if (along >= 0) continue;
     held[constraint.source] = true;
     ++count;
@@ -407,8 +413,22 @@ int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerat
   return count;
 }
 
+// A contact without friction has its tangents all the same.
 template <class Kind>
-void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
+double SimulationIn<Kind>::SlipOf(const Model& model, const ConstraintIn<Kind, double>& constraint,
+                                  const Changes& accelerations) const {
+  const bool is_smooth = constraint.rows.size() < Kind::kDimension;
+  const auto whole = is_smooth ? ContactConstraint(scene_, contacts_[constraint.source]) : constraint;
+  double squares = 0;
+  for (int row = 1; row < Kind::kDimension; ++row) {
+    const double speed = SpeedAfter(model, whole, row, accelerations);
+    squares += speed * speed;
+  }
+  return std::sqrt(squares);
+}
+
+template <class Kind>
+void SimulationIn<Kind>::KeepForces(Model model, const Forces& f, const Changes& accelerations) {
   forces_.clear();
   remembered_.clear();
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
@@ -420,6 +440,8 @@ void SimulationIn<Kind>::KeepForces(Model model, const Forces& f) {
       force.from_joint = constraint.from_joint;
       force.force.setZero();
       force.law = constraint.law;
+      force.source = constraint.source;
+      if (!constraint.from_joint) force.slip = SlipOf(model, constraint, accelerations);
       for (const auto& row : constraint.rows) {
         force.ways.push_back(WayOf(row));
         force.rows.push_back(f[i][at++]);

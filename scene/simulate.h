@@ -140,6 +140,9 @@ struct AppliedForceIn {
   Contact<double> law = {};
   std::vector<double> rows = {};  // the same by rows: normal, then tangential, N
   std::vector<typename Kind::template Vector<double>> ways = {};  // of a unit force of each, on bodies[0]
+  int source = 0;  // number of the joint, or of the contact in contacts()
+  // Of a contact, with the velocities of the step: how fast one body slides on the other, m/s.
+  double slip = 0;
 };
 
 struct Energy {
@@ -215,7 +218,11 @@ class SimulationIn {
   Changes Accelerations();
   int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
   int KeepClosing(const Model& model, const Changes& accelerations, std::vector<bool>& closing) const;
-  void KeepForces(Model model, const Forces& f);
+  void KeepForces(Model model, const Forces& f, const Changes& accelerations);
+  double SpeedAfter(const Model& model, const ConstraintIn<Kind, double>& constraint, int row,
+                    const Changes& accelerations) const;
+  double SlipOf(const Model& model, const ConstraintIn<Kind, double>& constraint,
+                const Changes& accelerations) const;
   void Move(const Changes& accelerations);
 
   SceneType scene_;
