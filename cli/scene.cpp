@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <set>
 
@@ -21,7 +20,8 @@
 #include "reports/animation.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/rounded_scene.h"
-#include "scene/simulate.h"
+#include "reports/tables/run_tables.h"
+#include "scene/tables.h"
 
 namespace stiction {
 namespace {
@@ -120,7 +120,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
 // ---- simulate --------------------------------------------------------------------------------
 
 struct SimulateCommand {
-  std::string scene, output, problems;
+  std::string scene, output, problems, tables = "csv";
   std::optional<double> seconds, step;
   double rest = 0;
   int frames_a_second = 30, threads = 0;
@@ -157,17 +157,6 @@ void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t f
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
 
-// A number of a file that is within what the option of its name takes.
-double Within(const Rational& x, double least, double most, const std::string& place) {
-  const double value = x > Rational(most) ? std::numeric_limits<double>::infinity() : ToDouble(x);
-  if (value >= least && value <= most) return value;
-  throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
-}
-template <class Kind>
-double StepOf(const SceneFileIn<Kind>& file, const std::string& source) {
-  return Within(file.step, 1e-9, 1, source + ": step");
-}
-
 // The folder with what a run writes: tables as the run goes, pictures, which share a view, at its end.
 template <class Kind>
 class SimulationWriter {
@@ -176,30 +165,26 @@ class SimulationWriter {
   using Picture = FrameIn<Kind>;
 
   explicit SimulationWriter(const SimulateCommand& o)
-      : o_(o), folder_(o.output, "simulate", OccupiedIf(o.replace)) {
+      : o_(o),
+        folder_(o.output, "simulate", OccupiedIf(o.replace)),
+        tables_(Place(o.output), FormsOf(o.tables)) {
     if (!o.problems.empty()) MakeFolder(Place(o.problems));
-    energy_.open(Place(fs::path(o.output) / "energy.csv"));
-    drift_.open(Place(fs::path(o.output) / "drift.csv"));
-    energy_ << "time_s,kinetic_J,potential_J,total_J\n";
-    drift_ << "time_s,joints_m,overlap_m\n";
-    Flush();
   }
 
-  void AddState(const SimulationIn<Kind>& simulation) {
-    const Energy energy = EnergyOf(simulation.scene());
-    const Drift drift = DriftOf(simulation.scene());
-    energy_ << fmt::format("{:.9g},{:.12g},{:.12g},{:.12g}\n", simulation.time(), energy.kinetic,
-                           energy.potential, energy.total());
-    drift_ << fmt::format("{:.9g},{:.6g},{:.6g}\n", simulation.time(), drift.joints, drift.overlap);
-    worst_.joints = std::max(worst_.joints, drift.joints);
-    worst_.overlap = std::max(worst_.overlap, drift.overlap);
+  // The first state; then each that a step led to, from the one at `time`.
+  void AddFirst(const SimulationIn<Kind>& simulation) { tables_.AddFirst(simulation, Measured(simulation)); }
+  void AddStep(const SimulationIn<Kind>& simulation, double time) {
+    tables_.AddStep(simulation, time, Measured(simulation));
   }
 
-  // What has been added reaches the files, up to this picture.
+  // A picture of the last state; what has been added reaches the files.
   void AddPicture(const SceneType& scene, Picture picture) {
+    picture.energy = {last_.energy.kinetic, last_.energy.potential};
+    picture.drift = {since_.joints, since_.overlap};
+    since_ = {};
     view_.Include(scene);
     pictures_.push_back(std::move(picture));
-    Flush();
+    tables_.Flush();
   }
 
   // The problems of forces of the step that a frame, the number of it in the run, shows, while there is room.
@@ -240,11 +225,10 @@ class SimulationWriter {
     }
   }
 
-  void Commit() {
-    energy_.close();
-    drift_.close();
-    Flush();
+  std::vector<BodyMotion> Commit(const SceneType& scene) {
+    std::vector<BodyMotion> motions = tables_.WriteMotions(scene);
     TellAside(folder_.Commit());
+    return motions;
   }
 
   const Drift& worst() const { return worst_; }
@@ -259,16 +243,24 @@ class SimulationWriter {
     if (error) RefuseOutput(folder, error.value());
   }
 
-  void Flush() {
-    for (std::ofstream* table : {&energy_, &drift_}) {
-      if (!table->flush()) throw OutputError(o_.output + ": its tables cannot be written");
+  static TableForms FormsOf(const std::string& word) {
+    return {word == "csv" || word == "both", word == "jsonl" || word == "both"};
+  }
+
+  StateRow Measured(const SimulationIn<Kind>& simulation) {
+    last_ = {simulation.time(), EnergyOf(simulation.scene()), DriftOf(simulation.scene())};
+    for (Drift* worst : {&worst_, &since_}) {
+      worst->joints = std::max(worst->joints, last_.drift.joints);
+      worst->overlap = std::max(worst->overlap, last_.drift.overlap);
     }
+    return last_;
   }
 
   const SimulateCommand& o_;
   WholeFolder folder_;
-  std::ofstream energy_, drift_;
-  Drift worst_;
+  RunTables<Kind> tables_;
+  StateRow last_;
+  Drift worst_, since_;  // of all, and since the last picture
   View view_;
   std::vector<Picture> pictures_;
   std::size_t room_ = kMostText;
@@ -291,7 +283,7 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
          const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
   ProgressBar progress;
   double next = 0;  // picture, s
-  writer.AddState(simulation);
+  writer.AddFirst(simulation);
   for (std::int64_t k = 0; k < steps && !interrupted; ++k) {
     const bool shown = simulation.time() >= next - 1e-9;
     if (shown) next += 1.0 / pictures_a_second;
@@ -303,7 +295,7 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
       writer.AddProblems(simulation, k, picture);
       writer.AddPicture(*start, std::move(picture));
     }
-    writer.AddState(simulation);
+    writer.AddStep(simulation, time);
     ShowStep(progress, k + 1, steps, simulation.time());
   }
   auto picture = RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation));
@@ -311,20 +303,44 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
   writer.AddPicture(simulation.scene(), std::move(picture));
 }
 
-void WriteSummary(const SimulationStatistics& statistics, const Drift& worst, const SimulateCommand& o) {
+// How many bodies rest, and how those that do not move, the fastest first.
+template <class Kind>
+std::string MotionText(const SceneIn<Kind, double>& scene, std::vector<BodyMotion> motions) {
+  constexpr std::size_t kMostTold = 10;
+  if (motions.empty()) return "";
+  const double seconds = motions.front().seconds;
+  const std::size_t all = motions.size();
+  std::erase_if(motions, [](const BodyMotion& motion) { return motion.word == "rests"; });
+  std::stable_sort(motions.begin(), motions.end(),
+                   [](const BodyMotion& one, const BodyMotion& other) { return one.speed > other.speed; });
+  std::string text = fmt::format("in the last {:.6g} s {} of {} bodies that can move rest\n", seconds,
+                                 all - motions.size(), all);
+  for (std::size_t i = 0; i < std::min(motions.size(), kMostTold); ++i) {
+    text += fmt::format("  {} {}: moved by {:.3g} m, {:.3g} m/s at last\n", NameOfBody(scene, motions[i].body),
+                        motions[i].word, motions[i].moved, motions[i].speed);
+  }
+  if (motions.size() > kMostTold)
+    text += fmt::format("  and {} more: --json has all\n", motions.size() - kMostTold);
+  return text;
+}
+
+template <class Kind>
+void WriteSummary(const SimulationIn<Kind>& simulation, const std::vector<BodyMotion>& motions,
+                  const Drift& worst, const SimulateCommand& o) {
   std::string text;
-  ForEachField(statistics, [&text](const char* name, const char* help, std::int64_t value) {
+  ForEachField(simulation.statistics(), [&text](const char* name, const char* help, std::int64_t value) {
     text += fmt::format("{:12} {:>10}   {}\n", name, value, help);
   });
   const std::string animation = (fs::path(o.output) / "animation.html").string();
-  text += fmt::format("worst drift of joints {:.3g}, overlap {:.3g} m\n{}\n", worst.joints, worst.overlap,
-                      animation);
-  SayWhatWasDone(o.output, o.json, text,
-                 {{"written", Json::array({o.output})},
-                  {"animation", animation},
-                  {"statistics", StatisticsToJson(statistics)},
-                  {"worst_drift",
-                   {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}}});
+  text += fmt::format("worst drift of joints {:.3g}, overlap {:.3g} m\n{}{}\n", worst.joints, worst.overlap,
+                      MotionText(simulation.scene(), motions), animation);
+  SayWhatWasDone(
+      o.output, o.json, text,
+      {{"written", Json::array({o.output})},
+       {"animation", animation},
+       {"statistics", StatisticsToJson(simulation.statistics())},
+       {"worst_drift", {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}},
+       {"motion", MotionsToJson(simulation.scene(), motions)}});
 }
 
 template <class Kind>
@@ -335,7 +351,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   options.step = o.step ? *o.step : StepOf(file, o.scene);
   options.rest = o.rest;
   options.minimal = !o.full;
-  const double seconds = o.seconds ? *o.seconds : Within(file.seconds, 1e-9, 1e6, o.scene + ": seconds");
+  const double seconds = o.seconds ? *o.seconds : SecondsOf(file, o.scene);
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationWriter<Kind> writer(o);
   std::function<void(const FrameProblem&)> observe;
@@ -364,13 +380,13 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
     picture.remark = "undecided";
     writer.AddPicture(simulation.scene(), std::move(picture));
     writer.WritePictures(scene);
-    writer.Commit();
+    writer.Commit(scene);
     std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
     return kExitUndecided;
   }
   writer.WritePictures(scene);
-  writer.Commit();
-  WriteSummary(simulation.statistics(), writer.worst(), o);
+  const std::vector<BodyMotion> motions = writer.Commit(scene);
+  WriteSummary(simulation, motions, writer.worst(), o);
   if (interrupted) {
     fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
                simulation.time(), seconds);
@@ -440,15 +456,23 @@ const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](Comman
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
       .Required()
       .Details(
-          "Whole, when the run or Ctrl-C ends: energy.csv, drift.csv, animation.html and frames/*.svg; "
-          "undecided.json where a frame has no answer (exit 3)");
+          "Whole, when the run or Ctrl-C ends: the tables, animation.html and frames/*.svg; undecided.json "
+          "where "
+          "a frame has no answer (exit 3)");
+  verb.Option("--tables", o.tables, "bodies, contacts, energy, drift and motion as files of CSV or JSON lines")
+      .OneOf({"csv", "jsonl", "both", "none"})
+      .Details("columns.csv says what each column has");
   AddReplace(verb, o.replace);
-  verb.Option("--seconds", o.seconds, "simulated time; by default the scene's").Unit("s").Range(1e-9, 1e6);
-  verb.Option("--step", o.step, "length of a step; by default the scene's").Unit("s").Range(1e-9, 1);
+  verb.Option("--seconds", o.seconds, "simulated time; by default the scene's")
+      .Unit("s")
+      .Range(kLeastTime, kMostSeconds);
+  verb.Option("--step", o.step, "length of a step; by default the scene's")
+      .Unit("s")
+      .Range(kLeastTime, kMostStep);
   verb.Option("--rest", o.rest,
               "speed up to which a contact counts as at rest; by default what gravity makes in one step")
       .Unit("m/s")
-      .Range(1e-15, 1e6);
+      .Range(1e-15, kMostRest);
   verb.Option("--frames", o.frames_a_second,
               "pictures a second of simulated time; all are kept in memory until the end")
       .Range(1, 100000);
@@ -460,7 +484,8 @@ const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](Comman
   verb.Flag("--no-svg", o.svg, "no frames/*.svg");
   verb.Prints(o.json, "a simulation",
               "{written: written, animation: text, statistics: counters, worst_drift: {joints_m: rounded, "
-              "overlap_m: rounded}}");
+              "overlap_m: rounded}, motion: [{body: integer, name: text, moved_m: rounded, window_s: rounded, "
+              "speed_m_per_s: rounded, does: \"rests\" | \"flies\" | \"creeps\" | \"slides\" | \"moves\"}]}");
 });
 
 const ListedVerb kDrawVerb("Scenes and other programs' files", 30, [](CommandLine& program) {

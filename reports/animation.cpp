@@ -8,18 +8,12 @@
 #include "reports/animation_template.h"
 #include "reports/html/template.h"
 #include "reports/pictures/draw_bodies.h"
-#include "scene/simulate.h"
+#include "scene/tables.h"
 
 namespace stiction {
 namespace {
 
 constexpr std::array kKinds = {"bilateral", "frictionless", "static", "sliding"};
-
-template <class Kind>
-std::string NameOf(const SceneIn<Kind, double>& scene, int body) {
-  const std::string& name = scene.bodies[body].name;
-  return name.empty() ? "body " + std::to_string(body + 1) : name;
-}
 
 // A force of a contact by rows, exactly, and as draw.h shows it: pixels of a newton, before it is cut.
 template <class Kind>
@@ -56,7 +50,9 @@ Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const F
           {"points", std::move(points)},
           {"forces", std::move(forces)},
           {"problems", frame.problems},
-          {"remark", frame.remark}};
+          {"remark", frame.remark},
+          {"energy", NumbersToJson(frame.energy)},
+          {"drift", NumbersToJson(frame.drift)}};
 }
 
 }  // namespace
@@ -66,7 +62,7 @@ std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
                           const std::vector<FrameIn<Kind>>& frames, double newton, double rate) {
   const Screen screen(view);
   Json names = Json::array(), bodies = Json::array(), shown = Json::array();
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) names.push_back(NameOf(scene, i));
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) names.push_back(NameOfBody(scene, i));
   for (const Html& picture : BodyPictures(scene, screen)) bodies.push_back(picture.markup());
   SceneIn<Kind, double> moved = scene;
   for (const auto& frame : frames) {

@@ -10,6 +10,7 @@
 #define STICTION_REPORTS_PICTURES_DRAW_H_
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ struct FrameIn {
   MarksIn<Kind> marks;
   std::vector<std::string> problems = {};  // that the forces solve, as texts of stiction-problem files
   std::string remark = {};                 // what is to be said of it
+  std::array<double, 2> energy = {};       // J: kinetic, potential
+  std::array<double, 2> drift = {};        // m: of joints, overlap, the worst since the frame before
 };
 template <class Kind>
 FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>& scene, double time, MarksIn<Kind> marks);

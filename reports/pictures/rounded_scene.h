@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "corpus/input_error.h"
@@ -58,6 +59,25 @@ SceneIn<Kind, double> RoundedScene(const SceneFileIn<Kind>& file, const std::str
   for (const auto& joint : scene.joints) require(joint.at_a.sum() + joint.at_b.sum(), "joints");
   for (const auto& contact : scene.contacts) require(contact.at_a.sum() + contact.at_b.sum(), "contacts");
   return scene;
+}
+
+// ---- How it is simulated -------------------------------------------------------------------------
+
+// A number of a file that is within what the option of its name takes.
+inline double Within(const Rational& x, double least, double most, const std::string& place) {
+  const double value = x > Rational(most) ? std::numeric_limits<double>::infinity() : ToDouble(x);
+  if (value >= least && value <= most) return value;
+  throw InputError(fmt::format("{}: found {}, expected {:g} to {:g} s", place, value, least, most));
+}
+inline constexpr double kLeastTime = 1e-9, kMostStep = 1, kMostSeconds = 1e6;  // s
+inline constexpr double kMostRest = 1e6;                                       // m/s
+template <class Kind>
+double StepOf(const SceneFileIn<Kind>& file, const std::string& source) {
+  return Within(file.step, kLeastTime, kMostStep, source + ": step");
+}
+template <class Kind>
+double SecondsOf(const SceneFileIn<Kind>& file, const std::string& source) {
+  return Within(file.seconds, kLeastTime, kMostSeconds, source + ": seconds");
 }
 
 }  // namespace stiction

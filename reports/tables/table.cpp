@@ -105,13 +105,6 @@ std::string DataText(const TableCell& cell) {
   return "";
 }
 
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 // As text and as a number alike.
 Json DataJson(const TableCell& cell) {
   if (cell.value.index() == 0) return nullptr;
@@ -288,10 +281,17 @@ std::string Shown(const TableCell& cell) {
   return ratio->kind == Ratio::kRate ? RateText(ratio->count, ratio->of) : ShareText(ratio->count, ratio->of);
 }
 
+std::string QuotedForCsv(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 std::string ToCsv(const Table& table) {
   std::string csv;
   const auto add_line = [&csv](const auto& cells, auto text_of) {
-    for (std::size_t i = 0; i < cells.size(); ++i) csv += (i > 0 ? "," : "") + Quoted(text_of(cells[i]));
+    for (std::size_t i = 0; i < cells.size(); ++i) csv += (i > 0 ? "," : "") + QuotedForCsv(text_of(cells[i]));
     csv += "\r\n";
   };
   add_line(DataNames(table), [](const std::string& name) { return name; });

@@ -117,6 +117,8 @@ Table Melted(const Table& table, const std::string& parts);
 // As people read it; of a rate or share the value with its interval.
 std::string Shown(const TableCell& cell);
 
+// A text as a cell of CSV.
+std::string QuotedForCsv(const std::string& text);
 // RFC 4180: a line of names, CRLF.
 std::string ToCsv(const Table& table);
 // {"columns": [...], "rows": [[...], ...]}

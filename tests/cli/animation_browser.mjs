@@ -64,6 +64,23 @@ test('the tab key reaches the controls in their order', async () => {
   });
 });
 
+test('energy and drift are drawn over time, with a mark at the frame that is shown', async () => {
+  await opened('plane', async page => {
+    const {frames} = await dataOf(page), last = frames.length - 1;
+    assert.ok(frames.every(({energy, drift}) => [...energy, ...drift].every(Number.isFinite)));
+    const points = await page.$$eval(
+        '#charts path', paths => paths.map(path => path.getAttribute('d').split(/[ML]/).length - 1));
+    assert.deepEqual(points, Array(5).fill(frames.length));
+    const marks = () =>
+        page.$$eval('#charts .cursor', lines => lines.map(line => Number(line.getAttribute('x1'))));
+    const first = await marks();
+    await page.keyboard.press('End');
+    assert.equal(await frame(page), last);
+    const end = await marks();
+    assert.ok(first.length === 2 && first.every((x, i) => x < end[i]));
+  });
+});
+
 test('the table has the numbers of the frame, and the problem that is saved gives them', async () => {
   await opened('plane', async page => {
     const {forces} = (await dataOf(page)).frames[0], shown = await numbers(page);

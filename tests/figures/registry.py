@@ -66,6 +66,7 @@ BLOCKS = [
     Block("safe-by-condition", "certify/condition_number.md", corpus.safe_by_condition),
     Block("methods-built", "solver/README.md", corpus.methods_built),
     Block("worst-case", "solver/published/readings.md", corpus.worst_case),
+    Block("simulation-tables", "corpus/formats/simulation_tables.md", scene.simulation_tables),
     Block("energy", "scene/simulation.md", scene.energy),
     Block("halved-steps", "scene/simulation.md", scene.halved_steps),
 ]

@@ -37,6 +37,21 @@ def energy(program):
                   "joints come apart by, m"], rows)
 
 
+def simulation_tables(program):
+    """The columns of the tables of a simulation, as the program describes them, of the plane and of space."""
+    columns = {}  # (table, column) -> (unit, meaning, scenes)
+    for kind, scene in (("the plane", "stack"), ("space", "space/stack")):
+        _, _, _, folder = simulate(program, scene, "--seconds", 0.1)
+        with open(folder / "columns.csv", newline="") as file:
+            for row in csv.DictReader(file):
+                kinds = columns.setdefault((row["table"], row["column"], row["unit"], row["meaning"]), [])
+                kinds.append(kind)
+    order = list(dict.fromkeys(name for name, *_ in columns))
+    rows = [(f"`{name}`", f"`{column}`", unit, "" if len(kinds) == 2 else kinds[0], meaning)
+            for (name, column, unit, meaning), kinds in sorted(columns.items(), key=lambda item: order.index(item[0][0]))]
+    return table(["table", "column", "unit", "only in", "what"], rows)
+
+
 def halved_steps(program):
     """Steps that left overlap and were done in halves; problems that are hard to solve."""
     rows = []

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene that moves. The address says what is shown: #frame=12, counted from 0.
+import {Chart} from './charts.js';
 import {Cones, forceArrow} from './cones.js';
 import {byId, element, icon, svgElement} from './dom.js';
 import {short} from './numbers.js';
@@ -29,8 +30,8 @@ function modeOf(force) {
   return size < most - 1e-6 * Math.max(size, most) ? 'sticking' : 'at the limit';
 }
 
-// The least powers of two that hold the forces of a frame, and the widest cones at them: not every frame changes the
-// scale, and a blow in one leaves the forces of the others to be seen.
+// The least powers of two that hold the forces of a frame, and the widest cones at them: not every frame
+// changes the scale, and a blow in one leaves the forces of the others to be seen.
 const powerAbove = x => x === 0 ? 0 : 2 ** Math.ceil(Math.log2(x));
 function reachOf(forces) {
   let across = 0, up = 0;
@@ -87,6 +88,24 @@ function cones(forces) {
                '',
   ];
 }
+
+// ---- Energy and drift ------------------------------------------------------------------------
+
+const ofFrames = (key, i) => frames.map(frame => frame[key][i]);
+const times = frames.map(({time}) => time);
+const charts = [
+  new Chart(
+      'Energy', 'J', times,
+      [
+        {name: 'total', values: frames.map(({energy: [kinetic, potential]}) => kinetic + potential)},
+        {name: 'kinetic', values: ofFrames('energy', 0)}, {name: 'potential', values: ofFrames('energy', 1)}
+      ]),
+  new Chart(
+      'Drift, at worst since the frame before', 'm', times,
+      [{name: 'overlap', values: ofFrames('drift', 1)}, {name: 'joints apart', values: ofFrames('drift', 0)}],
+      [0]),
+];
+byId('charts').append(...charts.map(({node}) => node));
 
 // ---- The picture -----------------------------------------------------------------------------
 
@@ -169,6 +188,7 @@ function draw() {
   controls.link.href = `#frame=${shown.frame}`;
   controls.back.disabled = controls.first.disabled = shown.frame === 0;
   controls.next.disabled = controls.last.disabled = shown.frame === last;
+  for (const chart of charts) chart.show(shown.frame);
   byId('forces').replaceChildren(table(frame.forces));
   byId('cones').replaceChildren(...cones(frame.forces));
   byId('cones').parentNode.hidden = frame.forces.length === 0;
