@@ -32,6 +32,7 @@
 #include "corpus/stopwatch.h"
 #include "python/search.h"
 #include "python/signals.h"
+#include "python/simulate.h"
 #include "search/campaign.h"
 #include "search/generators/generators.h"
 
@@ -420,6 +421,7 @@ PYBIND11_MODULE(_stiction, module) {
   module.def("certify", &CertifyProblem);
   module.def("check", &CheckForProblem);
   AddSearch(module);
+  AddSimulate(module);
 }
 
 }  // namespace stiction

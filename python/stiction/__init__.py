@@ -18,10 +18,11 @@ except ImportError as error:
 from ._campaigns import Best, Finding, Store, draw, interval, search
 from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve, solve_all
 from ._problem import Problem, load
+from ._simulation import Simulation, simulate
 from ._stiction import __version__
 
-__all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Store", "certify", "check",
-           "draw", "ends", "interval", "load", "replay", "search", "solve", "solve_all"]  # and __version__
+__all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Simulation", "Store", "certify",
+           "check", "draw", "ends", "interval", "load", "replay", "search", "simulate", "solve", "solve_all"]  # and __version__
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

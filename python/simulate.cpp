@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/simulate.h"
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "corpus/record/scene_file.h"
+#include "python/signals.h"
+#include "reports/pictures/rounded_scene.h"
+#include "scene/tables.h"
+
+namespace stiction {
+namespace {
+
+namespace py = pybind11;
+
+// A column as it grows. Texts are few: each stands once, and rows have its number.
+struct GrowingColumn {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> whole;
+  std::vector<std::string> words;
+  std::map<std::string, std::int64_t> word_numbers;
+
+  void Add(double number) { numbers.push_back(number); }
+  void Add(std::int64_t number) { whole.push_back(number); }
+  void Add(const std::string& text) {
+    const auto [at, is_new] = word_numbers.try_emplace(text, static_cast<std::int64_t>(words.size()));
+    if (is_new) words.push_back(text);
+    whole.push_back(at->second);
+  }
+};
+
+// An array that has the memory of the vector.
+template <class Number>
+py::array Owned(std::vector<Number> numbers) {
+  auto kept = std::make_unique<std::vector<Number>>(std::move(numbers));
+  std::vector<Number>& memory = *kept;
+  const py::capsule owner(kept.release(), [](void* of) { delete static_cast<std::vector<Number>*>(of); });
+  return py::array_t<Number>(static_cast<py::ssize_t>(memory.size()), memory.data(), owner);
+}
+
+template <class Row>
+class GrowingTable {
+ public:
+  explicit GrowingTable(const OutputTable<Row>& table) : table_(table), columns_(table.columns.size()) {}
+
+  void Add(const Row& row) {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      std::visit([&](const auto of) { columns_[i].Add(of(row)); }, table_.columns[i].value);
+  }
+
+  // Name -> (array, the texts that its numbers stand for, or None). Nothing is left here.
+  py::dict Take() {
+    py::dict dict;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      GrowingColumn& column = columns_[i];
+      const auto& of = table_.columns[i];
+      const auto take = [&](auto&& numbers, const py::object& words) {
+        dict[py::str(of.name)] = py::make_tuple(Owned(std::move(numbers)), words);
+      };
+      if (std::holds_alternative<double (*)(const Row&)>(of.value)) {
+        take(column.numbers, py::none());
+      } else if (std::holds_alternative<std::string (*)(const Row&)>(of.value)) {
+        take(column.whole, py::cast(column.words));
+      } else {
+        take(column.whole, py::none());
+      }
+    }
+    return dict;
+  }
+
+ private:
+  const OutputTable<Row>& table_;
+  std::vector<GrowingColumn> columns_;
+};
+
+// What `stiction simulate` writes as tables.
+template <class Kind>
+struct ArraysOfRun {
+  GrowingTable<BodyRow<Kind>> bodies{BodyTable<Kind>()};
+  GrowingTable<ContactRow<Kind>> contacts{ContactTable<Kind>()};
+  GrowingTable<StateRow> energy{EnergyTable()}, drift{DriftTable()};
+  GrowingTable<MotionRow<Kind>> motion{MotionTable<Kind>()};
+  MotionTrack<Kind> track;
+  SimulationStatistics statistics;
+  std::string reason;  // why a step has no answer; empty if all have
+
+  void AddState(const SimulationIn<Kind>& simulation) {
+    const auto& scene = simulation.scene();
+    const StateRow state{simulation.time(), EnergyOf(scene), DriftOf(scene)};
+    ForEachBodyRow(simulation, [this](const BodyRow<Kind>& row) { bodies.Add(row); });
+    energy.Add(state);
+    drift.Add(state);
+    track.Add(state.time, scene, SupportsOf(simulation));
+  }
+};
+
+template <class Kind>
+ArraysOfRun<Kind> RunArrays(const SceneIn<Kind, double>& scene, const SimulationOptions& options,
+                            std::int64_t steps, const std::atomic<bool>* stop) {
+  ArraysOfRun<Kind> run;
+  SimulationIn<Kind> simulation(scene, options);
+  run.AddState(simulation);
+  try {
+    for (std::int64_t k = 0; k < steps && !*stop; ++k) {
+      const double time = simulation.time();
+      simulation.Step();
+      ForEachContactRow(simulation, time, [&run](const ContactRow<Kind>& row) { run.contacts.Add(row); });
+      run.AddState(simulation);
+    }
+  } catch (const SimulationError& error) {
+    run.reason = error.what();
+  }
+  for (const BodyMotion& motion : run.track.Motions()) run.motion.Add({scene, motion});
+  run.statistics = simulation.statistics();
+  return run;
+}
+
+template <class Kind>
+py::dict SimulateScene(const SceneFileIn<Kind>& file, const std::string& source, std::optional<double> seconds,
+                       std::optional<double> step, double rest, bool full) {
+  SimulationOptions options;
+  options.step = step ? *step : StepOf(file, source);
+  options.rest = rest;
+  options.minimal = !full;
+  const double time = seconds ? *seconds : SecondsOf(file, source);
+  const SceneIn<Kind, double> scene = RoundedScene(file, source);
+  const auto steps = static_cast<std::int64_t>(std::llround(time / options.step));
+  auto run = Interruptible(
+      0, [&](const std::atomic<bool>* stop) { return RunArrays<Kind>(scene, options, steps, stop); });
+  py::dict said, statistics;
+  ForEachField(run.statistics,
+               [&statistics](const char* name, const char*, std::int64_t value) { statistics[name] = value; });
+  said["name"] = scene.name;
+  said["dimension"] = Kind::kDimension;
+  said["bodies"] = run.bodies.Take();
+  said["contacts"] = run.contacts.Take();
+  said["energy"] = run.energy.Take();
+  said["drift"] = run.drift.Take();
+  said["motion"] = run.motion.Take();
+  said["statistics"] = statistics;
+  said["reason"] = run.reason;
+  return said;
+}
+
+// Of the text of a scene file.
+py::dict SimulateText(const std::string& text, const std::string& source, std::optional<double> seconds,
+                      std::optional<double> step, double rest, bool full) {
+  const auto require = [](const char* name, std::optional<double> value, double least, double most) {
+    if (!value || (*value >= least && *value <= most)) return;
+    throw InputError(fmt::format("{}: found {}, expected {} to {}", name, *value, least, most));
+  };
+  require("seconds", seconds, kLeastTime, kMostSeconds);
+  require("step", step, kLeastTime, kMostStep);
+  require("rest", rest, 0, kMostRest);
+  return std::visit([&](const auto& file) { return SimulateScene(file, source, seconds, step, rest, full); },
+                    ParseAnyScene(text, source));
+}
+
+}  // namespace
+
+void AddSimulate(py::module_& module) { module.def("simulate", &SimulateText); }
+
+}  // namespace stiction

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, stepped through time."""
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _stiction
+from ._given import Path, path_text, real
+
+Table = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, repr=False)
+class Simulation:
+    """A run: what the tables of `stiction simulate` have, as arrays that cannot be written to.
+
+    `bodies`, `contacts`, `energy`, `drift` and `motion` are columns by the names that the files have; units and what
+    each column means are listed in corpus/formats/simulation_tables.md. Those of `bodies` are states x bodies, state 0
+    the scene as given. The others have a number for each row: `contacts` one for each contact of each step, whose state
+    is its column `step`. `reason` says why a step has no answer, where the run ended early; otherwise it is empty.
+    """
+
+    name: str
+    dimension: int
+    bodies: Table
+    contacts: Table
+    energy: Table
+    drift: Table
+    motion: Table
+    statistics: dict[str, int]
+    reason: str
+
+    def __repr__(self) -> str:
+        states, bodies = self.bodies["time_s"].shape
+        why = f", {self.reason}" if self.reason else ""
+        return f"<stiction.Simulation of {self.name!r}, {states} states, {bodies} bodies{why}>"
+
+    def _stacked(self, pattern: str, axes: str) -> NDArray[np.float64]:
+        return _closed(np.stack([self.bodies[pattern.replace("%", axis)] for axis in axes], axis=-1))
+
+    @property
+    def _axes(self) -> str:
+        return "xyz"[:self.dimension]
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Of the states, in s."""
+        return self.energy["time_s"]
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """Of centres of mass in m: states x bodies x dimension."""
+        return self._stacked("%_m", self._axes)
+
+    @property
+    def angles(self) -> NDArray[np.float64]:
+        """In the plane, in rad from -pi to pi: states x bodies."""
+        if self.dimension != 2:
+            raise ValueError("angles: found a scene in space, expected one in the plane: quaternions")
+        return self.bodies["angle_rad"]
+
+    @property
+    def quaternions(self) -> NDArray[np.float64]:
+        """In space, w, x, y, z of length 1: states x bodies x 4."""
+        if self.dimension != 3:
+            raise ValueError("quaternions: found a scene in the plane, expected one in space: angles")
+        return self._stacked("q%", "wxyz")
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """Of centres of mass in m/s, of the middle of the step before: states x bodies x dimension."""
+        return self._stacked("v%_m_per_s", self._axes)
+
+    @property
+    def spins(self) -> NDArray[np.float64]:
+        """In rad/s, likewise: states x bodies in the plane, states x bodies x 3 in space."""
+        return self.bodies["spin_rad_per_s"] if self.dimension == 2 else self._stacked("spin_%_rad_per_s", "xyz")
+
+
+def _closed(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array
+
+
+def _column(numbers: NDArray[Any], words: list[str] | None) -> NDArray[Any]:
+    return numbers if words is None else np.array(words, dtype=str)[numbers]
+
+
+def _table(said: dict[str, tuple[NDArray[Any], list[str] | None]], states: int | None = None) -> Table:
+    """With `states`, arrays of states x bodies."""
+    columns = {name: _column(numbers, words) for name, (numbers, words) in said.items()}
+    return {name: _closed(column if states is None else column.reshape(states, -1)) for name, column in columns.items()}
+
+
+def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step: float | None = None, *,
+             rest: float | None = None, full: bool = False) -> Simulation:
+    """Steps a scene through time, over doubles: what `stiction simulate` does, and with the same numbers.
+
+    `scene` is a stiction-scene file, or a dictionary like one. `seconds` and `step`, in s, are the scene's unless they are
+    given; `rest` and `full` are what `stiction simulate --help` says. A step that has no answer ends the run: `reason`.
+    Ctrl-C is a KeyboardInterrupt.
+    """
+    if isinstance(scene, Mapping):
+        text, source = json.dumps(scene), "scene"
+    else:
+        source = path_text(scene)
+        with open(source, encoding="utf-8") as file:
+            text = file.read()
+    if not isinstance(full, bool):
+        raise TypeError(f"full: found {full!r}, expected True or False")
+    said = _stiction.simulate(text, source, None if seconds is None else real("seconds", seconds),
+                              None if step is None else real("step", step), 0.0 if rest is None else real("rest", rest),
+                              full)
+    energy = _table(said["energy"])
+    return Simulation(said["name"], said["dimension"], _table(said["bodies"], len(energy["time_s"])),
+                      _table(said["contacts"]), energy, _table(said["drift"]), _table(said["motion"]),
+                      said["statistics"], said["reason"])
