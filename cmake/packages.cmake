@@ -89,9 +89,9 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libstiction-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libeigen3-dev)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pivoting methods for contact forces with friction, as a library
-Headers, a static library and CMake files: the published algorithm of D.
-Baraff (1994) under every reading of its text, and complete driving, which
-always ends.")
+Headers, static libraries and CMake files for C++, and stiction.h for C: the
+published algorithm of D. Baraff (1994) under every reading of its text,
+complete driving, which always ends, and Newton's method for engines.")
 # The module is of one version of the interpreter; of numpy it takes what every version has.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-stiction)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# test.sh BUILD_DIR [COMPONENT]: whether what BUILD_DIR installs (of COMPONENT only) serves another project.
+# test.sh BUILD_DIR [COMPONENT [examples]]: whether what BUILD_DIR installs (of COMPONENT only) serves another project:
+# the consumer of this folder, or the engines of solver/c/examples, those of them that are installed.
 #
-# The consumer sees the installed files alone. It is built with the compiler of BUILD_DIR, and instrumented as
-# the library is, since the two are linked.
+# The consumer sees the installed files alone. It is built with the compilers of BUILD_DIR, and instrumented as
+# the library is, since the two are linked. C finds the library by CMake and by pkg-config; with the latter the
+# program of solver/c/velocity_step.md is built.
 set -euo pipefail
 
-readonly build=$1 component=${2-}
+readonly build=$1 component=${2-} project=${3-consumer}
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
+readonly interface=$here/../../solver/c
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 
@@ -19,11 +22,27 @@ sanitizers=$(cached STICTION_SANITIZE)
 [[ -z $sanitizers ]] || instrumentation+=("-fsanitize=$sanitizers")
 [[ $(cached STICTION_COVERAGE) != ON ]] || instrumentation+=(--coverage)
 
+cxx=$(cached CMAKE_CXX_COMPILER)
+cc=${cxx/clang++/clang}
+cc=${cc/g++/gcc}
+
 cmake --install "$build" --prefix "$work/installed" ${component:+--component "$component"}
 # Copied, so that nothing is found by way of the checkout.
-cp -R -- "$here/consumer" "$work/consumer"
-cmake -G Ninja -S "$work/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/installed" \
-  -DCMAKE_CXX_COMPILER="$(cached CMAKE_CXX_COMPILER)" -DCMAKE_BUILD_TYPE="$(cached CMAKE_BUILD_TYPE)" \
-  -DCMAKE_CXX_FLAGS="${instrumentation[*]}"
+cp -R -- "$here/consumer" "$interface/examples" "$work"
+cmake -G Ninja -S "$work/$project" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/installed" \
+  -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE="$(cached CMAKE_BUILD_TYPE)" \
+  -DCMAKE_CXX_FLAGS="${instrumentation[*]}" -DCMAKE_C_FLAGS="${instrumentation[*]}"
 cmake --build "$work/build"
+if [[ $project == examples ]]; then
+  ctest --test-dir "$work/build" --output-on-failure --no-tests=ignore
+  exit
+fi
 "$work/build/consumer"
+"$work/build/from_c"
+
+sed -n '/^```c$/,/^```$/{/^```/!p}' "$interface/velocity_step.md" >"$work/velocity_step.c"
+PKG_CONFIG_PATH=$(dirname -- "$(find "$work/installed" -name stiction.pc)")
+export PKG_CONFIG_PATH
+read -ra flags <<<"$(pkg-config --cflags --libs stiction)"
+"$cc" -std=c11 -Wall -Wextra -pedantic -Werror "${instrumentation[@]}" "$work/velocity_step.c" "${flags[@]}" -o "$work/velocity_step"
+"$work/velocity_step"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two contacts pressed down: the first sticks, the second slides. f = (1, -1/2, 2, -2).
 
+#include <stiction.h>
+
 #include <iostream>
 
 #include "solver/solve.h"
@@ -15,5 +17,6 @@ int main() {
 
   const stiction::Answer<double> answer = stiction::Solve(problem);
   std::cout << Name(answer.outcome) << " by " << answer.method << ", f = " << answer.f.transpose() << '\n';
+  std::cout << "stiction " << stiction_version() << '\n';
   return answer.Solved() && (answer.f - Eigen::Vector4d(1, -0.5, 2, -2)).norm() < 1e-7 ? 0 : 1;
 }
