@@ -22,7 +22,8 @@ int BenchPeers(const BenchOptions& options, std::string_view tables) {
   std::istringstream names{std::string(tables)};
   for (std::string name; names >> name;) words.push_back(name);
   if (options.json) words.push_back("--json");
-  if (options.problems) words.insert(words.end(), {"--problems", std::to_string(*options.problems)});
+  const char* count = tables == "engines" ? "--frames" : "--problems";
+  if (options.problems) words.insert(words.end(), {count, std::to_string(*options.problems)});
   if (!options.contacts.empty()) words.push_back("--contacts");
   for (const int contacts : options.contacts) words.push_back(std::to_string(contacts));
   if (!options.families.empty()) words.push_back("--family");

@@ -56,6 +56,8 @@ inline constexpr std::array kSuites = {
           "of a setting of a dial (default 400)", kMostOfAnySuite, "extremes-frictionless extremes"},
     Suite{"growth", "of it, time and memory at up to 2000 contacts", "", kMostOfAnySuite,
           "growth-frictionless growth-planar"},
+    Suite{"engines", "scenes simulated beside Bullet, ODE, Box2D and MuJoCo, and what of them stands",
+          "of the frames of a scene, at most (default: all)", kMostOfAnySuite, "engines"},
     Suite{"lemke", "a search beside Siconos's Lemke, at 2 to 5 contacts", "", 5, "lemke"},
 };
 

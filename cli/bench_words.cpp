@@ -63,7 +63,7 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
       .OneOf(GeneratorNames())
       .Details("methods: instead of the positive definite family");
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
-  verb.Option("--families", o.families, "structure, extremes, silent, gate: these alone");
+  verb.Option("--families", o.families, "structure, engines, extremes, silent, gate: these alone");
   verb.Option("--csv", o.csv, "trade, extremes: a file for the lines, with intervals");
   verb.Option("-t,--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")

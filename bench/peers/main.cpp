@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "bench/one_thread.h"
+#include "bench/peers/engines.h"
 #include "bench/peers/families.h"
 #include "bench/peers/native_lu.h"
 #include "bench/peers/tables.h"
@@ -45,6 +46,8 @@ std::vector<std::string> MissingPackages() {
   if (MakeDart(false) == nullptr) missing.push_back("libdart-external-odelcpsolver-dev");
   if (MakeBullet(false) == nullptr) missing.push_back("libbullet-dev");
   if (MakeSiconos(SiconosMethod::kLcpLemke) == nullptr) missing.push_back("libsiconos-numerics-dev");
+  if (Box2dEngines().empty()) missing.push_back("libbox2d-dev");
+  if (MujocoEngines().empty()) missing.push_back("libmujoco-dev");
   return missing;
 }
 
@@ -73,6 +76,7 @@ void PrintHead() {
 Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   if (name == "structure") return MeasureStructure(o);
   if (name == "lemke") return MeasureLemke(o);
+  if (name == "engines") return MeasureEngines(o);
   if (name == "growth-frictionless") return MeasureGrowth(false, o);
   if (name == "growth-planar") return MeasureGrowth(true, o);
   if (name == "extremes") return MeasureExtremes(true, o);
@@ -119,14 +123,17 @@ void RequireScenes(const PeersOptions& o) {
   throw InputError(fmt::format("--scenes: found no folder {}, expected that of the corpus's scenes", o.scenes));
 }
 
-std::vector<std::string> FamilyNames() {
+// Those of the tables that have some.
+std::vector<std::string> FamilyNames(const PeersOptions& o) {
   std::vector<std::string> names;
+  if (std::find(o.tables.begin(), o.tables.end(), "engines") != o.tables.end()) names = EngineSceneNames();
+  if (std::find(o.tables.begin(), o.tables.end(), "structure") == o.tables.end()) return names;
   for (const StructuredFamily& family : StructuredFamilies({})) names.push_back(family.name);
   return names;
 }
 
 void RequireFamilies(const PeersOptions& o) {
-  const std::vector<std::string> names = FamilyNames();
+  const std::vector<std::string> names = FamilyNames(o);
   for (const std::string& family : o.families) {
     if (std::find(names.begin(), names.end(), family) == names.end())
       throw InputError(
@@ -160,7 +167,7 @@ std::vector<std::string> UsualTables() {
 
 std::vector<std::string> AllTables() {
   std::vector<std::string> tables = UsualTables();
-  tables.insert(tables.end(), {"extremes-frictionless", "extremes", "lemke"});
+  tables.insert(tables.end(), {"extremes-frictionless", "extremes", "lemke", "engines"});
   return tables;
 }
 
@@ -168,7 +175,7 @@ void AddOptions(CLI::App& program, PeersOptions& o) {
   program.add_option("--table", o.tables, "tables to measure")
       ->capture_default_str()
       ->check(CLI::IsMember(AllTables()));
-  program.add_option("--family", o.families, "of the table `structure`, these alone");
+  program.add_option("--family", o.families, "of the tables `structure` and `engines`, these alone");
   program.add_option("--scenes", o.scenes, "folder of the corpus's scenes, for the table `structure`")
       ->capture_default_str();
   program.add_option("--contacts", o.contacts, "numbers of contacts, instead of each table's own")
@@ -180,6 +187,13 @@ void AddOptions(CLI::App& program, PeersOptions& o) {
   program.add_option("--cap", o.cap, "a row that needs more seconds of processor time for a problem shows '-'")
       ->capture_default_str();
   program.add_option("--structure-cap", o.structure_cap, "the same, of the table `structure`")
+      ->capture_default_str();
+  program
+      .add_option("--frames", o.frames, "of a scene of the table `engines`, at most; those of a second or ten")
+      ->check(CLI::PositiveNumber);
+  program
+      .add_option("--engine-cap", o.engine_cap,
+                  "of the table `engines`, a scene ends after so many seconds of processor time")
       ->capture_default_str();
   program.add_option("--examples", o.examples,
                      "of the tables `extremes`, a folder for files of silently wrong answers");

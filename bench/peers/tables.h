@@ -4,6 +4,7 @@
 #ifndef STICTION_BENCH_PEERS_TABLES_H_
 #define STICTION_BENCH_PEERS_TABLES_H_
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,15 @@ namespace stiction {
 struct PeersOptions {
   std::vector<std::string> tables;
   std::vector<int> contacts;             // empty: each table's own
-  std::vector<std::string> families;     // of `structure`; empty: all
+  std::vector<std::string> families;     // of `structure`, scenes of `engines`; empty: all
   std::string scenes = "corpus/scenes";  // folder, for `structure`
   int problems = 400;
   double seconds = 0.3;
   double cap = 2;            // s, of the first problem, in whole seconds
   double structure_cap = 5;  // the same, of `structure`
   double growth_cap = 3;
+  int frames = std::numeric_limits<int>::max();  // of `engines`, at most
+  double engine_cap = 20;                        // s of processor time for an engine's frames of a scene
   std::uint64_t seed = 1;
   std::string examples;  // folder for the files of `extremes`; empty: none
   bool json = false;
@@ -58,6 +61,10 @@ Json MeasureLemke(const PeersOptions& o);
 
 // Time, memory and counts by the number of contacts (growth.cpp).
 Json MeasureGrowth(bool friction, const PeersOptions& o);
+
+// Scenes simulated beside engines (engines.cpp).
+std::vector<std::string> EngineSceneNames();
+Json MeasureEngines(const PeersOptions& o);
 
 }  // namespace stiction
 

@@ -260,15 +260,13 @@ struct Best {
   bool warm = false;
 };
 
-// As the gate bounds them, with noise told; the entries of A are rounded, too.
-template <class Problem>
-Errors<double> ErrorsOf(const Problem& problem, const Vector& f, double noise) {
-  const LongVector forces = f.cast<long double>();
-  LongVector a = Recompute(problem, forces);
-  for (long double& x : a) x = std::abs(x) <= noise ? 0 : x;
-  Units<long double> units;
-  const auto rounding = Units<long double>::Rounding(problem.rows());
-  const auto errors = MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a, units, rounding);
+// Of f with accelerations a, which are off by `rounding` times their sizes; noise counts as none.
+template <class Problem, class AnyVector>
+Errors<double> ErrorsAt(const Problem& problem, const AnyVector& f, AnyVector a, double noise,
+                        typename AnyVector::Scalar rounding) {
+  for (auto& x : a) x = std::abs(x) <= noise ? 0 : x;
+  Units<typename AnyVector::Scalar> units;
+  const auto errors = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, units, rounding);
   Errors<double> told;
   told.acceleration = static_cast<double>(errors.acceleration);
   told.force = static_cast<double>(errors.force);
@@ -276,15 +274,39 @@ Errors<double> ErrorsOf(const Problem& problem, const Vector& f, double noise) {
   return told;
 }
 
+// As the gate bounds them.
+template <class Problem>
+Errors<double> ErrorsOf(const Problem& problem, const Vector& f, double noise) {
+  const LongVector forces = f.cast<long double>();
+  return ErrorsAt(problem, forces, Recompute(problem, forces), noise,
+                  Units<long double>::Rounding(problem.rows()));
+}
+
+// Whether f = 0 leaves no normal acceleration that is not allowed.
+template <class Problem>
+bool NeedsNoForces(const Problem& problem) {
+  int row = 0;
+  for (const Contact<double>& contact : problem.contacts) {
+    if (contact.kind == ContactKind::kBilateral ? problem.b[row] != 0 : problem.b[row] < 0) return false;
+    row += contact.HasFrictionRows() ? problem.dimension : 1;
+  }
+  return true;
+}
+
 template <class Problem>
 class Solving {
  public:
   Solving(const Problem& problem, const stiction_options& options) : problem_(problem), options_(options) {
     best_.f.setZero(problem.rows());
-    best_.errors = ErrorsOf(problem, best_.f, options.noise);
+    best_.errors.acceleration = std::numeric_limits<double>::infinity();
+    if (NeedsNoForces(problem)) best_.errors = ErrorsOf(problem, best_.f, options.noise);
   }
 
-  const Best& best() const { return best_; }
+  // The best forces; f = 0 where nothing was found that has errors.
+  const Best& Finish() {
+    if (!std::isfinite(best_.errors.Largest())) best_.errors = ErrorsOf(problem_, best_.f, options_.noise);
+    return best_;
+  }
   bool IsSolved() const { return best_.errors.Largest() <= options_.residual; }
 
   // Keeps the better forces.
@@ -302,7 +324,8 @@ class Solving {
     options.noise = options_.noise;
     options.points = options_.points;
     if (start != nullptr) {
-      const double error = ErrorsOf(problem_, *start, options_.noise).Largest();
+      const Vector a = factors.A.J() * factors.Accelerations(*start) + factors.c;
+      const double error = ErrorsAt(factors, *start, a, options_.noise, 0).Largest();
       options.warm_eps = std::clamp(kEpsPerError * error, options.warm_eps, kMostEps);
       options.failures = kFailures + problem_.rows() / kRowsPerFailure;
     }
@@ -313,6 +336,7 @@ class Solving {
 
   // From the forces of the call before, if there are any; then from none.
   void ByNewton(std::optional<BodyNewton<double>>& newton, const Factored& factors, const Vector& start) {
+    if (options_.points == 0) return;
     if (!newton) newton.emplace();
     if (start.size() > 0) ByNewton(*newton, factors, &start);
     if (!IsSolved()) ByNewton(*newton, factors, nullptr);
@@ -413,9 +437,8 @@ std::optional<Factored> InFactors(const Dense& problem) {
 
 // Writes the answer, when there is nothing left that may throw. v: of the bodies.
 template <class Problem>
-stiction_verdict Told(stiction_context& context, const Solving<Problem>& solving, const Problem& problem,
-                      const Vector& v, const stiction_options& options, stiction_answer& answer) {
-  const Best& best = solving.best();
+stiction_verdict Told(stiction_context& context, const Best& best, const Problem& problem, const Vector& v,
+                      const stiction_options& options, stiction_answer& answer) {
   const LongVector a = Recompute(problem, best.f.template cast<long double>());
   for (int i = 0; i < problem.rows(); ++i) {
     answer.forces[i] = best.f[i];
@@ -425,7 +448,7 @@ stiction_verdict Told(stiction_context& context, const Solving<Problem>& solving
   answer.errors = {best.errors.acceleration, best.errors.force, best.errors.contact};
   answer.warm = best.warm;
   answer.method = best.method;
-  if (solving.IsSolved()) return STICTION_SOLVED;
+  if (best.errors.Largest() <= options.residual) return STICTION_SOLVED;
   std::snprintf(context.message, sizeof context.message,
                 "undecided: the least error found is %.3g, at contact %d, by method %s; expected at most %.3g",
                 best.errors.Largest(), best.errors.contact, best.method, options.residual);
@@ -448,9 +471,10 @@ stiction_verdict SolveFactors(stiction_context& context, const stiction_factors*
   if (!solving.IsSolved() && problem.w.size() > 0)
     solving.ByNewton(context.newton, problem, options.warm ? Start(context, *given) : Vector());
   if (!solving.IsSolved() && problem.rows() <= options.dense_rows) solving.ByDenseMethods(InNumbers(problem));
+  const Best& best = solving.Finish();
   context.known.clear();
-  if (solving.IsSolved()) Remember(context, *given, solving.best().f);
-  return Told(context, solving, problem, problem.Accelerations(solving.best().f), options, *answer);
+  if (solving.IsSolved()) Remember(context, *given, best.f);
+  return Told(context, best, problem, problem.Accelerations(best.f), options, *answer);
 }
 
 stiction_verdict SolveNumbers(stiction_context& context, const stiction_dense* given,
@@ -465,9 +489,10 @@ stiction_verdict SolveNumbers(stiction_context& context, const stiction_dense* g
       solving.ByNewton(context.newton, *factors, options.warm ? Start(context, *given) : Vector());
   }
   if (!solving.IsSolved()) solving.ByDenseMethods(problem);
+  const Best& best = solving.Finish();
   context.known.clear();
-  if (solving.IsSolved()) Remember(context, *given, solving.best().f);
-  return Told(context, solving, problem, {}, options, *answer);
+  if (solving.IsSolved()) Remember(context, *given, best.f);
+  return Told(context, best, problem, {}, options, *answer);
 }
 
 // What call() returns, or what its exception says.

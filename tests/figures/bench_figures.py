@@ -346,6 +346,41 @@ def structure_large(program):
     return families_text(program, LARGE)
 
 
+def engine_cell(row):
+    """Frames a second, unless it falls, and how far a body moved that should rest."""
+    if row is None:
+        return ""
+    moved = f"; {row['end']}, {row['moved']:.1g} m" if row["moved"] is not None and row["end"] != "falls" else ""
+    return "falls" if row["end"] == "falls" else three(row["frames a second"]) + moved
+
+
+def drift_cell(row):
+    if row is None or row["end"] == "falls":
+        return ""
+    drift = "" if row["drift"] is None else f"{row['drift']:.1g} m/s; "
+    return f"{drift}{row['overlap']:.1g} m"
+
+
+def engines(program):
+    """Frames a second of each engine on each scene, and who stands; then drift and overlap."""
+    result = program.bench("engines")
+    scenes = result["tables"][0]["scenes"]
+    versions = {row["engine"]: row["version"] for scene in scenes for row in scene["rows"]}
+    found = {(scene["scene"], row["engine"]): row for scene in scenes for row in scene["rows"]}
+    parts = [table([head, *versions], [(f"`{scene['scene']}`, {scene['bodies']}",
+                                        *(cell(found.get((scene["scene"], engine))) for engine in versions))
+                                       for scene in scenes])
+             for head, cell in (("frames a second, of boxes", engine_cell), ("drift; overlap", drift_cell))]
+    told = ", ".join(f"{engine.split(',')[0]} {version}" for engine, version in versions.items() if version != "this")
+    clocks = result["clocks"]
+    return "\n\n".join((*parts, prose(
+        f"As the packages name themselves: {', '.join(dict.fromkeys(told.split(', ')))}. Processor time of steps, one thread, "
+        f"a run each; all threads {clocks['all_threads']:.0f} s, the one that calls {clocks['one_thread']:.0f} s. At 240 "
+        "steps a second; 1 s of each scene, 10 s of the block on a slope of 99 % of mu, or what 20 s of processor time "
+        "allow. Falls: a body moved by more than half of its least edge; what falls is not ranked. Moves: by more than 1 mm. "
+        "Drift: how fast that grows in the second half. Overlap: the deepest at ten times")))
+
+
 def peers_in_short(program):
     """`fast` and the packages, from the fewest to the most contacts."""
     rows = []

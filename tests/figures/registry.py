@@ -36,6 +36,7 @@ class Measurement:
 
 MEASURED = "reports/measured"
 SICONOS = ("libsiconos-numerics-dev",)
+ENGINES = ("libbullet-dev", "libode-dev", "libbox2d-dev", "libmujoco-dev")
 PEERS = ("libode-dev", "libdart-dev", "libbullet-dev", *SICONOS)
 
 
@@ -155,6 +156,9 @@ MEASUREMENTS = [
     Measurement("peers", "long", bench.peers, "The methods beside the packages of others on random matrices.", PEERS),
     Measurement("structure", "long", bench.structure,
                 "The methods beside the packages of others on problems with structure.", PEERS),
+    Measurement("engines", "minutes", bench.engines,
+                "Scenes simulated beside Bullet, ODE, Box2D and MuJoCo: frames a second, what stands, drift, overlap.",
+                ENGINES),
     Measurement("nightly", "long", corpus.nightly,
                 "The last `./run test --nightly`: its steps, and bugs of one line that the tests notice."),
     Measurement("structure-large", "long", bench.structure_large,
