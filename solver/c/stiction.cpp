@@ -15,7 +15,6 @@
 #include <new>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "solver/numeric/body_newton.h"
@@ -107,6 +106,7 @@ std::vector<Contact<double>> TakenContacts(const Given& given) {
   CheckCount("contact_count", given.contact_count);
   CheckPointer("contacts", given.contacts, given.contact_count);
   std::vector<Contact<double>> contacts;
+  contacts.reserve(given.contact_count);
   for (int i = 0; i < given.contact_count; ++i)
     contacts.push_back(TakenContact(given.contacts[i], i, given.dimension));
   const int rows = RowCount(contacts, given.dimension);
@@ -201,7 +201,7 @@ Factored Taken(const stiction_factors& given) {
     problem.c = Eigen::Map<const Vector>(given.c, given.rows);
   }
   problem.b = J * problem.w + problem.c;
-  problem.A = {std::move(J), std::move(W)};
+  problem.A = {J, W};
   return problem;
 }
 
