@@ -198,7 +198,7 @@ Json NextOf(const Json& found, const std::string& file) {
 Json Explained(const ExplainVerb& o) {
   const auto read = ReadAnySize(o.file);
   const auto* file = std::get_if<ProblemFile>(&read);
-  const SparseProblem sparse = file != nullptr ? ToSparse(*file) : std::get<SparseProblem>(read);
+  const SparseProblem sparse = file != nullptr ? ToSparse(*file) : WithMatrix(std::get<SparseProblem>(read));
   Json found = {{"file", o.file}};
   AddContacts(sparse, found);
   found["survey"] = Surveyed(sparse, o.file, {.limits = o.limits});

@@ -109,6 +109,7 @@ int RunMinimize(const MinimizeVerb& o) {
   const Minimized minimized = Minimize(file.problem, options);
   const Simplicity after = SimplicityOf(minimized.problem);
   file.problem = minimized.problem;
+  file.factors.reset();
   file.origin = Json{{"parent", file.name}, {"minimized", true}};
   if (file.scene) (*file.origin)["scene"] = kSceneOfParent;
   file.scene.reset();

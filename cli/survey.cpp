@@ -184,7 +184,7 @@ const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
   verb.Prints(o.json, "a row for each problem: assumptions, and what solves it",
               R"([{file: text, error: text} | {
       file: text, contacts: integer, dimension: 2 | 3, rows: integer, asymmetry: object,
-      curvature: {psd: truth | null, how: "bound" | "exact", least: rounded, most?: rounded},
+      curvature: {psd: truth | null, how: "bound" | "exact" | "factors", least?: rounded, most?: rounded},
       range: {"in-range": truth | null, distance: rounded, "rough distance": rounded, regular: truth},
       "meets assumptions"?: truth | null, symmetrized?: object,
       runs: [{method: method | "none", arithmetic?: arithmetic, outcome: outcome | "not tried", seconds?: number,

@@ -55,6 +55,7 @@ Rational RayleighQuotient(const NegativeCurvature& negative) {
 
 // `psd`: true, false, or null for undecided. Bounds are relative to the largest A_ii.
 Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
+  if (problem.factors) return {{"psd", true}, {"how", "factors"}};
   const CurvatureBounds bounds = BoundCurvature(problem);
   const double scale = bounds.scale > 0 ? bounds.scale : 1;
   Json json = {{"psd", nullptr}, {"how", "bound"}};
@@ -80,7 +81,8 @@ Json RangeToJson(const SparseProblem& problem, const std::optional<ExactProblem>
   const RangeDistance bound = BoundRangeDistance(problem);
   Json json = {{"in-range", nullptr}, {"distance", bound.distance}, {"rough distance", bound.rough}};
   const bool regular = problem.rows() <= kMostDenseRows && IsRegularModuloPrime(problem);
-  if (regular || json["distance"] == 0) {
+  const bool by_factors = problem.factors && IsInRangeByFactors(*problem.factors);
+  if (regular || by_factors || json["distance"] == 0) {
     json["in-range"] = true;
   } else if (dense) {
     json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(dense->A, dense->b));

@@ -72,7 +72,7 @@ ProblemFile FindingNamed(const std::string& store, const std::string& name, cons
 // ---- Scenes ----
 
 template <class Kind>
-ProblemFile ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source) {
+std::variant<ProblemFile, SparseProblem> ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source) {
   const auto model = Assemble(scene.scene, FindContacts(scene.scene));
   if (model.islands.empty())
     throw InputError(source + ": found a scene in which nothing touches, expected a contact or a joint");
@@ -81,6 +81,11 @@ ProblemFile ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source)
         fmt::format("{}: found a scene of {} independent problems, expected one; stiction assemble {} -o "
                     "problem.json writes each",
                     source, model.islands.size(), source));
+  if (model.islands[0].rows > kMostDenseRows) {
+    ExactFactors factors = model.InFactors(0);
+    return SparseProblem{scene.scene.name, factors.dimension, factors.contacts, {},
+                         factors.b,        Json::object(),    factors};
+  }
   ProblemFile file;
   file.name = scene.scene.name;
   file.problem = model.Problem(0);
@@ -88,7 +93,7 @@ ProblemFile ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source)
   return file;
 }
 
-ProblemFile ProblemOfScene(const std::string& text, const std::string& source) {
+std::variant<ProblemFile, SparseProblem> ProblemOfScene(const std::string& text, const std::string& source) {
   return std::visit([&source](const auto& scene) { return ProblemOf(scene, source); },
                     ParseAnyScene(text, source));
 }
@@ -109,7 +114,7 @@ bool IsScene(std::string_view text, const std::string& source) {
 }  // namespace
 
 std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
-  if (problem.rows() > kMostDenseRows) return problem;
+  if (StaysSparse(problem.rows(), problem.factors.has_value())) return problem;
   return ToDense(problem, problem.name);
 }
 
@@ -140,7 +145,7 @@ ProblemFile ReadProblem(const std::filesystem::path& file) {
 SparseProblem ReadSparseProblem(const std::filesystem::path& file) {
   auto read = ReadAnySize(file);
   if (const auto* dense = std::get_if<ProblemFile>(&read)) return ToSparse(*dense);
-  return std::get<SparseProblem>(std::move(read));
+  return WithMatrix(std::get<SparseProblem>(std::move(read)));
 }
 
 }  // namespace stiction

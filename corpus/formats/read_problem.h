@@ -20,8 +20,8 @@
 
 namespace stiction {
 
-// Dense as long as that is no burden: SparseProblem if A is sparse, of more than kMostDenseRows rows. `scene`
-// of a scene's problem is that scene.
+// Dense as long as that is no burden: SparseProblem if A is sparse or in factors, of more than kMostDenseRows
+// rows; of factors A is not formed then (WithMatrix). `scene` of a scene's problem is that scene.
 std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file);
 
 // What was read as sparse, as that.
@@ -29,7 +29,7 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem);
 
 // The same for what asks for a dense matrix, and refuses larger ones.
 ProblemFile ReadProblem(const std::filesystem::path& file);
-// The same for what takes any size.
+// The same for what takes any size, and asks for A.
 SparseProblem ReadSparseProblem(const std::filesystem::path& file);
 
 }  // namespace stiction

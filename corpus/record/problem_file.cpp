@@ -32,8 +32,8 @@ constexpr int kVersion = 1;
 constexpr std::array<std::string_view, 4> kKindNames = {"bilateral", "frictionless", "static", "sliding"};
 
 const std::vector<std::string> kProblemKeys = {"format", "version", "dimension", "contacts", "A", "b"};
-const std::vector<std::string> kFileKeys = {"format", "version", "name",  "dimension", "contacts", "mu",
-                                            "A",      "b",       "scene", "origin",    "expect"};
+const std::vector<std::string> kFileKeys = {"format", "version", "name",    "dimension", "contacts", "mu",
+                                            "A",      "b",       "factors", "scene",     "origin",   "expect"};
 
 bool HasSlip(const Contact<Rational>& contact) { return contact.kind == ContactKind::kSliding; }
 
@@ -41,10 +41,11 @@ bool IsUnit(const std::array<Rational, 2>& x) { return Rational(x[0] * x[0] + x[
 
 // ---- Reading ---------------------------------------------------------------------------------
 
-// A problem as it was read: `entries` in place of problem.A where the file has entries.
+// A problem as it was read: `entries` or `factors` in place of problem.A where the file has these.
 struct ReadResult {
   ExactProblem problem;
   std::optional<SparseMatrix> entries;
+  std::optional<ExactFactors> factors;
 };
 
 // Reads a problem value by value. Strict: numbers are strings only, and nothing has a default.
@@ -57,6 +58,7 @@ class ProblemReader {
 
  private:
   void ReadHeader(const JsonPlace& place) const;
+  void ReadMatrix(const JsonPlace& place, int rows, ReadResult& result, Faults& faults) const;
   Rational Number(const JsonPlace& place) const;
   std::vector<Contact<Rational>> Contacts(const JsonPlace& place, int dimension, Faults& faults) const;
   std::vector<Contact<Rational>> StaticContacts(const JsonPlace& mu, int dimension, int rows,
@@ -72,6 +74,7 @@ class ProblemReader {
 };
 
 constexpr const char* kMatrixExpected = R"(an array of rows, or {"size", "entries"})";
+constexpr const char* kMatrixOrFactors = R"(an array of rows, or {"size", "entries"}; or factors for A and b)";
 
 // What another file of ours is for.
 std::string NextStepWith(const Json& format) {
@@ -96,12 +99,12 @@ void ProblemReader::ReadHeader(const JsonPlace& place) const {
 
 // ---- Sizes, as far as a file tells them ----
 
-// Rows by the length of b, otherwise of a dense A; -1 where neither tells.
+// Rows by the length of b, otherwise of a dense A or of J; -1 where none tells.
 int RowsTold(const JsonPlace& place) {
-  const auto b = place.Optional("b"), A = place.Optional("A");
+  const auto b = place.Optional("b"), A = place.Optional("A"), factors = place.Optional("factors");
   if (b && b->json().is_array()) return static_cast<int>(b->json().size());
   if (A && A->json().is_array()) return static_cast<int>(A->json().size());
-  return -1;
+  return factors ? RowsOfFactors(*factors) : -1;
 }
 
 // How many contacts have friction, and how many have not; by `mu` alone -1 where it does not tell.
@@ -173,8 +176,28 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
   faults.Take(of_contacts);
   const bool are_counted = of_contacts.empty() && problem.dimension != 0;
   const int rows = are_counted ? RowCount(problem.contacts, problem.dimension) : RowsTold(place);
+  ReadMatrix(place, rows, result, faults);
+  return result;
+}
+
+// A and b, or the factors of both.
+void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& result, Faults& faults) const {
+  ExactProblem& problem = result.problem;
+  const auto factors = strict_ ? std::nullopt : place.Optional("factors");
+  if (factors) {
+    for (const char* key : {"A", "b"}) {
+      const auto beside = place.Optional(key);
+      faults.Try([&] {
+        if (beside)
+          beside->Refuse(fmt::format("{} beside factors", key), "one of the two: factors say A and b");
+      });
+    }
+    result.factors = ReadFactors(*factors, problem.dimension, problem.contacts, rows, faults);
+    if (result.factors) problem.b = result.factors->b;
+    return;
+  }
   faults.Try([&] {
-    const JsonPlace A = place.Required("A", kMatrixExpected);
+    const JsonPlace A = place.Required("A", strict_ ? kMatrixExpected : kMatrixOrFactors);
     if (rows < 0) return;
     if (A.json().is_object())
       result.entries = Entries(A, rows);
@@ -185,7 +208,6 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
     const JsonPlace b = place.Required("b", "an array of numbers");
     if (rows >= 0) problem.b = Numbers(b, rows);
   });
-  return result;
 }
 
 Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
@@ -278,7 +300,7 @@ void RequireMemory(const JsonPlace& place, int rows) {
   constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
   place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
                fmt::format("at most {} rows", kMostDenseRows) +
-                   R"(; stiction solve and survey take more, written as {"size", "entries"})");
+                   R"(; stiction solve and survey take more, written as {"size", "entries"} or as factors)");
 }
 
 Matrix ProblemReader::DenseRows(const JsonPlace& place, int rows) const {
@@ -295,21 +317,9 @@ SparseMatrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
   const std::string size = fmt::format("{}, the rows of the contacts", rows);
   place.Required("size", size).Integer(rows, rows, size);
   const JsonPlace entries = place.Required("entries", "an array of entries [i, j, value]");
-  const std::size_t count = entries.Size("an array of entries [i, j, value]");
-  const std::string index = fmt::format("a row number >= 0 and < {}", rows);
-
-  SparseMatrix A;
-  std::vector<std::array<int, 2>> listed;
-  for (std::size_t k = 0; k < count; ++k) {
-    const JsonPlace entry = entries[k];
-    if (entry.Size("an entry [i, j, value]") != 3) entry.Refuse("an entry [i, j, value]");
-    const int i = static_cast<int>(entry[0].Integer(0, rows - 1, index));
-    const int j = static_cast<int>(entry[1].Integer(0, rows - 1, index));
-    if (!A.emplace(std::pair(i, j), Number(entry[2])).second) entry.Refuse("each entry once");
-    listed.push_back({i, j});
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [i, j] = listed[k];
+  SparseMatrix A = ReadEntries(entries, rows, rows, strict_);
+  for (std::size_t k = 0; k < entries.json().size(); ++k) {
+    const int i = entries.json()[k][0].get<int>(), j = entries.json()[k][1].get<int>();
     const bool is_new = A.emplace(std::pair(j, i), A.at({i, j})).second;
     if (is_new && i < j) entries[k].Refuse("an entry above the diagonal only beside the one below");
   }
@@ -324,11 +334,12 @@ Vector ProblemReader::Numbers(const JsonPlace& place, int rows) const {
   return values;
 }
 
-// A of entries becomes dense.
+// A of entries or factors becomes dense.
 ExactProblem Dense(ReadResult read, const JsonPlace& place) {
-  if (!read.entries) return std::move(read.problem);
+  if (!read.entries && !read.factors) return std::move(read.problem);
   const int rows = read.problem.rows();
-  RequireMemory(place.Child("A", place.json()), rows);
+  RequireMemory(place.Child(read.factors ? "factors" : "A", place.json()), rows);
+  if (read.factors) return ToDense(*read.factors);
   read.problem.A = Matrix::Constant(rows, rows, Rational(0));
   for (auto& [at, value] : *read.entries) read.problem.A(at.first, at.second) = std::move(value);
   return std::move(read.problem);
@@ -442,15 +453,28 @@ Json EntriesToJson(const SparseMatrix& A, int rows) {
   return {{"size", rows}, {"entries", std::move(entries)}};
 }
 
-// All but A, which is given; that of the problem is not looked at.
-Json ProblemToJson(const ExactProblem& problem, Json A) {
+// All but A and b; those of the problem are not looked at.
+Json ContactsToJson(const ExactProblem& problem) {
   CheckProblem(problem);
   Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", problem.dimension}};
   json["contacts"] = Json::array();
   for (const auto& contact : problem.contacts)
     json["contacts"].push_back(ContactToJson(contact, problem.dimension));
+  return json;
+}
+
+// With A, which is given.
+Json ProblemToJson(const ExactProblem& problem, Json A) {
+  Json json = ContactsToJson(problem);
   json["A"] = std::move(A);
   json["b"] = NumbersToJson(problem.b);
+  return json;
+}
+
+// With the factors in place of A and b.
+Json ProblemToJson(const ExactProblem& problem, const ExactFactors& factors) {
+  Json json = ContactsToJson(problem);
+  json["factors"] = ToJson(factors);
   return json;
 }
 
@@ -491,9 +515,20 @@ std::string Indented(const Json& value) {
   return text;
 }
 
+std::string PrintedEntries(const Json& value) {
+  return fmt::format(R"({{"size": {}, "entries": {}}})", value["size"].dump(), LinePerItem(value["entries"]));
+}
+
+std::string PrintedFactors(const Json& factors) {
+  std::vector<std::string> members;
+  for (const auto& [key, value] : factors.items())
+    members.push_back(JsonText(key) + ": " + (key == "J" ? PrintedEntries(value) : JsonText(value)));
+  return fmt::format("{{{}}}", fmt::join(members, ",\n  "));
+}
+
 std::string PrintedValue(const std::string& key, const Json& value) {
-  if (key == "A" && value.is_object())
-    return fmt::format(R"({{"size": {}, "entries": {}}})", value["size"].dump(), LinePerItem(value["entries"]));
+  if (key == "A" && value.is_object()) return PrintedEntries(value);
+  if (key == "factors") return PrintedFactors(value);
   if (key == "contacts" || key == "A") return LinePerItem(value);
   if (key == "scene" || key == "origin" || key == "expect") return Indented(value);
   return JsonText(value);
@@ -558,13 +593,15 @@ std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, con
   });
   faults.Throw();
   ExactProblem& problem = read.problem;
-  if (read.entries && problem.rows() > most_dense_rows)
+  if ((read.entries || read.factors) && StaysSparse(problem.rows(), read.factors.has_value(), most_dense_rows))
     return SparseProblem{file.name,
                          problem.dimension,
                          std::move(problem.contacts),
-                         *std::move(read.entries),
+                         std::move(read.entries).value_or(SparseMatrix()),
                          std::move(problem.b),
-                         file.origin.value_or(Json::object())};
+                         file.origin.value_or(Json::object()),
+                         std::move(read.factors)};
+  file.factors = read.factors;
   file.problem = Dense(std::move(read), place);
   return file;
 }
@@ -590,7 +627,10 @@ Json ProblemToJson(const ExactProblem& problem) {
 
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
-Json ToJson(const ProblemFile& file) { return FileToJson(file, ProblemToJson(file.problem)); }
+Json ToJson(const ProblemFile& file) {
+  return FileToJson(file,
+                    file.factors ? ProblemToJson(file.problem, *file.factors) : ProblemToJson(file.problem));
+}
 
 std::string Print(const ProblemFile& file) { return PrintFile(ToJson(file)); }
 
@@ -599,7 +639,9 @@ std::string Print(const SparseProblem& problem) {
   file.name = problem.name;
   if (!problem.origin.empty()) file.origin = problem.origin;
   const ExactProblem all_but_A = {problem.dimension, problem.contacts, {}, problem.b};
-  return PrintFile(FileToJson(file, ProblemToJson(all_but_A, EntriesToJson(problem.A, problem.rows()))));
+  const Json json = problem.factors ? ProblemToJson(all_but_A, *problem.factors)
+                                    : ProblemToJson(all_but_A, EntriesToJson(problem.A, problem.rows()));
+  return PrintFile(FileToJson(file, json));
 }
 
 }  // namespace stiction

@@ -10,7 +10,8 @@
 // zero. An entry (i, j) below the diagonal stands for (j, i) too, unless (j, i) is listed as well: then each
 // stands for itself. An entry above the diagonal without the one below is refused, since it could mean
 // either a symmetric matrix or not. So a symmetric A is its lower triangle, and whatever is not symmetric
-// is visible as a pair of entries.
+// is visible as a pair of entries. In place of A and b may stand `factors` (factors.h), of which both are
+// formed.
 
 #ifndef STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
 #define STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
@@ -22,6 +23,7 @@
 
 #include "corpus/exact_problem.h"
 #include "corpus/json.h"
+#include "corpus/record/factors.h"
 
 namespace stiction {
 
@@ -31,6 +33,7 @@ struct ProblemFile {
   std::optional<Json> scene;                  // any value, kept as it is
   std::optional<Json> origin;                 // generator, seed, parent, what was rounded or symmetrized
   std::map<std::string, std::string> expect;  // policy as written, or "*" for the grid -> outcome
+  std::optional<ExactFactors> factors = {};   // of the same problem, where it came in factors
 };
 
 // `source` names the text in errors. No policy may stand twice in `expect`, however it is written.
@@ -39,7 +42,8 @@ ProblemFile ParseProblem(std::string_view text, const std::string& source);
 
 // Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
 // InternalError. Every number of the problem is an exact string. A is in rows, or, where it is symmetric with
-// more than 64 rows and at most a quarter of its entries are not zero, in entries.
+// more than 64 rows and at most a quarter of its entries are not zero, in entries; a file with factors has
+// these.
 //
 // The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
 Json ProblemToJson(const ExactProblem& problem);

@@ -31,9 +31,14 @@ SparseContactProblem<Scalar> Converted(const SparseProblem& problem, Convert con
 
 }  // namespace
 
+SparseProblem WithMatrix(SparseProblem problem) {
+  if (problem.factors && problem.A.empty()) problem.A = FormA(*problem.factors);
+  return problem;
+}
+
 SparseProblem ToSparse(const ProblemFile& file) {
   const ExactProblem& dense = file.problem;
-  SparseProblem problem{file.name, dense.dimension, dense.contacts, {}, dense.b, Json::object()};
+  SparseProblem problem{file.name, dense.dimension, dense.contacts, {}, dense.b, Json::object(), file.factors};
   for (int i = 0; i < dense.rows(); ++i) {
     for (int j = 0; j < dense.rows(); ++j) {
       if (dense.A(i, j) != 0) problem.A.emplace_hint(problem.A.end(), std::pair(i, j), dense.A(i, j));
@@ -52,12 +57,17 @@ ProblemFile ToDense(const SparseProblem& problem, const std::string& source) {
   }
   ProblemFile file;
   file.name = problem.name;
+  file.origin = problem.origin;
+  file.factors = problem.factors;
+  if (problem.factors) {
+    file.problem = ToDense(*problem.factors);
+    return file;
+  }
   file.problem.dimension = problem.dimension;
   file.problem.contacts = problem.contacts;
   file.problem.A = ExactProblem::Matrix::Constant(rows, rows, Rational(0));
   for (const auto& [at, value] : problem.A) file.problem.A(at.first, at.second) = value;
   file.problem.b = problem.b;
-  file.origin = problem.origin;
   return file;
 }
 

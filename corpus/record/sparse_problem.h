@@ -6,11 +6,9 @@
 #ifndef STICTION_CORPUS_RECORD_SPARSE_PROBLEM_H_
 #define STICTION_CORPUS_RECORD_SPARSE_PROBLEM_H_
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -19,29 +17,33 @@
 
 namespace stiction {
 
-// By (row, column), zero-based; what is not there is zero.
-using SparseMatrix = std::map<std::pair<int, int>, Rational>;
-
 struct SparseProblem {
   std::string name;
   int dimension = 2;
   std::vector<Contact<Rational>> contacts;
-  SparseMatrix A;  // no entry is zero
+  SparseMatrix A;  // no entry is zero; empty as long as there are factors alone (WithMatrix)
   ExactProblem::Vector b;
   Json origin = Json::object();  // format, storage, what was computed or changed on reading
+  std::optional<ExactFactors> factors = {};
 
   int rows() const { return static_cast<int>(b.size()); }
 };
 
-// Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
-inline constexpr int kMostDenseRows = 4000;
+// Whether A stays as it is until somebody asks for all of it. Factors do so earlier: what they are for does not
+// need A.
+inline bool StaysSparse(int rows, bool in_factors, int most_dense_rows = kMostDenseRows) {
+  return rows > (in_factors ? most_dense_rows / 4 : most_dense_rows);
+}
 
-// A problem file; sparse if A is in entries, of more than `most_dense_rows` rows.
+// A problem file; sparse where A is in entries or in factors and stays so. Of factors A is not formed then.
 std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
                                                       int most_dense_rows = kMostDenseRows);
 
-// The text of a problem file, A in entries.
+// The text of a problem file, A in factors if there are some, otherwise in entries.
 std::string Print(const SparseProblem& problem);
+
+// The same problem, its A formed if there are factors alone.
+SparseProblem WithMatrix(SparseProblem problem);
 
 SparseProblem ToSparse(const ProblemFile& file);
 // InputError, naming `source`, above kMostDenseRows.
@@ -58,7 +60,8 @@ struct Asymmetry {
 };
 Asymmetry LargestAsymmetry(const SparseProblem& problem);
 
-// A becomes (A + A')/2, exactly; `origin` says what the largest difference was. A symmetric A stays as it is.
+// A becomes (A + A')/2, exactly; `origin` says what the largest difference was. A symmetric A stays as it is,
+// as that of factors is.
 void Symmetrize(SparseProblem& problem);
 
 }  // namespace stiction

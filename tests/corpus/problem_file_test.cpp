@@ -271,6 +271,99 @@ TEST_CASE("problem file: a large A of entries is read as sparse, and printed so"
   CHECK(SameProblem(ParseProblem(Print(sparse), "printed").problem, ToDense(sparse, "p.json").problem));
 }
 
+// ---- Factors ---------------------------------------------------------------------------------
+
+// Two contacts on two bodies, one of which has a block of its own; c is not zero.
+const std::string kFactored = R"({
+  "factors": {
+    "J": {"size": [4, 4], "entries": [[0, 0, 1], [1, 1, "1/3"], [2, 2, 1], [2, 0, -1], [3, 3, 2], [3, 1, 0]]},
+    "M": [2, [["1/2"]], [[2, "1/3"], ["1/3", 4]]],
+    "w": ["-9.81", 0, 1, "1/7"], "c": [0, "1/5", 0, 0]
+  },
+  "mu": [1, "1/2"]
+})";
+
+std::string WithFactors(const std::string& from, const std::string& to) {
+  std::string text = kFactored;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_CASE("problem file: factors J, M, w, c stand for A = J inv(M) J' and b = J w + c, exactly") {
+  const ProblemFile file = ParseProblem(kFactored, "p.json");
+  REQUIRE(file.factors);
+  const ExactProblem::Matrix J = file.factors->A.J().toDense(), M = file.factors->M.toDense(),
+                             A = file.problem.A;
+  CHECK(M(2, 3) == Rational(1, 3));
+  // With X = inv(M) J'.
+  const ExactProblem::Matrix X = file.factors->A.W().toDense() * J.transpose();
+  CHECK((M * X - J.transpose()).isZero(0));
+  CHECK((J * X - A).isZero(0));
+  CHECK(A(0, 2) == Rational(-1, 2));
+  CHECK(A(2, 3) == Rational(-2, 3) / (Rational(8) - Rational(1, 9)));
+  CHECK(file.problem.b(1) == Rational(1, 5));
+  CHECK(file.problem.b(2) == Rational(1) + Rational(981, 100));
+  const ProblemFile again = ParseProblem(Print(file), "printed");
+  CHECK(SameProblem(again.problem, file.problem));
+  REQUIRE(again.factors);
+  CHECK(ToJson(*again.factors) == ToJson(*file.factors));
+  CHECK(ToJson(*again.factors)["M"] == Json::parse(R"(["2", "1/2", [["2", "1/3"], ["1/3", "4"]]])"));
+}
+
+TEST_CASE("problem file: J may be rows of numbers, and c is zero where it is left out") {
+  const ProblemFile file =
+      ParseProblem(R"({"factors": {"J": [[1, 0], [0, 1]], "M": [2, 4], "w": [-1, 1]}, "mu": 1})", "p.json");
+  CHECK(file.problem.A(0, 0) == Rational(1, 2));
+  CHECK(file.problem.A(0, 1) == 0);
+  CHECK(file.problem.b(0) == -1);
+  CHECK(file.problem.contacts.size() == 1);
+  CHECK(!ToJson(*file.factors).contains("c"));
+}
+
+TEST_CASE("problem file: factors of many rows are read without A, which is formed when asked for") {
+  const auto read = ParseAnySize(kFactored, "p.json", 12);
+  REQUIRE(std::holds_alternative<SparseProblem>(read));
+  const auto& sparse = std::get<SparseProblem>(read);
+  CHECK(sparse.A.empty());
+  CHECK(sparse.b == ParseProblem(kFactored, "p.json").problem.b);
+  const ExactProblem dense = ParseProblem(kFactored, "p.json").problem;
+  CHECK(SameProblem(ToDense(sparse, "p.json").problem, dense));
+  const SparseProblem formed = WithMatrix(sparse);
+  CHECK(formed.A.at({0, 2}) == dense.A(0, 2));
+  CHECK(formed.A.count({0, 3}) == 0);
+  CHECK(SameProblem(ParseProblem(Print(sparse), "printed").problem, dense));
+}
+
+TEST_CASE("problem file: what is wrong with factors is told at once, M by its block") {
+  CheckRefusals({
+      {WithFactors(R"([[2, "1/3"], ["1/3", 4]])", R"([[2, "1/3"], ["1/4", 4]])"),
+       "factors.M[2]: found entries (0, 1) and (1, 0) that differ, expected a symmetric block"},
+      {WithFactors(R"([[2, "1/3"], ["1/3", 4]])", "[[2, 3], [3, 4]]"),
+       "factors.M[2]: found a block that is not positive definite, expected a positive definite block of "
+       "masses"},
+      {WithFactors(R"("M": [2)", R"("M": [0)"),
+       "factors.M[0]: found a block that is not positive definite, expected a positive definite block of "
+       "masses"},
+      {WithFactors(R"("M": [2, )", R"("M": [)"),
+       "factors.M: found blocks of 3 velocities, expected 4, the columns of J"},
+      {WithFactors(R"("size": [4, 4])", R"("size": [5, 4])").insert(1, R"("b": [0, 0, 0, 0], )"),
+       "b: found b beside factors, expected one of the two: factors say A and b; "
+       "factors.J.size[0]: found 5, expected 4, the rows of the contacts"},
+      {WithFactors("[3, 3, 2]", "[3, 4, 2]"),
+       "factors.J.entries[4][1]: found 4, expected a column number >= 0 and < 4"},
+      {WithFactors(R"("1/7"])", R"("x"])"),
+       R"(factors.w[3]: found "x", expected a number, such as "-3/4" (denominator not zero) or "2.5e-3" )"
+       R"((exponent within 10000))"},
+      {WithFactors(R"("mu": [1, "1/2"])", R"("mu": [1, "1/2"], "b": [0, 0, 0, 0])"),
+       "b: found b beside factors, expected one of the two: factors say A and b"},
+      {R"({"factors": {"J": [[1, 0], [0, "x"]], "M": [[1, 2], -1], "v": [], "c": 1}, "mu": 1})",
+       "factors.v: found an unknown key, expected only J, M, w, c; "
+       R"(factors.J[1][1]: found "x", expected a number, such as "-3/4" (denominator not zero) or "2.5e-3" )"
+       "(exponent within 10000); factors.M[0][0]: found 1, expected an array of 2 numbers, one for each row of "
+       "the block; factors.w: found nothing, expected an array of numbers, one for each velocity; "
+       "factors.c: found 1, expected an array of 2 numbers, one for each row"},
+  });
+}
+
 // ---- Refusals --------------------------------------------------------------------------------
 
 TEST_CASE("problem file: a wrong format, version or dimension is refused") {
@@ -279,7 +372,8 @@ TEST_CASE("problem file: a wrong format, version or dimension is refused") {
       {"null", "$: found null, expected an object"},
       {"{}",
        R"(contacts: found nothing, expected an array of contacts, or mu of static ones; A: found nothing, )"
-       R"(expected an array of rows, or {"size", "entries"}; b: found nothing, expected an array of numbers)"},
+       R"(expected an array of rows, or {"size", "entries"}; or factors for A and b; b: found nothing, expected an )"
+       R"(array of numbers)"},
       {Edited("stiction-problem", "stiction-certificate"),
        R"(format: found "stiction-certificate", expected "stiction-problem" (stiction check verifies a certificate))"},
       {Edited(R"("version": 1)", R"("version": 2)"), "version: found 2, expected 1"},
@@ -297,10 +391,11 @@ TEST_CASE("problem file: a wrong format, version or dimension is refused") {
 TEST_CASE("problem file: all that is missing or wrong is told at once") {
   CheckRefusals({
       {R"({"contacts": [{"kind": "static"}, {"kind": "sticky"}], "name": 1, "c": 1, "d": 2})",
-       "c, d: found unknown keys, expected only format, version, name, dimension, contacts, mu, A, b, scene, "
-       "origin, expect; contacts[0].mu: found nothing, expected the mu of a static contact, a number >= 0; "
+       "c, d: found unknown keys, expected only format, version, name, dimension, contacts, mu, A, b, "
+       "factors, scene, origin, expect; contacts[0].mu: found nothing, expected the mu of a static contact, a "
+       "number >= 0; "
        "contacts[1].kind: found \"sticky\", expected one of bilateral, frictionless, static, sliding; "
-       "A: found nothing, expected an array of rows, or {\"size\", \"entries\"}; "
+       "A: found nothing, expected an array of rows, or {\"size\", \"entries\"}; or factors for A and b; "
        "b: found nothing, expected an array of numbers; name: found 1, expected a string"},
   });
 }
@@ -311,7 +406,8 @@ TEST_CASE("problem file: an infinite mu is refused with what to write instead") 
 }
 
 TEST_CASE("problem file: an unknown key is refused wherever it stands") {
-  const std::string keys = "only format, version, name, dimension, contacts, mu, A, b, scene, origin, expect";
+  const std::string keys =
+      "only format, version, name, dimension, contacts, mu, A, b, factors, scene, origin, expect";
   CheckRefusals({
       {WithMembers(R"("c": 1)"), "c: found an unknown key, expected " + keys},
       {WithMembers(R"("a b": 1)"), R"(["a b"]: found an unknown key, expected )" + keys},
@@ -424,7 +520,7 @@ TEST_CASE("problem file: a wrong shape is refused") {
               ""),
        "b: found nothing, expected an array of numbers"},
       {Edited(R"("A": [)", R"("origin": {}, "scene": [)"),
-       R"(A: found nothing, expected an array of rows, or {"size", "entries"})"},
+       R"(A: found nothing, expected an array of rows, or {"size", "entries"}; or factors for A and b)"},
   });
 }
 
@@ -443,7 +539,7 @@ TEST_CASE("problem file: wrong entries of a sparse A are refused") {
       {entries("[0, 0]"), "A.entries[0]: found [0,0], expected an entry [i, j, value]"},
       {entries("[0, 0, 1, 1]"), "A.entries[0]: found [0,0,1,1], expected an entry [i, j, value]"},
       {entries("[2, 0, 1]"), "A.entries[0][0]: found 2, expected " + index},
-      {entries("[0, 0, 1], [1, -1, 1]"), "A.entries[1][1]: found -1, expected " + index},
+      {entries("[0, 0, 1], [1, -1, 1]"), "A.entries[1][1]: found -1, expected a column number >= 0 and < 2"},
       {entries("[1.0, 0, 1]"), "A.entries[0][0]: found 1.0, expected " + index},
       {entries(R"(["1", 0, 1])"), R"(A.entries[0][0]: found "1", expected )" + index},
       {entries("[1, 0, 1], [0, 0, 1], [1, 0, 1]"), "A.entries[2]: found [1,0,1], expected each entry once"},

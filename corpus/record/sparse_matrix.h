@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SparseMatrix: exact numbers by row and column, and how files list them.
+
+#ifndef STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
+#define STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
+
+#include <map>
+#include <utility>
+
+#include "corpus/json_text.h"
+#include "corpus/rational.h"
+
+namespace stiction {
+
+// By (row, column), zero-based; what is not there is zero.
+using SparseMatrix = std::map<std::pair<int, int>, Rational>;
+
+// Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
+inline constexpr int kMostDenseRows = 4000;
+
+// A list of entries [row, column, number], each once; zeros that are listed stay. Strict as in ExactNumber.
+SparseMatrix ReadEntries(const JsonPlace& place, int rows, int columns, bool strict = false);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
