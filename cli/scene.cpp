@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 // The words of `assemble`; `draw` takes scene, output and json alone.
 struct AssembleCommand {
   std::string scene, output, given, level = "forces";
-  bool explain = false, full = false, json = false;
+  bool explain = false, factors = false, full = false, json = false;
 };
 
 // FILE.json of one problem; FILE-1.json, FILE-2.json, ... of several.
@@ -95,7 +95,12 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   }
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     ProblemFile problem;
-    problem.problem = model.Problem(i);
+    if (o.factors) {
+      problem.factors = model.InFactors(i);
+      problem.problem = {problem.factors->dimension, problem.factors->contacts, {}, problem.factors->b};
+    } else {
+      problem.problem = model.Problem(i);
+    }
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
@@ -445,6 +450,7 @@ const ListedVerb kAssembleVerb("Scenes and other programs' files", 10, [](Comman
       .OneOf({"forces", "impulses"});
   verb.Option("--given", o.given, "stiction-scene to write: this one with its contacts given, not found");
   verb.Flag("--explain", o.explain, "what was modelled, what was left out, and why that is exact");
+  verb.Flag("--factors", o.factors, "in factors J, M, w in place of A and b, as large scenes are written best");
   verb.Flag("--full", o.full, "one problem, with all rows for every contact, redundant ones too");
   verb.Prints(o.json, "the problems of a scene",
               "{problems: [{file: text, contacts: integer, rows: integer}], explained: [text]}");

@@ -139,6 +139,10 @@ Json FailedSemidefinite(const CurvatureBounds& bounds, std::size_t contacts) {
   return {{"assumption", "psd"}, {"quotient", bounds.most}, {"witness", "certify --claim psd"}};
 }
 
+void AddUndecidedRange(Json& failed) {
+  failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
+}
+
 // What bounds decide of problems too large for exact elimination.
 void AddBoundedAssumptions(const SparseProblem& problem, Json& failed) {
   const CurvatureBounds curvature = BoundCurvature(problem);
@@ -147,21 +151,19 @@ void AddBoundedAssumptions(const SparseProblem& problem, Json& failed) {
   } else if (!curvature.least || *curvature.least < 0) {
     failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
   }
-  if (problem.rows() > kMostDenseRows || !IsRegularModuloPrime(problem)) {
-    failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
-  }
+  if (problem.rows() > kMostDenseRows || !IsRegularModuloPrime(problem)) AddUndecidedRange(failed);
 }
 
 }  // namespace
 
-Json FailedAssumptions(const ExactProblem& problem) {
+Json FailedAssumptions(const ProblemFile& file) {
+  const ExactProblem& problem = file.problem;
   Json failed = Json::array();
+  if (file.factors && problem.rows() > kExactAssumptionRows) return FailedAssumptions(ToSparse(file));
   if (const auto pair = FindAsymmetry(problem.A)) {
     failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
   }
   if (problem.rows() > kExactAssumptionRows) {
-    ProblemFile file;
-    file.problem = problem;
     AddBoundedAssumptions(ToSparse(file), failed);
     return failed;
   }
@@ -180,6 +182,12 @@ Json FailedAssumptions(const ExactProblem& problem) {
 
 Json FailedAssumptions(const SparseProblem& problem) {
   Json failed = Json::array();
+  if (problem.factors) {
+    const bool is_few = !StaysSparse(problem.rows(), true);
+    const bool in_range = IsInRangeByFactors(*problem.factors) || (is_few && IsRegularModuloPrime(problem));
+    if (!in_range) AddUndecidedRange(failed);
+    return failed;
+  }
   const Asymmetry largest = LargestAsymmetry(problem);
   if (largest.difference != 0)
     failed.push_back({{"assumption", "symmetric"}, {"i", largest.i}, {"j", largest.j}});

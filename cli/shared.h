@@ -73,8 +73,9 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
 
 // The assumptions of the paper that fail, each with its exact witness. In place of a vector of more than 50
 // contacts stand a number, and the verb that writes the vector.
-Json FailedAssumptions(const ExactProblem& problem);
-// The same of a large problem, as far as bounds decide.
+Json FailedAssumptions(const ProblemFile& file);
+// The same of a large problem, as far as bounds decide. Of factors A is symmetric and semidefinite as it is
+// made, and b in its range where c = 0.
 Json FailedAssumptions(const SparseProblem& problem);
 
 // What FILE is, in help.

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "certify/exact/answer_json.h"
@@ -178,43 +179,43 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
   }
 }
 
-// What a sparse A does not go with.
-void RequireForSparse(const SolveVerb& o, const SparseProblem& problem) {
-  const auto refuse = [&](const std::string& option) {
-    throw InputError(o.file, "rows", std::to_string(problem.rows()),
-                     fmt::format("at most {} with {}, for which A is dense; without it A stays sparse",
-                                 kMostDenseRows, option));
-  };
-  const std::string_view method = problem.dimension == 2 ? "proximal" : "fast";
-  if (o.method != kAutomatic && o.method != method) refuse("--method " + o.method);
-  if (!o.arithmetic.empty() && o.arithmetic != "double") refuse("--arithmetic " + o.arithmetic);
-  if (o.policy != "paper") refuse("--policy " + o.policy);
-  if (!o.law.empty() && o.law != "coulomb") refuse("--law " + o.law);
-}
-
 using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
-// More rows than a dense matrix is made for.
+// A stays as it is.
 Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
-  RequireForSparse(o, problem);
   std::atomic<bool> stopped = false;
   const std::jthread timer = StopAfter(o.seconds, stopped);
   SolveOptions options = o.options;
   options.limits.stop = &stopped;
-  const Solution solution{SolveSparse(problem, options)};
+  const Solution solution{SolveSparse(problem, options, o.method)};
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
-    result["why"] = fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
+    result["why"] = problem.factors
+                        ? fmt::format("{} rows in factors: over doubles, A is not formed", problem.rows())
+                        : fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
   result["assumptions"] = FailedAssumptions(problem);
   if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
   return {result, ExitOf(solution.outcome())};
 }
 
+// What was read, dense where that is needed for what is asked.
+std::variant<ProblemFile, SparseProblem> ReadFor(const SolveVerb& o) {
+  auto read = ReadAnySize(o.file);
+  const auto* large = std::get_if<SparseProblem>(&read);
+  const std::string dense = large != nullptr ? AsksForDense(o, *large) : "";
+  if (dense.empty()) return read;
+  if (large->rows() <= kMostDenseRows) return ToDense(*large, o.file);
+  throw InputError(o.file, "rows", std::to_string(large->rows()),
+                   fmt::format("at most {} with {}, for which A is dense; without it A stays sparse",
+                               kMostDenseRows, dense));
+}
+
 Answered SolveOne(const SolveVerb& o) {
-  const auto read = ReadAnySize(o.file);
+  const auto read = ReadFor(o);
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
+  request.factors = file.factors ? &*file.factors : nullptr;
   std::atomic<bool> stopped = false;
   const std::jthread timer = StopAfter(o.seconds, stopped);
   request.options.limits.stop = &stopped;
@@ -222,7 +223,7 @@ Answered SolveOne(const SolveVerb& o) {
   Json result = SolutionToJson(solution, file.problem.dimension);
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
-  result["assumptions"] = FailedAssumptions(file.problem);
+  result["assumptions"] = FailedAssumptions(file);
   if (!o.json) PrintForPeople(o, file.problem, solution, result);
   return {result, ExitOf(solution.outcome())};
 }

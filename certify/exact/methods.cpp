@@ -8,6 +8,7 @@
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/nearby_words.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/exact/qp.h"
 #include "certify/exact/qp_ipopt.h"
 #include "certify/exact/solve.h"
@@ -222,8 +223,8 @@ std::span<const ExactMethod> Methods<Rational>() {
 template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
 template const ExactMethod* FindMethod(std::string_view);
 
-std::span<const Method<double>> MethodsByProcess() {
-  static const std::array rows = {QpByIpoptRow()};
+std::span<const Method<double>> MethodsOverDoubles() {
+  static const std::array rows = {NewtonBodiesRow(), QpByIpoptRow()};
   return rows;
 }
 

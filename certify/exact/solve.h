@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "corpus/exact_problem.h"
+#include "solver/problem/factored.h"
 #include "solver/solve.h"
 
 namespace stiction {
@@ -22,8 +23,8 @@ extern template Answer<Rational> Solve(const ExactProblem&, std::string_view, co
                                        Trace<Rational>*);
 extern template const Method<Rational>* FindMethod(std::string_view);
 
-// What runs over doubles in a process of its own.
-std::span<const Method<double>> MethodsByProcess();
+// What is built over doubles alone, beside the table of the library: some in a process of its own.
+std::span<const Method<double>> MethodsOverDoubles();
 
 enum class KeepTrace { kNo, kYes };
 
@@ -31,8 +32,9 @@ struct SolveRequest {
   std::string method{kAutomatic};
   Arithmetic arithmetic = Arithmetic::kExact;
   SolveOptions options = {};
-  KeepTrace trace = KeepTrace::kNo;  // of path methods
-  bool confirm = true;               // whether suspicions are run again
+  const FactoredProblem<Rational>* factors = nullptr;  // of the same problem, where it has some
+  KeepTrace trace = KeepTrace::kNo;                    // of path methods
+  bool confirm = true;                                 // whether suspicions are run again
 };
 
 using ExactAnswer = Answer<Rational>;

@@ -58,7 +58,7 @@ std::vector<MethodFacts> MakeFacts() {
   list.Add(Methods<Rational>(), {kExact});
   list.AddToldExactly();
   list.Add(Methods<double>(), {kFloat, kDouble, kLongDouble, kQuad});
-  list.Add(MethodsByProcess(), {kDouble});
+  list.Add(MethodsOverDoubles(), {kDouble});
   // What is run over balls is a rung of filtered runs, and the one of intervals.
   list.Add(Methods<Ball<double>>(), {kInterval, kFiltered});
   list.Add(Methods<Interval>(), {kInterval});

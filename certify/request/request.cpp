@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "certify/claims/claims.h"
+#include "certify/request/solve_sparse.h"
 #include "corpus/json.h"
+#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 namespace {
@@ -101,6 +103,20 @@ SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, co
   return request;
 }
 
+std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem) {
+  const auto methods = SparseMethods(problem);
+  const bool is_sparse = std::find(methods.begin(), methods.end(), wanted.method) != methods.end();
+  const auto option = [&wanted](std::string_view name, const std::string& value) {
+    return fmt::format("{}{} {}", wanted.dashes, name, value);
+  };
+  if (wanted.method != kAutomatic && !is_sparse) return option("method", wanted.method);
+  if (!wanted.arithmetic.empty() && wanted.arithmetic != "double")
+    return option("arithmetic", wanted.arithmetic);
+  if (wanted.policy != "paper") return option("policy", wanted.policy);
+  if (!wanted.law.empty() && wanted.law != "coulomb") return option("law", wanted.law);
+  return "";
+}
+
 Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source) {
   try {
     return SolveIn(problem, request);
@@ -119,7 +135,7 @@ Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const
         fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
                     wanted.dashes, wanted.law, wanted.claim));
   return CertifyClaim(problem, source, wanted.claim,
-                      {ParsePolicies(wanted.policy), wanted.limits, enumeration, law});
+                      {ParsePolicies(wanted.policy), wanted.limits, enumeration, law, wanted.factors});
 }
 
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {

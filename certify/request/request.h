@@ -13,8 +13,11 @@
 #include "certify/claims/certificate.h"
 #include "certify/exact/enumerate.h"
 #include "certify/request/solve_in.h"
+#include "corpus/record/factors.h"
 
 namespace stiction {
+
+struct SparseProblem;  // corpus/record/sparse_problem.h
 
 // Of `options`, policy and law are set by their names here.
 struct Wanted {
@@ -41,6 +44,9 @@ SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, co
 inline constexpr std::array<std::string_view, 6> kPathArithmetics = {"exact",       "float", "double",
                                                                      "long-double", "quad",  "filtered"};
 
+// The option that does not go with an A that stays sparse, as its name and value; empty where all do.
+std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem);
+
 // SolveIn, whose InputError then names the source.
 Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source);
 
@@ -51,6 +57,7 @@ struct WantedClaim {
   std::string policy = "paper";  // or "*"
   std::string law = "";          // of claim existence in space; empty: Coulomb's
   Limits limits = {};
+  const ExactFactors* factors = nullptr;  // of the problem, where it has some
   std::string_view dashes = "--";
 };
 

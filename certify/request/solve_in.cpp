@@ -8,6 +8,7 @@
 #include "certify/exact/filtered.h"
 #include "certify/exact/inexact.h"
 #include "certify/exact/interval.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/exact/published_space.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
@@ -144,11 +145,11 @@ Answer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveR
   return answer;
 }
 
-// The row that runs in a process of its own; null if there is none.
+// The row that is built over doubles alone; null if there is none.
 template <class Scalar>
-const Method<Scalar>* FindProcess(std::string_view name) {
+const Method<Scalar>* FindOverDoubles(std::string_view name) {
   if constexpr (std::is_same_v<Scalar, double>) {
-    const auto rows = MethodsByProcess();
+    const auto rows = MethodsOverDoubles();
     const auto row = std::find_if(rows.begin(), rows.end(), [name](auto& m) { return m.name == name; });
     if (row != rows.end()) return &*row;
   }
@@ -159,9 +160,19 @@ template <class Scalar>
 Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
   if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
     return SolveWithPath(problem, request);
-  if (const Method<Scalar>* process = FindProcess<Scalar>(request.method))
-    return SolveBy(*process, problem, request.options);
+  if (const Method<Scalar>* row = FindOverDoubles<Scalar>(request.method))
+    return SolveBy(*row, problem, request.options);
   return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
+}
+
+// By the factors that the problem came in, where they are asked for by name or `auto` may take them; empty
+// where the methods for all problems are to try, too.
+std::optional<InexactAnswer> SolveByFactors(const SolveRequest& request) {
+  const bool is_named = request.method == kNewtonBodies, any = request.method == kAutomatic;
+  if (request.factors == nullptr || (!is_named && !any)) return std::nullopt;
+  InexactAnswer answer = SolveByBodies(*request.factors, request.options);
+  if (!is_named && !answer.Solved() && !request.options.limits.Stopped()) return std::nullopt;
+  return answer;
 }
 
 template <class Scalar>
@@ -169,6 +180,10 @@ Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) 
   const ContactProblem<Scalar> rounded = Rounded<Scalar>(problem);
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
+    if (auto answer = SolveByFactors(request)) {
+      PreferRest(rounded, problem, request, *answer);
+      return {.answer = *std::move(answer)};
+    }
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
       solution = SolveEscalating(rounded, request.options);
       PreferRest(rounded, problem, request, std::get<InexactAnswer>(solution.answer));

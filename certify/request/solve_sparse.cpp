@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/request/solve_sparse.h"
 
+#include "certify/exact/inexact.h"
+#include "certify/exact/newton_bodies.h"
 #include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
@@ -35,27 +37,9 @@ InexactAnswer InSpace(const Sparse& problem, double residual, const SolveOptions
   return answer;
 }
 
-// The errors of f, over rationals.
-Errors<double> ExactErrors(const SparseProblem& problem, const Eigen::VectorXd& f) {
-  const auto rational = OverRationals(problem);
-  const ExactProblem::Vector exact_f = f.unaryExpr([](double x) { return Rational(x); });
-  const ExactProblem::Vector a = rational.A * exact_f + rational.b;
-  const Errors<Rational> exact = MeasureErrors(rational, FrictionLaw::kCoulomb, exact_f, a);
-  Errors<double> errors;
-  errors.acceleration = ToDouble(exact.acceleration);
-  errors.force = ToDouble(exact.force);
-  errors.backward = ToDouble(exact.backward);
-  errors.amplification = ToDouble(exact.amplification);
-  errors.contact = exact.contact;
-  errors.is_finite = exact.is_finite;
-  return errors;
-}
-
-}  // namespace
-
-InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& options) {
-  constexpr double kUsualResidual = 1e-8;
-  const double residual = options.residual > 0 ? options.residual : kUsualResidual;
+// A as it is listed.
+InexactAnswer SolveListed(const SparseProblem& problem, const SolveOptions& options) {
+  const double residual = BoundOf<double>(options);
   const Sparse rounded = InDoubles(problem);
   InexactAnswer answer =
       problem.dimension == 2 ? InPlane(rounded, residual, options) : InSpace(rounded, residual, options);
@@ -66,12 +50,28 @@ InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& opti
     return answer;
   }
   answer.a = rounded.A * answer.f + rounded.b;
-  answer.errors = ExactErrors(problem, answer.f);
-  if (answer.Solved() && !(answer.residual() <= residual)) {
-    answer.outcome = Outcome::kUndecided;
-    answer.reason = "the errors, evaluated over rationals, are larger than called solved";
-  }
+  const auto rational = OverRationals(problem);
+  const ExactProblem::Vector f = answer.f.unaryExpr([](double x) { return Rational(x); });
+  JudgeExactly(rational, f, rational.A * f + rational.b, residual, answer);
   return answer;
+}
+
+}  // namespace
+
+std::vector<std::string_view> SparseMethods(const SparseProblem& problem) {
+  const std::string_view listed = problem.dimension == 2 ? "proximal" : "fast";
+  if (problem.factors) return {kNewtonBodies, listed};
+  return {listed};
+}
+
+InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& options, std::string_view method) {
+  const bool any = method == kAutomatic;
+  if (!problem.factors || (!any && method != kNewtonBodies)) return SolveListed(WithMatrix(problem), options);
+  InexactAnswer answer = SolveByBodies(*problem.factors, options);
+  if (answer.Solved() || !any || options.limits.Stopped()) return answer;
+  InexactAnswer other = SolveListed(WithMatrix(problem), options);
+  const bool is_better = other.errors && (!answer.errors || other.residual() < answer.residual());
+  return other.Solved() || is_better ? other : answer;
 }
 
 }  // namespace stiction

@@ -32,6 +32,7 @@
 
 #include "solver/problem/errors.h"
 #include "solver/problem/factored.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 
@@ -46,6 +47,7 @@ struct BodyNewtonOptions {
   int failures = 1000;  // proximal problems that Newton's method may not solve
   int halvings = 3;     // of a step that does not make R smaller
   double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2
+  Limits limits = {};   // of them `stop` alone counts
 };
 
 struct BodyNewtonStatistics {

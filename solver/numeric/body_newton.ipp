@@ -24,6 +24,11 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
   int idle = 0, failures = 0;
   while (!(best <= Scalar(options_.aim))) {
     const bool is_good = best <= Scalar(options_.residual);
+    if (options_.limits.Stopped() && !is_good) {
+      verdict_.reason = kStopped;
+      return verdict_;
+    }
+    if (options_.limits.Stopped()) break;
     if (verdict_.statistics.points == options_.points || eps_ > kHopeless || (is_good && idle == kIdle)) {
       if (is_good) break;
       verdict_.reason = eps_ > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
@@ -183,7 +188,7 @@ bool BodyNewton<Scalar>::Settle() {
     if (step == options_.newton) break;
     before = now;
     ++verdict_.statistics.newton_steps;
-    if (!Factor()) break;
+    if (options_.limits.Stopped() || !Factor()) break;
     Backtrack(Solved(R_));
     if (!v_.allFinite()) break;
   }

@@ -4,6 +4,7 @@
 
 #include "solver/numeric/body_newton.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -162,6 +163,24 @@ TEST_CASE("body newton: without a solution it is undecided, and says why") {
   problem.c[0] = problem.b[0] = 1;
   CHECK(method.Run(problem).outcome == Outcome::kSolved);
   CHECK(method.f()[0] == 0);
+}
+
+TEST_CASE("body newton: stopped, it tells the best forces so far, of a start that solves all of them") {
+  const FactoredProblem<double> problem =
+      InFactors(2, {{ContactKind::kFrictionless, 0.0, {0, 0}}}, Eigen::MatrixXd::Identity(1, 1),
+                Eigen::VectorXd::Constant(1, -2), Eigen::VectorXd::Zero(1));
+  const std::atomic<bool> stop = true;
+  BodyNewton<double> method;
+  method.options().limits.stop = &stop;
+  BodyNewtonVerdict verdict = method.Run(problem);
+  CHECK(verdict.outcome == Outcome::kUndecided);
+  CHECK(verdict.reason == kStopped);
+  CHECK(verdict.statistics.factorizations == 0);
+  CHECK(method.f()[0] == 0);
+  const Eigen::VectorXd near = Eigen::VectorXd::Constant(1, 2 + 1e-9);
+  verdict = method.Run(problem, &near);
+  CHECK(verdict.outcome == Outcome::kSolved);
+  CHECK(method.f() == near);
 }
 
 TEST_CASE("body newton: a block on a slope in space rests inside its cone, and slides outside it") {

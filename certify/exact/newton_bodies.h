@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `newton-bodies`: Newton's method in the space of bodies (solver/numeric/body_newton.h), for problems
+// in factors and for dense ones.
+//
+//   in factors   A and b are not formed. Errors are those of the returned doubles, evaluated over rationals on
+//                the factors themselves.
+//   dense        A = L D L' over doubles, with pivots along the diagonal: J = L, M = inv(D), w = 0, c = b, as
+//                far as D > 0. For symmetric, positive semidefinite A; the gate is that of A itself.
+//
+// By Coulomb's law, for contacts of all kinds.
+
+#ifndef STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_
+#define STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_
+
+#include "certify/exact/solve.h"
+#include "corpus/record/factors.h"
+
+namespace stiction {
+
+inline constexpr std::string_view kNewtonBodies = "newton-bodies";
+
+// Of the options, residual and limits.stop are read. The best forces that were found, with their errors,
+// however it ends; none if they are not finite.
+InexactAnswer SolveByBodies(const ExactFactors& problem, const SolveOptions& options);
+
+// The row of the table, for dense problems.
+Method<double> NewtonBodiesRow();
+
+// Errors of f by Coulomb's law, and an answer that calls itself solved and misses the bound is undecided.
+// Problem: of any form, over rationals; a = A f + b.
+template <class Problem>
+void JudgeExactly(const Problem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
+                  double bound, InexactAnswer& answer) {
+  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
+  Errors<double> errors;
+  errors.acceleration = ToDouble(exact.acceleration);
+  errors.force = ToDouble(exact.force);
+  errors.backward = ToDouble(exact.backward);
+  errors.amplification = ToDouble(exact.amplification);
+  errors.contact = exact.contact;
+  errors.is_finite = exact.is_finite;
+  answer.errors = errors;
+  if (!answer.Solved() || answer.residual() <= bound) return;
+  answer.outcome = Outcome::kUndecided;
+  answer.reason = "the errors, evaluated over rationals, are larger than called solved";
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_
