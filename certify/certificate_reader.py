@@ -348,8 +348,8 @@ class Cost:
 def check(certificate, claims, expected=None):
     """The claim, facts about it and the problem's digest, of a certificate that proves it; or raises Rejected.
 
-    claims: name -> (keys of the witness, check(problem, witness), which returns the facts); expected: the
-    digest that is asked for."""
+    claims: name -> (keys of the witness, check(problem, witness), which returns the facts); keys behind a bar are
+    those of another form of it; expected: the digest that is asked for."""
     fields(certificate, "$", "format", "version", "claim", "problem", "witness")
     one_of(certificate["format"], "$.format", ("stiction-certificate",))
     integer(certificate["version"], "$.version", 1, 2)
@@ -360,7 +360,9 @@ def check(certificate, claims, expected=None):
     found = digest(problem)
     need(expected in (None, found), "$.problem", found, f"{expected}, the problem that was asked for")
     keys, facts = claims[claim]
-    witness = fields(certificate["witness"], "$.witness", *keys.split())
+    forms, stated = [form.split() for form in keys.split("|")], certificate["witness"]
+    form = next((form for form in forms if type(stated) is dict and set(stated) == set(form)), forms[0])
+    witness = fields(stated, "$.witness", *form)
     return f"{claim} ({facts(problem, witness)}), problem {found}"
 
 

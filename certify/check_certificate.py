@@ -76,7 +76,95 @@ def factored(problem, witness):
     return D
 
 
+# --- Factors of the problem (certify/certificates.md, Factors) -----------------------------
+
+def read_factors(value, n):
+    """J as {(row, velocity): number}, the blocks of M, w and c."""
+    place = "$.witness.factors"
+    fields(value, place, "J", "M", "w", optional=("c",))
+    fields(value["J"], place + ".J", "size", "entries")
+    size = items(value["J"]["size"], place + ".J.size", 2)
+    integer(size[0][1], size[0][0], n, n + 1)
+    velocities = integer(size[1][1], size[1][0], 0, 2**31 - 1)
+    J = {}
+    for at, entry in items(value["J"]["entries"], place + ".J.entries"):
+        items(entry, at, 3)
+        i, j = (integer(entry[k], f"{at}[{k}]", 0, most) for k, most in ((0, n), (1, velocities)))
+        need((i, j) not in J, at, (i, j), "each entry once")
+        J[i, j] = exact(entry[2], at + "[2]")
+    M = []
+    for at, block in items(value["M"], place + ".M"):
+        M.append(rows(block, at, len(block)) if type(block) is list else [[exact(block, at)]])
+        need(M[-1], at, block, "a number, or rows of numbers")
+        need(M[-1] == [list(column) for column in zip(*M[-1])], at, block, "a symmetric block")
+    need(sum(map(len, M)) == velocities, place + ".M", sum(map(len, M)), f"blocks of {velocities} velocities")
+    w = vector(value["w"], place + ".w", velocities)
+    c = vector(value["c"], place + ".c", n) if "c" in value else [Fraction(0)] * n
+    return {at: x for at, x in J.items() if x}, M, w, c
+
+
+def solved(M, columns, place):
+    """inv(M) times each of the columns, M definite: all pivots of its elimination are positive."""
+    system = [[*row, *right] for row, right in zip(M, zip(*columns))]
+    for k in range(len(M)):
+        pivot = system[k][k]
+        need(pivot > 0, place, pivot, "a pivot > 0 of a definite block")
+        system[k] = row = [x / pivot for x in system[k]]
+        system = [other if i == k or not other[k] else [x - other[k] * y for x, y in zip(other, row)]
+                  for i, other in enumerate(system)]
+    return list(zip(*(row[len(M):] for row in system)))
+
+
+def factors(problem, witness):
+    """c, once A = J inv(M) J' and b = J w + c, every block of M symmetric and definite."""
+    n = len(problem.b)
+    J, M, w, c = read_factors(witness["factors"], n)
+    block_of = [k for k, block in enumerate(M) for _ in block]
+    first = [0]
+    for block in M:
+        first.append(first[-1] + len(block))
+    touched = [{} for _ in M]  # of every block the rows of J that have entries in it, and these
+    for (i, j), x in sorted(J.items()):
+        k = block_of[j]
+        touched[k].setdefault(i, [Fraction(0)] * len(M[k]))[j - first[k]] = x
+    cost = Cost(product_operations(n) + sum(len(block) * (len(block) + len(of)) ** 2 for block, of in zip(M, touched)))
+    cost.longest_row(problem).numbers(w).numbers(c)
+    bits = [0] * n
+    for block, of in zip(M, touched):
+        own = sum(map(cost.bits, block))
+        for i in of:
+            bits[i] += own
+    by_row = [[] for _ in range(n)]
+    for (i, _), x in J.items():
+        by_row[i].append(x)
+    cost.add(2 * max(map(cost.bits, by_row), default=0)).add(max(bits, default=0))
+    A = [{} for _ in range(n)]
+    for k, (block, of) in enumerate(zip(M, touched)):
+        answers = solved(block, list(of.values()) or [[Fraction(0)] * len(block)], f"$.witness.factors.M[{k}]")
+        for (i, row), answer in zip(of.items(), answers):
+            for j, other in of.items():
+                A[i][j] = A[i].get(j, Fraction(0)) + dot(other, answer)
+    for i in range(n):
+        for j in range(n):
+            need(A[i].get(j, 0) == problem.A[i][j], f"$.problem.A[{i}][{j}]", problem.A[i][j], "J inv(M) J'")
+    b = list(c)
+    for (i, j), x in J.items():
+        b[i] += x * w[j]
+    equal(problem.b, b, "$.problem.b", "J w + c")
+    return c
+
+
+def in_dual_cone(problem, g, place):
+    for kind, mu, normal, tangents in cones(problem):
+        at, gN = f"{place}[{normal}]", g[normal]
+        need(gN == 0 if kind == "bilateral" else gN >= 0, at, gN, "0" if kind == "bilateral" else "gN >= 0")
+        need(gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents), at, gN, "gN >= mu abs(gF)")
+
+
 def check_psd(problem, witness):
+    if "factors" in witness:
+        factors(problem, witness)
+        return f"{len(problem.b)} rows, by factors"
     return f"{len(factored(problem, witness))} rows"
 
 
@@ -110,6 +198,10 @@ def check_not_definite(problem, witness):
 
 
 def check_in_range(problem, witness):
+    if "factors" in witness:
+        c = factors(problem, witness)
+        equal(c, [0] * len(c), "$.witness.factors.c", "zero: b = J w, in the range of J and of A")
+        return f"{len(c)} rows, by factors"
     x = factor_of_products(problem, witness, "x")
     equal(times(problem.A, x), problem.b, "$.witness (A x)", "b")
     return f"{len(x)} rows"
@@ -135,20 +227,19 @@ def cones(problem):
 
 def check_h(problem, witness):
     """b = A'y + g, g in the dual of the friction cones: b'v = y'Av + g'v >= 0 where A v = 0."""
+    if "factors" in witness:  # g = c: A v = 0 makes J'v = 0
+        in_dual_cone(problem, factors(problem, witness), "$.witness.factors.c")
+        return f"{len(problem.b)} rows, by factors"
     y = factor_of_products(problem, witness, "y")
-    g = [x - z for x, z in zip(problem.b, times(zip(*problem.A), y))]
-    for kind, mu, normal, tangents in cones(problem):
-        place, gN = f"$.witness (b - A'y)[{normal}]", g[normal]
-        need(gN == 0 if kind == "bilateral" else gN >= 0, place, gN,
-             "0" if kind == "bilateral" else "gN >= 0")
-        need(gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents), place, gN, "gN >= mu abs(gF)")
+    in_dual_cone(problem, [x - z for x, z in zip(problem.b, times(zip(*problem.A), y))], "$.witness (b - A'y)")
     return f"{len(y)} rows"
 
 
 def check_exists(problem, witness):
     """A positive semidefinite and (H): by theorem 1 of certify/existence.md a solution exists, in space one of Coulomb's
     law. No forces are given."""
-    check_psd(problem, witness)
+    if "factors" not in witness:
+        check_psd(problem, witness)
     return check_h(problem, witness)
 
 
@@ -602,15 +693,15 @@ CLAIMS = {  # the keys of the witness, and what checks it
     "no-solution": ("prefixes", check_no_solution),
     "symmetric": ("", check_symmetric),
     "not-symmetric": ("i j", check_not_symmetric),
-    "psd": ("L D", check_psd),
+    "psd": ("L D | factors", check_psd),
     "not-psd": ("x value", check_not_psd),
     "definite": ("L D", check_definite),
     "not-definite": ("x value", check_not_definite),
-    "in-range": ("x", check_in_range),
+    "in-range": ("x | factors", check_in_range),
     "not-in-range": ("y value", check_not_in_range),
-    "h": ("y", check_h),
+    "h": ("y | factors", check_h),
     "not-h": ("v value", check_not_h),
-    "exists": ("L D y", check_exists),
+    "exists": ("L D y | factors", check_exists),
     "safe": ("determinants", check_safe),
     "safe-by-condition": ("scaling least most", check_safe_by_condition),
     "unsafe": ("word determinant", check_unsafe),

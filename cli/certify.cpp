@@ -276,7 +276,9 @@ int RunCertify(const CertifyOptions& o) {
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
   ProgressBar bar;
-  const Json certificate = CertificateOf(o, file.problem, o.file, Shown(bar));
+  WantedClaim wanted = o;
+  wanted.factors = file.factors ? &*file.factors : nullptr;
+  const Json certificate = CertificateOf(wanted, file.problem, o.file, Shown(bar));
   bar.Clear();
   const bool certified = certificate.is_object();
   if (certified) RequireAffordable(certificate, o.file);
@@ -285,7 +287,7 @@ int RunCertify(const CertifyOptions& o) {
   // With the certificate itself on standard output, nothing else may stand there.
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
   if (o.json) {
-    out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file.problem)}}) << "\n";
+    out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file)}}) << "\n";
   } else if (certified) {
     const std::string name = claim.get<std::string>();
     out << Folded(fmt::format("{}: {}{}\n", o.output, name, ProvedOfSolutions(name)));

@@ -15,6 +15,7 @@
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
 #include "corpus/json.h"
+#include "corpus/record/factors.h"
 #include "solver/problem/law.h"
 #include "solver/problem/options.h"
 
@@ -25,6 +26,7 @@ struct ClaimOptions {
   Limits limits;
   EnumerationOptions enumeration;
   FrictionLaw law = FrictionLaw::kCoulomb;  // in space, of `existence`
+  const ExactFactors* factors = nullptr;    // of the problem, where it has some: a witness of their own
 };
 
 inline void RequireAny(const ExactProblem&, const std::string&) {}

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "certify/claims/by_factors.h"
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "corpus/json.h"
@@ -67,7 +68,18 @@ void RequireHypothesis(const ExactProblem& problem, const Json& witness) {
   }
 }
 
+// b = J w + c with c in K*.
+Json CheckFactoredHypothesis(const ExactProblem& problem, const Json& witness) {
+  RequireCones(problem);
+  const ExactVector c = RequireFactorsOfProblem(problem, witness);
+  if (const auto violation = FindDualConeViolation(problem, c)) {
+    throw Rejected{"witness.factors.c", *violation, "a vector of the dual cone"};
+  }
+  return Json::object();
+}
+
 Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
+  if (HasFactors(witness)) return CheckFactoredHypothesis(problem, witness);
   RequireKeys(witness, "witness", {"y"});
   RequireHypothesis(problem, witness);
   return Json::object();
@@ -75,6 +87,7 @@ Json CheckHypothesis(const ExactProblem& problem, const Json& witness) {
 
 // The assumptions of theorem 1 of existence.md, whose conclusion is that a solution exists.
 Json CheckExists(const ExactProblem& problem, const Json& witness) {
+  if (HasFactors(witness)) return CheckFactoredHypothesis(problem, witness);
   RequireKeys(witness, "witness", {"D", "L", "y"});
   RequireFactors(problem, witness);
   RequireHypothesis(problem, witness);
@@ -108,7 +121,20 @@ void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& sour
                      "bilateral, frictionless or static: with sliding contacts there may be no solution");
 }
 
-Json OfExists(const ExactProblem& problem, const ClaimOptions&) {
+// Whether the factors, if there are some, show (H).
+bool ShowHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
+  return options.factors != nullptr && !HasSlidingContact(problem) &&
+         !FindDualConeViolation(problem, options.factors->c);
+}
+
+Json OfHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
+  if (!ShowHypothesis(problem, options)) return HypothesisCertificate(problem);
+  return MakeCertificate("h", problem, FactorsWitness(*options.factors));
+}
+
+Json OfExists(const ExactProblem& problem, const ClaimOptions& options) {
+  if (ShowHypothesis(problem, options))
+    return MakeCertificate("exists", problem, FactorsWitness(*options.factors));
   const Json certificate = ExistsCertificate(problem);
   return certificate.is_null() ? Json("'--claim psd' and '--claim h' say what is missing") : certificate;
 }
@@ -117,8 +143,7 @@ Json OfExists(const ExactProblem& problem, const ClaimOptions&) {
 
 ClaimRows HypothesisClaims() {
   static constexpr Claim kClaims[] = {
-      Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0",
-            Alone<HypothesisCertificate>},
+      Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0", OfHypothesis},
       Claim{"not-h", CheckNotHypothesis},
       Claim{"exists", CheckExists,
             "psd and h: by a theorem there is a solution, of any size; no forces are given", OfExists,

@@ -2,6 +2,7 @@
 // The assumptions of the paper on A and b: `symmetric`, `psd`, `definite`, `in-range`, and their negations.
 #include <fmt/format.h>
 
+#include "certify/claims/by_factors.h"
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "certify/exact/bounds.h"
@@ -157,6 +158,10 @@ void RequireDefinite(const ExactProblem& problem, const Json& witness) {
 namespace {
 
 Json CheckSemidefinite(const ExactProblem& problem, const Json& witness) {
+  if (HasFactors(witness)) {
+    RequireFactorsOfProblem(problem, witness);
+    return Json::object();
+  }
   RequireKeys(witness, "witness", {"D", "L"});
   RequireFactors(problem, witness);
   return Json::object();
@@ -192,6 +197,11 @@ Json CheckNotDefinite(const ExactProblem& problem, const Json& witness) {
 }
 
 Json CheckInRange(const ExactProblem& problem, const Json& witness) {
+  if (HasFactors(witness)) {
+    const ExactVector c = RequireFactorsOfProblem(problem, witness);
+    for (int i = 0; i < c.size(); ++i) RequireEqual(c[i], 0, fmt::format("witness.factors.c[{}]", i));
+    return Json::object();
+  }
   RequireKeys(witness, "witness", {"x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
   RequireProduct(problem, x);
@@ -212,17 +222,27 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
+Json OfSemidefinite(const ExactProblem& problem, const ClaimOptions& options) {
+  if (options.factors == nullptr) return SemidefiniteCertificate(problem);
+  return MakeCertificate("psd", problem, FactorsWitness(*options.factors));
+}
+
+Json OfRange(const ExactProblem& problem, const ClaimOptions& options) {
+  if (options.factors == nullptr || !IsInRangeByFactors(*options.factors)) return RangeCertificate(problem);
+  return MakeCertificate("in-range", problem, FactorsWitness(*options.factors));
+}
+
 }  // namespace
 
 ClaimRows MatrixClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"symmetric", CheckSymmetric, "A = A'", Alone<SymmetryCertificate>},
       Claim{"not-symmetric", CheckNotSymmetric},
-      Claim{"psd", CheckSemidefinite, "A is positive semidefinite", Alone<SemidefiniteCertificate>},
+      Claim{"psd", CheckSemidefinite, "A is positive semidefinite", OfSemidefinite},
       Claim{"not-psd", CheckNotSemidefinite},
       Claim{"definite", CheckDefinite, "A is positive definite", Alone<DefiniteCertificate>},
       Claim{"not-definite", CheckNotDefinite},
-      Claim{"in-range", CheckInRange, "b is in the range of A", Alone<RangeCertificate>},
+      Claim{"in-range", CheckInRange, "b is in the range of A", OfRange},
       Claim{"not-in-range", CheckNotInRange}};
   return {30, kClaims};
 }

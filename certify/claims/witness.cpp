@@ -142,6 +142,15 @@ Cost& Cost::Vector(const ExactVector& x, int times) {
   return Numbers({x.data(), static_cast<std::size_t>(x.size())}, times);
 }
 
+Cost& Cost::AddBits(std::int64_t bits) {
+  Add(bits);
+  return *this;
+}
+
+std::int64_t Cost::BitsOf(const ExactVector& x) const {
+  return Bits({x.data(), static_cast<std::size_t>(x.size())});
+}
+
 namespace {
 
 // Row i of A and b.

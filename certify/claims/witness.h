@@ -54,8 +54,13 @@ class Cost {
   // Each adds bits, and throws TooDear where there are too many.
   Cost& Numbers(std::span<const Rational> numbers, int times = 1);  // over their common denominator
   Cost& Vector(const ExactVector& x, int times = 1);
+  Cost& AddBits(std::int64_t bits);
   Cost& LongestRow(const ExactProblem& problem);  // or column, of A and b
   Cost& AllRows(const ExactProblem& problem);     // of A and b, each with the coefficients of friction
+
+  // Of numbers over their common denominator; above most() they are not told exactly.
+  std::int64_t BitsOf(const ExactVector& x) const;
+  std::int64_t most() const { return most_; }
 
  private:
   std::int64_t Bits(std::span<const Rational> numbers) const;

@@ -457,6 +457,70 @@ false("no-solution", "in space, of a contact behind a bilateral one", behind_a_h
 false("no-solution", "in space, by the friction of a contact behind a bilateral one", behind_a_hinge([0, 0, -1, 0]),
       prefixes=[{"modes": [], "y": texts([0, 0, 1, 0])}])
 
+# --- psd, in-range, h, exists by factors -----------------------------------------------
+
+
+def factors(J, M, w, c=None, **changes):
+    listed = [[i, j, str(x)] for i, row in enumerate(J) for j, x in enumerate(row) if x]
+    stated = {"J": {"size": [len(J), len(J[0])], "entries": listed}, "M": texts(M), "w": texts(w)}
+    return {**stated, **({} if c is None else {"c": texts(c)}), **changes}
+
+
+JACOBIAN, MASSES, FREE = [[1, 0], [1, 1]], [2, 4], [-2, 4]
+FACTORED = [["1/2", "1/2"], ["1/2", "3/4"]]
+GIVEN = factors(JACOBIAN, MASSES, FREE)
+IN_RANGE, IN_CONE, OUTSIDE = ([x + y for x, y in zip((-2, 2), c)] for c in ((0, 0), (1, -1), (1, 2)))
+for claim in ("psd", "in-range", "h", "exists"):
+    def true_by(what, b, **witness):
+        true(claim, f"by factors, {what}", problem([1], FACTORED, b), **witness)
+
+    def false_by(what, A=FACTORED, b=IN_RANGE, laws=(1,), **witness):
+        false(claim, f"by factors, {what}", problem(list(laws), A, b), **{"factors": GIVEN, **witness})
+
+    true_by("c = 0", IN_RANGE, factors=GIVEN)
+    true_by("M in one block", IN_RANGE, factors=factors(JACOBIAN, [[[2, 0], [0, 4]]], FREE))
+    true(claim, "by factors, of a block whose velocities act on each other", problem([1], [[2, -1], [-1, 1]], [-2, 4]),
+         factors=factors(IDENTITY, [[[1, 1], [1, 2]]], FREE))
+    false(claim, "by factors, the inverse without what couples them", problem([1], [[1, 0], [0, "1/2"]], [-2, 4]),
+          factors=factors(IDENTITY, [[[1, 1], [1, 2]]], FREE))
+    if claim != "in-range":
+        true_by("c in K*", IN_CONE, factors=factors(JACOBIAN, MASSES, FREE, (1, -1)))
+    for i in range(2):
+        for j in range(2):
+            other = [list(row) for row in FACTORED]
+            other[i][j] = "5/8"
+            false_by(f"A_{i}{j} is another", A=other)
+        false_by(f"b_{i} is another", b=[x + (k == i) for k, x in enumerate(IN_RANGE)])
+    false_by("a negative mass", A=[["-1/2", "-1/2"], ["-1/2", "-1/4"]], factors=factors(JACOBIAN, [-2, 4], FREE))
+    false_by("a block that is not definite", A=[["-1/3", "2/3"], ["2/3", "-1/3"]], b=FREE,
+             factors=factors(IDENTITY, [[[1, 2], [2, 1]]], FREE))
+    false_by("a block whose second diagonal is negative", A=[[1, 0], [0, -1]], b=FREE,
+             factors=factors(IDENTITY, [[[1, 0], [0, -1]]], FREE))
+    false_by("a block that is not symmetric", A=[[1, -1], [0, 1]], b=FREE,
+             factors=factors(IDENTITY, [[[1, 1], [0, 1]]], FREE))
+    false_by("a mass of zero", factors=factors(JACOBIAN, [2, 0], FREE))
+    false_by("a velocity without a mass", factors=factors(JACOBIAN, [2], [-2]))
+    false_by("a mass without a velocity", factors=factors(JACOBIAN, [*MASSES, 1], [*FREE, 0]))
+    false_by("J of another number of rows", factors=factors([*JACOBIAN, [0, 0]], MASSES, FREE))
+    false_by("w too short", factors=factors(JACOBIAN, MASSES, FREE[:1]))
+    false_by("c too short", factors=factors(JACOBIAN, MASSES, FREE, (0,)))
+    for what, entries in (("an entry twice", [[0, 0, "1"], [1, 0, "1"], [1, 1, "1"], [1, 1, "1"]]),
+                          ("no such column", [[0, 0, "1"], [1, 0, "1"], [1, 2, "1"]]),
+                          ("a negative row", [[0, 0, "1"], [-1, 0, "1"], [1, 1, "1"]]),
+                          ("a number that is no text", [[0, 0, 1], [1, 0, "1"], [1, 1, "1"]])):
+        false_by(what, factors={**GIVEN, "J": {"size": [2, 2], "entries": entries}})
+    false_by("J in rows", factors={**GIVEN, "J": texts(JACOBIAN)})
+    false_by("a key that is none", factors={**GIVEN, "W": texts(MASSES)})
+    false_by("no w", factors={"J": GIVEN["J"], "M": GIVEN["M"]})
+    false_by("another witness beside", x=texts([0, 0]))
+    if claim == "in-range":
+        false_by("c is not zero", b=IN_CONE, factors=factors(JACOBIAN, MASSES, FREE, (1, -1)))
+    if claim in ("h", "exists"):
+        false_by("c outside of K*", b=OUTSIDE, factors=factors(JACOBIAN, MASSES, FREE, (1, 2)))
+        false_by("c of a bilateral contact", laws=("hold", None), b=[-1, 2], factors=factors(JACOBIAN, MASSES, FREE, (1, 0)))
+        false_by("a negative c", laws=(None, None), b=[-2, 1], factors=factors(JACOBIAN, MASSES, FREE, (0, -1)))
+        false_by("a contact that slides", laws=((1, "1"),))
+
 # --- exists: psd and h together ------------------------------------------------------
 
 def without_forces():
@@ -464,6 +528,8 @@ def without_forces():
     for how, entries in ((true, TRUE), (false, FALSE)):
         for name, entry in list(entries):
             of, witness, n = entry["problem"], entry["witness"], len(entry["problem"]["b"])
+            if "factors" in witness:
+                continue
             if entry["claim"] == "psd":
                 how("exists", name, of, **witness, y=texts([0] * n))
             if entry["claim"] == "h" and of["A"] == texts([[0] * n] * n):

@@ -61,6 +61,18 @@ bug("RequireDefinite", "claim-definite", "D[i] <= 0", "D[i] < 0", "definite: sem
 bug("CheckNotDefinite", "claim-not-definite-zero",
     'if (x.isZero()) throw Rejected{"witness.x", "0", "another vector"};', "", "not-definite: by x = 0")
 
+# ---- certify/claims/by_factors.cpp ----
+
+bug("RequireFactorsOfProblem", "claim-factors-definite",
+    """if (!factors) throw Rejected{"witness.factors.M", "a block that is not definite", "a positive definite one"};""", "",
+    "factors: no matter whether M is definite")
+bug("RequireFactorsOfProblem", "claim-factors-matrix",
+    """RequireEqual(stated.A(i, j), problem.A(i, j), fmt::format("(J inv(M) J')[{}][{}]", i, j));""", "", "factors: of any A")
+bug("RequireFactorsOfProblem", "claim-factors-free",
+    'RequireEqual(stated.b[i], problem.b[i], fmt::format("(J w + c)[{}]", i));', "", "factors: of any b")
+bug("CheckFactoredHypothesis", "claim-factors-cone",
+    """throw Rejected{"witness.factors.c", *violation, "a vector of the dual cone"};""", "", "factors: any c shows (H)")
+
 # ---- certify/claims/hypothesis.cpp, certify/exact/hypothesis.cpp ----
 
 bug("RequireHypothesis", "claim-h-cone", """throw Rejected{"b - A'y", *violation, "a vector of the dual cone"};""",
@@ -171,7 +183,10 @@ bug("stated", "py-value", "value == computed", "True", "any value is stated")
 bug("check_not_definite", "py-not-definite-zero", "any(x)", "True", "not-definite: by x = 0")
 bug("check_not_in_range", "py-not-in-range-kernel", """equal(times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")""",
     "None", "not-in-range: y'A may be anything")
-bug("check_h", "py-h-cone", "gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents)", "True", "h: dual cones without friction")
+bug("in_dual_cone", "py-h-cone", "gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents)", "True", "h: dual cones without friction")
+bug("solved", "py-factors-definite", "need(pivot > 0", "need(pivot != 0", "factors: masses may be negative")
+bug("factors", "py-factors-matrix", "A[i].get(j, 0) == problem.A[i][j]", "True", "factors: of any A")
+bug("factors", "py-factors-free", """equal(problem.b, b, "$.problem.b", "J w + c")""", "None", "factors: of any b")
 bug("check_not_h", "py-not-h-kernel", """equal(times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",
     "not-h: A v may be anything")
 bug("forces", "py-accelerations", """equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")""",
